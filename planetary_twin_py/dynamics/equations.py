@@ -11,27 +11,12 @@ import math
 import numpy as np
 
 from .._compile import kernel
-from .._records import BODIES, MESHES, REAL, WHOLE, Record, layout
+from .._records import BODIES, MESHES, REAL, Record, layout
 from ..mesh.tooth_pairs import PAIRS
 from .oil import OIL
 from .state import DAMPING, FRICTION, INPUT, LEDGER, LOAD, OPEN, OUTPUT, STIFFNESS_WORK
-from .tooth_contact import tooth_contact
+from .tooth_friction import TOOTH_PAIRS, apply_friction, evaluate, gather
 from .train import TRAIN
-
-LANES = -(-MESHES * PAIRS // 8) * 8  # room for all tooth pairs, in whole vector registers
-
-# Loaded tooth pairs of all meshes, side by side so that their friction is vectorised.
-TOOTH_PAIRS = layout(
-    mesh=(WHOLE, (LANES,)),
-    rho1=(REAL, (LANES,)),
-    rho2=(REAL, (LANES,)),
-    external=(REAL, (LANES,)),
-    speed1=(REAL, (LANES,)),
-    speed2=(REAL, (LANES,)),
-    load=(REAL, (LANES,)),
-    friction=(REAL, (LANES,)),
-    sliding=(REAL, (LANES,)),
-)
 
 # All that the equations of motion read.
 MODEL = layout(train=TRAIN, oil=OIL, load=LOAD)
@@ -86,60 +71,6 @@ def mesh_motion(train: Record, i: int, x: np.ndarray) -> float:
 
 
 @kernel
-def _gather_pairs(
-    train: Record, pairs: Record, count: int, i: int, segment: int, cycle: float, load: float,
-    speed1: float, speed2: float,
-) -> int:
-    """Append the tooth pairs of mesh i, each with its share of the load."""
-    kind = train.kind[i]
-    total = 0.0
-    first = count
-    for p in range(PAIRS):
-        weight = train.offset[kind, segment, p] + train.slope[kind, segment, p] * cycle
-        if weight <= 0.0:
-            continue
-        s = (cycle + train.shift[kind, segment, p]) * train.base_pitch
-        pairs.mesh[count] = i
-        pairs.rho1[count] = train.pitch_curvature[kind, 0] + s
-        pairs.rho2[count] = train.pitch_curvature[kind, 1] - train.external[kind] * s
-        pairs.external[count] = train.external[kind]
-        pairs.speed1[count] = speed1
-        pairs.speed2[count] = speed2
-        pairs.load[count] = weight
-        total += weight
-        count += 1
-    for p in range(first, count):
-        pairs.load[p] *= load / total
-    return count
-
-
-@kernel
-def _pair_friction(oil: Record, pairs: Record, lanes: int, lambda_ratio: float) -> None:
-    for p in range(lanes):
-        signed, _, _, _, _, sliding = tooth_contact(
-            oil, pairs.rho1[p], pairs.rho2[p], pairs.external[p], pairs.speed1[p],
-            pairs.speed2[p], pairs.load[p], lambda_ratio,
-        )
-        pairs.friction[p] = signed
-        pairs.sliding[p] = sliding
-
-
-@kernel
-def _apply_friction(train: Record, pairs: Record, count: int, force: np.ndarray) -> float:
-    """Add the generalised forces -f dVs/dw/r of all pairs; return the power they take [W]."""
-    power = 0.0
-    for p in range(count):
-        i = pairs.mesh[p]
-        first, second, carrier = train.body[i, 0], train.body[i, 1], train.body[i, 2]
-        f, rho1, rho2 = pairs.friction[p], pairs.rho1[p], pairs.external[p] * pairs.rho2[p]
-        force[first] -= f * rho1 / train.radius[first]
-        force[second] -= f * rho2 / train.radius[second]
-        force[carrier] += f * (rho1 + rho2) / train.radius[carrier]
-        power += f * pairs.sliding[p]
-    return power
-
-
-@kernel
 def forces(
     model: Record, state: Record, moment: Record, x: np.ndarray, v: np.ndarray, delay: float,
     trim: float, out: Record,
@@ -175,18 +106,10 @@ def forces(
         growth = train.stiffness[kind] * train.pair_gain * slope * side * pace
         power[STIFFNESS_WORK] += 0.5 * growth * squeeze * squeeze
         if train.friction:
-            first, second, carrier = train.body[i, 0], train.body[i, 1], train.body[i, 2]
-            speed = state.speed
-            frame = train.ratio[carrier] * speed + v[carrier] / train.radius[carrier]
-            speed1 = train.ratio[first] * speed + v[first] / train.radius[first] - frame
-            speed2 = train.ratio[second] * speed + v[second] / train.radius[second] - frame
-            count = _gather_pairs(
-                train, pairs, count, i, segment, cycle, max(total, 0.0), speed1, speed2
-            )
+            count = gather(model, state, i, cycle, max(total, 0.0), v, pairs, count)
     if count > 0:
-        lanes = -(-count // 8) * 8
-        _pair_friction(model.oil, pairs, lanes, model.load.lambda_ratio)
-        power[FRICTION] = _apply_friction(train, pairs, count, force)
+        evaluate(model, pairs, count)
+        power[FRICTION] = apply_friction(train, pairs, count, force)
     _machines(model, state, moment, x, v, delay, trim, out)
     force[ground] = 0.0
 

@@ -14,7 +14,7 @@ from typing import NamedTuple
 import numpy as np
 
 from .._compile import kernel
-from .._records import BODIES, REAL, WHOLE, Record, layout
+from .._records import BODIES, FLAG, REAL, WHOLE, Record, layout
 from ..dynamics.contact_events import (
     change_contact, change_segment, departure, mesh_cycle, nearest_to_segment,
 )
@@ -27,7 +27,7 @@ from .rosenbrock import ORDER, WORKSPACE, step
 
 SHORTEST_STEP = 1e-13  # [s] below it two events count as one
 EDGE = 1e-9  # [-] mesh cycles within which a tooth pair counts as having entered or left
-SAFETY, SHRINK, GROW = 0.9, 0.25, 3.0
+SAFETY, SHRINK, GROW = 0.8, 0.25, 2.0
 
 # Step control and counters.
 CONTROL = layout(
@@ -36,6 +36,7 @@ CONTROL = layout(
     next_step=REAL,  # [s]
     step=REAL,  # the last one taken [s]
     longest=REAL,  # [s]
+    changed=FLAG,  # contacts or loads are no longer those of the last evaluation
     steps=WHOLE,
     rejected=WHOLE,
     evaluations=WHOLE,
@@ -93,8 +94,6 @@ def _rebase(train: Record, state: Record) -> None:
 def _set_moment(model: Record, state: Record, moment: Record) -> None:
     train = model.train
     moment.cycle_rate = train.cycles * state.speed / (2.0 * math.pi)
-    for kind in range(2):
-        moment.tau[kind] = damping_time(train, kind, state.speed)
     gap = model.load.target_speed - state.set_speed
     moment.slew = math.copysign(model.load.slew_rate, gap) if gap != 0.0 else 0.0
     for i in range(train.meshes):
@@ -231,6 +230,7 @@ def _pass_edges(model: Record, march: Record) -> None:
             else:
                 break
             march.control.pair_events += 1
+            march.control.changed = True
 
 
 @kernel
@@ -239,22 +239,31 @@ def _accept(model: Record, march: Record, mesh: int) -> None:
     if mesh >= 0:
         change_contact(model, march.end, mesh)
         march.control.flank_events += 1
+        march.control.changed = True
     _pass_edges(model, march)
     gap = model.load.target_speed - march.end.set_speed
     if gap * march.moment.slew <= 0.0 or abs(gap) < 1e-12 * model.load.slew_rate:
         march.end.set_speed = model.load.target_speed
+        march.control.changed |= march.moment.slew != 0.0
     march.control.steps += 1
 
 
 @kernel
 def begin_step(model: Record, march: Record) -> None:
     """Start a new step where the last one ended."""
-    copy_state(march.end, march.begin)
-    _rebase(model.train, march.begin)
-    _set_moment(model, march.begin, march.moment)
-    begin = march.begin
-    forces(model, begin, march.moment, begin.x, begin.v, 0.0, begin.trim, march.first)
-    march.control.evaluations += 1
+    begin, moment = march.begin, march.moment
+    copy_state(march.end, begin)
+    _rebase(model.train, begin)
+    _set_moment(model, begin, moment)
+    if march.control.changed:
+        for kind in range(2):
+            moment.tau[kind] = damping_time(model.train, kind, begin.speed)
+        forces(model, begin, moment, begin.x, begin.v, 0.0, begin.trim, march.first)
+        march.control.evaluations += 1
+        march.control.changed = False
+    else:  # forces do not depend on the frame in which x is measured
+        march.first.force[:] = march.last.force
+        march.first.power[:] = march.last.power
 
 
 @kernel
@@ -309,7 +318,10 @@ def sample(model: Record, march: Record, time: float, out: Samples, row: int) ->
     train, begin = model.train, march.begin
     delay = time - begin.time
     interpolate(model, march, delay)
-    observe(model, begin, march.moment, march.dense_x, march.dense_v, delay, out.mesh[row])
+    pairs = march.work.evaluation.pairs
+    observe(
+        model, begin, march.moment, march.dense_x, march.dense_v, delay, pairs, out.mesh[row]
+    )
     speed = begin.speed
     frame = 2.0 * math.pi * begin.fraction + speed * delay
     out.turns[row] = begin.turns
@@ -352,3 +364,4 @@ def cut(model: Record, march: Record, time: float) -> None:
         else:
             copy_state(march.begin, march.end)
     march.end.time = time
+    march.control.changed = True
