@@ -1,0 +1,71 @@
+"""A digital twin of a planetary gearbox: the model, and everything that needs no ROS.
+
+    import planetary_twin_py as pt
+
+    scene = pt.load_scene("paper").replace(lambda_ratio=1.5, input_speed=pt.rpm(2000))
+    result = pt.simulate(scene, duration=0.2)
+    result.efficiency
+"""
+
+from importlib import import_module
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from .result import Energy, Result, Stats
+    from .scene import (
+        TUNABLES,
+        OperatingPoint,
+        Scene,
+        SceneError,
+        Tunable,
+        load_scene,
+        packaged_scenes,
+        parse_scene,
+    )
+    from .simulate import simulate
+    from .twin import Change, Twin, checked_operating_point
+    from .units import rpm
+    from .window import Waveform, Window
+
+_HOME = {
+    "result": ("Energy", "Result", "Stats"),
+    "scene": (
+        "TUNABLES", "OperatingPoint", "Scene", "SceneError", "Tunable", "load_scene",
+        "packaged_scenes", "parse_scene",
+    ),
+    "simulate": ("simulate",),
+    "twin": ("Change", "Twin", "checked_operating_point"),
+    "units": ("rpm",),
+    "window": ("Waveform", "Window"),
+}  # fmt: skip
+_MODULE_OF = {name: module for module, names in _HOME.items() for name in names}
+
+__all__ = [
+    "TUNABLES",
+    "Change",
+    "Energy",
+    "OperatingPoint",
+    "Result",
+    "Scene",
+    "SceneError",
+    "Stats",
+    "Tunable",
+    "Twin",
+    "Waveform",
+    "Window",
+    "checked_operating_point",
+    "load_scene",
+    "packaged_scenes",
+    "parse_scene",
+    "rpm",
+    "simulate",
+]
+
+
+def __getattr__(name: str) -> Any:
+    """Import on first use: the compiler behind the kernels takes half a second to load."""
+    if name not in _MODULE_OF:
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+    value = getattr(import_module(f".{_MODULE_OF[name]}", __name__), name)
+    globals()[name] = value
+    return value

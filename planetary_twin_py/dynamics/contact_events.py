@@ -10,8 +10,6 @@ from __future__ import annotations
 
 import math
 
-import numpy as np
-
 from .._compile import kernel
 from .._records import Record
 from .equations import cycle_shift, mesh_motion, stiffness
@@ -52,16 +50,6 @@ def find_segment(train: Record, kind: int, cycle: float, direction: float) -> in
 
 
 @kernel
-def flank_force(
-    model: Record, i: int, side: int, segment: int, cycle: float, tau: float, d: float, rate: float
-) -> tuple[float, float]:
-    """Compression d - b [m] of the flanks on `side`, and the force k (d - b) + c d' [N]."""
-    k = stiffness(model.train, model.train.kind[i], segment, cycle)
-    squeeze = side * d - model.load.half_backlash
-    return squeeze, k * (squeeze + tau * side * rate)
-
-
-@kernel
 def departure(
     model: Record, state: Record, i: int, tau: float, d: float, rate: float, slack: float
 ) -> float:
@@ -81,7 +69,7 @@ def departure(
 
 
 @kernel
-def _elastic_energy(model: Record, state: Record, i: int) -> float:
+def elastic_energy(model: Record, state: Record, i: int) -> float:
     """Energy [J] stored in mesh i."""
     side = state.side[i]
     if side == OPEN:
@@ -89,8 +77,8 @@ def _elastic_energy(model: Record, state: Record, i: int) -> float:
     cycle = mesh_cycle(model.train, state, i, side)
     cycle = nearest_to_segment(model.train, model.train.kind[i], state.segment[i], cycle)
     d = mesh_motion(model.train, i, state.x)
-    squeeze, force = flank_force(model, i, side, state.segment[i], cycle, 0.0, d, 0.0)
-    return 0.5 * force * squeeze
+    squeeze = side * d - model.load.half_backlash
+    return 0.5 * stiffness(model.train, model.train.kind[i], state.segment[i], cycle) * squeeze**2
 
 
 @kernel
@@ -107,7 +95,7 @@ def change_contact(model: Record, state: Record, i: int) -> None:
     What the flanks still store at the moment they part is lost in the material: flanks part at
     d > b, and later meet again at no compression.
     """
-    before = _elastic_energy(model, state, i)
+    before = elastic_energy(model, state, i)
     if state.side[i] == OPEN:
         side = DRIVE_SIDE if mesh_motion(model.train, i, state.x) > 0.0 else COAST_SIDE
         kind = model.train.kind[i]
@@ -117,27 +105,13 @@ def change_contact(model: Record, state: Record, i: int) -> None:
         state.side[i] = side
     else:
         state.side[i] = OPEN
-    state.energy[DAMPING] += before - _elastic_energy(model, state, i)
+    state.energy[DAMPING] += before - elastic_energy(model, state, i)
 
 
 @kernel
 def change_segment(model: Record, state: Record, i: int, direction: int) -> None:
     """Move mesh i to the next segment; a jump of the stiffness does work on the train."""
     count = model.train.segments[model.train.kind[i]]
-    before = _elastic_energy(model, state, i)
+    before = elastic_energy(model, state, i)
     state.segment[i] = (state.segment[i] + direction) % count
-    state.energy[STIFFNESS_WORK] += _elastic_energy(model, state, i) - before
-
-
-@kernel
-def elastic_energies(model: Record, state: Record, out: np.ndarray) -> float:
-    """Elastic energy of all meshes and couplings [J]; `out` receives that of each mesh."""
-    train = model.train
-    total = 0.0
-    for i in range(train.meshes):
-        out[i] = _elastic_energy(model, state, i)
-        total += out[i]
-    for c in range(2):
-        twist = state.x[train.coupling[c, 0]] - state.x[train.coupling[c, 1]]
-        total += 0.5 * train.coupling_stiffness[c] * twist * twist
-    return total
+    state.energy[STIFFNESS_WORK] += elastic_energy(model, state, i) - before

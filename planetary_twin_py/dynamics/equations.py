@@ -14,7 +14,9 @@ from .._compile import kernel
 from .._records import BODIES, MESHES, REAL, Record, layout
 from ..mesh.tooth_pairs import PAIRS
 from .oil import OIL
-from .state import DAMPING, FRICTION, INPUT, LEDGER, LOAD, OPEN, OUTPUT, STIFFNESS_WORK
+from .state import (
+    DAMPING, FRICTION, INPUT, LEDGER, LOAD, LOAD_IMPULSE, MOTOR_IMPULSE, OPEN, OUTPUT, STIFFNESS_WORK,
+)
 from .tooth_friction import TOOTH_PAIRS, apply_friction, evaluate, gather
 from .train import TRAIN
 
@@ -146,3 +148,5 @@ def _machines(
     force[brake] += brake_torque / train.radius[brake]
     power[INPUT] = torque * speed
     power[OUTPUT] = -brake_torque * brake_speed
+    power[MOTOR_IMPULSE] = torque
+    power[LOAD_IMPULSE] = brake_torque

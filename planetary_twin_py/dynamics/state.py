@@ -6,9 +6,10 @@ from .._records import BODIES, MESHES, REAL, WHOLE, layout
 
 DRIVE_SIDE, OPEN, COAST_SIDE = 1, 0, -1
 
-# Entries of `energy`, integrals since the start [J], and of the powers they grow by [W].
-INPUT, OUTPUT, FRICTION, DAMPING, STIFFNESS_WORK = range(5)
-LEDGER = 5
+# Entries of `energy`, integrals since the start, and of the powers they grow by: energies [J], then
+# the angular impulses [N m s] of motor and load, whose growth is their torque.
+INPUT, OUTPUT, FRICTION, DAMPING, STIFFNESS_WORK, MOTOR_IMPULSE, LOAD_IMPULSE = range(7)
+LEDGER = 7
 
 # Everything that changes. The frame in which x is measured stands at `turns` + `fraction` turns
 # of the motor and turns with `speed`; the motor's own x and v are zero whenever a step begins.
@@ -23,7 +24,7 @@ STATE = layout(
     speed=REAL,  # of the motor [rad/s]
     trim=REAL,  # integral of the speed error [rad]
     set_speed=REAL,  # slewed set-point [rad/s]
-    energy=(REAL, (LEDGER,)),  # [J]
+    energy=(REAL, (LEDGER,)),  # [J], [N m s]
 )
 
 # What acts on the train: the operating point and the constants of the drive.

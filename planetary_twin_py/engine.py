@@ -1,0 +1,99 @@
+"""A run in progress: the model of a scene, its state, and the marching integrator.
+
+What `Twin` steps and `simulate` runs through. It knows bodies and meshes by their place in
+arrays only; names and messages are for those above it.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from ._records import Record, new_record
+from .dynamics.energy import elastic, kinetic
+from .dynamics.equations import MODEL
+from .dynamics.oil import build_oil
+from .dynamics.start import build_load, mesh_loads, start_state
+from .dynamics.train import build_train
+from .integrators.march import MARCH, Samples, advance, cut, new_samples, sample
+from .scene import OperatingPoint, Scene
+
+LONGEST_STEP = 1e-3  # [s]
+FIRST_STEP = 1e-6  # [s]
+TOLERANCES = (1e-8, 0.1)  # allowed range
+LIGHTEST_MESH_LOAD = 1.0  # [N] smaller mesh forces do not tighten the tolerance further
+
+
+class Engine:
+    """Integrates a scene from its start.
+
+    Args:
+        scene: what to simulate.
+        tolerance: local error of a step, relative to the static deflection of the meshes.
+
+    Raises:
+        ValueError: the tolerance is out of range, or the scene cannot be built.
+    """
+
+    def __init__(self, scene: Scene, tolerance: float) -> None:
+        if not TOLERANCES[0] <= tolerance <= TOLERANCES[1]:
+            raise ValueError(
+                f"tolerance = {tolerance!r}: must be within {TOLERANCES[0]:g} and {TOLERANCES[1]:g}"
+            )
+        self.scene = scene
+        self.tolerance = tolerance
+        self.train = build_train(scene)
+        self.model: Record = new_record(MODEL, train=self.train, oil=build_oil(scene))
+        self.march: Record = new_record(MARCH)
+        self.march.control.next_step = FIRST_STEP
+        self.march.control.longest = LONGEST_STEP
+        self._load(scene.operating_point)
+        self.march.begin = self.march.end = start_state(scene, self.model)
+
+    def _load(self, point: OperatingPoint) -> None:
+        """Put an operating point into the model, and scale the tolerances to its deflection."""
+        self.model.load = build_load(self.scene, point, self.train)
+        strongest = abs(point.input_torque) + point.torque_ripple
+        force = max(
+            abs(mesh_loads(self.scene, self.train, strongest)[0]), LIGHTEST_MESH_LOAD
+        )
+        stiffness = float(self.train.stiffness.min())
+        lightest = float(self.train.mass[: self.train.bodies].min())
+        deflection = force / stiffness + 0.5 * point.backlash
+        control = self.march.control
+        control.tolerance_x = self.tolerance * deflection
+        control.tolerance_v = control.tolerance_x * np.sqrt(2.0 * stiffness / lightest)
+        control.changed = True
+
+    def advance(self, until: float, first_sample: int, sample_rate: float, room: int) -> Samples:
+        """Integrate to `until` [s]; samples lie at whole multiples of 1/sample_rate.
+
+        Returns at most `room` samples from number `first_sample` on.
+        """
+        samples = new_samples(self.train, room)
+        taken = advance(self.model, self.march, until, first_sample, sample_rate, samples)
+        return Samples(*(array[:taken] for array in samples))
+
+    def sample(self, time: float) -> Samples:
+        """One sample at `time` [s], the end of the last window."""
+        samples = new_samples(self.train, 1)
+        sample(self.model, self.march, time, samples, 0)
+        return samples
+
+    def change(self, point: OperatingPoint, time: float) -> None:
+        """Run on with another operating point from `time` [s], the end of the last window."""
+        cut(self.model, self.march, time)
+        self._load(point)
+
+    @property
+    def reached(self) -> float:
+        """End of the last step [s], at or after the end of the last window."""
+        return float(self.march.end.time)
+
+    def ledger(self) -> np.ndarray:
+        """Integrals of the ledger up to `reached`, see `dynamics.state`."""
+        return np.array(self.march.end.energy)
+
+    def stored(self) -> tuple[float, float]:
+        """Kinetic and elastic energy at `reached` [J]."""
+        end = self.march.end
+        return float(kinetic(self.model, end)), float(elastic(self.model, end))

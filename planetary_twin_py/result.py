@@ -1,0 +1,94 @@
+"""What a whole run leaves behind."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+
+@dataclass(frozen=True)
+class Energy:
+    """Energy ledger of a run [J]: input = output + stored + lost - stiffness_work + residual."""
+
+    input: float
+    """Work of the motor."""
+    output: float
+    """Work taken by the load."""
+    kinetic: float
+    """Growth of the kinetic energy."""
+    elastic: float
+    """Growth of the elastic energy of meshes and couplings."""
+    friction: float
+    """Taken by tooth friction."""
+    damping: float
+    """Taken by the damping of meshes and couplings."""
+    stiffness_work: float
+    """Put in by the meshes as their stiffness changes with the tooth pairs in contact."""
+
+    @property
+    def residual(self) -> float:
+        """What does not add up: the error of the integration."""
+        lost = self.friction + self.damping - self.stiffness_work
+        return self.input - self.output - self.kinetic - self.elastic - lost
+
+
+@dataclass(frozen=True)
+class Stats:
+    """What a run took."""
+
+    steps: int
+    rejected_steps: int
+    evaluations: int
+    """Of the equations of motion."""
+    pair_events: int
+    """Tooth pairs that began or ended to enter or leave."""
+    flank_events: int
+    """Flanks that met or parted."""
+    wall_time: float
+    """[s]"""
+    real_time_factor: float
+    """Simulated over wall time."""
+
+
+@dataclass(frozen=True)
+class Result:
+    """Samples and balance of one run; arrays are (samples,), (samples, bodies/meshes)."""
+
+    time: np.ndarray
+    """[s]"""
+    bodies: tuple[str, ...]
+    meshes: tuple[str, ...]
+    angle: np.ndarray
+    """Absolute, counter-clockwise positive [rad], (samples, bodies)."""
+    speed: np.ndarray
+    """[rad/s], (samples, bodies)."""
+    dte: np.ndarray
+    """Dynamic transmission error along the line of action [m], (samples, meshes)."""
+    mesh_force: np.ndarray
+    """Normal force, negative on the coast flanks [N], (samples, meshes)."""
+    film_thickness: np.ndarray
+    """[m], NaN without contact, (samples, meshes)."""
+    lambda_ratio: np.ndarray
+    """Specific film thickness [-], NaN without contact, (samples, meshes)."""
+    boundary_friction: np.ndarray
+    """Magnitude [N], (samples, meshes)."""
+    viscous_friction: np.ndarray
+    """Magnitude [N], (samples, meshes)."""
+    power_loss: np.ndarray
+    """Tooth friction [W], (samples, meshes)."""
+    energy: Energy
+    stats: Stats
+
+    @property
+    def total_power_loss(self) -> np.ndarray:
+        """Tooth friction of all meshes [W], (samples,)."""
+        total: np.ndarray = self.power_loss.sum(axis=1)
+        return total
+
+    @property
+    def efficiency(self) -> float:
+        """1 - friction/input over the whole run; NaN unless power flowed in at the input."""
+        if self.energy.input <= 0.0:
+            return float("nan")
+        return 1.0 - self.energy.friction / self.energy.input

@@ -1,0 +1,106 @@
+"""A whole run, as fast as it goes."""
+
+from __future__ import annotations
+
+import math
+import time
+
+import numpy as np
+
+from .dynamics.observe import BOUNDARY, DTE, FILM, LAMBDA, MESH_FORCE, POWER_LOSS, VISCOUS
+from .dynamics.state import DAMPING, FRICTION, INPUT, OUTPUT, STIFFNESS_WORK
+from .dynamics.train import body_names, mesh_names
+from .engine import Engine
+from .integrators.march import Samples
+from .result import Energy, Result, Stats
+from .scene import Scene
+
+METHODS = ("auto", "rosenbrock")
+MOST_SAMPLES = 20_000_000
+
+
+def simulate(
+    scene: Scene,
+    duration: float,
+    sample_rate: float = 50_000.0,
+    method: str = "auto",
+    tolerance: float = 1e-4,
+) -> Result:
+    """Simulate `duration` seconds of a scene from steady running.
+
+    Args:
+        scene: what to simulate.
+        duration: simulated time [s].
+        sample_rate: of the result [Hz]; samples lie at whole multiples of its period.
+        method: "rosenbrock", or "auto" to leave the choice.
+        tolerance: relative local error of a step.
+
+    Raises:
+        ValueError: an argument is out of range.
+    """
+    if method not in METHODS:
+        raise ValueError(f"method = {method!r}: must be one of {', '.join(METHODS)}")
+    if not (duration > 0.0 and 1.0 <= duration * sample_rate <= MOST_SAMPLES):
+        raise ValueError(
+            f"duration = {duration!r} s at sample_rate = {sample_rate!r} Hz: must give between 1 "
+            f"and {MOST_SAMPLES} samples"
+        )
+    engine = Engine(scene, tolerance)
+    stored = engine.stored()
+    engine.advance(0.0, 1, sample_rate, 0)  # compiles, so that the clock measures the run
+    room = math.floor(duration * sample_rate + 1e-6)
+    begin = time.perf_counter()
+    samples = engine.advance(duration, 1, sample_rate, room)
+    wall = time.perf_counter() - begin
+    return _result(scene, engine, samples, sample_rate, stored, wall)
+
+
+def _result(
+    scene: Scene,
+    engine: Engine,
+    samples: Samples,
+    sample_rate: float,
+    stored: tuple[float, float],
+    wall: float,
+) -> Result:
+    names = body_names(scene)
+    mesh, count = samples.mesh, engine.march.control
+    ground = np.zeros((len(mesh), 1))
+    turned = 2.0 * math.pi * samples.turns[:, None] * engine.train.ratio[: engine.train.bodies]
+    return Result(
+        time=np.arange(1, len(mesh) + 1) / sample_rate,
+        bodies=names.names,
+        meshes=mesh_names(scene),
+        angle=np.hstack([turned + samples.angle, ground])[:, names.index],
+        speed=np.hstack([samples.speed, ground])[:, names.index],
+        dte=mesh[:, DTE],
+        mesh_force=mesh[:, MESH_FORCE],
+        film_thickness=mesh[:, FILM],
+        lambda_ratio=mesh[:, LAMBDA],
+        boundary_friction=mesh[:, BOUNDARY],
+        viscous_friction=mesh[:, VISCOUS],
+        power_loss=mesh[:, POWER_LOSS],
+        energy=_energy(engine, stored),
+        stats=Stats(
+            steps=int(count.steps),
+            rejected_steps=int(count.rejected),
+            evaluations=int(count.evaluations),
+            pair_events=int(count.pair_events),
+            flank_events=int(count.flank_events),
+            wall_time=wall,
+            real_time_factor=engine.reached / wall,
+        ),
+    )
+
+
+def _energy(engine: Engine, stored: tuple[float, float]) -> Energy:
+    ledger, now = engine.ledger(), engine.stored()
+    return Energy(
+        input=float(ledger[INPUT]),
+        output=float(ledger[OUTPUT]),
+        kinetic=now[0] - stored[0],
+        elastic=now[1] - stored[1],
+        friction=float(ledger[FRICTION]),
+        damping=float(ledger[DAMPING]),
+        stiffness_work=float(ledger[STIFFNESS_WORK]),
+    )

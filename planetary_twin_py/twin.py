@@ -1,0 +1,169 @@
+"""The model stepped live: what the simulation node drives."""
+
+from __future__ import annotations
+
+import math
+from typing import NamedTuple
+
+import numpy as np
+from pydantic import ValidationError
+
+from .dynamics.observe import BOUNDARY, DTE, MESH_FORCE, VISCOUS
+from .dynamics.state import FRICTION, INPUT, LOAD_IMPULSE, MOTOR_IMPULSE, OUTPUT
+from .dynamics.train import body_names, mesh_names
+from .engine import Engine
+from .integrators.march import Samples
+from .scene import OperatingPoint, Scene, SceneError
+from .scene.quantity import explain
+from .window import Waveform, Window, mesh_statistics
+
+LIVE_TOLERANCE = 5e-3
+LONGEST_WINDOW = 60.0  # [s] of samples held in memory at once
+
+
+class Change(NamedTuple):
+    """An operating point and the simulated instant from which it holds."""
+
+    time: float
+    point: OperatingPoint
+
+
+class Twin:
+    """A gearbox that runs and can be changed while it runs.
+
+    Args:
+        scene: what to simulate; it starts in steady running at the scene's operating point.
+        sample_rate: of the waveform [Hz].
+        tolerance: relative error of a step; the live default leaves time to spare.
+
+    Raises:
+        ValueError: the scene, the sample rate or the tolerance cannot be.
+    """
+
+    def __init__(
+        self, scene: Scene, sample_rate: float = 50_000.0, tolerance: float = LIVE_TOLERANCE
+    ) -> None:
+        if not 1.0 <= sample_rate <= 1e7:
+            raise ValueError(f"sample_rate = {sample_rate!r} Hz: must be within 1 and 1e7")
+        self.scene = scene
+        self.sample_rate = float(sample_rate)
+        self.meshes = mesh_names(scene)
+        self._names = body_names(scene)
+        self._engine = Engine(scene, tolerance)
+        self._time = 0.0
+        self.log = [Change(0.0, scene.operating_point)]
+        """Every operating point and the instant from which it holds."""
+        self._books = self._account()
+        self._end = self._engine.sample(0.0)
+
+    @property
+    def bodies(self) -> tuple[str, ...]:
+        """Names of the bodies, in the order of all arrays over bodies."""
+        return self._names.names
+
+    @property
+    def time(self) -> float:
+        """Simulated time [s]: the end of the last window."""
+        return self._time
+
+    @property
+    def operating_point(self) -> OperatingPoint:
+        """The one in force."""
+        return self.log[-1].point
+
+    def set(self, **changes: float) -> float:
+        """Change fields of the operating point, all at `time`, which is returned [s].
+
+        Raises:
+            ValueError: a name or a value is not allowed; nothing has changed.
+        """
+        point = checked_operating_point(self.operating_point, **changes)
+        if point != self.operating_point:
+            self._engine.change(point, self._time)
+            self.log.append(Change(self._time, point))
+        return self._time
+
+    def advance(self, duration: float) -> Window:
+        """Run for `duration` [s] of simulated time.
+
+        Raises:
+            ValueError: the duration is not within 0 and 60 s.
+        """
+        if not 0.0 < duration <= LONGEST_WINDOW:
+            raise ValueError(
+                f"duration = {duration!r} s: must be above 0 and at most {LONGEST_WINDOW:g}"
+            )
+        start = self._time
+        # Windows of 10 ms end on whole samples; their sum must not drift off them.
+        self._time = round(start + duration, 12)
+        first = math.floor(start * self.sample_rate + 1e-6) + 1
+        room = math.floor(self._time * self.sample_rate + 1e-6) - first + 1
+        samples = self._engine.advance(self._time, first, self.sample_rate, room)
+        return self._window(start, first, samples)
+
+    def _account(self) -> tuple[float, np.ndarray, float]:
+        """Time reached, ledger and stored energy at that time."""
+        return self._engine.reached, self._engine.ledger(), sum(self._engine.stored())
+
+    def _window(self, start: float, first: int, samples: Samples) -> Window:
+        before, begin = self._books, self._end
+        self._books, self._end = self._account(), self._engine.sample(self._time)
+        train, names = self._engine.train, self._names
+        elapsed = self._books[0] - before[0]
+        if elapsed > 0.0:
+            rate = (self._books[1] - before[1]) / elapsed
+            stored = (self._books[2] - before[2]) / elapsed
+        else:  # a window within one step
+            rate, stored = np.array(self._engine.march.last.power), float("nan")
+        turned = (self._end.turns - begin.turns) * 2.0 * math.pi * train.ratio[: train.bodies]
+        speed = ((turned + self._end.angle - begin.angle) / (self._time - start))[0]
+        mean_speed = np.append(speed, 0.0)[names.index]
+        sun, carrier = mean_speed[names.names.index("sun")], mean_speed[-1]
+        motor, load = train.coupling[0, 0], train.coupling[1, 0]
+        mesh = samples.mesh
+        return Window(
+            start=start,
+            end=self._time,
+            bodies=names.names,
+            meshes=self.meshes,
+            waveform=Waveform(
+                time=(first + np.arange(len(mesh))) / self.sample_rate,
+                dte=mesh[:, DTE],
+                mesh_force=mesh[:, MESH_FORCE],
+                friction=mesh[:, BOUNDARY] + mesh[:, VISCOUS],
+            ),
+            mesh=mesh_statistics(mesh),
+            angle=self._angles(),
+            mean_speed=mean_speed,
+            mesh_frequency=self.scene.gearset.teeth.sun * abs(sun - carrier) / (2.0 * math.pi),
+            input_speed=float(speed[motor]),
+            input_torque=float(rate[MOTOR_IMPULSE]),
+            output_speed=float(speed[load]),
+            output_torque=float(rate[LOAD_IMPULSE]),
+            input_power=float(rate[INPUT]),
+            output_power=float(rate[OUTPUT]),
+            power_loss=float(rate[FRICTION]),
+            stored_power=stored,
+        )
+
+    def _angles(self) -> np.ndarray:
+        """Angles modulo a turn, exact in the whole turns of the motor."""
+        turns = int(self._end.turns[0])
+        relative = np.append(self._end.angle[0], 0.0)[self._names.index]
+        whole = [
+            (turns * ratio.numerator % ratio.denominator) / ratio.denominator
+            for ratio in self._names.ratio
+        ]
+        return np.mod(2.0 * math.pi * np.array(whole) + relative, 2.0 * math.pi)
+
+
+def checked_operating_point(point: OperatingPoint, **changes: object) -> OperatingPoint:
+    """A copy of `point` with some fields changed.
+
+    Raises:
+        SceneError: a name is unknown or a value out of its range.
+    """
+    try:
+        return OperatingPoint.model_validate({**point.model_dump(), **changes})
+    except ValidationError as error:
+        raise SceneError(explain(error, OperatingPoint)) from None

@@ -1,0 +1,98 @@
+"""What the twin shows of a stretch of time: a waveform, and statistics over it."""
+
+from __future__ import annotations
+
+import warnings
+from dataclasses import dataclass
+
+import numpy as np
+
+from .dynamics.observe import (
+    BOUNDARY, DTE, FILM, LAMBDA, MESH_FORCE, POWER_LOSS, VISCOUS,
+)
+
+
+@dataclass(frozen=True)
+class Waveform:
+    """Every sample of every mesh; samples lie at whole multiples of the sample period."""
+
+    time: np.ndarray
+    """[s], shape (samples,)"""
+    dte: np.ndarray
+    """Dynamic transmission error along the line of action [m], shape (samples, meshes)."""
+    mesh_force: np.ndarray
+    """Normal force [N], negative on the coast flanks, shape (samples, meshes)."""
+    friction: np.ndarray
+    """Boundary and viscous friction, magnitude [N], shape (samples, meshes)."""
+
+
+@dataclass(frozen=True)
+class Window:
+    """One stretch of simulated time. Means are over the stretch, angles stand at its end."""
+
+    start: float
+    """[s]"""
+    end: float
+    """[s]"""
+    bodies: tuple[str, ...]
+    meshes: tuple[str, ...]
+    waveform: Waveform
+    mesh: dict[str, np.ndarray]
+    """Statistics of the meshes, shape (meshes,) each: see `mesh_statistics`."""
+    angle: np.ndarray
+    """[rad] in [0, 2 pi), shape (bodies,)"""
+    mean_speed: np.ndarray
+    """[rad/s], shape (bodies,)"""
+    mesh_frequency: float
+    """Rate at which teeth pass a mesh [Hz]."""
+    input_speed: float
+    """Of the motor [rad/s]."""
+    input_torque: float
+    """Of the motor [N m]."""
+    output_speed: float
+    """Of the load [rad/s]."""
+    output_torque: float
+    """Of the load on its shaft [N m]."""
+    input_power: float
+    """From the motor into the train [W]."""
+    output_power: float
+    """From the train into the load [W]."""
+    power_loss: float
+    """Tooth friction of all meshes [W]."""
+    stored_power: float
+    """Rate at which kinetic and elastic energy grow [W]."""
+
+    @property
+    def efficiency(self) -> float:
+        """1 - power_loss/input_power; NaN unless power flows in at the input."""
+        if self.input_power <= 0.0:
+            return float("nan")
+        return 1.0 - self.power_loss / self.input_power
+
+
+def mesh_statistics(samples: np.ndarray) -> dict[str, np.ndarray]:
+    """Mean, rms and peak of what `observe` sampled, shape (samples, quantities, meshes).
+
+    rms is that of the deviation from the mean, peak the largest magnitude; film and lambda ratio
+    are means over the samples in contact, NaN without any.
+    """
+    dte, force = samples[:, DTE], samples[:, MESH_FORCE]
+    if not len(samples):
+        samples = np.full((1, *samples.shape[1:]), np.nan)
+        dte, force = samples[:, DTE], samples[:, MESH_FORCE]
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", RuntimeWarning)  # nanmean of a mesh never in contact
+        film, ratio = np.nanmean(samples[:, FILM], axis=0), np.nanmean(samples[:, LAMBDA], axis=0)
+    return {
+        "dte_mean": dte.mean(axis=0),
+        "dte_rms": dte.std(axis=0),
+        "dte_peak": np.abs(dte).max(axis=0),
+        "mesh_force_mean": force.mean(axis=0),
+        "mesh_force_peak": np.abs(force).max(axis=0),
+        "contact_fraction": np.where(np.isnan(force), np.nan, force != 0.0).mean(axis=0),
+        "film_thickness": film,
+        "lambda_ratio": ratio,
+        "boundary_friction": samples[:, BOUNDARY].mean(axis=0),
+        "viscous_friction": samples[:, VISCOUS].mean(axis=0),
+        "power_loss": samples[:, POWER_LOSS].mean(axis=0),
+    }
