@@ -1,0 +1,62 @@
+# Every target sets itself up first. Stamps in .venv tell what is up to date, so a second call
+# neither installs nor builds; PYTHON chooses the interpreter of a new .venv.
+VENV := .venv
+BIN := $(VENV)/bin
+STAMPS := $(VENV)/stamps
+INSTALL := $(BIN)/uv pip install --quiet --python $(BIN)/python --no-deps --no-build-isolation
+INTERFACES := msgs_spec/package.xml msgs_spec/CMakeLists.txt $(wildcard msgs_spec/msg/* msgs_spec/srv/*)
+NODES := $(shell find ros_ws/src/planetary_twin -not -path '*/build*' -not -path '*.egg-info*' \
+	-not -name '*.pyc' -not -name __pycache__)
+
+# The ROS of the wheels must not mix with one that happens to be sourced.
+unexport PYTHONPATH AMENT_PREFIX_PATH CMAKE_PREFIX_PATH COLCON_PREFIX_PATH
+ifneq ($(AMENT_PREFIX_PATH)$(_ROS_WHEELS_BOOTSTRAP_COMPLETE),)
+unexport LD_LIBRARY_PATH _ROS_WHEELS_BOOTSTRAP_COMPLETE
+endif
+
+.PHONY: setup run test test-fast bench view lint lock clean
+
+setup: $(STAMPS)/interfaces $(STAMPS)/model $(STAMPS)/nodes
+
+run: setup
+	@$(BIN)/planetary-twin run $(ARGS)
+
+test: lint
+	$(BIN)/pytest $(ARGS)
+
+test-fast: setup
+	$(BIN)/pytest -m "not slow" $(ARGS)
+
+lint: setup
+	$(BIN)/ruff check && $(BIN)/ruff format --check && $(BIN)/mypy
+
+bench: setup
+	@$(BIN)/planetary-twin bench $(ARGS)
+
+view: setup
+	@$(BIN)/planetary-twin view $(or $(FILE),$(error FILE is missing: make view FILE=recordings/NAME)) $(ARGS)
+
+lock: setup
+	$(BIN)/uv pip compile --quiet --universal --python-version 3.11 --generate-hashes --all-extras \
+		--no-header --no-annotate --upgrade pyproject.toml --output-file requirements.lock
+
+clean:
+	rm -rf $(VENV) build *.egg-info ros_ws/build ros_ws/install ros_ws/log
+
+$(STAMPS)/dependencies: requirements.lock
+	$(eval FOUND := $(shell PYTHON='$(PYTHON)' tools/check_machine 2>&1))
+	$(if $(filter-out 0,$(.SHELLSTATUS)),$(error $(FOUND)))
+	tools/make_venv $(FOUND) $(VENV)
+	@mkdir -p $(STAMPS) && touch $@
+
+$(STAMPS)/interfaces: $(STAMPS)/dependencies tools/build_interfaces tools/ros_from_pip.cmake $(INTERFACES)
+	tools/build_interfaces $(VENV)
+	@touch $@
+
+$(STAMPS)/model: $(STAMPS)/dependencies pyproject.toml
+	$(INSTALL) --editable .
+	@touch $@
+
+$(STAMPS)/nodes: $(STAMPS)/dependencies tools/install_nodes $(NODES)
+	tools/install_nodes $(VENV)
+	@touch $@

@@ -1,0 +1,28 @@
+"""The node package, for colcon (ament_python) and pip alike."""
+
+from glob import glob
+
+from setuptools import find_packages, setup
+
+NAME = "planetary_twin"
+
+setup(
+    name=NAME,
+    version="0.1.0",
+    description="Nodes of the planetary gearbox twin: simulation, logger and what starts them",
+    license="Apache-2.0",
+    packages=find_packages(),
+    data_files=[
+        ("share/ament_index/resource_index/packages", [f"resource/{NAME}"]),
+        (f"share/{NAME}", ["package.xml"]),
+        (f"share/{NAME}/launch", glob("launch/*.py")),
+        (f"share/{NAME}/config", glob("config/*.yaml")),
+    ],
+    entry_points={
+        "console_scripts": [
+            "simulation = planetary_twin.simulation:main",
+            "logger = planetary_twin.logger:main",
+        ],
+        "planetary_twin.commands": ["run = planetary_twin.commands:run"],
+    },
+)
