@@ -8,17 +8,17 @@ from __future__ import annotations
 
 import struct
 from collections.abc import Iterator
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, fields
 from pathlib import Path
-from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
 from mcap.exceptions import McapError
 from mcap.records import Attachment, Channel, Message, Schema
 from mcap.stream_reader import StreamReader
-from mcap_ros2.decoder import DecoderFactory
 from numpy.typing import NDArray
+from rosbags.typesys import Stores, get_types_from_msg, get_typestore
+from rosbags.typesys.store import Typestore
 
 MAGIC = b"\x89MCAP0\r\n"
 SCENE_ATTACHMENT = "scene.yaml"
@@ -34,17 +34,17 @@ class RecordingError(ValueError):
 
 @dataclass
 class Series:
-    """Messages of one topic as columns: `fields[name]` has one row per message.
+    """Messages of one topic as columns: `series[name]` has one row per message.
 
     `time` is simulated time [s], `stamp` the ROS time [ns since the epoch] of the same instant.
     """
 
     time: NDArray[np.float64]
     stamp: NDArray[np.int64]
-    fields: dict[str, Any]
+    columns: dict[str, Any]
 
     def __getitem__(self, name: str) -> Any:
-        return self.fields[name]
+        return self.columns[name]
 
     def __len__(self) -> int:
         return len(self.time)
@@ -135,24 +135,32 @@ def _files(path: Path) -> list[Path]:
 
 def _messages(file: Path, remarks: list[str]) -> Iterator[tuple[str, Any]]:
     """Pairs of topic and decoded message, and the scene attachment as ("scene.yaml", bytes)."""
-    factory = DecoderFactory()
+    types = get_typestore(Stores.EMPTY)
     schemas: dict[int, Schema] = {}
     channels: dict[int, Channel] = {}
-    wanted = (STATE, WAVEFORM, OPERATING_POINT)
     for record in _records(file, remarks):
         if isinstance(record, Schema):
             schemas[record.id] = record
         elif isinstance(record, Channel):
-            channels[record.id] = record
+            if record.topic.rsplit("/", 1)[-1] in (STATE, WAVEFORM, OPERATING_POINT):
+                channels[record.id] = record
+                _register(types, schemas[record.schema_id], record)
         elif isinstance(record, Attachment) and record.name == SCENE_ATTACHMENT:
             yield SCENE_ATTACHMENT, record.data
-        elif isinstance(record, Message):
+        elif isinstance(record, Message) and record.channel_id in channels:
             channel = channels[record.channel_id]
-            if channel.topic.rsplit("/", 1)[-1] not in wanted:
-                continue
-            decode = factory.decoder_for(channel.message_encoding, schemas.get(channel.schema_id))
-            if decode is not None:
-                yield channel.topic, decode(record.data)
+            yield channel.topic, types.deserialize_cdr(record.data, schemas[channel.schema_id].name)
+
+
+def _register(types: Typestore, schema: Schema, channel: Channel) -> None:
+    """Teach `types` the message definition that the file itself carries."""
+    if schema.encoding != "ros2msg" or channel.message_encoding != "cdr":
+        raise RecordingError(
+            f"{channel.topic}: encoded as {schema.encoding}/{channel.message_encoding}, "
+            "only ros2msg/cdr can be read"
+        )
+    found = get_types_from_msg(schema.data.decode(), schema.name)
+    types.register({name: parts for name, parts in found.items() if name not in types.types})
 
 
 def _records(file: Path, remarks: list[str]) -> Iterator[Any]:
@@ -215,9 +223,9 @@ def _nanoseconds(messages: list[Any]) -> NDArray[np.int64]:
 def _series(messages: list[Any]) -> Series:
     if not messages:
         return Series(np.empty(0), np.empty(0, np.int64), {})
-    names = [name for name in messages[0].__slots__ if name != "header"]
-    fields = {name: np.array([getattr(message, name) for message in messages]) for name in names}
-    return Series(fields["simulated_time"], _nanoseconds(messages), fields)
+    names = [column.name for column in fields(messages[0]) if column.name != "header"]
+    rows = {name: np.array([getattr(row, name) for row in messages]) for name in names}
+    return Series(rows["simulated_time"], _nanoseconds(messages), rows)
 
 
 def _waveform(messages: list[Any], meshes: int) -> Waveform | None:
@@ -229,7 +237,7 @@ def _waveform(messages: list[Any], meshes: int) -> Waveform | None:
     start = np.repeat([message.start_time for message in messages], counts)
     columns = {
         name: np.concatenate([
-            np.asarray(getattr(message, name), np.float32).reshape(meshes, -1).T for message in messages
+            getattr(message, name).reshape(meshes, -1).T for message in messages
         ])
         for name in ("dte", "mesh_force", "friction")
     }

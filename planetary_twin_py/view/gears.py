@@ -1,0 +1,147 @@
+"""The gears as solids that turn: a scene graph of static meshes and rotations by columns.
+
+/gears/sun, /gears/ring, /gears/carrier turn about the gearbox's axis; /gears/carrier/pin_i stands
+on the carrier circle and carries /gears/carrier/pin_i/planet_i, which turns about its pin. Lengths
+are drawn in millimetres: the viewer's camera and grid suit sizes of some tens, not of hundredths.
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import rerun as rr
+from numpy.typing import NDArray
+
+from planetary_twin_py.gearset.geometry import GearsetGeometry
+from planetary_twin_py.gearset.involute import gear_outline, root_radius
+from planetary_twin_py.gearset.mount import mount
+from planetary_twin_py.gearset.solid import TriangleMesh, circle, extrude
+from planetary_twin_py.view import timeline
+from planetary_twin_py.view.motion import Motion
+
+MILLIMETRES = 1e3
+SUN, PLANET, RING, CARRIER, PIN = (
+    (236, 176, 64),
+    (92, 150, 214),
+    (150, 158, 170),
+    (176, 98, 84),
+    (210, 214, 220),
+)
+MARK = (250, 250, 250)  # of tooth 0, so that slow turning shows
+
+
+def log_gears(recording: rr.RecordingStream, geometry: GearsetGeometry, motion: Motion) -> None:
+    """Log the gearset's solids once and their rotations over time."""
+    stand = mount(geometry)
+    carrier = motion.angle["carrier"]
+    _solid(recording, "gears/sun", sun(geometry), SUN, geometry.sun_teeth)
+    _turn(recording, "gears/sun", motion, stand.sun + motion.angle["sun"])
+    _solid(recording, "gears/ring", ring(geometry), RING, geometry.ring_teeth)
+    _turn(recording, "gears/ring", motion, stand.ring + motion.angle["ring"])
+    _solid(recording, "gears/carrier", spider(geometry), CARRIER)
+    _turn(recording, "gears/carrier", motion, carrier)
+    for i in range(geometry.planets):
+        at = f"gears/carrier/pin_{i + 1}"
+        centre = [MILLIMETRES * x for x in geometry.planet_position(i)] + [0.0]
+        recording.log(at, rr.Transform3D(translation=centre), static=True)
+        _solid(recording, at, pin(geometry), PIN)
+        name = f"planet_{i + 1}"
+        _solid(recording, f"{at}/{name}", planet(geometry), PLANET, geometry.planet_teeth)
+        _turn(recording, f"{at}/{name}", motion, stand.planets[i] + motion.angle[name] - carrier)
+
+
+def sun(geometry: GearsetGeometry) -> TriangleMesh:
+    """The sun: a toothed wheel with a bore for the input shaft."""
+    return _wheel(geometry, geometry.sun_teeth, bore=0.3)
+
+
+def planet(geometry: GearsetGeometry) -> TriangleMesh:
+    """A planet: a toothed wheel with a bore for its pin."""
+    return _wheel(geometry, geometry.planet_teeth, bore=0.35)
+
+
+def ring(geometry: GearsetGeometry) -> TriangleMesh:
+    """The ring: an annulus with internal teeth, its rim two and a half modules thick."""
+    teeth, module = geometry.ring_teeth, geometry.module
+    outline = gear_outline(teeth, module, geometry.pressure_angle, internal=True)
+    rim = root_radius(teeth, module, internal=True) + 2.5 * module
+    return extrude(outline, rim, -0.5 * geometry.face_width, 0.5 * geometry.face_width)
+
+
+def pin(geometry: GearsetGeometry) -> TriangleMesh:
+    """The pin that a planet turns on, from the carrier through the planet."""
+    radius = 0.33 * root_radius(geometry.planet_teeth, geometry.module)
+    return extrude(0.0, circle(radius), -0.7 * geometry.face_width, 0.56 * geometry.face_width)
+
+
+def spider(geometry: GearsetGeometry) -> TriangleMesh:
+    """The carrier: a plate behind the gears with one arm per planet."""
+    width = 0.6 * root_radius(geometry.planet_teeth, geometry.module)
+    hub = 0.9 * root_radius(geometry.sun_teeth, geometry.module)
+    angles = np.linspace(0.0, 2.0 * math.pi, 720, endpoint=False)
+    radius = np.full_like(angles, hub)
+    for psi in geometry.planet_angles:
+        radius = np.maximum(radius, _arm(angles - psi, geometry.carrier_radius, width))
+    outline = np.column_stack((radius, angles))
+    back = -0.5 * geometry.face_width
+    return extrude(0.5 * hub, outline, back - 0.22 * geometry.face_width, back - 0.04 * geometry.face_width)
+
+
+def _arm(angle: NDArray[np.float64], length: float, width: float) -> NDArray[np.float64]:
+    """Polar outline of an arm with a round end, of half `width`, along angle zero."""
+    across, along = np.abs(np.sin(angle)), np.cos(angle)
+    end = length * along + np.sqrt(np.maximum(width**2 - (length * across) ** 2, 0.0))
+    side = np.minimum(width / np.maximum(across, 1e-12), length)
+    reach = np.where(length * across <= width, end, side)
+    return np.where(along > 0.0, reach, 0.0)
+
+
+def _wheel(geometry: GearsetGeometry, teeth: int, bore: float) -> TriangleMesh:
+    """Teeth on a rim, a thinner web inside it, and a hub around the bore."""
+    half = 0.5 * geometry.face_width
+    outline = gear_outline(teeth, geometry.module, geometry.pressure_angle)
+    root = root_radius(teeth, geometry.module)
+    rim = max(root - 1.8 * geometry.module, 0.7 * root)
+    hub = min(1.35 * bore * root, 0.9 * rim)
+    body = extrude(rim, outline, -half, half) + extrude(bore * root, circle(hub), -half, half)
+    return body + extrude(hub, circle(rim), -0.82 * half, 0.82 * half)
+
+
+def _solid(
+    recording: rr.RecordingStream,
+    path: str,
+    solid: TriangleMesh,
+    colour: tuple[int, int, int],
+    teeth: int = 0,
+) -> None:
+    """Log a mesh once; with `teeth`, tooth 0 (around angle zero) is marked."""
+    colours = np.tile(np.array(colour, dtype=np.uint8), (len(solid.vertices), 1))
+    if teeth:
+        x, y = solid.vertices[:, 0], solid.vertices[:, 1]
+        colours[_toothed(solid) & (np.abs(np.arctan2(y, x)) < 0.5 * math.pi / teeth)] = MARK
+    mesh = rr.Mesh3D(
+        vertex_positions=MILLIMETRES * solid.vertices,
+        vertex_normals=solid.normals,
+        triangle_indices=solid.faces,
+        vertex_colors=colours,
+    )
+    recording.log(path, mesh, static=True)
+
+
+def _turn(
+    recording: rr.RecordingStream, path: str, motion: Motion, angle: NDArray[np.float64]
+) -> None:
+    """Rotations about z by columns; a member that stands still gets one static rotation."""
+    quaternions = np.zeros((len(angle), 4), dtype=np.float32)
+    quaternions[:, 2], quaternions[:, 3] = np.sin(0.5 * angle), np.cos(0.5 * angle)
+    if np.ptp(angle) == 0.0:
+        still = rr.Transform3D(quaternion=rr.Quaternion(xyzw=quaternions[0]))
+        recording.log(path, still, static=True)
+        return
+    rr.send_columns(
+        path,
+        timeline.columns(motion.time, motion.stamp),
+        rr.Transform3D.columns(quaternion=quaternions),
+        recording=recording,
+    )
