@@ -13,12 +13,12 @@ import numpy as np
 import rerun as rr
 from numpy.typing import NDArray
 
-from planetary_twin_py.gearset.geometry import GearsetGeometry
-from planetary_twin_py.gearset.involute import gear_outline, root_radius
-from planetary_twin_py.gearset.mount import mount
-from planetary_twin_py.gearset.solid import TriangleMesh, circle, extrude
-from planetary_twin_py.view import timeline
-from planetary_twin_py.view.motion import Motion
+from ..gearset.involute import SpurGear
+from ..gearset.mount import mount
+from ..gearset.solid import TriangleMesh, circle, extrude
+from ..scene.sections import Gearset
+from . import timeline
+from .motion import Motion
 
 MILLIMETRES = 1e3
 SUN, PLANET, RING, CARRIER, PIN = (
@@ -31,61 +31,68 @@ SUN, PLANET, RING, CARRIER, PIN = (
 MARK = (250, 250, 250)  # of tooth 0, so that slow turning shows
 
 
-def log_gears(recording: rr.RecordingStream, geometry: GearsetGeometry, motion: Motion) -> None:
+def log_gears(recording: rr.RecordingStream, gearset: Gearset, motion: Motion) -> None:
     """Log the gearset's solids once and their rotations over time."""
-    stand = mount(geometry)
+    stand = mount(gearset.tooth_numbers, gearset.planet_angles)
     carrier = motion.angle["carrier"]
-    _solid(recording, "gears/sun", sun(geometry), SUN, geometry.sun_teeth)
+    _solid(recording, "gears/sun", sun(gearset), SUN, gearset.teeth.sun)
     _turn(recording, "gears/sun", motion, stand.sun + motion.angle["sun"])
-    _solid(recording, "gears/ring", ring(geometry), RING, geometry.ring_teeth)
+    _solid(recording, "gears/ring", ring(gearset), RING, gearset.teeth.ring)
     _turn(recording, "gears/ring", motion, stand.ring + motion.angle["ring"])
-    _solid(recording, "gears/carrier", spider(geometry), CARRIER)
+    _solid(recording, "gears/carrier", spider(gearset), CARRIER)
     _turn(recording, "gears/carrier", motion, carrier)
-    for i in range(geometry.planets):
-        at = f"gears/carrier/pin_{i + 1}"
-        centre = [MILLIMETRES * x for x in geometry.planet_position(i)] + [0.0]
-        recording.log(at, rr.Transform3D(translation=centre), static=True)
-        _solid(recording, at, pin(geometry), PIN)
-        name = f"planet_{i + 1}"
-        _solid(recording, f"{at}/{name}", planet(geometry), PLANET, geometry.planet_teeth)
+    for i, psi in enumerate(gearset.planet_angles):
+        at, name = f"gears/carrier/pin_{i + 1}", f"planet_{i + 1}"
+        radius = MILLIMETRES * _carrier_radius(gearset)
+        centre = rr.Transform3D(translation=[radius * math.cos(psi), radius * math.sin(psi), 0.0])
+        recording.log(at, centre, static=True)
+        _solid(recording, at, pin(gearset), PIN)
+        _solid(recording, f"{at}/{name}", planet(gearset), PLANET, gearset.teeth.planet)
         _turn(recording, f"{at}/{name}", motion, stand.planets[i] + motion.angle[name] - carrier)
 
 
-def sun(geometry: GearsetGeometry) -> TriangleMesh:
-    """The sun: a toothed wheel with a bore for the input shaft."""
-    return _wheel(geometry, geometry.sun_teeth, bore=0.3)
+def sun(gearset: Gearset) -> TriangleMesh:
+    """The sun: a toothed wheel with a bore for its shaft."""
+    return _wheel(gearset, gearset.teeth.sun, bore=0.3)
 
 
-def planet(geometry: GearsetGeometry) -> TriangleMesh:
+def planet(gearset: Gearset) -> TriangleMesh:
     """A planet: a toothed wheel with a bore for its pin."""
-    return _wheel(geometry, geometry.planet_teeth, bore=0.35)
+    return _wheel(gearset, gearset.teeth.planet, bore=0.35)
 
 
-def ring(geometry: GearsetGeometry) -> TriangleMesh:
+def ring(gearset: Gearset) -> TriangleMesh:
     """The ring: an annulus with internal teeth, its rim two and a half modules thick."""
-    teeth, module = geometry.ring_teeth, geometry.module
-    outline = gear_outline(teeth, module, geometry.pressure_angle, internal=True)
-    rim = root_radius(teeth, module, internal=True) + 2.5 * module
-    return extrude(outline, rim, -0.5 * geometry.face_width, 0.5 * geometry.face_width)
+    gear = _gear(gearset, gearset.teeth.ring, internal=True)
+    rim = gear.root_radius + 2.5 * gear.module
+    return extrude(gear.outline(), rim, -0.5 * gearset.face_width, 0.5 * gearset.face_width)
 
 
-def pin(geometry: GearsetGeometry) -> TriangleMesh:
+def pin(gearset: Gearset) -> TriangleMesh:
     """The pin that a planet turns on, from the carrier through the planet."""
-    radius = 0.33 * root_radius(geometry.planet_teeth, geometry.module)
-    return extrude(0.0, circle(radius), -0.7 * geometry.face_width, 0.56 * geometry.face_width)
+    radius = 0.33 * _gear(gearset, gearset.teeth.planet).root_radius
+    return extrude(0.0, circle(radius), -0.7 * gearset.face_width, 0.56 * gearset.face_width)
 
 
-def spider(geometry: GearsetGeometry) -> TriangleMesh:
+def spider(gearset: Gearset) -> TriangleMesh:
     """The carrier: a plate behind the gears with one arm per planet."""
-    width = 0.6 * root_radius(geometry.planet_teeth, geometry.module)
-    hub = 0.9 * root_radius(geometry.sun_teeth, geometry.module)
+    width = 0.6 * _gear(gearset, gearset.teeth.planet).root_radius
+    hub = 0.9 * _gear(gearset, gearset.teeth.sun).root_radius
     angles = np.linspace(0.0, 2.0 * math.pi, 720, endpoint=False)
     radius = np.full_like(angles, hub)
-    for psi in geometry.planet_angles:
-        radius = np.maximum(radius, _arm(angles - psi, geometry.carrier_radius, width))
+    for psi in gearset.planet_angles:
+        radius = np.maximum(radius, _arm(angles - psi, _carrier_radius(gearset), width))
     outline = np.column_stack((radius, angles))
-    back = -0.5 * geometry.face_width
-    return extrude(0.5 * hub, outline, back - 0.22 * geometry.face_width, back - 0.04 * geometry.face_width)
+    back = -0.54 * gearset.face_width
+    return extrude(0.5 * hub, outline, back - 0.18 * gearset.face_width, back)
+
+
+def _gear(gearset: Gearset, teeth: int, internal: bool = False) -> SpurGear:
+    return SpurGear(teeth, gearset.module, gearset.pressure_angle, gearset.addendum, internal)
+
+
+def _carrier_radius(gearset: Gearset) -> float:
+    return 0.5 * gearset.module * (gearset.teeth.sun + gearset.teeth.planet)
 
 
 def _arm(angle: NDArray[np.float64], length: float, width: float) -> NDArray[np.float64]:
@@ -97,14 +104,14 @@ def _arm(angle: NDArray[np.float64], length: float, width: float) -> NDArray[np.
     return np.where(along > 0.0, reach, 0.0)
 
 
-def _wheel(geometry: GearsetGeometry, teeth: int, bore: float) -> TriangleMesh:
+def _wheel(gearset: Gearset, teeth: int, bore: float) -> TriangleMesh:
     """Teeth on a rim, a thinner web inside it, and a hub around the bore."""
-    half = 0.5 * geometry.face_width
-    outline = gear_outline(teeth, geometry.module, geometry.pressure_angle)
-    root = root_radius(teeth, geometry.module)
-    rim = max(root - 1.8 * geometry.module, 0.7 * root)
+    half = 0.5 * gearset.face_width
+    gear = _gear(gearset, teeth)
+    root = gear.root_radius
+    rim = max(root - 1.8 * gear.module, 0.7 * root)
     hub = min(1.35 * bore * root, 0.9 * rim)
-    body = extrude(rim, outline, -half, half) + extrude(bore * root, circle(hub), -half, half)
+    body = extrude(rim, gear.outline(), -half, half) + extrude(bore * root, circle(hub), -half, half)
     return body + extrude(hub, circle(rim), -0.82 * half, 0.82 * half)
 
 
@@ -119,7 +126,8 @@ def _solid(
     colours = np.tile(np.array(colour, dtype=np.uint8), (len(solid.vertices), 1))
     if teeth:
         x, y = solid.vertices[:, 0], solid.vertices[:, 1]
-        colours[_toothed(solid) & (np.abs(np.arctan2(y, x)) < 0.5 * math.pi / teeth)] = MARK
+        faces_of_tooth = np.abs(np.arctan2(y, x)) < 0.75 * math.pi / teeth
+        colours[faces_of_tooth] = MARK
     mesh = rr.Mesh3D(
         vertex_positions=MILLIMETRES * solid.vertices,
         vertex_normals=solid.normals,

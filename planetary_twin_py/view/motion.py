@@ -12,7 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from planetary_twin_py.recording.reader import Recording, Series
+from ..recording.reader import Recording, Series
 
 _TURN = 2.0 * np.pi
 STEPS_PER_PITCH = 6  # the eye then sees a tooth move on rather than the wheel run backwards

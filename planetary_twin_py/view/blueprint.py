@@ -1,0 +1,116 @@
+"""Where everything stands on the screen: gears and changes on the left, plots in tabs."""
+
+from __future__ import annotations
+
+import rerun.blueprint as rrb
+
+from ..scene.sections import Gearset
+from .gears import MILLIMETRES
+from .quantities import MESH, OPERATING_POINT, TRAIN, WAVEFORM
+from .timeline import SIMULATED_TIME
+
+# At full speed teeth pass too fast for the eye: start slowed down, the viewer's slider is beside.
+PLAYBACK_SPEED = 0.02
+_ZOOM = 5_000_000  # [ns] of the waveform on either side of the time cursor
+
+
+def blueprint(gearset: Gearset | None) -> rrb.Blueprint:
+    """The layout of a recording; without a gearset there are no gears to show."""
+    changes = rrb.TextLogView(origin="changes", name="Changes of the operating point")
+    left = changes if gearset is None else rrb.Vertical(_gears(gearset), changes, row_shares=[4, 1])
+    return rrb.Blueprint(
+        rrb.Horizontal(left, _tabs(), column_shares=[5, 6]),
+        rrb.TimePanel(
+            state="collapsed", timeline=SIMULATED_TIME, playback_speed=PLAYBACK_SPEED,
+            play_state="paused",
+        ),
+        rrb.BlueprintPanel(state="collapsed"),
+        rrb.SelectionPanel(state="collapsed"),
+        auto_views=False,
+        auto_layout=False,
+    )
+
+
+def _gears(gearset: Gearset) -> rrb.Spatial3DView:
+    teeth, held = gearset.teeth, gearset.held
+    reach = MILLIMETRES * gearset.module * (0.5 * teeth.ring + 4.0)
+    return rrb.Spatial3DView(
+        origin="gears",
+        name=f"Gears: sun {teeth.sun}, planets {teeth.planet}, ring {teeth.ring} teeth; {held} held",
+        background=rrb.Background(color=(24, 27, 33)),
+        line_grid=rrb.LineGrid3D(visible=False),
+        eye_controls=rrb.EyeControls3D(
+            position=(0.55 * reach, -1.25 * reach, 2.2 * reach),
+            look_target=(0.0, 0.0, 0.0),
+            eye_up=(0.0, 1.0, 0.0),
+        ),
+    )
+
+
+def _tabs() -> rrb.Tabs:
+    return rrb.Tabs(
+        _page(
+            "Overview",
+            [_range("dte"), _mesh("mesh_force_mean"), _mesh("film_thickness"),
+             _mesh("boundary_friction"), _mesh("viscous_friction")],
+            [_train("power_loss"), _train("efficiency"), _train("speed"),
+             _set_point("backlash"), _set_point("lambda_ratio")],
+        ),
+        _page(
+            "Transmission error",
+            [_zoom("dte"), _range("dte"), _mesh("dte_mean"), _mesh("dte_peak"), _mesh("dte_rms")],
+        ),
+        _page(
+            "Mesh force",
+            [_zoom("mesh_force"), _range("mesh_force"), _mesh("mesh_force_mean"),
+             _mesh("contact_fraction")],
+        ),
+        _page(
+            "Lubrication",
+            [_mesh("film_thickness"), _mesh("lambda_ratio"), _mesh("boundary_friction"),
+             _mesh("viscous_friction"), _mesh("power_loss")],
+        ),
+        _page("Power and speed", [_train(name) for name in TRAIN]),
+        _page("Operating point", [_set_point(name) for name in OPERATING_POINT]),
+        active_tab=0,
+    )
+
+
+def _page(name: str, *columns: list[rrb.TimeSeriesView]) -> rrb.Horizontal:
+    return rrb.Horizontal(*(rrb.Vertical(*views) for views in columns), name=name)
+
+
+def _mesh(name: str) -> rrb.TimeSeriesView:
+    return _plot(f"mesh/{name}", MESH[name].heading)
+
+
+def _train(name: str) -> rrb.TimeSeriesView:
+    return _plot(f"train/{name}", TRAIN[name][0].heading)
+
+
+def _set_point(name: str) -> rrb.TimeSeriesView:
+    return _plot(f"operating_point/{name}", OPERATING_POINT[name].heading)
+
+
+def _range(name: str) -> rrb.TimeSeriesView:
+    quantity = WAVEFORM[name]
+    return _plot(f"range/{name}", f"{quantity.title}, smallest and largest sample [{quantity.unit}]")
+
+
+def _zoom(name: str) -> rrb.TimeSeriesView:
+    quantity = WAVEFORM[name]
+    window = rrb.VisibleTimeRange(
+        SIMULATED_TIME,
+        start=rrb.TimeRangeBoundary.cursor_relative(nanos=-_ZOOM),
+        end=rrb.TimeRangeBoundary.cursor_relative(nanos=_ZOOM),
+    )
+    return rrb.TimeSeriesView(
+        origin=f"waveform/{name}",
+        name=f"{quantity.title}, every sample around the time cursor [{quantity.unit}]",
+        time_ranges=window,
+        axis_x=rrb.TimeAxis(link="Independent", view_range=window.range),
+    )
+
+
+def _plot(origin: str, name: str) -> rrb.TimeSeriesView:
+    return rrb.TimeSeriesView(origin=origin, name=name)
