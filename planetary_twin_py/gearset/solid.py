@@ -29,8 +29,9 @@ def extrude(
 ) -> TriangleMesh:
     """Solid between two closed outlines about the z axis, from z = `low` to z = `high` [m].
 
-    One of the two is an outline of polar points (radius [m], angle [rad]) that runs
-    counter-clockwise, shape (n, 2); the other may be a plain radius [m], 0 for none.
+    Either is an outline of polar points (radius [m], angle [rad]) that runs counter-clockwise,
+    shape (n, 2); both then have the same angles. One of them may be a plain radius [m], 0 for none.
+    Every face has four vertices of its own.
     """
     angles = next(edge[:, 1] for edge in (inner, outer) if isinstance(edge, np.ndarray))
     edges = [

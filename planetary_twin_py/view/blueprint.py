@@ -14,9 +14,16 @@ PLAYBACK_SPEED = 0.02
 _ZOOM = 5_000_000  # [ns] of the waveform on either side of the time cursor
 
 
-def blueprint(gearset: Gearset | None) -> rrb.Blueprint:
-    """The layout of a recording; without a gearset there are no gears to show."""
-    changes = rrb.TextLogView(origin="changes", name="Changes of the operating point")
+def blueprint(gearset: Gearset | None, picture: bool = False) -> rrb.Blueprint:
+    """The layout of a recording; without a gearset there are no gears to show.
+
+    `picture`: for a still picture, without the viewer's menu.
+    """
+    changes = rrb.TextLogView(
+        origin="changes",
+        name="Changes of the operating point",
+        columns=rrb.TextLogColumns(text_log_columns=["Body"]),
+    )
     left = changes if gearset is None else rrb.Vertical(_gears(gearset), changes, row_shares=[4, 1])
     return rrb.Blueprint(
         rrb.Horizontal(left, _tabs(), column_shares=[5, 6]),
@@ -24,6 +31,7 @@ def blueprint(gearset: Gearset | None) -> rrb.Blueprint:
             state="collapsed", timeline=SIMULATED_TIME, playback_speed=PLAYBACK_SPEED,
             play_state="paused",
         ),
+        rrb.TopPanel(state="hidden" if picture else "expanded"),
         rrb.BlueprintPanel(state="collapsed"),
         rrb.SelectionPanel(state="collapsed"),
         auto_views=False,
@@ -40,7 +48,7 @@ def _gears(gearset: Gearset) -> rrb.Spatial3DView:
         background=rrb.Background(color=(24, 27, 33)),
         line_grid=rrb.LineGrid3D(visible=False),
         eye_controls=rrb.EyeControls3D(
-            position=(0.55 * reach, -1.25 * reach, 2.2 * reach),
+            position=(0.5 * reach, -1.1 * reach, 2.0 * reach),
             look_target=(0.0, 0.0, 0.0),
             eye_up=(0.0, 1.0, 0.0),
         ),
@@ -51,10 +59,10 @@ def _tabs() -> rrb.Tabs:
     return rrb.Tabs(
         _page(
             "Overview",
-            [_range("dte"), _mesh("mesh_force_mean"), _mesh("film_thickness"),
-             _mesh("boundary_friction"), _mesh("viscous_friction")],
-            [_train("power_loss"), _train("efficiency"), _train("speed"),
-             _set_point("backlash"), _set_point("lambda_ratio")],
+            [_range("dte", " (blue: sun-planet, orange: planet-ring)"),
+             *(_mesh(name, legend=False)
+               for name in ("mesh_force_mean", "boundary_friction", "viscous_friction"))],
+            [_train("power_loss"), _train("efficiency"), _train("speed"), _set_point("backlash")],
         ),
         _page(
             "Transmission error",
@@ -80,21 +88,29 @@ def _page(name: str, *columns: list[rrb.TimeSeriesView]) -> rrb.Horizontal:
     return rrb.Horizontal(*(rrb.Vertical(*views) for views in columns), name=name)
 
 
-def _mesh(name: str) -> rrb.TimeSeriesView:
-    return _plot(f"mesh/{name}", MESH[name].heading)
+def _mesh(name: str, legend: bool = True) -> rrb.TimeSeriesView:
+    return _plot(f"mesh/{name}", MESH[name].heading, legend)
 
 
 def _train(name: str) -> rrb.TimeSeriesView:
-    return _plot(f"train/{name}", TRAIN[name][0].heading)
+    quantity, fields = TRAIN[name]
+    return _plot(f"train/{name}", quantity.heading, legend=len(fields) > 1)
 
 
 def _set_point(name: str) -> rrb.TimeSeriesView:
-    return _plot(f"operating_point/{name}", OPERATING_POINT[name].heading)
+    return _plot(f"operating_point/{name}", OPERATING_POINT[name].heading, legend=False)
 
 
-def _range(name: str) -> rrb.TimeSeriesView:
+def _range(name: str, colours: str = "") -> rrb.TimeSeriesView:
     quantity = WAVEFORM[name]
-    return _plot(f"range/{name}", f"{quantity.title}, smallest and largest sample [{quantity.unit}]")
+    title = f"{quantity.title}, smallest and largest [{quantity.unit}]{colours}"
+    return _plot(f"range/{name}", title, legend=False)
+
+
+def _plot(origin: str, title: str, legend: bool) -> rrb.TimeSeriesView:
+    """A plot of everything at `origin`; the legend of a single series would repeat the title."""
+    corner = rrb.PlotLegend(rrb.Corner2D.RightTop, visible=legend)
+    return rrb.TimeSeriesView(origin=origin, name=title, plot_legend=corner)
 
 
 def _zoom(name: str) -> rrb.TimeSeriesView:
@@ -107,10 +123,7 @@ def _zoom(name: str) -> rrb.TimeSeriesView:
     return rrb.TimeSeriesView(
         origin=f"waveform/{name}",
         name=f"{quantity.title}, every sample around the time cursor [{quantity.unit}]",
+        plot_legend=rrb.PlotLegend(rrb.Corner2D.RightTop),
         time_ranges=window,
         axis_x=rrb.TimeAxis(link="Independent", view_range=window.range),
     )
-
-
-def _plot(origin: str, name: str) -> rrb.TimeSeriesView:
-    return rrb.TimeSeriesView(origin=origin, name=name)

@@ -34,10 +34,10 @@ MARK = (250, 250, 250)  # of tooth 0, so that slow turning shows
 def log_gears(recording: rr.RecordingStream, gearset: Gearset, motion: Motion) -> None:
     """Log the gearset's solids once and their rotations over time."""
     stand = mount(gearset.tooth_numbers, gearset.planet_angles)
-    carrier = motion.angle["carrier"]
-    _solid(recording, "gears/sun", sun(gearset), SUN, gearset.teeth.sun)
+    teeth, carrier = gearset.teeth, motion.angle["carrier"]
+    _solid(recording, "gears/sun", sun(gearset), SUN, _gear(gearset, teeth.sun))
     _turn(recording, "gears/sun", motion, stand.sun + motion.angle["sun"])
-    _solid(recording, "gears/ring", ring(gearset), RING, gearset.teeth.ring)
+    _solid(recording, "gears/ring", ring(gearset), RING, _gear(gearset, teeth.ring, True))
     _turn(recording, "gears/ring", motion, stand.ring + motion.angle["ring"])
     _solid(recording, "gears/carrier", spider(gearset), CARRIER)
     _turn(recording, "gears/carrier", motion, carrier)
@@ -47,7 +47,7 @@ def log_gears(recording: rr.RecordingStream, gearset: Gearset, motion: Motion) -
         centre = rr.Transform3D(translation=[radius * math.cos(psi), radius * math.sin(psi), 0.0])
         recording.log(at, centre, static=True)
         _solid(recording, at, pin(gearset), PIN)
-        _solid(recording, f"{at}/{name}", planet(gearset), PLANET, gearset.teeth.planet)
+        _solid(recording, f"{at}/{name}", planet(gearset), PLANET, _gear(gearset, teeth.planet))
         _turn(recording, f"{at}/{name}", motion, stand.planets[i] + motion.angle[name] - carrier)
 
 
@@ -64,8 +64,7 @@ def planet(gearset: Gearset) -> TriangleMesh:
 def ring(gearset: Gearset) -> TriangleMesh:
     """The ring: an annulus with internal teeth, its rim two and a half modules thick."""
     gear = _gear(gearset, gearset.teeth.ring, internal=True)
-    rim = gear.root_radius + 2.5 * gear.module
-    return extrude(gear.outline(), rim, -0.5 * gearset.face_width, 0.5 * gearset.face_width)
+    return _toothed_rim(gear, gear.root_radius + 2.5 * gear.module, 0.5 * gearset.face_width)
 
 
 def pin(gearset: Gearset) -> TriangleMesh:
@@ -111,8 +110,16 @@ def _wheel(gearset: Gearset, teeth: int, bore: float) -> TriangleMesh:
     root = gear.root_radius
     rim = max(root - 1.8 * gear.module, 0.7 * root)
     hub = min(1.35 * bore * root, 0.9 * rim)
-    body = extrude(rim, gear.outline(), -half, half) + extrude(bore * root, circle(hub), -half, half)
+    body = _toothed_rim(gear, rim, half) + extrude(bore * root, circle(hub), -half, half)
     return body + extrude(hub, circle(rim), -0.82 * half, 0.82 * half)
+
+
+def _toothed_rim(gear: SpurGear, edge: float, half: float) -> TriangleMesh:
+    """The teeth, and apart from them the plain rim between the root circle and radius `edge`."""
+    outline = gear.outline()
+    root = np.column_stack((np.full(len(outline), gear.root_radius), outline[:, 1]))
+    teeth, rim = ((outline, root), (root, edge)) if gear.internal else ((root, outline), (edge, root))
+    return extrude(*teeth, -half, half) + extrude(*rim, -half, half)
 
 
 def _solid(
@@ -120,14 +127,12 @@ def _solid(
     path: str,
     solid: TriangleMesh,
     colour: tuple[int, int, int],
-    teeth: int = 0,
+    gear: SpurGear | None = None,
 ) -> None:
-    """Log a mesh once; with `teeth`, tooth 0 (around angle zero) is marked."""
+    """Log a mesh once; of a gear, tooth 0 (around angle zero) is marked."""
     colours = np.tile(np.array(colour, dtype=np.uint8), (len(solid.vertices), 1))
-    if teeth:
-        x, y = solid.vertices[:, 0], solid.vertices[:, 1]
-        faces_of_tooth = np.abs(np.arctan2(y, x)) < 0.75 * math.pi / teeth
-        colours[faces_of_tooth] = MARK
+    if gear is not None:
+        colours[_of_tooth_zero(solid, gear)] = MARK
     mesh = rr.Mesh3D(
         vertex_positions=MILLIMETRES * solid.vertices,
         vertex_normals=solid.normals,
@@ -135,6 +140,15 @@ def _solid(
         vertex_colors=colours,
     )
     recording.log(path, mesh, static=True)
+
+
+def _of_tooth_zero(solid: TriangleMesh, gear: SpurGear) -> NDArray[np.bool_]:
+    """Which vertices belong to faces (four vertices each) that lie wholly in tooth 0."""
+    x, y, _ = solid.vertices.astype(np.float64).T
+    foot = gear.half_thickness(np.array(gear.root_radius))
+    depth = (np.hypot(x, y) - gear.root_radius) * (-1.0 if gear.internal else 1.0)
+    inside = (np.abs(np.arctan2(y, x)) < 1.001 * foot) & (depth > -1e-3 * gear.module)
+    return np.repeat(inside.reshape(-1, 4).all(axis=1), 4)
 
 
 def _turn(

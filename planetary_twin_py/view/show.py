@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+
 import rerun as rr
 
-from ..recording.reader import Recording
+from ..recording.reader import Recording, RecordingError
 from ..scene import Scene, SceneError, parse_scene
 from .blueprint import blueprint
 from .events import log_events
@@ -26,26 +28,32 @@ def scene_of(recording: Recording) -> tuple[Scene | None, str | None]:
         return None, f"{recording.path}: its scene cannot be read, so no gears are drawn: {error}"
 
 
-def open_stream(recording: Recording) -> rr.RecordingStream:
-    """A new Rerun stream for `recording`, not yet connected to a file or viewer."""
-    return rr.RecordingStream(APPLICATION, recording_id=None, send_properties=True)
-
-
-def log_recording(
-    stream: rr.RecordingStream, recording: Recording, scene: Scene | None
+def save(
+    recording: Recording, scene: Scene | None, rrd: Path, picture: bool = False
 ) -> list[str]:
-    """Log everything `recording` holds and its layout to `stream`; returns remarks, line by line."""
+    """Save `recording` as Rerun file `rrd`; returns remarks on what is left out, line by line.
+
+    `picture`: with the layout of a still picture, without the viewer's menu.
+    """
     gearset = scene.gearset if scene else None
-    if gearset is not None and gearset.planets != recording.planets:
-        raise ValueError(
-            f"scene = {scene.name}: has {gearset.planets} planets, the recording {recording.planets}"
+    if scene is not None and scene.gearset.planets != recording.planets:
+        raise RecordingError(
+            f"scene = {scene.name}: has {scene.gearset.planets} planets, "
+            f"the recording {recording.planets}"
         )
+    stream = rr.RecordingStream(APPLICATION)
+    try:
+        stream.save(rrd)
+    except RuntimeError as error:
+        raise RecordingError(f"{rrd}: cannot be written: {error}") from None
     stream.send_recording_name(recording.path.stem)
-    stream.send_blueprint(blueprint(gearset), make_active=True, make_default=True)
+    # Active, not only default: a layout that the viewer remembers from before would win otherwise.
+    stream.send_blueprint(blueprint(gearset, picture), make_active=True, make_default=True)
     if gearset is not None:
         log_gears(stream, gearset, motion(recording))
     log_plots(stream, recording)
     log_events(stream, recording)
     remark = log_waveform(stream, recording)
     stream.flush()
+    stream.disconnect()
     return [remark] if remark else []
