@@ -64,9 +64,9 @@ def _load(file: Path, namespace: str | None, scene: str | None) -> tuple[Recordi
         remark(line)
     if scene is not None:
         return recording, load_scene(scene)
-    drawn, line = scene_of(recording)
-    if line:
-        remark(line)
+    drawn, reason = scene_of(recording)
+    if reason:
+        remark(reason)
     return recording, drawn
 
 

@@ -84,12 +84,14 @@ class SpurGear:
         tip = half[-1] * np.array([-0.5, 0.0, 0.5])
         gap = _TURN / self.teeth - 2.0 * half[0]
         root = half[0] + gap * np.array([0.25, 0.5, 0.75])
-        return np.concatenate((
-            np.column_stack((radii, -half)),
-            np.column_stack((np.full(3, self.tip_radius), tip)),
-            np.column_stack((radii, half))[::-1],
-            np.column_stack((np.full(3, self.root_radius), root)),
-        ))
+        return np.concatenate(
+            (
+                np.column_stack((radii, -half)),
+                np.column_stack((np.full(3, self.tip_radius), tip)),
+                np.column_stack((radii, half))[::-1],
+                np.column_stack((np.full(3, self.root_radius), root)),
+            )
+        )
 
     def outline(self, points: int = 9) -> NDArray[np.float64]:
         """The whole gear, once around counter-clockwise, as polar points like those of `tooth`."""

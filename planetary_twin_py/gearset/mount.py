@@ -27,7 +27,7 @@ class Mount(NamedTuple):
 
 
 class Mate(NamedTuple):
-    """A gear seen from its mesh: tooth number, angle of its tooth 0, direction of the mesh [rad]."""
+    """A gear seen from its mesh: tooth number, angles [rad] of its tooth 0 and of the mesh."""
 
     teeth: int
     angle: float
@@ -50,8 +50,7 @@ def mount(teeth: Teeth, planet_angles: Sequence[float]) -> Mount:
     first = planet_angles[0]
     sun = first - 0.25 * _TURN / teeth.sun
     planets = tuple(
-        mount_angle(teeth.planet, psi + math.pi, Mate(teeth.sun, sun, psi))
-        for psi in planet_angles
+        mount_angle(teeth.planet, psi + math.pi, Mate(teeth.sun, sun, psi)) for psi in planet_angles
     )
     mate = Mate(teeth.planet, planets[0], first)
     return Mount(sun, planets, mount_angle(teeth.ring, first, mate, internal=True))

@@ -35,16 +35,21 @@ def extrude(
     """
     angles = next(edge[:, 1] for edge in (inner, outer) if isinstance(edge, np.ndarray))
     edges = [
-        edge if isinstance(edge, np.ndarray) else np.column_stack((np.full_like(angles, edge), angles))
+        edge
+        if isinstance(edge, np.ndarray)
+        else np.column_stack((np.full_like(angles, edge), angles))
         for edge in (inner, outer)
     ]
     inside, outside = (
         np.column_stack((r * np.cos(a), r * np.sin(a))) for r, a in (edge.T for edge in edges)
     )
-    top = _face(inside, outside, high, up=True)
-    bottom = _face(inside, outside, low, up=False)
-    solid = top + bottom + _wall(outside, low, high)
-    return solid if np.allclose(inside, 0.0) else solid + _wall(inside[::-1], low, high)
+    thick = np.linalg.norm(outside - inside, axis=1) > 1e-9 * np.abs(outside).max()
+    walled = thick | np.roll(thick, -1)  # where the outlines run together there is no solid
+    mesh = _face(inside, outside, high, up=True) + _face(inside, outside, low, up=False)
+    mesh += _wall(outside, walled, low, high)
+    if np.allclose(inside, 0.0):
+        return mesh
+    return mesh + _wall(inside[::-1], np.roll(walled[::-1], -1), low, high)
 
 
 def circle(radius: float, points: int = 64) -> NDArray[np.float64]:
@@ -57,7 +62,7 @@ def _quads(corners: list[NDArray[np.float64]], normals: NDArray[np.float64]) -> 
     rows = len(normals)
     vertices = np.stack(corners, axis=1).reshape(-1, 3)
     first = 4 * np.arange(rows)[:, None]
-    faces = np.concatenate((first + [0, 1, 2], first + [0, 2, 3]))
+    faces = np.concatenate((first + np.array([0, 1, 2]), first + np.array([0, 2, 3])))
     flat = TriangleMesh(
         vertices.astype(np.float32),
         np.repeat(normals, 4, axis=0).astype(np.float32),
@@ -81,9 +86,12 @@ def _face(
     return _quads([_at(points, z) for points in (corners if up else corners[::-1])], normals)
 
 
-def _wall(points: NDArray[np.float64], low: float, high: float) -> TriangleMesh:
-    """Side of the solid; its outside lies to the right of the direction the points run in."""
-    following = np.roll(points, -1, 0)
+def _wall(
+    points: NDArray[np.float64], kept: NDArray[np.bool_], low: float, high: float
+) -> TriangleMesh:
+    """Side of the solid from each `kept` point to the next; its outside lies to their right."""
+    following = np.roll(points, -1, 0)[kept]
+    points = points[kept]
     along = following - points
     normals = np.column_stack((along[:, 1], -along[:, 0], np.zeros(len(along))))
     normals /= np.maximum(np.linalg.norm(normals, axis=1, keepdims=True), 1e-30)

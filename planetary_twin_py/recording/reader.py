@@ -67,7 +67,7 @@ class Waveform:
 
 @dataclass
 class Recording:
-    """What a recording holds of one gearbox. `remarks` says, line by line, what could not be read."""
+    """What a recording holds of one gearbox; `remarks` says in lines what could not be read."""
 
     path: Path
     namespace: str
@@ -87,7 +87,10 @@ class Recording:
 
     def per_mesh(self, name: str) -> NDArray[np.float64]:
         """A per-mesh quantity of GearboxState, e.g. "dte_mean", shape (messages, meshes)."""
-        pair = [self.state[f"{kind}_{name}"][:, : self.planets] for kind in ("sun_planet", "planet_ring")]
+        pair = [
+            self.state[f"{kind}_{name}"][:, : self.planets]
+            for kind in ("sun_planet", "planet_ring")
+        ]
         return np.concatenate(pair, axis=1)
 
 
@@ -107,7 +110,9 @@ def read_recording(path: str | Path, namespace: str | None = None) -> Recording:
             else:
                 by_topic.setdefault(topic, []).append(message)
     namespace = _namespace(by_topic, namespace, path)
-    topics = {name: by_topic.get(f"{namespace}/{name}", []) for name in (STATE, WAVEFORM, OPERATING_POINT)}
+    topics = {
+        name: by_topic.get(f"{namespace}/{name}", []) for name in (STATE, WAVEFORM, OPERATING_POINT)
+    }
     state = _series(topics[STATE])
     planets = int(state["planets"][0])
     return Recording(
@@ -207,7 +212,9 @@ def _namespace(by_topic: dict[str, list[Any]], wanted: str | None, path: str | P
         raise RecordingError(f"{path}: no {STATE} message in it, so there is nothing to show")
     if wanted is None:
         if len(found) > 1:
-            raise RecordingError(f"{path}: holds several gearboxes, choose --namespace from {', '.join(found)}")
+            raise RecordingError(
+                f"{path}: holds several gearboxes, choose --namespace from {', '.join(found)}"
+            )
         return found[0]
     wanted = "/" + wanted.strip("/") if wanted.strip("/") else ""
     if wanted not in found:
@@ -236,9 +243,7 @@ def _waveform(messages: list[Any], meshes: int) -> Waveform | None:
     offsets = [np.arange(message.samples) * message.sample_period for message in messages]
     start = np.repeat([message.start_time for message in messages], counts)
     columns = {
-        name: np.concatenate([
-            getattr(message, name).reshape(meshes, -1).T for message in messages
-        ])
+        name: np.concatenate([getattr(message, name).reshape(meshes, -1).T for message in messages])
         for name in ("dte", "mesh_force", "friction")
     }
     offset = np.concatenate(offsets)

@@ -28,7 +28,9 @@ def blueprint(gearset: Gearset | None, picture: bool = False) -> rrb.Blueprint:
     return rrb.Blueprint(
         rrb.Horizontal(left, _tabs(), column_shares=[5, 6]),
         rrb.TimePanel(
-            state="collapsed", timeline=SIMULATED_TIME, playback_speed=PLAYBACK_SPEED,
+            state="collapsed",
+            timeline=SIMULATED_TIME,
+            playback_speed=PLAYBACK_SPEED,
             play_state="paused",
         ),
         rrb.TopPanel(state="hidden" if picture else "expanded"),
@@ -44,7 +46,7 @@ def _gears(gearset: Gearset) -> rrb.Spatial3DView:
     reach = MILLIMETRES * gearset.module * (0.5 * teeth.ring + 4.0)
     return rrb.Spatial3DView(
         origin="gears",
-        name=f"Gears: sun {teeth.sun}, planets {teeth.planet}, ring {teeth.ring} teeth; {held} held",
+        name=f"Gears: {teeth.sun}, {teeth.planet} and {teeth.ring} teeth, {held} held",
         background=rrb.Background(color=(24, 27, 33)),
         line_grid=rrb.LineGrid3D(visible=False),
         eye_controls=rrb.EyeControls3D(
@@ -59,9 +61,12 @@ def _tabs() -> rrb.Tabs:
     return rrb.Tabs(
         _page(
             "Overview",
-            [_range("dte", " (blue: sun-planet, orange: planet-ring)"),
-             *(_mesh(name, legend=False)
-               for name in ("mesh_force_mean", "boundary_friction", "viscous_friction"))],
+            [
+                _zoom("dte"),
+                _range("dte"),
+                _mesh("boundary_friction", legend=False),
+                _mesh("viscous_friction", legend=False),
+            ],
             [_train("power_loss"), _train("efficiency"), _train("speed"), _set_point("backlash")],
         ),
         _page(
@@ -70,13 +75,22 @@ def _tabs() -> rrb.Tabs:
         ),
         _page(
             "Mesh force",
-            [_zoom("mesh_force"), _range("mesh_force"), _mesh("mesh_force_mean"),
-             _mesh("contact_fraction")],
+            [
+                _zoom("mesh_force"),
+                _range("mesh_force"),
+                _mesh("mesh_force_mean"),
+                _mesh("contact_fraction"),
+            ],
         ),
         _page(
             "Lubrication",
-            [_mesh("film_thickness"), _mesh("lambda_ratio"), _mesh("boundary_friction"),
-             _mesh("viscous_friction"), _mesh("power_loss")],
+            [
+                _mesh("film_thickness"),
+                _mesh("lambda_ratio"),
+                _mesh("boundary_friction"),
+                _mesh("viscous_friction"),
+                _mesh("power_loss"),
+            ],
         ),
         _page("Power and speed", [_train(name) for name in TRAIN]),
         _page("Operating point", [_set_point(name) for name in OPERATING_POINT]),
@@ -101,9 +115,9 @@ def _set_point(name: str) -> rrb.TimeSeriesView:
     return _plot(f"operating_point/{name}", OPERATING_POINT[name].heading, legend=False)
 
 
-def _range(name: str, colours: str = "") -> rrb.TimeSeriesView:
+def _range(name: str) -> rrb.TimeSeriesView:
     quantity = WAVEFORM[name]
-    title = f"{quantity.title}, smallest and largest [{quantity.unit}]{colours}"
+    title = f"{quantity.title}, smallest and largest sample [{quantity.unit}]"
     return _plot(f"range/{name}", title, legend=False)
 
 
@@ -122,7 +136,7 @@ def _zoom(name: str) -> rrb.TimeSeriesView:
     )
     return rrb.TimeSeriesView(
         origin=f"waveform/{name}",
-        name=f"{quantity.title}, every sample around the time cursor [{quantity.unit}]",
+        name=f"{quantity.title} around the time cursor, every sample [{quantity.unit}]",
         plot_legend=rrb.PlotLegend(rrb.Corner2D.RightTop),
         time_ranges=window,
         axis_x=rrb.TimeAxis(link="Independent", view_range=window.range),

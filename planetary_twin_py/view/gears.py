@@ -118,8 +118,9 @@ def _toothed_rim(gear: SpurGear, edge: float, half: float) -> TriangleMesh:
     """The teeth, and apart from them the plain rim between the root circle and radius `edge`."""
     outline = gear.outline()
     root = np.column_stack((np.full(len(outline), gear.root_radius), outline[:, 1]))
-    teeth, rim = ((outline, root), (root, edge)) if gear.internal else ((root, outline), (edge, root))
-    return extrude(*teeth, -half, half) + extrude(*rim, -half, half)
+    if gear.internal:
+        return extrude(outline, root, -half, half) + extrude(root, edge, -half, half)
+    return extrude(root, outline, -half, half) + extrude(edge, root, -half, half)
 
 
 def _solid(

@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 from ..recording.reader import Recording, Series
 
 _TURN = 2.0 * np.pi
+Column = NDArray[np.float64]
 STEPS_PER_PITCH = 6  # the eye then sees a tooth move on rather than the wheel run backwards
 MOST_ROWS = 40_000  # of motion: about 2 MB per member
 
@@ -42,14 +43,14 @@ def motion(recording: Recording) -> Motion:
 def unwrap(
     time: NDArray[np.float64], angle: NDArray[np.float64], speed: NDArray[np.float64]
 ) -> NDArray[np.float64]:
-    """Continuous angle [rad] from `angle` modulo one turn and the mean `speed` [rad/s] before it."""
+    """Continuous angle [rad] from `angle` modulo a turn and mean `speed` [rad/s] before each."""
     expected = speed[1:] * np.diff(time)
     step = np.diff(angle)
     turns = np.rint((expected - step) / _TURN)
     return angle[0] + np.concatenate(([0.0], np.cumsum(step + _TURN * turns)))
 
 
-def _members(state: Series, planets: int) -> dict[str, tuple[NDArray, NDArray]]:
+def _members(state: Series, planets: int) -> dict[str, tuple[Column, Column]]:
     members = {"sun": (state["sun_angle"], state["sun_speed"])}
     for i in range(planets):
         members[f"planet_{i + 1}"] = state["planet_angle"][:, i], state["planet_speed"][:, i]
@@ -66,7 +67,7 @@ def _rows_per_interval(state: Series) -> NDArray[np.int64]:
     return np.maximum(np.ceil(wanted * room), 1).astype(np.int64)
 
 
-def _refine(values: NDArray, rows: NDArray[np.int64]) -> NDArray[np.float64]:
+def _refine(values: Column, rows: NDArray[np.int64]) -> NDArray[np.float64]:
     """`values` with interval k cut into `rows[k]` equal steps."""
     if len(values) < 2:
         return np.asarray(values, dtype=np.float64)

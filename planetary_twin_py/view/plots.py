@@ -45,10 +45,11 @@ def log_series(
 
 
 def mesh_colours(planets: int) -> list[tuple[int, int, int]]:
-    """Shades of blue for the sun's meshes, of orange for the ring's, in the meshes' order."""
-    shades = np.linspace(0.95, 0.55, planets)
-    return [
-        tuple(round(255 * part) for part in colorsys.hsv_to_rgb(hue, 0.72, shade))
+    """Tints of blue for the sun's meshes, of orange for the ring's, in the meshes' order."""
+    shades = np.linspace(0.78, 0.3, planets)
+    tints = [
+        colorsys.hsv_to_rgb(hue, shade, 0.95)
         for hue in (_SUN_PLANET_HUE, _PLANET_RING_HUE)
         for shade in shades
     ]
+    return [(round(255 * red), round(255 * green), round(255 * blue)) for red, green, blue in tints]

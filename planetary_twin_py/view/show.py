@@ -28,9 +28,7 @@ def scene_of(recording: Recording) -> tuple[Scene | None, str | None]:
         return None, f"{recording.path}: its scene cannot be read, so no gears are drawn: {error}"
 
 
-def save(
-    recording: Recording, scene: Scene | None, rrd: Path, picture: bool = False
-) -> list[str]:
+def save(recording: Recording, scene: Scene | None, rrd: Path, picture: bool = False) -> list[str]:
     """Save `recording` as Rerun file `rrd`; returns remarks on what is left out, line by line.
 
     `picture`: with the layout of a still picture, without the viewer's menu.

@@ -36,10 +36,12 @@ def gap_to(mate, angle, xy):
 def placed(outline, angle, centre):
     """Outline in Cartesian coordinates, turned by `angle` and moved to `centre`."""
     radius, direction = outline.T
-    return np.array([
-        centre[0] + radius * np.cos(direction + angle),
-        centre[1] + radius * np.sin(direction + angle),
-    ])
+    return np.array(
+        [
+            centre[0] + radius * np.cos(direction + angle),
+            centre[1] + radius * np.sin(direction + angle),
+        ]
+    )
 
 
 @SETS
@@ -57,8 +59,10 @@ def test_flanks_touch_and_never_overlap_as_the_gears_roll(teeth, planet_angles, 
         at = psi + angle["carrier"]
         centre = radius * math.cos(at), radius * math.sin(at)
         planet = placed(outline, stand.planets[i] + angle["planet"], centre)
-        gaps = [*gap_to(sun, stand.sun + angle["sun"], planet),
-                *gap_to(ring, stand.ring + angle["ring"], planet)]
+        gaps = [
+            *gap_to(sun, stand.sun + angle["sun"], planet),
+            *gap_to(ring, stand.ring + angle["ring"], planet),
+        ]
         assert min(gaps) > -1e-3 * MODULE
         assert max(gaps) < 0.05 * MODULE
 
@@ -101,9 +105,20 @@ def test_teeth_that_cannot_be_drawn_are_refused_in_one_line():
         SpurGear(25, MODULE, math.radians(20), internal=True)
 
 
+def on_circle(radius, outline):
+    """A circle with the angles of `outline`."""
+    return np.column_stack((np.full(len(outline), radius), outline[:, 1]))
+
+
 @pytest.mark.parametrize(
     ("inner", "outer"),
-    [(5e-3, SUN.outline()), (0.0, SUN.outline()), (RING.outline(), 33e-3), (4e-3, circle(9e-3))],
+    [
+        (5e-3, SUN.outline()),
+        (0.0, SUN.outline()),
+        (RING.outline(), 33e-3),
+        (4e-3, circle(9e-3)),
+        (on_circle(SUN.root_radius, SUN.outline()), SUN.outline()),
+    ],
 )
 def test_extruded_mesh_is_closed_and_faces_outwards(inner, outer):
     """The divergence theorem over the triangles gives outline area times height."""

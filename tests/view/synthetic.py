@@ -4,6 +4,7 @@ The message definitions are the repository's own .msg texts. Run as a script it 
 at: `python tests/view/synthetic.py OUT.mcap [SECONDS]`.
 """
 
+import itertools
 import math
 import sys
 from pathlib import Path
@@ -66,18 +67,33 @@ def state(time: float, interval: float, sequence: int) -> dict:
     _, _, lam, rpm, torque, _ = setting(time - 0.5 * interval)
     turned = 0.0  # of the sun [rad], integrated over the tour
     edges = [row[0] for row in TOUR if row[0] < time] + [time]
-    for begin, end in zip(edges, edges[1:]):
+    for begin, end in itertools.pairwise(edges):
         turned += (end - begin) * setting(begin)[3] * math.pi / 30
-    ratio = {"sun": 1.0, "planet": -TEETH["sun"] / TEETH["planet"], "ring": -TEETH["sun"] / TEETH["ring"]}
+    ratio = {
+        "sun": 1.0,
+        "planet": -TEETH["sun"] / TEETH["planet"],
+        "ring": -TEETH["sun"] / TEETH["ring"],
+    }
     speed = rpm * math.pi / 30
     power = torque * speed
     row = {
-        "header": header(time), "sequence": sequence, "simulated_time": time, "interval": interval,
-        "planets": PLANETS, "carrier_angle": 0.0, "carrier_speed": 0.0,
-        "mesh_frequency": TEETH["sun"] * rpm / 60, "input_speed": speed, "input_torque": torque,
-        "output_speed": ratio["ring"] * speed, "output_torque": torque / abs(ratio["ring"]),
-        "input_power": power, "power_loss": 0.0118 * power, "output_power": 0.9882 * power,
-        "stored_power": 0.0, "efficiency": 0.9882,
+        "header": header(time),
+        "sequence": sequence,
+        "simulated_time": time,
+        "interval": interval,
+        "planets": PLANETS,
+        "carrier_angle": 0.0,
+        "carrier_speed": 0.0,
+        "mesh_frequency": TEETH["sun"] * rpm / 60,
+        "input_speed": speed,
+        "input_torque": torque,
+        "output_speed": ratio["ring"] * speed,
+        "output_torque": torque / abs(ratio["ring"]),
+        "input_power": power,
+        "power_loss": 0.0118 * power,
+        "output_power": 0.9882 * power,
+        "stored_power": 0.0,
+        "efficiency": 0.9882,
     }
     for member in ("sun", "ring"):
         row[f"{member}_angle"] = math.fmod(ratio[member] * turned, 2 * math.pi) % (2 * math.pi)
@@ -91,11 +107,17 @@ def mesh_statistics(start: float, lam: float, power: float) -> dict:
     grid = start + SAMPLE_PERIOD * np.arange(1, BLOCK + 1)
     dte, force, friction = waveform(grid)
     values = {
-        "dte_mean": dte.mean(0), "dte_rms": dte.std(0), "dte_peak": np.abs(dte).max(0),
-        "mesh_force_mean": force.mean(0), "mesh_force_peak": np.abs(force).max(0),
-        "contact_fraction": np.ones(2 * PLANETS), "film_thickness": np.full(2 * PLANETS, lam * 4e-7),
-        "lambda_ratio": np.full(2 * PLANETS, lam), "boundary_friction": np.full(2 * PLANETS, 1.3 / lam**3),
-        "viscous_friction": friction.mean(0), "power_loss": np.full(2 * PLANETS, 0.0118 * power / 6),
+        "dte_mean": dte.mean(0),
+        "dte_rms": dte.std(0),
+        "dte_peak": np.abs(dte).max(0),
+        "mesh_force_mean": force.mean(0),
+        "mesh_force_peak": np.abs(force).max(0),
+        "contact_fraction": np.ones(2 * PLANETS),
+        "film_thickness": np.full(2 * PLANETS, lam * 4e-7),
+        "lambda_ratio": np.full(2 * PLANETS, lam),
+        "boundary_friction": np.full(2 * PLANETS, 1.3 / lam**3),
+        "viscous_friction": friction.mean(0),
+        "power_loss": np.full(2 * PLANETS, 0.0118 * power / 6),
     }
     return {
         f"{kind}_{name}": padded(value[k * PLANETS : (k + 1) * PLANETS])
@@ -109,8 +131,12 @@ def padded(values: np.ndarray) -> list[float]:
 
 
 def write_recording(
-    path: Path, duration: float = 1.0, namespace: str = NAMESPACE, finish: bool = True,
-    scene_yaml: str | None = None, chunk_size: int = 64 * 1024,
+    path: Path,
+    duration: float = 1.0,
+    namespace: str = NAMESPACE,
+    finish: bool = True,
+    scene_yaml: str | None = None,
+    chunk_size: int = 64 * 1024,
 ) -> Path:
     """Write `duration` seconds to `path`; with `finish` False as a killed logger leaves it."""
     with path.open("wb") as stream:
@@ -120,30 +146,56 @@ def write_recording(
             for name in ("GearboxState", "MeshWaveform", "OperatingPoint")
         }
         if scene_yaml is not None:
-            writer.add_attachment(0, START_NS, "scene.yaml", "application/yaml", scene_yaml.encode())
+            writer.add_attachment(
+                0, START_NS, "scene.yaml", "application/yaml", scene_yaml.encode()
+            )
 
         def write(topic: str, kind: str, row: dict, time: float) -> None:
             stamp = START_NS + round(time * 1e9)
-            writer.write_message(f"{namespace}/{topic}", schemas[kind], row, stamp, stamp, row["sequence"])
+            writer.write_message(
+                f"{namespace}/{topic}", schemas[kind], row, stamp, stamp, row["sequence"]
+            )
 
         for number, (time, backlash, lam, rpm, torque, ripple) in enumerate(TOUR, start=1):
-            write("operating_point", "OperatingPoint", {
-                "header": header(time), "sequence": number, "simulated_time": time,
-                "changed": "" if number == 1 else ["", "lambda_ratio", "backlash", "lambda_ratio,input_speed"][number - 1],
-                "backlash": backlash, "lambda_ratio": lam, "input_speed": rpm * math.pi / 30,
-                "input_torque": torque, "torque_ripple": ripple,
-            }, time)
+            write(
+                "operating_point",
+                "OperatingPoint",
+                {
+                    "header": header(time),
+                    "sequence": number,
+                    "simulated_time": time,
+                    "changed": ""
+                    if number == 1
+                    else ["", "lambda_ratio", "backlash", "lambda_ratio,input_speed"][number - 1],
+                    "backlash": backlash,
+                    "lambda_ratio": lam,
+                    "input_speed": rpm * math.pi / 30,
+                    "input_torque": torque,
+                    "torque_ripple": ripple,
+                },
+                time,
+            )
         interval = SAMPLE_PERIOD * BLOCK
         for k in range(round(duration / interval)):
             begin, end = k * interval, (k + 1) * interval
             grid = begin + SAMPLE_PERIOD * np.arange(1, BLOCK + 1)
             dte, force, friction = waveform(grid)
-            write("mesh_waveform", "MeshWaveform", {
-                "header": header(grid[0]), "sequence": k + 1, "start_time": grid[0],
-                "sample_period": SAMPLE_PERIOD, "planets": PLANETS, "samples": BLOCK,
-                "dte": dte.T.ravel().tolist(), "mesh_force": force.T.ravel().tolist(),
-                "friction": friction.T.ravel().tolist(),
-            }, end)
+            write(
+                "mesh_waveform",
+                "MeshWaveform",
+                {
+                    "header": header(grid[0]),
+                    "sequence": k + 1,
+                    "start_time": grid[0],
+                    "sample_period": SAMPLE_PERIOD,
+                    "planets": PLANETS,
+                    "samples": BLOCK,
+                    "dte": dte.T.ravel().tolist(),
+                    "mesh_force": force.T.ravel().tolist(),
+                    "friction": friction.T.ravel().tolist(),
+                },
+                end,
+            )
             write("gearbox_state", "GearboxState", state(end, interval, k + 1), end)
         if finish:
             writer.finish()
