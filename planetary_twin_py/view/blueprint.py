@@ -50,7 +50,7 @@ def _gears(gearset: Gearset) -> rrb.Spatial3DView:
         background=rrb.Background(color=(24, 27, 33)),
         line_grid=rrb.LineGrid3D(visible=False),
         eye_controls=rrb.EyeControls3D(
-            position=(0.5 * reach, -1.1 * reach, 2.0 * reach),
+            position=(0.3 * reach, -0.75 * reach, 2.1 * reach),
             look_target=(0.0, 0.0, 0.0),
             eye_up=(0.0, 1.0, 0.0),
         ),

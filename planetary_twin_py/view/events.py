@@ -17,7 +17,7 @@ def log_events(stream: rr.RecordingStream, recording: Recording) -> None:
     point = recording.operating_point
     if not len(point):
         return
-    text = [_sentence(recording, row) for row in range(len(point))]
+    text = [sentence(recording, row) for row in range(len(point))]
     index = timeline.columns(point.time, point.stamp)
     level = ["INFO"] * len(text)
     rr.send_columns("changes", index, rr.TextLog.columns(text=text, level=level), recording=stream)
@@ -37,7 +37,7 @@ def log_events(stream: rr.RecordingStream, recording: Recording) -> None:
         rr.send_columns(f"operating_point/{name}", index, columns, recording=stream)
 
 
-def _sentence(recording: Recording, row: int) -> str:
+def sentence(recording: Recording, row: int) -> str:
     """What changed, with old and new value; the first message tells all values."""
     point = recording.operating_point
     changed = [name for name in str(point["changed"][row]).split(",") if name in OPERATING_POINT]

@@ -1,7 +1,7 @@
 """Writes a synthetic recording: exact kinematics from tooth counts, plausible signals.
 
 The message definitions are the repository's own .msg texts. Run as a script it writes one to look
-at: `python tests/view/synthetic.py OUT.mcap [SECONDS]`.
+at: `python tests/synthetic_recording.py OUT.mcap [SECONDS]`.
 """
 
 import itertools
@@ -12,7 +12,7 @@ from pathlib import Path
 import numpy as np
 from mcap_ros2.writer import Writer
 
-MSG_DIR = Path(__file__).parents[2] / "msgs_spec" / "msg"
+MSG_DIR = Path(__file__).parents[1] / "msgs_spec" / "msg"
 NAMESPACE = "/planetary_twin"
 START_NS = 1_790_000_000_000_000_000
 TEETH = {"sun": 30, "planet": 20, "ring": 70}
