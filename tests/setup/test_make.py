@@ -1,13 +1,17 @@
 """What `make setup` does again, what it leaves alone, and how it refuses."""
 
+import itertools
 import os
 import shutil
 import subprocess
 import sys
 import time
+import tomllib
 from pathlib import Path
 
 import pytest
+from packaging.requirements import Requirement
+from packaging.utils import canonicalize_name
 
 ROOT = Path(__file__).parents[2]
 
@@ -98,3 +102,18 @@ def test_lock_names_no_registry_and_hashes_every_package():
     packages = [line for line in lines if not line.startswith(" ")]
     assert len(packages) > 100
     assert all(line.endswith("\\") for line in packages)
+
+
+def test_lock_covers_every_requirement():
+    project = tomllib.loads((ROOT / "pyproject.toml").read_text())["project"]
+    groups = [project["dependencies"], *project["optional-dependencies"].values()]
+    lines = (ROOT / "requirements.lock").read_text().splitlines()
+    locked = {}
+    for line in lines:
+        if not line.startswith(" "):
+            name, version = line.split(" ")[0].split("==")
+            locked.setdefault(canonicalize_name(name), []).append(version)
+    for requirement in map(Requirement, itertools.chain(*groups)):
+        versions = locked.get(canonicalize_name(requirement.name), [])
+        assert versions, f"{requirement} is not locked: run make lock"
+        assert all(requirement.specifier.contains(version) for version in versions), requirement
