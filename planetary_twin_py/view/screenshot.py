@@ -19,7 +19,8 @@ from .timeline import SIMULATED_TIME
 from .viewer import free_port, start_viewer, stop_viewer
 
 _START_LIMIT = 30.0  # [s] a cold start with a software renderer takes 2 to 5 s
-_SETTLE = 1.5  # [s] until curves and solids that the new time cursor needs have been loaded
+_NOTICES = 4.0  # [s] the viewer's notices about its start stay in the picture for 2 to 3 s
+_SETTLE_LIMIT = 30.0  # [s] curves and solids are loaded as they are needed, seen in 1 to 3 s
 
 
 class ScreenshotError(RuntimeError):
@@ -38,8 +39,8 @@ def save_screenshot(
         client.open(str(rrd.resolve()))
         if at is not None:
             client.set_time(SIMULATED_TIME, duration=at, play_state="paused")
-        time.sleep(_SETTLE)
-        png.write_bytes(client.take_screenshot())
+        time.sleep(_NOTICES)
+        png.write_bytes(_settled_picture(client))
 
 
 @contextmanager
@@ -68,6 +69,18 @@ def _connect(viewer: subprocess.Popen[bytes], port: int, output: IO[bytes]) -> V
         except (RuntimeError, OSError, ConnectionError):
             time.sleep(0.2)
     raise ScreenshotError(f"the viewer did not answer within {_START_LIMIT:.0f} s")
+
+
+def _settled_picture(client: ViewerClient) -> bytes:
+    """The picture once it no longer changes, which is when everything in it has been loaded."""
+    deadline = time.monotonic() + _SETTLE_LIMIT
+    before, picture = b"", client.take_screenshot()
+    while picture != before:
+        if time.monotonic() > deadline:
+            raise ScreenshotError(f"the picture still changes after {_SETTLE_LIMIT:.0f} s")
+        time.sleep(0.3)
+        before, picture = picture, client.take_screenshot()
+    return picture
 
 
 def _reason(output: IO[bytes]) -> str:

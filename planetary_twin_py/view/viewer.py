@@ -39,7 +39,8 @@ def start_viewer(
     """Start the viewer, listening on `port` of the loopback interface."""
     binary = Path(rerun_cli.__file__).parent / "rerun"
     command = [str(binary), "--bind", "127.0.0.1", "--port", str(port), *arguments]
-    environment = {**os.environ, "RERUN_APP_ONLY": "true"}  # a viewer, not a first-time greeting
+    # A viewer only, without a first-time greeting, and without a line for each thing it does.
+    environment = {"RUST_LOG": "error", **os.environ, "RERUN_APP_ONLY": "true"}
     return subprocess.Popen(command, stdout=output, stderr=output, env=environment)
 
 
