@@ -1,0 +1,41 @@
+"""The command line `planetary-twin`: one file per command.
+
+Each public module here holds one command, a function of the module's name. Other packages add
+theirs through the entry-point group `planetary_twin.commands`, so that what needs ROS comes with
+the ROS package. Command modules import what is heavy only when they run, so that `--help` is quick.
+"""
+
+from __future__ import annotations
+
+import importlib
+import pkgutil
+from importlib.metadata import entry_points
+
+import typer
+
+GROUP = "planetary_twin.commands"
+
+
+def build_app() -> typer.Typer:
+    """The Typer application with every command that is installed."""
+    app = typer.Typer(
+        name="planetary-twin",
+        help="Digital twin of a planetary gearbox: run it, record it, look at it.",
+        no_args_is_help=True,
+        add_completion=False,
+        rich_markup_mode="rich",
+        pretty_exceptions_show_locals=False,
+    )
+    app.callback()(lambda: None)  # with a single command Typer would drop the command's name
+    for module in pkgutil.iter_modules(__path__):
+        if not module.name.startswith("_"):
+            command = getattr(importlib.import_module(f"{__name__}.{module.name}"), module.name)
+            app.command(name=module.name)(command)
+    for entry in sorted(entry_points(group=GROUP), key=lambda entry: entry.name):
+        app.command(name=entry.name)(entry.load())
+    return app
+
+
+def main() -> None:
+    """Entry point of the console script."""
+    build_app()()

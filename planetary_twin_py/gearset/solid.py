@@ -1,0 +1,99 @@
+"""Flat shapes given in polar form, extruded into triangle meshes."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+
+@dataclass(frozen=True)
+class TriangleMesh:
+    """Triangles with one normal per vertex: `vertices` and `normals` (n, 3), `faces` (m, 3)."""
+
+    vertices: NDArray[np.float32]
+    normals: NDArray[np.float32]
+    faces: NDArray[np.uint32]
+
+    def __add__(self, other: TriangleMesh) -> TriangleMesh:
+        return TriangleMesh(
+            np.concatenate((self.vertices, other.vertices)),
+            np.concatenate((self.normals, other.normals)),
+            np.concatenate((self.faces, other.faces + np.uint32(len(self.vertices)))),
+        )
+
+
+def extrude(
+    inner: NDArray[np.float64] | float, outer: NDArray[np.float64] | float, low: float, high: float
+) -> TriangleMesh:
+    """Solid between two closed outlines about the z axis, from z = `low` to z = `high` [m].
+
+    Either is an outline of polar points (radius [m], angle [rad]) that runs counter-clockwise,
+    shape (n, 2); both then have the same angles. One of them may be a plain radius [m], 0 for none.
+    Every face has four vertices of its own.
+    """
+    angles = next(edge[:, 1] for edge in (inner, outer) if isinstance(edge, np.ndarray))
+    edges = [
+        edge
+        if isinstance(edge, np.ndarray)
+        else np.column_stack((np.full_like(angles, edge), angles))
+        for edge in (inner, outer)
+    ]
+    inside, outside = (
+        np.column_stack((r * np.cos(a), r * np.sin(a))) for r, a in (edge.T for edge in edges)
+    )
+    thick = np.linalg.norm(outside - inside, axis=1) > 1e-9 * np.abs(outside).max()
+    walled = thick | np.roll(thick, -1)  # where the outlines run together there is no solid
+    mesh = _face(inside, outside, high, up=True) + _face(inside, outside, low, up=False)
+    mesh += _wall(outside, walled, low, high)
+    if np.allclose(inside, 0.0):
+        return mesh
+    return mesh + _wall(inside[::-1], np.roll(walled[::-1], -1), low, high)
+
+
+def circle(radius: float, points: int = 64) -> NDArray[np.float64]:
+    """A circle as polar points, shape (points, 2)."""
+    return np.column_stack((np.full(points, radius), np.linspace(0, 2 * np.pi, points, False)))
+
+
+def _quads(corners: list[NDArray[np.float64]], normals: NDArray[np.float64]) -> TriangleMesh:
+    """One flat quadrilateral per row: corners a, b, c, d counter-clockwise seen from outside."""
+    rows = len(normals)
+    vertices = np.stack(corners, axis=1).reshape(-1, 3)
+    first = 4 * np.arange(rows)[:, None]
+    faces = np.concatenate((first + np.array([0, 1, 2]), first + np.array([0, 2, 3])))
+    flat = TriangleMesh(
+        vertices.astype(np.float32),
+        np.repeat(normals, 4, axis=0).astype(np.float32),
+        faces.astype(np.uint32),
+    )
+    a, b, c = (vertices[faces[:, k]] for k in range(3))
+    area = np.linalg.norm(np.cross(b - a, c - a), axis=1)
+    return TriangleMesh(flat.vertices, flat.normals, flat.faces[area > 1e-9 * area.max()])
+
+
+def _at(points: NDArray[np.float64], z: float) -> NDArray[np.float64]:
+    return np.column_stack((points, np.full(len(points), z)))
+
+
+def _face(
+    inside: NDArray[np.float64], outside: NDArray[np.float64], z: float, up: bool
+) -> TriangleMesh:
+    """The annulus between the outlines at height `z`, seen from above or from below."""
+    corners = [inside, outside, np.roll(outside, -1, 0), np.roll(inside, -1, 0)]
+    normals = np.tile([0.0, 0.0, 1.0 if up else -1.0], (len(inside), 1))
+    return _quads([_at(points, z) for points in (corners if up else corners[::-1])], normals)
+
+
+def _wall(
+    points: NDArray[np.float64], kept: NDArray[np.bool_], low: float, high: float
+) -> TriangleMesh:
+    """Side of the solid from each `kept` point to the next; its outside lies to their right."""
+    following = np.roll(points, -1, 0)[kept]
+    points = points[kept]
+    along = following - points
+    normals = np.column_stack((along[:, 1], -along[:, 0], np.zeros(len(along))))
+    normals /= np.maximum(np.linalg.norm(normals, axis=1, keepdims=True), 1e-30)
+    corners = [_at(points, low), _at(following, low), _at(following, high), _at(points, high)]
+    return _quads(corners, normals)

@@ -1,0 +1,143 @@
+"""Where everything stands on the screen: gears and changes on the left, plots in tabs."""
+
+from __future__ import annotations
+
+import rerun.blueprint as rrb
+
+from ..scene.sections import Gearset
+from .gears import MILLIMETRES
+from .quantities import MESH, OPERATING_POINT, TRAIN, WAVEFORM
+from .timeline import SIMULATED_TIME
+
+# At full speed teeth pass too fast for the eye: start slowed down, the viewer's slider is beside.
+PLAYBACK_SPEED = 0.02
+_ZOOM = 5_000_000  # [ns] of the waveform on either side of the time cursor
+
+
+def blueprint(gearset: Gearset | None, picture: bool = False) -> rrb.Blueprint:
+    """The layout of a recording; without a gearset there are no gears to show.
+
+    `picture`: for a still picture, without the viewer's menu.
+    """
+    changes = rrb.TextLogView(
+        origin="changes",
+        name="Changes of the operating point",
+        columns=rrb.TextLogColumns(text_log_columns=["Body"]),
+    )
+    left = changes if gearset is None else rrb.Vertical(_gears(gearset), changes, row_shares=[4, 1])
+    return rrb.Blueprint(
+        rrb.Horizontal(left, _tabs(), column_shares=[5, 6]),
+        rrb.TimePanel(
+            state="collapsed",
+            timeline=SIMULATED_TIME,
+            playback_speed=PLAYBACK_SPEED,
+            play_state="paused",
+        ),
+        rrb.TopPanel(state="hidden" if picture else "expanded"),
+        rrb.BlueprintPanel(state="collapsed"),
+        rrb.SelectionPanel(state="collapsed"),
+        auto_views=False,
+        auto_layout=False,
+    )
+
+
+def _gears(gearset: Gearset) -> rrb.Spatial3DView:
+    teeth, held = gearset.teeth, gearset.held
+    reach = MILLIMETRES * gearset.module * (0.5 * teeth.ring + 4.0)
+    return rrb.Spatial3DView(
+        origin="gears",
+        name=f"Gears: {teeth.sun}, {teeth.planet} and {teeth.ring} teeth, {held} held",
+        background=rrb.Background(color=(24, 27, 33)),
+        line_grid=rrb.LineGrid3D(visible=False),
+        eye_controls=rrb.EyeControls3D(
+            position=(0.3 * reach, -0.75 * reach, 2.1 * reach),
+            look_target=(0.0, 0.0, 0.0),
+            eye_up=(0.0, 1.0, 0.0),
+        ),
+    )
+
+
+def _tabs() -> rrb.Tabs:
+    return rrb.Tabs(
+        _page(
+            "Overview",
+            [
+                _zoom("dte"),
+                _range("dte"),
+                _mesh("boundary_friction", legend=False),
+                _mesh("viscous_friction", legend=False),
+            ],
+            [_train("power_loss"), _train("efficiency"), _train("speed"), _set_point("backlash")],
+        ),
+        _page(
+            "Transmission error",
+            [_zoom("dte"), _range("dte"), _mesh("dte_mean"), _mesh("dte_peak"), _mesh("dte_rms")],
+        ),
+        _page(
+            "Mesh force",
+            [
+                _zoom("mesh_force"),
+                _range("mesh_force"),
+                _mesh("mesh_force_mean"),
+                _mesh("contact_fraction"),
+            ],
+        ),
+        _page(
+            "Lubrication",
+            [
+                _mesh("film_thickness"),
+                _mesh("lambda_ratio"),
+                _mesh("boundary_friction"),
+                _mesh("viscous_friction"),
+                _mesh("power_loss"),
+            ],
+        ),
+        _page("Power and speed", [_train(name) for name in TRAIN]),
+        _page("Operating point", [_set_point(name) for name in OPERATING_POINT]),
+        active_tab=0,
+    )
+
+
+def _page(name: str, *columns: list[rrb.TimeSeriesView]) -> rrb.Horizontal:
+    return rrb.Horizontal(*(rrb.Vertical(*views) for views in columns), name=name)
+
+
+def _mesh(name: str, legend: bool = True) -> rrb.TimeSeriesView:
+    return _plot(f"mesh/{name}", MESH[name].heading, legend)
+
+
+def _train(name: str) -> rrb.TimeSeriesView:
+    quantity, fields = TRAIN[name]
+    return _plot(f"train/{name}", quantity.heading, legend=len(fields) > 1)
+
+
+def _set_point(name: str) -> rrb.TimeSeriesView:
+    return _plot(f"operating_point/{name}", OPERATING_POINT[name].heading, legend=False)
+
+
+def _range(name: str) -> rrb.TimeSeriesView:
+    quantity = WAVEFORM[name]
+    title = f"{quantity.title}, smallest and largest sample [{quantity.unit}]"
+    return _plot(f"range/{name}", title, legend=False)
+
+
+def _plot(origin: str, title: str, legend: bool) -> rrb.TimeSeriesView:
+    """A plot of everything at `origin`; the legend of a single series would repeat the title."""
+    corner = rrb.PlotLegend(rrb.Corner2D.RightTop, visible=legend)
+    return rrb.TimeSeriesView(origin=origin, name=title, plot_legend=corner)
+
+
+def _zoom(name: str) -> rrb.TimeSeriesView:
+    quantity = WAVEFORM[name]
+    window = rrb.VisibleTimeRange(
+        SIMULATED_TIME,
+        start=rrb.TimeRangeBoundary.cursor_relative(nanos=-_ZOOM),
+        end=rrb.TimeRangeBoundary.cursor_relative(nanos=_ZOOM),
+    )
+    return rrb.TimeSeriesView(
+        origin=f"waveform/{name}",
+        name=f"{quantity.title} around the time cursor, every sample [{quantity.unit}]",
+        plot_legend=rrb.PlotLegend(rrb.Corner2D.RightTop),
+        time_ranges=window,
+        axis_x=rrb.TimeAxis(link="Independent", view_range=window.range),
+    )

@@ -1,0 +1,59 @@
+"""Changes of the operating point: as lines of a log, and as steps."""
+
+from __future__ import annotations
+
+import numpy as np
+import rerun as rr
+
+from ..recording.reader import Recording
+from . import timeline
+from .quantities import OPERATING_POINT
+
+_COLOUR = (120, 196, 140)
+
+
+def log_events(stream: rr.RecordingStream, recording: Recording) -> None:
+    """Log each change at /changes, and every set-point as steps at /operating_point/NAME."""
+    point = recording.operating_point
+    if not len(point):
+        return
+    text = [sentence(recording, row) for row in range(len(point))]
+    index = timeline.columns(point.time, point.stamp)
+    level = ["INFO"] * len(text)
+    rr.send_columns("changes", index, rr.TextLog.columns(text=text, level=level), recording=stream)
+    # The last values hold to the end of the recording.
+    last = len(recording.state) - 1
+    index = timeline.columns(
+        np.append(point.time, recording.state.time[last]),
+        np.append(point.stamp, recording.state.stamp[last]),
+    )
+    for name, quantity in OPERATING_POINT.items():
+        style = rr.SeriesLines(
+            names=[name], colors=[_COLOUR], widths=2.0, interpolation_mode="StepAfter"
+        )
+        stream.log(f"operating_point/{name}", style, static=True)
+        values = quantity.factor * np.append(point[name], point[name][-1])
+        columns = rr.Scalars.columns(scalars=values)
+        rr.send_columns(f"operating_point/{name}", index, columns, recording=stream)
+
+
+def sentence(recording: Recording, row: int) -> str:
+    """What changed, with old and new value; the first message tells all values."""
+    point = recording.operating_point
+    changed = [name for name in str(point["changed"][row]).split(",") if name in OPERATING_POINT]
+    if row == 0 or not changed:
+        return "in force: " + ", ".join(_value(recording, name, row) for name in OPERATING_POINT)
+    return "; ".join(
+        f"{_value(recording, name, row)}, was {_number(recording, name, row - 1)}"
+        for name in changed
+    )
+
+
+def _value(recording: Recording, name: str, row: int) -> str:
+    unit = OPERATING_POINT[name].unit
+    return f"{name} = {_number(recording, name, row)}" + ("" if unit == "-" else f" {unit}")
+
+
+def _number(recording: Recording, name: str, row: int) -> str:
+    value = OPERATING_POINT[name].factor * recording.operating_point[name][row]
+    return "computed" if np.isnan(value) else f"{value:.4g}"

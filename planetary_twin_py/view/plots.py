@@ -1,0 +1,55 @@
+"""The curves: what GearboxState holds, per mesh and for the whole train."""
+
+from __future__ import annotations
+
+import colorsys
+from collections.abc import Sequence
+
+import numpy as np
+import rerun as rr
+from numpy.typing import NDArray
+
+from ..recording.reader import Recording
+from . import timeline
+from .quantities import MESH, TRAIN
+
+_SUN_PLANET_HUE, _PLANET_RING_HUE = 0.58, 0.09  # blue and orange, told apart by most eyes
+_TRAIN_COLOURS = ((236, 176, 64), (150, 158, 170), (205, 104, 86))
+
+
+def log_plots(stream: rr.RecordingStream, recording: Recording) -> None:
+    """Log every quantity of the state: /mesh/NAME with one series per mesh, and /train/NAME."""
+    state = recording.state
+    index = timeline.columns(state.time, state.stamp)
+    colours = mesh_colours(recording.planets)
+    for name, quantity in MESH.items():
+        values = quantity.factor * recording.per_mesh(name)
+        log_series(stream, f"mesh/{name}", index, values, recording.meshes, colours)
+    for name, (quantity, fields) in TRAIN.items():
+        values = quantity.factor * np.column_stack([state[field] for field in fields])
+        log_series(stream, f"train/{name}", index, values, fields, _TRAIN_COLOURS)
+
+
+def log_series(
+    stream: rr.RecordingStream,
+    path: str,
+    index: list[rr.TimeColumn],
+    values: NDArray[np.float64],
+    names: Sequence[str],
+    colours: Sequence[tuple[int, int, int]],
+) -> None:
+    """Log `values` (rows, series) as lines at `path`."""
+    style = rr.SeriesLines(names=list(names), colors=list(colours[: len(names)]), widths=1.5)
+    stream.log(path, style, static=True)
+    rr.send_columns(path, index, rr.Scalars.columns(scalars=values), recording=stream)
+
+
+def mesh_colours(planets: int) -> list[tuple[int, int, int]]:
+    """Tints of blue for the sun's meshes, of orange for the ring's, in the meshes' order."""
+    shades = np.linspace(0.78, 0.3, planets)
+    tints = [
+        colorsys.hsv_to_rgb(hue, shade, 0.95)
+        for hue in (_SUN_PLANET_HUE, _PLANET_RING_HUE)
+        for shade in shades
+    ]
+    return [(round(255 * red), round(255 * green), round(255 * blue)) for red, green, blue in tints]

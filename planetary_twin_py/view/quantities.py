@@ -1,0 +1,68 @@
+"""What is plotted: one table of quantities with their units, as people read them.
+
+Recordings are in SI. Plots use the engineer's units (um, rpm, %), named in every title; the third
+column is the factor between the two.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import NamedTuple
+
+RPM = 30.0 / math.pi
+
+
+class Quantity(NamedTuple):
+    """A plotted quantity: title, unit, and plotted value per SI value."""
+
+    title: str
+    unit: str
+    factor: float = 1.0
+
+    @property
+    def heading(self) -> str:
+        """Title with the unit, e.g. "Mesh force, mean [N]"."""
+        return f"{self.title} [{self.unit}]"
+
+
+# Per mesh, by GearboxState's names without the leading sun_planet_ or planet_ring_.
+MESH = {
+    "dte_mean": Quantity("DTE, mean", "µm", 1e6),
+    "dte_rms": Quantity("DTE, rms of the deviation from the mean", "µm", 1e6),
+    "dte_peak": Quantity("DTE, largest magnitude", "µm", 1e6),
+    "mesh_force_mean": Quantity("Mesh force, mean", "N"),
+    "mesh_force_peak": Quantity("Mesh force, largest magnitude", "N"),
+    "contact_fraction": Quantity("Share of time in contact", "%", 100.0),
+    "film_thickness": Quantity("Film thickness", "µm", 1e6),
+    "lambda_ratio": Quantity("Lambda ratio", "-"),
+    "boundary_friction": Quantity("Boundary friction", "N"),
+    "viscous_friction": Quantity("Viscous friction", "N"),
+    "power_loss": Quantity("Power loss per mesh", "W"),
+}
+
+# Every sample of every mesh, by MeshWaveform's names.
+WAVEFORM = {
+    "dte": Quantity("DTE", "µm", 1e6),
+    "mesh_force": Quantity("Mesh force", "N"),
+}
+
+# Of the whole train: the fields of GearboxState that share a plot.
+TRAIN = {
+    "speed": (
+        Quantity("Speed", "rpm", RPM),
+        ("sun_speed", "ring_speed", "carrier_speed"),
+    ),
+    "mesh_frequency": (Quantity("Mesh frequency", "Hz"), ("mesh_frequency",)),
+    "power": (Quantity("Power", "W"), ("input_power", "output_power")),
+    "power_loss": (Quantity("Power loss, all meshes", "W"), ("power_loss",)),
+    "efficiency": (Quantity("Efficiency", "%", 100.0), ("efficiency",)),
+}
+
+# By OperatingPoint's names.
+OPERATING_POINT = {
+    "backlash": Quantity("Backlash", "µm", 1e6),
+    "lambda_ratio": Quantity("Prescribed lambda ratio", "-"),
+    "input_speed": Quantity("Speed set-point", "rpm", RPM),
+    "input_torque": Quantity("Input torque", "N m"),
+    "torque_ripple": Quantity("Torque ripple", "N m"),
+}

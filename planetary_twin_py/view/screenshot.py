@@ -1,0 +1,96 @@
+"""A picture of a recording, made by the viewer itself with neither display nor graphics card.
+
+The viewer runs without a window and listens on this machine only, for as long as the picture takes.
+"""
+
+from __future__ import annotations
+
+import subprocess
+import tempfile
+import time
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import IO
+
+from rerun.experimental import ViewerClient
+
+from .timeline import SIMULATED_TIME
+from .viewer import free_port, start_viewer, stop_viewer
+
+_START_LIMIT = 30.0  # [s] a cold start with a software renderer takes 2 to 5 s
+_NOTICES = 4.0  # [s] the viewer's notices about its start stay in the picture for 2 to 3 s
+_SETTLE_LIMIT = 30.0  # [s] curves and solids are loaded as they are needed, seen in 1 to 3 s
+
+
+class ScreenshotError(RuntimeError):
+    """The viewer could not make a picture; the message says why in one line."""
+
+
+def save_screenshot(
+    rrd: Path, png: Path, at: float | None = None, size: tuple[int, int] = (1920, 1080)
+) -> None:
+    """Save a picture of `rrd` to `png` with the time cursor at `at` [s] of simulated time.
+
+    Raises:
+        ScreenshotError: the viewer does not start, for example for want of a Vulkan driver.
+    """
+    with _headless_viewer(size) as client:
+        client.open(str(rrd.resolve()))
+        if at is not None:
+            client.set_time(SIMULATED_TIME, duration=at, play_state="paused")
+        time.sleep(_NOTICES)
+        png.write_bytes(_settled_picture(client))
+
+
+@contextmanager
+def _headless_viewer(size: tuple[int, int]) -> Iterator[ViewerClient]:
+    port = free_port()
+    window = f"{size[0]}x{size[1]}"
+    with tempfile.TemporaryFile() as output:
+        options = ["--headless", "--window-size", window, "--hide-welcome-screen"]
+        viewer = start_viewer(port, options, output)
+        try:
+            yield _connect(viewer, port, output)
+        finally:
+            stop_viewer(viewer)
+
+
+def _connect(viewer: subprocess.Popen[bytes], port: int, output: IO[bytes]) -> ViewerClient:
+    """A client of the viewer, as soon as the viewer answers."""
+    deadline = time.monotonic() + _START_LIMIT
+    while time.monotonic() < deadline:
+        if viewer.poll() is not None:
+            raise ScreenshotError(_reason(output))
+        try:
+            client = ViewerClient.connect(f"rerun+http://127.0.0.1:{port}/proxy")
+            client.get_state()
+            return client
+        except (RuntimeError, OSError, ConnectionError):
+            time.sleep(0.2)
+    raise ScreenshotError(f"the viewer did not answer within {_START_LIMIT:.0f} s")
+
+
+def _settled_picture(client: ViewerClient) -> bytes:
+    """The picture once it no longer changes, which is when everything in it has been loaded."""
+    deadline = time.monotonic() + _SETTLE_LIMIT
+    before, picture = b"", client.take_screenshot()
+    while picture != before:
+        if time.monotonic() > deadline:
+            raise ScreenshotError(f"the picture still changes after {_SETTLE_LIMIT:.0f} s")
+        time.sleep(0.3)
+        before, picture = picture, client.take_screenshot()
+    return picture
+
+
+def _reason(output: IO[bytes]) -> str:
+    """Why the viewer ended, from what it printed."""
+    output.seek(0)
+    printed = output.read().decode(errors="replace")
+    if "adapter" in printed or "Vulkan" in printed:
+        return (
+            "no Vulkan driver is installed: a software one suffices, "
+            "on Debian and Ubuntu the package mesa-vulkan-drivers"
+        )
+    lines = [line for line in printed.splitlines() if line.strip()]
+    return f"the viewer ended at once: {lines[-1] if lines else 'it printed nothing'}"

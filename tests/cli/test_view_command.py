@@ -1,0 +1,57 @@
+"""`planetary-twin view` from the outside."""
+
+import subprocess
+import sys
+
+import pytest
+from synthetic_recording import write_recording
+
+RUN = [sys.executable, "-c", "from planetary_twin_py.cli import main; main()"]
+
+
+def planetary_twin(*arguments):
+    return subprocess.run([*RUN, *map(str, arguments)], capture_output=True, text=True, timeout=120)
+
+
+@pytest.fixture(scope="module")
+def file(tmp_path_factory):
+    return write_recording(tmp_path_factory.mktemp("bag") / "one.mcap", 0.1)
+
+
+def test_save_needs_no_display(file, tmp_path, monkeypatch):
+    monkeypatch.delenv("DISPLAY", raising=False)
+    monkeypatch.delenv("WAYLAND_DISPLAY", raising=False)
+    done = planetary_twin("view", file, "--scene", "paper", "--save", tmp_path / "a.rrd")
+    assert done.returncode == 0, done.stderr
+    assert (tmp_path / "a.rrd").stat().st_size > 1e5
+
+
+def test_without_a_display_one_line_names_what_works(file, monkeypatch):
+    monkeypatch.delenv("DISPLAY", raising=False)
+    monkeypatch.delenv("WAYLAND_DISPLAY", raising=False)
+    done = planetary_twin("view", file, "--scene", "paper")
+    assert done.returncode == 2
+    assert done.stderr.count("\n") == 1
+    assert "--save" in done.stderr
+    assert "--screenshot" in done.stderr
+
+
+def test_users_errors_are_one_line_each(file, tmp_path):
+    for arguments, reason in [
+        (["view", tmp_path / "missing"], "no such file"),
+        (["view", __file__], "not an MCAP file"),
+        (["view", file, "--scene", "papyrus"], "papyrus"),
+        (["view", file, "--scene", "paper", "--save", tmp_path / "no" / "a.rrd"], "a.rrd"),
+        (["view", file, "--scene", "paper", "--screenshot", "a.png", "--at", "9"], "at = 9"),
+    ]:
+        done = planetary_twin(*arguments)
+        assert done.returncode == 2
+        assert done.stderr.count("\n") == 1, done.stderr
+        assert reason in done.stderr
+
+
+def test_help_imports_neither_rerun_nor_the_compiler_nor_ros():
+    heavy = "{'rerun', 'numba', 'rclpy'} & set(sys.modules)"
+    code = f"import sys; from planetary_twin_py.cli import build_app; build_app(); print({heavy})"
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    assert done.stdout.strip() == "set()"

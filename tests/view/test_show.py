@@ -1,0 +1,88 @@
+"""The Rerun file: sound by Rerun's own check, and it holds what the layout shows."""
+
+import subprocess
+from pathlib import Path
+
+import numpy as np
+import pytest
+import rerun_cli
+from synthetic_recording import write_recording
+
+from planetary_twin_py.recording.reader import RecordingError, read_recording
+from planetary_twin_py.scene import load_scene
+from planetary_twin_py.view.events import sentence
+from planetary_twin_py.view.show import save, scene_of
+
+RERUN = Path(rerun_cli.__file__).parent / "rerun"
+PAPER = Path(load_scene.__code__.co_filename).parent / "packaged" / "paper.yaml"
+
+
+@pytest.fixture(scope="module")
+def recording(tmp_path_factory):
+    file = tmp_path_factory.mktemp("bag") / "one.mcap"
+    return read_recording(write_recording(file, 1.0, scene_yaml=PAPER.read_text()))
+
+
+def rerun(*arguments):
+    return subprocess.run([RERUN, "rrd", *arguments], capture_output=True, text=True, check=True)
+
+
+def test_rerun_verifies_the_file_and_finds_gears_curves_and_changes(recording, tmp_path):
+    scene, remark = scene_of(recording)
+    assert remark is None
+    rrd = tmp_path / "one.rrd"
+    assert save(recording, scene, rrd) == []
+    assert "without error" in rerun("verify", rrd).stdout + rerun("verify", rrd).stderr
+    printed = rerun("print", "-vv", rrd).stdout
+    for entity in (
+        "/gears/sun",
+        "/gears/ring",
+        "/gears/carrier/pin_3/planet_3",
+        "/mesh/dte_mean",
+        "/mesh/viscous_friction",
+        "/train/efficiency",
+        "/range/mesh_force",
+        "/waveform/dte",
+        "/operating_point/backlash",
+        "/changes",
+    ):
+        assert entity in printed
+    assert "simulated_time" in printed
+    assert "ros_time" in printed
+
+
+def test_without_a_scene_curves_are_shown_and_the_missing_gears_are_told(tmp_path):
+    recording = read_recording(write_recording(tmp_path / "a.mcap", 0.05))
+    scene, remark = scene_of(recording)
+    assert scene is None
+    assert "carries no scene" in remark
+    save(recording, scene, tmp_path / "a.rrd")
+    printed = rerun("print", tmp_path / "a.rrd").stdout
+    assert "/mesh/dte_mean" in printed
+    assert "/gears" not in printed
+
+
+def test_a_scene_of_another_gearbox_is_refused(recording, tmp_path):
+    angles = tuple(2 * np.pi * k / 5 for k in range(5))
+    other = load_scene("paper").replace(**{"gearset.planet_angles": angles})
+    with pytest.raises(RecordingError, match="has 5 planets, the recording 3"):
+        save(recording, other, tmp_path / "a.rrd")
+
+
+def test_changes_are_told_with_old_and_new_value(recording):
+    assert sentence(recording, 0).startswith("in force: backlash = 0.2 µm, lambda_ratio = 1.5")
+    assert sentence(recording, 2) == "backlash = 0.35 µm, was 0.2"
+    assert sentence(recording, 3) == "lambda_ratio = 2, was 1; input_speed = 2000 rpm, was 1000"
+
+
+def test_a_minute_at_50_khz_stays_below_a_quarter_gigabyte_and_says_what_is_left_out(tmp_path):
+    recording = read_recording(write_recording(tmp_path / "a.mcap", 0.2))
+    wave = recording.waveform
+    times = 60 * 5
+    wave.time = np.arange(len(wave.time) * times) * 2e-5
+    wave.stamp = np.tile(wave.stamp, times)
+    wave.block = np.arange(0, len(wave.time), 500)
+    wave.dte, wave.mesh_force = np.tile(wave.dte, (times, 1)), np.tile(wave.mesh_force, (times, 1))
+    (remark,) = save(recording, None, tmp_path / "a.rrd")
+    assert remark.startswith("single samples are shown up to 30.0 s of 60.0 s")
+    assert (tmp_path / "a.rrd").stat().st_size < 250e6
