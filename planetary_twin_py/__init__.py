@@ -1,10 +1,10 @@
 """A digital twin of a planetary gearbox: the model, and everything that needs no ROS.
 
-    import planetary_twin_py as pt
+import planetary_twin_py as pt
 
-    scene = pt.load_scene("paper").replace(lambda_ratio=1.5, input_speed=pt.rpm(2000))
-    result = pt.simulate(scene, duration=0.2)
-    result.efficiency
+scene = pt.load_scene("paper").replace(lambda_ratio=1.5, input_speed=pt.rpm(2000))
+result = pt.simulate(scene, duration=0.2)
+result.efficiency
 """
 
 from importlib import import_module

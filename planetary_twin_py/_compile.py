@@ -34,7 +34,7 @@ def cache_folder() -> Path:
 
 
 if "NUMBA_CACHE_DIR" not in os.environ:
-    numba.config.CACHE_DIR = str(cache_folder())
+    numba.config.CACHE_DIR = str(cache_folder())  # type: ignore[attr-defined]
 
 
 def kernel(function: F) -> F:
@@ -50,7 +50,7 @@ def law(function: F) -> F:
 def _compiled(function: F, inline: bool) -> F:
     return cast(
         F,
-        numba.njit(
-            cache=True, nogil=True, error_model="numpy", fastmath=_FAST, forceinline=inline
-        )(function),
+        numba.njit(cache=True, nogil=True, error_model="numpy", fastmath=_FAST, forceinline=inline)(
+            function
+        ),
     )

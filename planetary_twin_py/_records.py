@@ -22,7 +22,9 @@ Record = Any
 
 def layout(**fields: Any) -> np.dtype[Any]:
     """Type of a record; a field is a type or a (type, shape) pair."""
-    items = [(name, *(kind if isinstance(kind, tuple) else (kind,))) for name, kind in fields.items()]
+    items = [
+        (name, *(kind if isinstance(kind, tuple) else (kind,))) for name, kind in fields.items()
+    ]
     return np.dtype((np.record, items), align=True)
 
 

@@ -18,20 +18,25 @@ _LN2_LOW = 1.90821492927058770002e-10
 _INVERSE_LN2 = 1.4426950408889634
 
 
-@intrinsic  # type: ignore[untyped-decorator]
-def _bits(typingctx: Any, value: Any) -> Any:
+@intrinsic
+def _bits_of(typingctx: Any, value: Any) -> Any:
     def codegen(context: Any, builder: Any, signature: Any, args: Any) -> Any:
         return builder.bitcast(args[0], ir.IntType(64))
 
     return types.int64(types.float64), codegen
 
 
-@intrinsic  # type: ignore[untyped-decorator]
-def _from_bits(typingctx: Any, value: Any) -> Any:
+@intrinsic
+def _real_of(typingctx: Any, value: Any) -> Any:
     def codegen(context: Any, builder: Any, signature: Any, args: Any) -> Any:
         return builder.bitcast(args[0], ir.DoubleType())
 
     return types.float64(types.int64), codegen
+
+
+# What a kernel sees: functions of one argument.
+_bits: Any = _bits_of
+_from_bits: Any = _real_of
 
 
 @law

@@ -53,9 +53,7 @@ class Engine:
         """Put an operating point into the model, and scale the tolerances to its deflection."""
         self.model.load = build_load(self.scene, point, self.train)
         strongest = abs(point.input_torque) + point.torque_ripple
-        force = max(
-            abs(mesh_loads(self.scene, self.train, strongest)[0]), LIGHTEST_MESH_LOAD
-        )
+        force = max(abs(mesh_loads(self.scene, self.train, strongest)[0]), LIGHTEST_MESH_LOAD)
         stiffness = float(self.train.stiffness.min())
         lightest = float(self.train.mass[: self.train.bodies].min())
         deflection = force / stiffness + 0.5 * point.backlash

@@ -117,7 +117,7 @@ class Twin:
             rate, stored = np.array(self._engine.march.last.power), float("nan")
         turned = (self._end.turns - begin.turns) * 2.0 * math.pi * train.ratio[: train.bodies]
         speed = ((turned + self._end.angle - begin.angle) / (self._time - start))[0]
-        mean_speed = np.append(speed, 0.0)[names.index]
+        mean_speed = np.append(speed, 0.0)[names.place]
         sun, carrier = mean_speed[names.names.index("sun")], mean_speed[-1]
         motor, load = train.coupling[0, 0], train.coupling[1, 0]
         mesh = samples.mesh
@@ -149,7 +149,7 @@ class Twin:
     def _angles(self) -> np.ndarray:
         """Angles modulo a turn, exact in the whole turns of the motor."""
         turns = int(self._end.turns[0])
-        relative = np.append(self._end.angle[0], 0.0)[self._names.index]
+        relative = np.append(self._end.angle[0], 0.0)[self._names.place]
         whole = [
             (turns * ratio.numerator % ratio.denominator) / ratio.denominator
             for ratio in self._names.ratio

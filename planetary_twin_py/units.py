@@ -16,9 +16,7 @@ def rpm(value: float) -> float:
 def _registry() -> Any:
     import pint  # Costs 0.2 s, and most values come without a unit.
 
-    registry = pint.UnitRegistry(autoconvert_offset_to_baseunit=True)
-    # pint's own rpm is revolution/minute; the short form is what people write in a scene.
-    return registry
+    return pint.UnitRegistry(autoconvert_offset_to_baseunit=True)
 
 
 def to_si(value: object, unit: str) -> object:

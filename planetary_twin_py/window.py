@@ -8,7 +8,13 @@ from dataclasses import dataclass
 import numpy as np
 
 from .dynamics.observe import (
-    BOUNDARY, DTE, FILM, LAMBDA, MESH_FORCE, POWER_LOSS, VISCOUS,
+    BOUNDARY,
+    DTE,
+    FILM,
+    LAMBDA,
+    MESH_FORCE,
+    POWER_LOSS,
+    VISCOUS,
 )
 
 

@@ -8,6 +8,7 @@ coordinates x = r theta all mesh forces enter with the signs of `TRAIN.sign`.
 from __future__ import annotations
 
 import math
+
 import numpy as np
 
 from .._compile import kernel
@@ -15,7 +16,16 @@ from .._records import BODIES, MESHES, REAL, Record, layout
 from ..mesh.tooth_pairs import PAIRS
 from .oil import OIL
 from .state import (
-    DAMPING, FRICTION, INPUT, LEDGER, LOAD, LOAD_IMPULSE, MOTOR_IMPULSE, OPEN, OUTPUT, STIFFNESS_WORK,
+    DAMPING,
+    FRICTION,
+    INPUT,
+    LEDGER,
+    LOAD,
+    LOAD_IMPULSE,
+    MOTOR_IMPULSE,
+    OPEN,
+    OUTPUT,
+    STIFFNESS_WORK,
 )
 from .tooth_friction import TOOTH_PAIRS, apply_friction, evaluate, gather
 from .train import TRAIN
@@ -74,8 +84,14 @@ def mesh_motion(train: Record, i: int, x: np.ndarray) -> float:
 
 @kernel
 def forces(
-    model: Record, state: Record, moment: Record, x: np.ndarray, v: np.ndarray, delay: float,
-    trim: float, out: Record,
+    model: Record,
+    state: Record,
+    moment: Record,
+    x: np.ndarray,
+    v: np.ndarray,
+    delay: float,
+    trim: float,
+    out: Record,
 ) -> None:
     """Forces on all bodies in coordinates x, `delay` seconds after the start of a step.
 
@@ -118,8 +134,14 @@ def forces(
 
 @kernel
 def _machines(
-    model: Record, state: Record, moment: Record, x: np.ndarray, v: np.ndarray, delay: float,
-    trim: float, out: Record,
+    model: Record,
+    state: Record,
+    moment: Record,
+    x: np.ndarray,
+    v: np.ndarray,
+    delay: float,
+    trim: float,
+    out: Record,
 ) -> None:
     """Couplings, the motor's torque and the load's."""
     train, load, force, power = model.train, model.load, out.force, out.power

@@ -17,8 +17,14 @@ QUANTITIES = 7
 
 @kernel
 def observe(
-    model: Record, state: Record, moment: Record, x: np.ndarray, v: np.ndarray, delay: float,
-    pairs: Record, out: np.ndarray,
+    model: Record,
+    state: Record,
+    moment: Record,
+    x: np.ndarray,
+    v: np.ndarray,
+    delay: float,
+    pairs: Record,
+    out: np.ndarray,
 ) -> None:
     """Fill out[:, i] for every mesh i; film and lambda ratio are NaN without contact.
 

@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import math
+
 from .._records import FLAG, REAL, Record, fields_of, layout, new_record
 from ..lubrication.boundary import Asperities
 from ..lubrication.film import FILM_LAWS, FilmLaw
 from ..lubrication.hertz import contact_modulus
 from ..lubrication.traction import Traction
 from ..scene import Scene
-
 
 # Laws and constants of the tooth contacts.
 OIL = layout(
@@ -36,8 +36,12 @@ def build_oil(scene: Scene) -> Record:
         asperities=Asperities(
             area_factor=math.pi * roughness_squared,
             pressure_factor=(
-                16.0 * math.sqrt(2.0) / 15.0 * roughness_squared
-                * math.sqrt(data.asperity_slope) * modulus
+                16.0
+                * math.sqrt(2.0)
+                / 15.0
+                * roughness_squared
+                * math.sqrt(data.asperity_slope)
+                * modulus
             ),
             shear_stress=data.shear_stress,
             pressure_coefficient=data.pressure_coefficient,
@@ -49,10 +53,15 @@ def build_oil(scene: Scene) -> Record:
                 2.0 * data.oil_conductivity * data.viscosity / data.temperature_viscosity
             ),
             film_heating=(
-                4.0 / math.pi * data.oil_conductivity
+                4.0
+                / math.pi
+                * data.oil_conductivity
                 / math.sqrt(
-                    2.0 * modulus * data.solid_conductivity
-                    * data.solid_density * data.solid_heat_capacity
+                    2.0
+                    * modulus
+                    * data.solid_conductivity
+                    * data.solid_density
+                    * data.solid_heat_capacity
                 )
             ),
         ),

@@ -81,9 +81,7 @@ def start_state(scene: Scene, model: Record) -> Record:
     return state
 
 
-def _friction_power(
-    model: Record, state: Record, moment: Record, evaluation: Record
-) -> float:
+def _friction_power(model: Record, state: Record, moment: Record, evaluation: Record) -> float:
     forces(model, state, moment, state.x, state.v, 0.0, 0.0, evaluation)
     return float(evaluation.power[FRICTION])
 

@@ -39,7 +39,12 @@ TOOTH_PAIRS = layout(
 
 @kernel
 def gather(
-    model: Record, state: Record, i: int, cycle: float, force: float, v: np.ndarray,
+    model: Record,
+    state: Record,
+    i: int,
+    cycle: float,
+    force: float,
+    v: np.ndarray,
     pairs: Record,
 ) -> None:
     """Append the tooth pairs of mesh i, which carries `force`, at a fraction of its cycle."""
@@ -76,8 +81,14 @@ def evaluate(model: Record, pairs: Record) -> None:
     """Film and friction of all pairs; whole registers, so that lanes beyond `count` are idle."""
     for p in range(-(-pairs.count // REGISTER) * REGISTER):
         signed, boundary, viscous, film, ratio, sliding, slope = tooth_contact(
-            model.oil, pairs.rho1[p], pairs.rho2[p], pairs.external[p], pairs.speed1[p],
-            pairs.speed2[p], pairs.load[p], model.load.lambda_ratio,
+            model.oil,
+            pairs.rho1[p],
+            pairs.rho2[p],
+            pairs.external[p],
+            pairs.speed1[p],
+            pairs.speed2[p],
+            pairs.load[p],
+            model.load.lambda_ratio,
         )
         pairs.friction[p] = signed
         pairs.boundary[p] = boundary

@@ -15,14 +15,13 @@ from typing import NamedTuple
 
 import numpy as np
 
+from .._records import BODIES, FLAG, MESHES, REAL, WHOLE, Record, layout, new_record
 from ..gearset.geometry import base_pitch, pitch_radius, planet_ring_path, sun_planet_path
 from ..gearset.kinematics import mesh_cycles_per_turn, speed_ratios
 from ..gearset.phasing import mesh_phases
-from .._records import BODIES, FLAG, MESHES, REAL, WHOLE, Record, layout, new_record
 from ..mesh.tooth_pairs import PAIRS, SEGMENTS, pair_table
 from ..scene import Scene
 from ..scene.sections import Machine
-
 
 # Constant data of the gearbox. `bodies` of them can turn; entry `bodies` is the ground.
 # Order of the bodies: planets, then what is free of sun, ring, carrier, then motor, load.
@@ -67,7 +66,7 @@ class BodyNames(NamedTuple):
     """How the bodies that are reported map to the bodies that are integrated."""
 
     names: tuple[str, ...]  # ("sun", "planet_1", ..., "ring", "carrier")
-    index: np.ndarray  # (bodies,) into the arrays of `TRAIN`
+    place: np.ndarray  # (bodies,) in the arrays of `TRAIN`
     ratio: tuple[Fraction, ...]  # rigid speed per speed of the motor
 
 
@@ -173,7 +172,7 @@ def build_train(scene: Scene) -> Record:
             [[curvature["sun"], curvature["planet"]], [curvature["planet"], curvature["ring"]]]
         ),
         external=np.array([1.0, -1.0]),
-        segments=np.array([table.count for table in tables]),
+        segments=np.array([table.segments for table in tables]),
         edge=np.array([table.edge for table in tables]),
         shift=np.array([table.shift for table in tables]),
         offset=np.array([table.offset for table in tables]),

@@ -16,10 +16,19 @@ import numpy as np
 from .._compile import kernel
 from .._records import BODIES, FLAG, REAL, WHOLE, Record, layout
 from ..dynamics.contact_events import (
-    change_contact, change_segment, departure, mesh_cycle, nearest_to_segment,
+    change_contact,
+    change_segment,
+    departure,
+    mesh_cycle,
+    nearest_to_segment,
 )
 from ..dynamics.equations import (
-    EVALUATION, MOMENT, cycle_shift, damping_time, forces, mesh_motion,
+    EVALUATION,
+    MOMENT,
+    cycle_shift,
+    damping_time,
+    forces,
+    mesh_motion,
 )
 from ..dynamics.observe import QUANTITIES, observe
 from ..dynamics.state import OPEN, STATE
@@ -324,9 +333,7 @@ def sample(model: Record, march: Record, time: float, out: Samples, row: int) ->
     delay = time - begin.time
     interpolate(model, march, delay)
     pairs = march.work.evaluation.pairs
-    observe(
-        model, begin, march.moment, march.dense_x, march.dense_v, delay, pairs, out.mesh[row]
-    )
+    observe(model, begin, march.moment, march.dense_x, march.dense_v, delay, pairs, out.mesh[row])
     speed = begin.speed
     frame = 2.0 * math.pi * begin.fraction + speed * delay
     out.turns[row] = begin.turns

@@ -13,6 +13,7 @@ factorisation of M/(gamma h) + C + gamma h K per step.
 from __future__ import annotations
 
 import math
+
 import numpy as np
 
 from .._compile import kernel
@@ -41,9 +42,7 @@ _GAMMAS = np.array(
         [2.4212380706095346e-01, -1.2232505839045147e00, 5.4526025533510214e-01, GAMMA],
     ]
 )
-_B = np.array(
-    [2.4212380706095346e-01, -1.2232505839045147e00, 1.5452602553351020e00, GAMMA]
-)
+_B = np.array([2.4212380706095346e-01, -1.2232505839045147e00, 1.5452602553351020e00, GAMMA])
 _B_EMBEDDED = np.array(
     [3.7810903145819369e-01, -9.6042292212423178e-02, 5.0e-01, 2.1793326075422950e-01]
 )
@@ -141,7 +140,12 @@ def _solve(a: np.ndarray, n: int, b: np.ndarray) -> None:
 
 @kernel
 def _stage(
-    model: Record, state: Record, moment: Record, h: float, i: int, first: Record,
+    model: Record,
+    state: Record,
+    moment: Record,
+    h: float,
+    i: int,
+    first: Record,
     work: Record,
 ) -> None:
     """Stage i: evaluate, then solve for ux[i] and uv[i]."""
@@ -184,7 +188,12 @@ def _stage(
 
 @kernel
 def step(
-    model: Record, state: Record, moment: Record, h: float, first: Record, new: Record,
+    model: Record,
+    state: Record,
+    moment: Record,
+    h: float,
+    first: Record,
+    new: Record,
     work: Record,
 ) -> None:
     """Advance x, v and trim of `state` by h seconds into `new`.

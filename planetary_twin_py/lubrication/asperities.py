@@ -17,15 +17,11 @@ LARGEST_LAMBDA = 6.0  # asperities carry nothing beyond: F_5/2(6) is 6e-13
 def contact_area_function(lambda_ratio: float) -> float:
     """F_2 [-], which scales the area of the asperities in contact."""
     x = min(lambda_ratio, LARGEST_LAMBDA)
-    return exp(
-        (((0.00130501 * x - 0.0241815) * x - 0.275167) * x - 1.59436) * x - 0.693356
-    )
+    return exp((((0.00130501 * x - 0.0241815) * x - 0.275167) * x - 1.59436) * x - 0.693356)
 
 
 @law
 def contact_load_function(lambda_ratio: float) -> float:
     """F_5/2 [-], which scales the load the asperities carry."""
     x = min(lambda_ratio, LARGEST_LAMBDA)
-    return exp(
-        (((0.00117382 * x - 0.0230728) * x - 0.270566) * x - 1.74266) * x - 0.483601
-    )
+    return exp((((0.00117382 * x - 0.0230728) * x - 0.270566) * x - 1.74266) * x - 0.483601)

@@ -51,9 +51,13 @@ def film_thickness(
     load_group: float,
 ) -> float:
     """Film thickness h [m] from the reduced radius [m] and the groups U, G and W [-]."""
-    h = law.coefficient * radius * exp(
-        law.speed * log(speed_group)
-        + law.material * log(material_group)
-        + law.load * log(load_group)
+    h = (
+        law.coefficient
+        * radius
+        * exp(
+            law.speed * log(speed_group)
+            + law.material * log(material_group)
+            + law.load * log(load_group)
+        )
     )
     return max(h, THINNEST_FILM)

@@ -10,6 +10,7 @@ A ramp of zero is the rectangular single/double alternation of Salagianni et al.
 from __future__ import annotations
 
 import math
+from itertools import pairwise
 from typing import NamedTuple
 
 import numpy as np
@@ -28,7 +29,7 @@ class PairTable(NamedTuple):
     pair p has the weight offset[j, p] + slope[j, p] * x.
     """
 
-    count: int
+    segments: int
     edge: np.ndarray  # (SEGMENTS + 1,)
     shift: np.ndarray  # (SEGMENTS, PAIRS)
     offset: np.ndarray  # (SEGMENTS, PAIRS)
@@ -64,7 +65,7 @@ def pair_table(path: PathOfContact, ramp: float) -> PairTable:
         np.zeros((SEGMENTS, PAIRS)),
     )
     table.edge[: len(edges)] = edges
-    for j, (low, high) in enumerate(zip(edges, edges[1:], strict=False)):
+    for j, (low, high) in enumerate(pairwise(edges)):
         _fill_segment(table, j, path, ramp, low, high)
     return table
 

@@ -22,8 +22,10 @@ class OperatingPoint(Section):
         le=10.0,
     )
     input_speed: float = quantity(
-        "rad/s", "speed set-point of the motor, reached at the drive's slew rate",
-        ge=-1100.0, le=1100.0,
+        "rad/s",
+        "speed set-point of the motor, reached at the drive's slew rate",
+        ge=-1100.0,
+        le=1100.0,
     )
     input_torque: float = quantity(
         "N m", "mean torque of the motor in steady running", ge=-1000.0, le=1000.0

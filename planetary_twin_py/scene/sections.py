@@ -118,8 +118,11 @@ class Lubrication(Section):
     pressure_coefficient: float = quantity("", "eps of the boundary film", 0.17, ge=0.0, le=1.0)
     composite_roughness: float = quantity("m", "sigma of both flanks", 2e-7, gt=0.0, le=1e-4)
     sliding_threshold: float = quantity(
-        "", "slide-to-roll ratio at which traction reaches tanh(1) of its plateau",
-        0.015, gt=0.0, le=1.0,
+        "",
+        "slide-to-roll ratio at which traction reaches tanh(1) of its plateau",
+        0.015,
+        gt=0.0,
+        le=1.0,
     )
 
 
