@@ -1,0 +1,1 @@
+"""Recordings: bag folders with one MCAP file, written and read without ROS."""
