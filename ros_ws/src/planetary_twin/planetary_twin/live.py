@@ -76,7 +76,7 @@ class LiveTwin:
             while not self._stop.is_set():
                 self._apply_changes()
                 self._listener.prepare(self._twin.advance(self._interval))
-                self._pace.wait(self._stop)
+                self._pace.wait()
                 self._listener.publish()
                 self.progress = self._standing()
         except Exception as defect:

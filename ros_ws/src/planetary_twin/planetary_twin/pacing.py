@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import threading
 import time
 
 
@@ -22,11 +21,11 @@ class Pace:
         """Let the first period begin now."""
         self._deadline = time.monotonic_ns() + self._period
 
-    def wait(self, stop: threading.Event) -> None:
-        """Sleep until the end of the period in progress, or until `stop` is set."""
+    def wait(self) -> None:
+        """Sleep until the end of the period in progress."""
         remaining = self._deadline - time.monotonic_ns()
         if remaining > 0:
-            stop.wait(remaining * 1e-9)
+            time.sleep(remaining * 1e-9)
         elif -remaining > self._period:
             self.overruns += 1
             self._deadline -= remaining
