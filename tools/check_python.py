@@ -16,7 +16,7 @@ else:
     VENV = True
 
 if not (3, 11) <= sys.version_info[:2] <= (3, 13):
-    sys.exit("is Python %d.%d" % sys.version_info[:2])
+    sys.exit("is Python " + sys.version.split()[0])
 if sys.implementation.name != "cpython" or sys.maxsize < 2**32:
     sys.exit("is not a 64-bit CPython")
 if not VENV:

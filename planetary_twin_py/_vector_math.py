@@ -1,0 +1,72 @@
+"""exp and log that LLVM can vectorise inside a loop, unlike calls into the C library.
+
+Relative error below 1e-11 for exp, absolute error below 1e-12 for log, checked in the tests.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+from llvmlite import ir
+from numba import njit, types
+from numba.extending import intrinsic
+
+_LN2_HIGH = 0.693147180369123816490
+_LN2_LOW = 1.90821492927058770002e-10
+_INVERSE_LN2 = 1.4426950408889634
+
+
+@intrinsic  # type: ignore[untyped-decorator]
+def _bits(typingctx: Any, value: Any) -> Any:
+    def codegen(context: Any, builder: Any, signature: Any, args: Any) -> Any:
+        return builder.bitcast(args[0], ir.IntType(64))
+
+    return types.int64(types.float64), codegen
+
+
+@intrinsic  # type: ignore[untyped-decorator]
+def _from_bits(typingctx: Any, value: Any) -> Any:
+    def codegen(context: Any, builder: Any, signature: Any, args: Any) -> Any:
+        return builder.bitcast(args[0], ir.DoubleType())
+
+    return types.float64(types.int64), codegen
+
+
+@njit(inline="always")
+def exp(x: float) -> float:
+    """e**x for any finite x, saturating at the ends of the double range."""
+    x = min(max(x, -700.0), 700.0)
+    n = int(x * _INVERSE_LN2 + 1024.5) - 1024  # round: the offset makes truncation a floor
+    r = (x - n * _LN2_HIGH) - n * _LN2_LOW
+    p = 1.0 + r / 11.0
+    p = 1.0 + r / 10.0 * p
+    p = 1.0 + r / 9.0 * p
+    p = 1.0 + r / 8.0 * p
+    p = 1.0 + r / 7.0 * p
+    p = 1.0 + r / 6.0 * p
+    p = 1.0 + r / 5.0 * p
+    p = 1.0 + r / 4.0 * p
+    p = 1.0 + r / 3.0 * p
+    p = 1.0 + r / 2.0 * p
+    p = 1.0 + r * p
+    return p * _from_bits((n + 1023) << 52)
+
+
+@njit(inline="always")
+def log(x: float) -> float:
+    """Natural logarithm of a positive normal number."""
+    bits = _bits(x)
+    # Move the mantissa to [sqrt(1/2), sqrt(2)), where the series is shortest.
+    exponent = ((bits + 0x95F619980C433) >> 52) - 1023
+    mantissa = _from_bits(bits - (exponent << 52))
+    t = (mantissa - 1.0) / (mantissa + 1.0)
+    q = t * t
+    series = 1.0 / 15.0
+    series = 1.0 / 13.0 + q * series
+    series = 1.0 / 11.0 + q * series
+    series = 1.0 / 9.0 + q * series
+    series = 1.0 / 7.0 + q * series
+    series = 1.0 / 5.0 + q * series
+    series = 1.0 / 3.0 + q * series
+    series = 1.0 + q * series
+    return 2.0 * t * series + exponent * (_LN2_HIGH + _LN2_LOW)

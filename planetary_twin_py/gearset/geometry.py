@@ -1,0 +1,71 @@
+"""Radii and path of contact of standard involute spur gears."""
+
+from __future__ import annotations
+
+import math
+from typing import NamedTuple
+
+from .kinematics import Teeth
+
+
+class PathOfContact(NamedTuple):
+    """Reach of a tooth pair on the line of action, in base pitches from the pitch point.
+
+    A pair is in contact from -approach to +recess; the sum is the contact ratio. `approach` is
+    made by the tip of the second (driven) gear, `recess` by that of the first (driving) one.
+    """
+
+    approach: float
+    recess: float
+
+    @property
+    def contact_ratio(self) -> float:
+        """Mean number of tooth pairs in contact."""
+        return self.approach + self.recess
+
+
+def pitch_radius(teeth: int, module: float) -> float:
+    """Pitch radius m z/2 [m]."""
+    return 0.5 * module * teeth
+
+
+def base_pitch(module: float, pressure_angle: float) -> float:
+    """Distance of neighbouring flanks on the line of action [m]."""
+    return math.pi * module * math.cos(pressure_angle)
+
+
+def _external_tip_reach(teeth: int, angle: float, addendum: float) -> float:
+    """From the pitch point to where the tip circle cuts the line of action, in modules."""
+    pitch, base, tip = teeth / 2, teeth / 2 * math.cos(angle), teeth / 2 + addendum
+    return math.sqrt(tip**2 - base**2) - pitch * math.sin(angle)
+
+
+def _internal_tip_reach(teeth: int, angle: float, addendum: float) -> float:
+    pitch, base, tip = teeth / 2, teeth / 2 * math.cos(angle), teeth / 2 - addendum
+    return pitch * math.sin(angle) - math.sqrt(tip**2 - base**2)
+
+
+def sun_planet_path(teeth: Teeth, pressure_angle: float, addendum: float) -> PathOfContact:
+    """Path of contact of the external mesh; `addendum` in modules, `pressure_angle` in rad."""
+    pitch = math.pi * math.cos(pressure_angle)
+    return PathOfContact(
+        _external_tip_reach(teeth.planet, pressure_angle, addendum) / pitch,
+        _external_tip_reach(teeth.sun, pressure_angle, addendum) / pitch,
+    )
+
+
+def planet_ring_path(teeth: Teeth, pressure_angle: float, addendum: float) -> PathOfContact:
+    """Path of contact of the internal mesh; `addendum` in modules, `pressure_angle` in rad.
+
+    Raises:
+        ValueError: the ring's tip circle lies inside its base circle, where there is no flank.
+    """
+    if teeth.ring / 2 - addendum <= teeth.ring / 2 * math.cos(pressure_angle):
+        raise ValueError(
+            f"addendum = {addendum:g} module: the ring's tip circle lies inside its base circle"
+        )
+    pitch = math.pi * math.cos(pressure_angle)
+    return PathOfContact(
+        _internal_tip_reach(teeth.ring, pressure_angle, addendum) / pitch,
+        _external_tip_reach(teeth.planet, pressure_angle, addendum) / pitch,
+    )

@@ -1,0 +1,62 @@
+"""Where in its cycle each mesh stands, and where planets can be put at all.
+
+The mesh phase is a delay in mesh cycles behind the sun mesh of planet 1 (Parker and Lin 2004):
+Zs psi/2pi at the sun, -Zr psi/2pi at the ring for a planet at the angle psi from planet 1.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+
+from .kinematics import Teeth
+
+ASSEMBLY_TOLERANCE = 1e-6  # [-] of the spacing between two positions that can be assembled
+
+
+def least_mesh_angle(teeth: Teeth) -> float:
+    """Spacing of the positions at which a planet can be put in [rad]: 2 pi/(Zs + Zr)."""
+    return 2.0 * math.pi / (teeth.sun + teeth.ring)
+
+
+def nearest_assembly(teeth: Teeth, angles: Sequence[float]) -> tuple[float, ...]:
+    """The angles [rad] nearest to `angles` at which the planets can be put in."""
+    step = least_mesh_angle(teeth)
+    first = angles[0]
+    return tuple(first + step * round((angle - first) / step) for angle in angles)
+
+
+def check_assembly(teeth: Teeth, angles: Sequence[float]) -> None:
+    """Check that planets at `angles` [rad] fit between sun and ring.
+
+    Raises:
+        ValueError: some planet's teeth miss the spaces; the message offers what fits.
+    """
+    fitting = nearest_assembly(teeth, angles)
+    step = least_mesh_angle(teeth)
+    misses = [abs(a - b) / step for a, b in zip(angles, fitting, strict=True)]
+    if max(misses) > ASSEMBLY_TOLERANCE:
+        offer = ", ".join(f"{math.degrees(angle):g}" for angle in fitting)
+        raise ValueError(
+            f"planets at {', '.join(f'{math.degrees(a):g}' for a in angles)} deg cannot be "
+            f"assembled with {teeth.sun}/{teeth.planet}/{teeth.ring} teeth; nearest: {offer} deg"
+        )
+
+
+def mesh_phases(teeth: Teeth, angles: Sequence[float]) -> tuple[list[float], list[float]]:
+    """Phases of the sun meshes and of the ring meshes, each in [0, 1) cycles.
+
+    Pitch point to pitch point across one planet: half a cycle between its sun mesh and its
+    ring mesh if it has an even number of teeth, none if odd.
+    """
+    offset = 0.5 if teeth.planet % 2 == 0 else 0.0
+    turns = [(angle - angles[0]) / (2.0 * math.pi) for angle in angles]
+    sun = [_fraction(teeth.sun * turn) for turn in turns]
+    ring = [_fraction(-teeth.ring * turn + offset) for turn in turns]
+    return sun, ring
+
+
+def _fraction(cycles: float) -> float:
+    """The part of `cycles` within [0, 1), with rounding next to a whole cycle taken off."""
+    rounded = round(cycles, 9)
+    return rounded - math.floor(rounded)

@@ -1,0 +1,55 @@
+"""What may change while the twin runs."""
+
+from __future__ import annotations
+
+import math
+from typing import NamedTuple
+
+from .quantity import Section, bounds, quantity, unit_of
+
+
+class OperatingPoint(Section):
+    """Set-points and state of wear; every field can be changed at any simulated instant."""
+
+    backlash: float = quantity(
+        "m", "total play between the flanks, along the line of action", ge=0.0, le=1e-3
+    )
+    lambda_ratio: float = quantity(
+        "",
+        "specific film thickness (film/composite roughness); in use where the scene prescribes it",
+        1.0,
+        ge=0.0,
+        le=10.0,
+    )
+    input_speed: float = quantity(
+        "rad/s", "speed set-point of the motor, reached at the drive's slew rate",
+        ge=-1100.0, le=1100.0,
+    )
+    input_torque: float = quantity(
+        "N m", "mean torque of the motor in steady running", ge=-1000.0, le=1000.0
+    )
+    torque_ripple: float = quantity(
+        "N m", "amplitude of the motor's torque fluctuation", 0.0, ge=0.0, le=1000.0
+    )
+
+
+class Tunable(NamedTuple):
+    """Description of one field of the operating point."""
+
+    name: str
+    unit: str
+    description: str
+    minimum: float
+    maximum: float
+
+
+def _tunables() -> dict[str, Tunable]:
+    return {
+        name: Tunable(name, unit_of(field) or "", field.description or "", *bounds(field))
+        for name, field in OperatingPoint.model_fields.items()
+    }
+
+
+TUNABLES: dict[str, Tunable] = _tunables()
+
+assert all(math.isfinite(t.minimum) and math.isfinite(t.maximum) for t in TUNABLES.values())

@@ -1,0 +1,103 @@
+"""A scene: everything a run needs, from a packaged name or a YAML file."""
+
+from __future__ import annotations
+
+from importlib import resources
+from pathlib import Path
+from typing import Any, Self
+
+import yaml
+from pydantic import ValidationError, model_validator
+
+from .operating_point import OperatingPoint
+from .quantity import SceneError, Section, explain
+from .sections import Drive, Gearset, Lubrication, Mesh
+
+
+class Scene(Section):
+    """A gearset, its laws, its drive and the point it runs at."""
+
+    name: str
+    description: str = ""
+    gearset: Gearset
+    mesh: Mesh
+    lubrication: Lubrication
+    drive: Drive
+    operating_point: OperatingPoint
+
+    @model_validator(mode="after")
+    def _held_member_is_free_of_machines(self) -> Self:
+        for side in ("input", "output"):
+            member = getattr(self.drive, side).member
+            if member == self.gearset.held:
+                raise ValueError(f"drive.{side}.member = {member!r}: the gearset holds it")
+        return self
+
+    def replace(self, **changes: Any) -> Scene:
+        """A copy with other values.
+
+        Names are those of the operating point (``backlash=3e-7``) or dotted paths into the
+        scene (``**{"mesh.ramp": 0.0}``); texts with a unit are converted.
+
+        Raises:
+            SceneError: a name is unknown, or a value is out of its range.
+        """
+        data = self.model_dump()
+        for name, value in changes.items():
+            path = name.split(".")
+            if len(path) == 1 and name in OperatingPoint.model_fields:
+                path = ["operating_point", name]
+            node = data
+            for part in path[:-1]:
+                node = node.get(part, {}) if isinstance(node, dict) else {}
+            if path[-1] not in node:
+                raise SceneError(f"{name}: no such field")
+            node[path[-1]] = value
+        return _validated(data)
+
+
+def _validated(data: Any) -> Scene:
+    try:
+        return Scene.model_validate(data)
+    except ValidationError as error:
+        raise SceneError(explain(error, Scene).removeprefix("operating_point.")) from None
+
+
+def packaged_scenes() -> tuple[str, ...]:
+    """Names of the scenes that come with the package."""
+    folder = resources.files(__package__) / "packaged"
+    return tuple(sorted(Path(f.name).stem for f in folder.iterdir() if f.name.endswith(".yaml")))
+
+
+def load_scene(name_or_path: str | Path) -> Scene:
+    """Load a packaged scene by its name, or a YAML file by its path.
+
+    Raises:
+        SceneError: there is no such scene, or a field in it is wrong.
+    """
+    if str(name_or_path) in packaged_scenes():
+        text = (resources.files(__package__) / "packaged" / f"{name_or_path}.yaml").read_text()
+    else:
+        try:
+            text = Path(name_or_path).read_text()
+        except OSError as error:
+            raise SceneError(
+                f"scene = {str(name_or_path)!r}: neither a readable file ({error.strerror}) nor "
+                f"one of {', '.join(packaged_scenes())}"
+            ) from None
+    return parse_scene(text)
+
+
+def parse_scene(text: str) -> Scene:
+    """Read a scene from YAML text.
+
+    Raises:
+        SceneError: the text is no YAML mapping, or a field in it is wrong.
+    """
+    try:
+        data = yaml.safe_load(text)
+    except yaml.YAMLError as error:
+        raise SceneError(f"scene is not YAML: {' '.join(str(error).split())}") from None
+    if not isinstance(data, dict):
+        raise SceneError("scene is not a YAML mapping")
+    return _validated(data)
