@@ -8,8 +8,10 @@ from __future__ import annotations
 from typing import Any
 
 from llvmlite import ir
-from numba import njit, types
+from numba import types
 from numba.extending import intrinsic
+
+from ._compile import law
 
 _LN2_HIGH = 0.693147180369123816490
 _LN2_LOW = 1.90821492927058770002e-10
@@ -32,7 +34,7 @@ def _from_bits(typingctx: Any, value: Any) -> Any:
     return types.float64(types.int64), codegen
 
 
-@njit(inline="always")
+@law
 def exp(x: float) -> float:
     """e**x for any finite x, saturating at the ends of the double range."""
     x = min(max(x, -700.0), 700.0)
@@ -52,7 +54,7 @@ def exp(x: float) -> float:
     return p * _from_bits((n + 1023) << 52)
 
 
-@njit(inline="always")
+@law
 def log(x: float) -> float:
     """Natural logarithm of a positive normal number."""
     bits = _bits(x)

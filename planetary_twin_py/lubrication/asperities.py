@@ -7,14 +7,13 @@ Both functions are given as exp of a quartic fitted to that integral: relative e
 
 from __future__ import annotations
 
-from numba import njit
-
+from .._compile import law
 from .._vector_math import exp
 
 LARGEST_LAMBDA = 6.0  # asperities carry nothing beyond: F_5/2(6) is 6e-13
 
 
-@njit(inline="always")
+@law
 def contact_area_function(lambda_ratio: float) -> float:
     """F_2 [-], which scales the area of the asperities in contact."""
     x = min(lambda_ratio, LARGEST_LAMBDA)
@@ -23,7 +22,7 @@ def contact_area_function(lambda_ratio: float) -> float:
     )
 
 
-@njit(inline="always")
+@law
 def contact_load_function(lambda_ratio: float) -> float:
     """F_5/2 [-], which scales the load the asperities carry."""
     x = min(lambda_ratio, LARGEST_LAMBDA)

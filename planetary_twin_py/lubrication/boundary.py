@@ -9,8 +9,7 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
-from numba import njit
-
+from .._compile import law
 from .asperities import contact_area_function, contact_load_function
 
 
@@ -23,7 +22,7 @@ class Asperities(NamedTuple):
     pressure_coefficient: float  # [-] eps, growth of the shear stress with asperity pressure
 
 
-@njit(inline="always")
+@law
 def boundary_shear(asperities: Asperities, lambda_ratio: float) -> float:
     """Boundary friction per apparent area, f_b/A [Pa]."""
     area = asperities.area_factor * contact_area_function(lambda_ratio)

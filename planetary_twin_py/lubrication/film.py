@@ -8,8 +8,7 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
-from numba import njit
-
+from .._compile import law
 from .._vector_math import exp, log
 
 THINNEST_FILM = 1e-9  # [m] a molecule or two of oil: keeps h positive where nothing is entrained
@@ -43,7 +42,7 @@ FILM_LAWS = {
 }
 
 
-@njit(inline="always")
+@law
 def film_thickness(
     law: FilmLaw,
     radius: float,

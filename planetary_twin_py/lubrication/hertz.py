@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import math
 
-from numba import njit
+from .._compile import law
 
 
-@njit(inline="always")
+@law
 def half_width(load: float, radius: float, face_width: float, contact_modulus: float) -> float:
     """Half-width b of the contact [m].
 

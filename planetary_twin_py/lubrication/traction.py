@@ -9,8 +9,7 @@ from __future__ import annotations
 import math
 from typing import NamedTuple
 
-from numba import njit
-
+from .._compile import law
 from .._vector_math import exp, log
 
 
@@ -23,7 +22,7 @@ class Traction(NamedTuple):
     film_heating: float  # [(m s/Pa)^0.5] 4/pi K/sqrt(E' K' rho' c') of (13)
 
 
-@njit(inline="always")
+@law
 def viscous_friction(
     traction: Traction, load: float, area: float, radius: float, film: float, speed: float
 ) -> float:
@@ -46,7 +45,7 @@ def viscous_friction(
     return max(friction, 0.0)
 
 
-@njit(inline="always")
+@law
 def sliding_sense(sliding: float, speed: float, threshold: float) -> float:
     """Share of the plateau at a small slide-to-roll ratio, odd in `sliding`, within [-1, 1].
 

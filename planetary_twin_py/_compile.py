@@ -1,0 +1,56 @@
+"""How the numerical kernels are compiled.
+
+numba keeps compiled code per file, and does not notice when a function a kernel calls from
+another file has changed. The cache folder is therefore named after the whole package's source.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import os
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any, TypeVar, cast
+
+import numba
+
+F = TypeVar("F", bound=Callable[..., Any])
+
+# Reassociation and fused multiplies change the last bits only; NaN and infinity stay visible.
+_FAST = {"reassoc", "nsz", "arcp", "contract"}
+
+
+def _source_hash() -> str:
+    digest = hashlib.sha256(numba.__version__.encode())
+    for path in sorted(Path(__file__).parent.rglob("*.py")):
+        digest.update(path.read_bytes())
+    return digest.hexdigest()[:16]
+
+
+def cache_folder() -> Path:
+    """Where compiled kernels are kept."""
+    base = os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache"
+    return Path(base) / "planetary_twin" / _source_hash()
+
+
+if "NUMBA_CACHE_DIR" not in os.environ:
+    numba.config.CACHE_DIR = str(cache_folder())
+
+
+def kernel(function: F) -> F:
+    """Compile on first use, keep the machine code, release the interpreter lock."""
+    return _compiled(function, inline=False)
+
+
+def law(function: F) -> F:
+    """The same for a formula, which is merged into its caller so that loops over it vectorise."""
+    return _compiled(function, inline=True)
+
+
+def _compiled(function: F, inline: bool) -> F:
+    return cast(
+        F,
+        numba.njit(
+            cache=True, nogil=True, error_model="numpy", fastmath=_FAST, forceinline=inline
+        )(function),
+    )

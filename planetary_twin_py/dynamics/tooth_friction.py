@@ -1,0 +1,100 @@
+"""Friction of all loaded tooth pairs of the train, side by side.
+
+The pairs of all meshes are gathered into columns first, so that the laws of friction run over
+them in vector registers; then each is applied as a generalised force Q_j = -f dVs/dw_j, which
+takes exactly f Vs out of the motion, whatever turns and whatever is held.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from .._compile import kernel
+from .._records import MESHES, REAL, WHOLE, Record, layout
+from ..mesh.tooth_pairs import PAIRS
+from .tooth_contact import tooth_contact
+
+REGISTER = 8  # doubles the compiler works on at a time
+LANES = -(-MESHES * PAIRS // REGISTER) * REGISTER  # room for all tooth pairs
+
+TOOTH_PAIRS = layout(
+    mesh=(WHOLE, (LANES,)),
+    share=(REAL, (LANES,)),  # of the mesh force [-]
+    rho1=(REAL, (LANES,)),  # radii of curvature [m]
+    rho2=(REAL, (LANES,)),
+    external=(REAL, (LANES,)),  # +1: external mesh, -1: internal
+    speed1=(REAL, (LANES,)),  # of the gears relative to the carrier [rad/s]
+    speed2=(REAL, (LANES,)),
+    load=(REAL, (LANES,)),  # [N]
+    friction=(REAL, (LANES,)),  # signed, against the sliding [N]
+    boundary=(REAL, (LANES,)),  # [N]
+    viscous=(REAL, (LANES,)),  # [N]
+    film=(REAL, (LANES,)),  # [m]
+    lambda_ratio=(REAL, (LANES,)),  # [-]
+    sliding=(REAL, (LANES,)),  # [m/s]
+)
+
+
+@kernel
+def gather(
+    model: Record, state: Record, i: int, cycle: float, force: float, v: np.ndarray,
+    pairs: Record, count: int,
+) -> int:
+    """Append the tooth pairs of mesh i at a fraction of its cycle; return the new count."""
+    train = model.train
+    kind, segment = train.kind[i], state.segment[i]
+    first, second, carrier = train.body[i, 0], train.body[i, 1], train.body[i, 2]
+    frame = train.ratio[carrier] * state.speed + v[carrier] / train.radius[carrier]
+    speed1 = train.ratio[first] * state.speed + v[first] / train.radius[first] - frame
+    speed2 = train.ratio[second] * state.speed + v[second] / train.radius[second] - frame
+    total = 0.0
+    begin = count
+    for p in range(PAIRS):
+        weight = train.offset[kind, segment, p] + train.slope[kind, segment, p] * cycle
+        if weight <= 0.0:
+            continue
+        s = (cycle + train.shift[kind, segment, p]) * train.base_pitch
+        pairs.mesh[count] = i
+        pairs.share[count] = weight
+        pairs.rho1[count] = train.pitch_curvature[kind, 0] + s
+        pairs.rho2[count] = train.pitch_curvature[kind, 1] - train.external[kind] * s
+        pairs.external[count] = train.external[kind]
+        pairs.speed1[count] = speed1
+        pairs.speed2[count] = speed2
+        total += weight
+        count += 1
+    for p in range(begin, count):
+        pairs.share[p] /= total
+        pairs.load[p] = pairs.share[p] * force
+    return count
+
+
+@kernel
+def evaluate(model: Record, pairs: Record, count: int) -> None:
+    """Film and friction of the first `count` pairs; whole registers, so lanes beyond are idle."""
+    for p in range(-(-count // REGISTER) * REGISTER):
+        signed, boundary, viscous, film, ratio, sliding = tooth_contact(
+            model.oil, pairs.rho1[p], pairs.rho2[p], pairs.external[p], pairs.speed1[p],
+            pairs.speed2[p], pairs.load[p], model.load.lambda_ratio,
+        )
+        pairs.friction[p] = signed
+        pairs.boundary[p] = boundary
+        pairs.viscous[p] = viscous
+        pairs.film[p] = film
+        pairs.lambda_ratio[p] = ratio
+        pairs.sliding[p] = sliding
+
+
+@kernel
+def apply_friction(train: Record, pairs: Record, count: int, force: np.ndarray) -> float:
+    """Add the generalised forces -f dVs/dw/r of all pairs; return the power they take [W]."""
+    power = 0.0
+    for p in range(count):
+        i = pairs.mesh[p]
+        first, second, carrier = train.body[i, 0], train.body[i, 1], train.body[i, 2]
+        f, rho1, rho2 = pairs.friction[p], pairs.rho1[p], pairs.external[p] * pairs.rho2[p]
+        force[first] -= f * rho1 / train.radius[first]
+        force[second] -= f * rho2 / train.radius[second]
+        force[carrier] += f * (rho1 + rho2) / train.radius[carrier]
+        power += f * pairs.sliding[p]
+    return power

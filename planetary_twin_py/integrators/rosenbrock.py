@@ -1,0 +1,212 @@
+"""One step of ROS34PW2, a linearly implicit Runge-Kutta method of order 3.
+
+Rang and Angermann 2005, New Rosenbrock W-methods of order 3 for partial differential algebraic
+equations of index 1, BIT 45, 761-787. A W-method: its order does not need the exact Jacobian, so
+the matrix holds the meshes and couplings only, while friction and the speed loop stay explicit.
+L-stable, which the damping of a mesh at low speed asks for, and stiffly accurate.
+
+The second-order form halves the linear system: with x' = v, stages need one Cholesky
+factorisation of M/(gamma h) + C + gamma h K per step.
+"""
+
+from __future__ import annotations
+
+import math
+import numpy as np
+
+from .._compile import kernel
+from .._records import BODIES, REAL, Record, layout
+from ..dynamics.equations import EVALUATION, forces, stiffness
+from ..dynamics.state import LEDGER, OPEN
+
+ORDER = 3
+STAGES = 4
+GAMMA = 4.3586652150845900e-01
+
+_ALPHA = np.array(
+    [
+        [0.0, 0.0, 0.0, 0.0],
+        [8.7173304301691801e-01, 0.0, 0.0, 0.0],
+        [8.4457060015369423e-01, -1.1299064236484185e-01, 0.0, 0.0],
+        [0.0, 0.0, 1.0, 0.0],
+    ]
+)
+_GAMMAS = np.array(
+    [
+        [GAMMA, 0.0, 0.0, 0.0],
+        [-8.7173304301691801e-01, GAMMA, 0.0, 0.0],
+        [-9.0338057013044082e-01, 5.4180672388095326e-02, GAMMA, 0.0],
+        [2.4212380706095346e-01, -1.2232505839045147e00, 5.4526025533510214e-01, GAMMA],
+    ]
+)
+_B = np.array(
+    [2.4212380706095346e-01, -1.2232505839045147e00, 1.5452602553351020e00, GAMMA]
+)
+_B_EMBEDDED = np.array(
+    [3.7810903145819369e-01, -9.6042292212423178e-02, 5.0e-01, 2.1793326075422950e-01]
+)
+
+# The usual transformation that avoids products with the Jacobian (Hairer and Wanner, Solving
+# Ordinary Differential Equations II, section IV.7): stages u = Gamma k.
+_INVERSE = np.linalg.inv(_GAMMAS)
+A = _ALPHA @ _INVERSE
+C = np.eye(STAGES) / GAMMA - _INVERSE
+WEIGHT = _B @ _INVERSE
+ERROR_WEIGHT = WEIGHT - _B_EMBEDDED @ _INVERSE
+# Quantities without a place in the Jacobian (trim, ledger) use the stages as they are.
+ALPHA = _ALPHA
+B = _B
+ABSCISSA = _ALPHA.sum(axis=1)
+
+
+# Room for one step, and what it leaves behind besides the new state.
+WORKSPACE = layout(
+    ux=(REAL, (STAGES, BODIES)),
+    uv=(REAL, (STAGES, BODIES)),
+    x=(REAL, (BODIES,)),  # of a stage
+    v=(REAL, (BODIES,)),
+    rx=(REAL, (BODIES,)),  # right-hand sides
+    rv=(REAL, (BODIES,)),
+    trim=(REAL, (STAGES,)),  # rates
+    stiffness=(REAL, (BODIES, BODIES)),  # K
+    system=(REAL, (BODIES, BODIES)),  # factorised
+    evaluation=EVALUATION,  # of the stage at hand
+    error_x=(REAL, (BODIES,)),  # local error of x [m]
+    error_v=(REAL, (BODIES,)),  # local error of v [m/s]
+    energy=(REAL, (LEDGER,)),  # growth of the ledger in this step [J]
+)
+
+
+@kernel
+def _add_outer(matrix: np.ndarray, body: np.ndarray, sign: np.ndarray, factor: float) -> None:
+    for a in range(body.size):
+        for b in range(body.size):
+            matrix[body[a], body[b]] += factor * sign[a] * sign[b]
+
+
+_ENDS = np.array([1.0, -1.0])
+
+
+@kernel
+def _assemble(model: Record, state: Record, moment: Record, h: float, work: Record) -> None:
+    """K, and M/(gamma h) + C + gamma h K, of the contacts at the middle of the step."""
+    train = model.train
+    step = GAMMA * h
+    work.stiffness[:] = 0.0
+    work.system[:] = 0.0
+    for i in range(train.meshes):
+        side = state.side[i]
+        if side == OPEN:
+            continue
+        kind = train.kind[i]
+        cycle = moment.start[i] + side * moment.cycle_rate * 0.5 * h
+        k = stiffness(train, kind, state.segment[i], cycle)
+        _add_outer(work.stiffness, train.body[i], train.sign[i], k)
+        _add_outer(work.system, train.body[i], train.sign[i], k * (moment.tau[kind] + step))
+    for c in range(2):
+        k = train.coupling_stiffness[c]
+        _add_outer(work.stiffness, train.coupling[c], _ENDS, k)
+        _add_outer(work.system, train.coupling[c], _ENDS, train.coupling_damping[c] + step * k)
+    for j in range(train.bodies + 1):
+        work.system[j, j] += train.mass[j] / step
+
+
+@kernel
+def _factorise(a: np.ndarray, n: int) -> None:
+    """Cholesky factor of the leading n x n part, in the lower triangle; inverse diagonal."""
+    for j in range(n):
+        pivot = a[j, j]
+        for k in range(j):
+            pivot -= a[j, k] * a[j, k]
+        inverse = 1.0 / math.sqrt(pivot)
+        a[j, j] = inverse
+        for i in range(j + 1, n):
+            value = a[i, j]
+            for k in range(j):
+                value -= a[i, k] * a[j, k]
+            a[i, j] = value * inverse
+
+
+@kernel
+def _solve(a: np.ndarray, n: int, b: np.ndarray) -> None:
+    for i in range(n):
+        value = b[i]
+        for k in range(i):
+            value -= a[i, k] * b[k]
+        b[i] = value * a[i, i]
+    for i in range(n - 1, -1, -1):
+        value = b[i]
+        for k in range(i + 1, n):
+            value -= a[k, i] * b[k]
+        b[i] = value * a[i, i]
+
+
+@kernel
+def _stage(
+    model: Record, state: Record, moment: Record, h: float, i: int, first: Record,
+    work: Record,
+) -> None:
+    """Stage i: evaluate, then solve for ux[i] and uv[i]."""
+    train = model.train
+    bodies = train.bodies + 1
+    g = 1.0 / (GAMMA * h)
+    trim = state.trim
+    for j in range(bodies):
+        x, v, cx, cv = state.x[j], state.v[j], 0.0, 0.0
+        for s in range(i):
+            x += A[i, s] * work.ux[s, j]
+            v += A[i, s] * work.uv[s, j]
+            cx += C[i, s] * work.ux[s, j]
+            cv += C[i, s] * work.uv[s, j]
+        work.x[j], work.v[j] = x, v
+        work.rx[j] = v + cx / h
+        work.rv[j] = train.mass[j] * cv / h
+    for s in range(i):
+        trim += h * ALPHA[i, s] * work.trim[s]
+    out = first if i == 0 else work.evaluation
+    if i > 0:
+        forces(model, state, moment, work.x, work.v, ABSCISSA[i] * h, trim, out)
+    motor = train.coupling[0, 0]
+    speed = state.speed + work.v[motor] / train.radius[motor]
+    work.trim[i] = state.set_speed + moment.slew * ABSCISSA[i] * h - speed
+    for e in range(LEDGER):
+        work.energy[e] += h * B[i] * out.power[e]
+    right = work.uv[i]
+    for j in range(bodies):
+        value = out.force[j] + work.rv[j]
+        for k in range(bodies):
+            value -= work.stiffness[j, k] * work.rx[k] / g
+        right[j] = value
+    _solve(work.system, bodies - 1, right)
+    right[bodies - 1] = 0.0
+    for j in range(bodies):
+        work.ux[i, j] = (work.rx[j] + right[j]) / g
+    work.ux[i, bodies - 1] = 0.0
+
+
+@kernel
+def step(
+    model: Record, state: Record, moment: Record, h: float, first: Record, new: Record,
+    work: Record,
+) -> None:
+    """Advance x, v and trim of `state` by h seconds into `new`.
+
+    `first` holds the forces at the start. The growth of the energy ledger and the local errors
+    are left in `work`. Sides and segments stay those of `state`.
+    """
+    _assemble(model, state, moment, h, work)
+    _factorise(work.system, model.train.bodies)
+    work.energy[:] = 0.0
+    new.x[:] = state.x
+    new.v[:] = state.v
+    work.error_x[:] = 0.0
+    work.error_v[:] = 0.0
+    new.trim = state.trim
+    for i in range(STAGES):
+        _stage(model, state, moment, h, i, first, work)
+        new.trim += h * B[i] * work.trim[i]
+        for j in range(model.train.bodies + 1):
+            new.x[j] += WEIGHT[i] * work.ux[i, j]
+            new.v[j] += WEIGHT[i] * work.uv[i, j]
+            work.error_x[j] += ERROR_WEIGHT[i] * work.ux[i, j]
+            work.error_v[j] += ERROR_WEIGHT[i] * work.uv[i, j]
