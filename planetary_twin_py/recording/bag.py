@@ -41,8 +41,8 @@ class BagWriter:
         return self._stream.closed
 
     @property
-    def bytes(self) -> int:
-        """Size of the file so far; the chunk in progress comes on top."""
+    def size(self) -> int:
+        """Bytes of the file so far; the chunk in progress comes on top."""
         return self._stream.tell()
 
     def attach(self, name: str, data: bytes, media_type: str) -> None:
@@ -74,7 +74,7 @@ class BagWriter:
 
     def flush(self) -> None:
         """Bring everything written so far onto the disk."""
-        self._writer.flush()
+        self._writer.flush()  # type: ignore[no-untyped-call]
         os.fsync(self._stream.fileno())
 
     def close(self, accounts: Mapping[str, TopicAccount] | None = None) -> None:
@@ -84,7 +84,7 @@ class BagWriter:
         for name, account in (accounts or {}).items():
             self._writer.add_metadata(ACCOUNT_RECORD, {"topic": name, **_figures(account)})
         self._writer.add_metadata("rosbag2", {"serialized_metadata": metadata})
-        self._writer.finish()
+        self._writer.finish()  # type: ignore[no-untyped-call]
         self._stream.flush()
         os.fsync(self._stream.fileno())
         self._stream.close()

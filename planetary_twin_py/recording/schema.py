@@ -8,10 +8,9 @@ import sys
 from collections.abc import Callable
 from pathlib import Path
 
-_PRIMITIVES = frozenset(
-    "bool byte char float32 float64 int8 uint8 int16 uint16 int32 uint32 int64 uint64 "
-    "string wstring".split()
-)
+_PRIMITIVES = {"bool", "byte", "char", "float32", "float64", "string", "wstring"} | {
+    f"{sign}int{bits}" for sign in ("", "u") for bits in (8, 16, 32, 64)
+}
 _SEPARATOR = "=" * 80
 # "pkg/Type[<=3] name" -> "pkg/Type"; bounds of strings and arrays are no part of the type
 _FIELD_TYPE = re.compile(r"^\s*([A-Za-z]\w*(?:/\w+)*)")
@@ -48,7 +47,9 @@ def installed_definition(type_name: str) -> str:
         file = Path(prefix, "share", package, kind, f"{name}.msg")
         if file.is_file():
             return file.read_text(encoding="utf-8")
-    raise FileNotFoundError(f"{type_name}: its definition {package}/{kind}/{name}.msg is not installed")
+    raise FileNotFoundError(
+        f"{type_name}: its definition {package}/{kind}/{name}.msg is not installed"
+    )
 
 
 def _references(text: str, owner: str) -> list[str]:

@@ -10,14 +10,15 @@ from mcap.exceptions import McapError
 from mcap.reader import make_reader
 from mcap.records import Message
 from mcap.stream_reader import StreamReader
+from rosbags.rosbag2 import Reader
+
 from planetary_twin_py.recording.account import TopicAccount
 from planetary_twin_py.recording.bag import ACCOUNT_RECORD, BagWriter, free_folder
 from planetary_twin_py.recording.rosbag2 import Topic
 from planetary_twin_py.recording.schema import message_definition
-from rosbags.rosbag2 import Reader
 
 _TYPES = {
-    "demo_msgs/msg/Reading": "# a comment\nstd_msgs/Header header\nfloat64[<=3] values\nPart[2] parts\n",
+    "demo_msgs/msg/Reading": "# a comment\nstd_msgs/Header header\nfloat64[<=3] v\nPart[2] parts\n",
     "std_msgs/msg/Header": "builtin_interfaces/Time stamp\nstring frame_id\n",
     "builtin_interfaces/msg/Time": "int32 sec\nuint32 nanosec\n",
     "demo_msgs/msg/Part": "uint8 SMALL=1\nstring<=8 name\n",
@@ -52,7 +53,11 @@ def test_a_definition_brings_every_type_it_refers_to() -> None:
     text = message_definition("demo_msgs/msg/Reading", _TYPES.__getitem__)
     headings = [line for line in text.splitlines() if line.startswith("MSG: ")]
     assert text.startswith(_TYPES["demo_msgs/msg/Reading"])
-    assert headings == ["MSG: std_msgs/Header", "MSG: demo_msgs/Part", "MSG: builtin_interfaces/Time"]
+    assert headings == [
+        "MSG: std_msgs/Header",
+        "MSG: demo_msgs/Part",
+        "MSG: builtin_interfaces/Time",
+    ]
     assert text.count("=" * 80) == 3
 
 

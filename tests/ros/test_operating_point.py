@@ -3,15 +3,19 @@
 from __future__ import annotations
 
 import math
+from pathlib import Path
 
 import pytest
 from planetary_twin_msgs.msg import GearboxState, OperatingPoint
 from planetary_twin_msgs.srv import SetOperatingPoint
 from rclpy.qos import DurabilityPolicy, QoSProfile
 
+import planetary_twin_py as pt
+
 from .conftest import Start
 from .peer import TWIN, Peer
 
+ROOT = Path(__file__).parents[2]
 NODE = f"{TWIN}/simulation"
 LATCHED = QoSProfile(depth=100, durability=DurabilityPolicy.TRANSIENT_LOCAL)
 
@@ -49,7 +53,7 @@ def test_nonsense_is_refused_with_the_reason_and_changes_nothing(
     ):
         result = peer.set(NODE, **values)
         assert not result.successful
-        (name, value), = values.items()
+        ((name, value),) = values.items()
         assert name in result.reason
         assert str(value).lower() in result.reason.lower()
     assert not peer.set(NODE, backlash_typo=1.0).successful
@@ -104,7 +108,9 @@ def test_film_and_speed_follow_the_parameters(peer: Peer, points: list[Operating
 
 
 def test_values_given_at_start_are_read_the_same_way(peer: Peer, start: Start) -> None:
-    start("planetary_twin.simulation", "--ros-args", "-p", "backlash:=3e-7", "-p", "lambda_ratio:=2")
+    start(
+        "planetary_twin.simulation", "--ros-args", "-p", "backlash:=3e-7", "-p", "lambda_ratio:=2"
+    )
     points = peer.listen(OperatingPoint, f"{TWIN}/operating_point", LATCHED)
     point = peer.until(lambda: points, 120.0)[0]
     assert (point.backlash, point.lambda_ratio) == (3e-7, 2.0)
@@ -117,3 +123,13 @@ def test_nonsense_at_start_ends_in_one_line(start: Start, given: str) -> None:
     assert process.returncode == 1
     assert len(errors.strip().splitlines()) == 1
     assert given.split(":=")[1] in errors
+
+
+def test_the_shipped_parameter_file_is_the_packaged_scene(peer: Peer, start: Start) -> None:
+    file = ROOT / "ros_ws/src/planetary_twin/config/paper.yaml"
+    start("planetary_twin.simulation", "--ros-args", "--params-file", str(file))
+    points = peer.listen(OperatingPoint, f"{TWIN}/operating_point", LATCHED)
+    point = peer.until(lambda: points, 120.0)[0]
+    shipped = pt.load_scene("paper").operating_point
+    for name in pt.TUNABLES:
+        assert math.isclose(getattr(point, name), getattr(shipped, name), rel_tol=1e-6)

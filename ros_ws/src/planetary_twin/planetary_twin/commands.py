@@ -5,14 +5,12 @@ from __future__ import annotations
 import json
 import signal
 import sys
+from collections.abc import Mapping
 from pathlib import Path
 from types import FrameType
-from typing import Annotated
+from typing import Annotated, Any
 
-import planetary_twin_py as pt
 import typer
-from planetary_twin_py.recording.bag import free_folder
-from rich.console import Console
 
 RECORDINGS = Path("recordings")
 
@@ -38,38 +36,51 @@ def run(
     ] = None,
 ) -> None:
     """Run a gearbox live on ROS 2, change it while it runs, and record it."""
-    from .running.children import RunError
-    from .running.outcome import print_outcome
-    from .running.session import Plan, run_session
-    from .running.tour import tour as stops_of
-
-    # Standard output is the machine's where figures are printed there.
-    console = Console(stderr=json_ == "-")
     for number in (signal.SIGTERM, signal.SIGHUP):
         signal.signal(number, _interrupt)
+    options = {"scene": scene, "duration": duration, "rate_factor": rate_factor}
     try:
-        plan = Plan(
-            scene=scene,
-            duration=duration,
-            folder=_folder(record, scene),
-            rate_factor=rate_factor,
-            values=_values(scene, set_ or []),
-            stops=stops_of(scene, duration) if tour else [],
-        )
-        outcome = run_session(plan, console)
-    except (RunError, ValueError, OSError) as reason:
-        print(f"planetary-twin run: {reason}", file=sys.stderr)
-        raise typer.Exit(1) from None
+        _run(options, record, set_ or [], tour, json_)
     except KeyboardInterrupt:
         print("interrupted before the recording began", file=sys.stderr)
-        raise typer.Exit(0) from None
+    except (ValueError, OSError) as reason:
+        print(f"planetary-twin run: {reason}", file=sys.stderr)
+        raise typer.Exit(1) from None
+
+
+def _run(
+    options: Mapping[str, Any],
+    record: str | None,
+    settings: list[str],
+    tour: bool,
+    target: str | None,
+) -> None:
+    # Loading ROS and the model takes a second in which Ctrl-C must end as cleanly as later.
+    from rich.console import Console
+
+    from .running.outcome import print_outcome
+    from .running.session import Plan, run_session
+    from .running.tour import tour_of
+
+    scene, duration = options["scene"], options["duration"]
+    plan = Plan(
+        **options,
+        folder=_folder(record, scene),
+        values=_values(scene, settings),
+        stops=tour_of(scene, duration) if tour else [],
+    )
+    # Standard output is the machine's where figures are printed there.
+    console = Console(stderr=target == "-")
+    outcome = run_session(plan, console)
     print_outcome(console, outcome)
-    if json_ is not None:
-        text = json.dumps(outcome.figures(), indent=2)
-        print(text) if json_ == "-" else Path(json_).write_text(text + "\n", encoding="utf-8")
+    if target is not None:
+        text = json.dumps(outcome.figures(), indent=2) + "\n"
+        sys.stdout.write(text) if target == "-" else Path(target).write_text(text, "utf-8")
 
 
 def _folder(record: str | None, scene: str) -> Path:
+    from planetary_twin_py.recording.bag import free_folder
+
     if record is None:
         return free_folder(RECORDINGS, Path(scene).stem)
     if not record or Path(record).name != record:
@@ -81,11 +92,14 @@ def _folder(record: str | None, scene: str) -> Path:
 
 def _values(scene: str, settings: list[str]) -> dict[str, float]:
     """The settings in SI, tried on the scene before any process starts."""
+    import planetary_twin_py as pt
+
     values = {}
     for setting in settings:
         name, equals, value = setting.partition("=")
         if not equals or name not in pt.TUNABLES:
-            raise ValueError(f"--set {setting!r}: must be NAME=VALUE, NAME of {', '.join(pt.TUNABLES)}")
+            known = ", ".join(pt.TUNABLES)
+            raise ValueError(f"--set {setting!r}: must be NAME=VALUE, with NAME of {known}")
         values[name] = value
     point = pt.load_scene(scene).replace(**values).operating_point
     return {name: getattr(point, name) for name in values}

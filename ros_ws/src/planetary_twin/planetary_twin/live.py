@@ -52,11 +52,14 @@ class LiveTwin:
         )
         self._stop = threading.Event()
         self._thread = threading.Thread(target=self._run, name="twin", daemon=True)
-        self.begun = self.progress = Progress(twin.time, time.monotonic(), 0.0, 0)
+        self.progress = Progress(twin.time, time.monotonic(), 0.0, 0)
 
-    def start(self) -> None:
-        """Begin at the twin's present time."""
+    def start(self) -> Progress:
+        """Begin at the twin's present time; returns where that is."""
+        self._pace.start()
+        begun = self.progress = Progress(self._twin.time, time.monotonic(), 0.0, 0)
         self._thread.start()
+        return begun
 
     def stop(self) -> None:
         """End after the interval in progress, which is still published."""
@@ -71,8 +74,6 @@ class LiveTwin:
 
     def _run(self) -> None:
         try:
-            self._pace.start()
-            self.begun = self.progress = self._standing()
             while not self._stop.is_set():
                 self._apply_changes()
                 self._listener.prepare(self._twin.advance(self._interval))
@@ -94,6 +95,4 @@ class LiveTwin:
             future.set_result(instant)
 
     def _standing(self) -> Progress:
-        return Progress(
-            self._twin.time, time.monotonic(), time.thread_time(), self._pace.overruns
-        )
+        return Progress(self._twin.time, time.monotonic(), time.thread_time(), self._pace.overruns)

@@ -8,13 +8,14 @@ from pathlib import Path
 from typing import Any
 
 from planetary_twin_msgs.msg import RecorderStatus
-from planetary_twin_py.recording.account import TopicAccount
-from planetary_twin_py.recording.bag import BagWriter, free_folder
 from rclpy.event_handler import QoSMessageLostInfo, SubscriptionEventCallbacks
 from rclpy.logging import get_logger
 from rclpy.qos import DurabilityPolicy
 from rclpy.subscription import Subscription
 from rclpy.timer import Timer
+
+from planetary_twin_py.recording.account import TopicAccount
+from planetary_twin_py.recording.bag import BagWriter, free_folder
 
 from .managed import ManagedNode, NodeError, run_node
 from .parameters import declare_bounded, declare_fixed
@@ -42,9 +43,7 @@ class Tap:
         """Write one message."""
         number = info["publication_sequence_number"]
         received = info["received_timestamp"] or time.time_ns()
-        self._bag.write(
-            self._channel, raw, received, info["source_timestamp"] or received, number
-        )
+        self._bag.write(self._channel, raw, received, info["source_timestamp"] or received, number)
         self.account.receive(number, self.publishers)
 
     def told_of_loss(self, event: QoSMessageLostInfo) -> None:
@@ -121,7 +120,9 @@ class Logger(ManagedNode):
             bag.close(accounts)
         except OSError as reason:
             bag.abandon()
-            raise NodeError(f"{bag.file}: {reason.strerror}; what was flushed is readable") from None
+            raise NodeError(
+                f"{bag.file}: {reason.strerror}; what was flushed is readable"
+            ) from None
         # Under a name of its own: a signal has shut down what the node's name would publish to.
         get_logger("recording").info(f"{bag.file}: {_summary(accounts)}")
 
@@ -169,7 +170,7 @@ class Logger(ManagedNode):
         status.sequence += 1
         status.file = str(self._bag.file)
         status.duration = (time.monotonic_ns() - self._begun) * 1e-9
-        status.bytes = self._bag.bytes
+        status.bytes = self._bag.size
         matched = {name: tap.account for name, tap in self._taps.items() if tap.publishers}
         status.topics = list(matched)
         status.recorded = [account.recorded for account in matched.values()]

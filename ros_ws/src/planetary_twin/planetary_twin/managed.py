@@ -9,11 +9,13 @@ from collections.abc import Callable
 import rclpy
 from rclpy.exceptions import ParameterException
 from rclpy.executors import ExternalShutdownException, SingleThreadedExecutor
+from rclpy.impl.implementation_singleton import rclpy_implementation
 from rclpy.lifecycle import LifecycleNode, LifecycleState, TransitionCallbackReturn
 
 from .parameters import declare_fixed
 
 NAMESPACE = "planetary_twin"
+RCLError = rclpy_implementation.RCLError
 
 
 class NodeError(Exception):
@@ -30,6 +32,7 @@ class ManagedNode(LifecycleNode):
     def __init__(self, name: str) -> None:
         super().__init__(name, namespace=NAMESPACE)
         self.failure: str | None = None
+        self._starting = False
         self._autostart = bool(
             declare_fixed(self, "autostart", True, "configure and activate without being asked")
         )
@@ -50,9 +53,11 @@ class ManagedNode(LifecycleNode):
         """Go as far as the parameters say; raises `NodeError` where a step fails."""
         if not self._autostart:
             return
+        self._starting = True
         for trigger in (self.trigger_configure, self.trigger_activate):
             if trigger() != TransitionCallbackReturn.SUCCESS:
                 raise NodeError(self.failure or "cannot start")
+        self._starting = False
 
     def fail(self, reason: str) -> None:
         """End the process from any thread: what spins returns, and the exit code is not zero."""
@@ -84,7 +89,8 @@ class ManagedNode(LifecycleNode):
             step()
         except (NodeError, ValueError, OSError) as reason:
             self.failure = str(reason)
-            self.get_logger().error(self.failure)
+            if not self._starting:  # else it is the last line the process prints
+                self.get_logger().error(self.failure)
             return TransitionCallbackReturn.FAILURE
         except Exception as defect:
             self.failure = f"{type(defect).__name__}: {defect}"
@@ -95,10 +101,10 @@ class ManagedNode(LifecycleNode):
 
 def run_node(make: Callable[[], ManagedNode], args: list[str] | None = None) -> int:
     """Run a node until SIGINT, SIGTERM or its own failure; returns the exit code."""
-    rclpy.init(args=args)
     node: ManagedNode | None = None
     failure: str | None = None
     try:
+        rclpy.init(args=args)
         node = make()
         node.start()
         executor = SingleThreadedExecutor()
@@ -108,6 +114,10 @@ def run_node(make: Callable[[], ManagedNode], args: list[str] | None = None) -> 
         pass
     except (NodeError, ParameterException, ValueError, OSError) as reason:
         failure = str(reason)
+    except RCLError:
+        # A callback that publishes while a signal shuts ROS down is refused: that is the end.
+        if rclpy.ok():
+            raise
     finally:
         failure = _end(node) or failure
         rclpy.try_shutdown()

@@ -6,10 +6,11 @@ from array import array
 
 import numpy as np
 from numpy.typing import NDArray
-from planetary_twin_py import TUNABLES, OperatingPoint, Scene, Window
 from planetary_twin_msgs import msg
 from sensor_msgs.msg import JointState
 from std_msgs.msg import Header
+
+from planetary_twin_py import TUNABLES, OperatingPoint, Scene, Window
 
 _POWER_FLOW = (
     "mesh_frequency",

@@ -5,10 +5,11 @@ from __future__ import annotations
 from collections.abc import Container
 from typing import Any
 
-from planetary_twin_py import Tunable
 from rcl_interfaces.msg import FloatingPointRange, ParameterDescriptor, ParameterType
 from rclpy.node import Node
 from rclpy.parameter import Parameter
+
+from planetary_twin_py import Tunable
 
 _AT_START = "fixed while the node lives: set it at start, -p {name}:=VALUE"
 
@@ -57,7 +58,9 @@ def coerce(parameters: list[Parameter], numbers: Container[str]) -> list[Paramet
     Raises `ValueError` for a value that is no number.
     """
     return [
-        Parameter(p.name, Parameter.Type.DOUBLE, number(p.name, p.value)) if p.name in numbers else p
+        Parameter(p.name, Parameter.Type.DOUBLE, number(p.name, p.value))
+        if p.name in numbers
+        else p
         for p in parameters
     ]
 

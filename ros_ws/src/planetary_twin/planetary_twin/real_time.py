@@ -10,6 +10,7 @@ from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus, KeyValue
 from .live import Progress
 
 _TOLERATED_LAG = 0.01  # share of the wanted rate; below it the real-time factor is a warning
+_SHORTEST = 0.5  # [s] over less than this, one late wake-up would already look like a lag
 
 
 class RealTimeReport:
@@ -31,11 +32,14 @@ class RealTimeReport:
         """
         recent = _rate(self._last, now, self._rate_factor)
         overruns = now.overruns - self._last.overruns
-        late = overruns > 0 or recent < (1.0 - _TOLERATED_LAG) * self._rate_factor
+        lags = recent < (1.0 - _TOLERATED_LAG) * self._rate_factor
+        late = overruns > 0 or (lags and now.wall - self._last.wall >= _SHORTEST)
         status = DiagnosticStatus(
             level=DiagnosticStatus.WARN if late else DiagnosticStatus.OK,
             name="simulation: real time",
-            message=f"falls behind: {recent:.3f} of real time, {overruns} overruns" if late else "keeps up",
+            message=f"falls behind: real time x {recent:.3f}, {overruns} overruns"
+            if late
+            else "keeps up",
             hardware_id=self._hardware,
         )
         figures: dict[str, object] = {
@@ -59,7 +63,10 @@ class RealTimeReport:
         wall, process = time.monotonic(), time.process_time()
         span = max(wall - self._wall, 1e-9)
         loop = (now.cpu - self._last.cpu) / max(now.wall - self._last.wall, 1e-9)
-        shares = {"cpu_twin": f"{loop:.3f}", "cpu_process": f"{(process - self._process_cpu) / span:.3f}"}
+        shares = {
+            "cpu_twin": f"{loop:.3f}",
+            "cpu_process": f"{(process - self._process_cpu) / span:.3f}",
+        }
         self._wall, self._process_cpu = wall, process
         return shares
 

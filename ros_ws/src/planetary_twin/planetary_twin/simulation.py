@@ -6,11 +6,12 @@ import sys
 import traceback
 from concurrent.futures import Future
 
-import planetary_twin_py as pt
 from diagnostic_msgs.msg import DiagnosticStatus
 from planetary_twin_msgs.srv import SetOperatingPoint
 from rcl_interfaces.msg import SetParametersResult
 from rclpy.parameter import Parameter
+
+import planetary_twin_py as pt
 
 from .live import LiveTwin
 from .managed import ManagedNode, NodeError, run_node
@@ -22,7 +23,7 @@ _REPORT_PERIOD = 1.0  # [s]
 
 
 class Simulation(ManagedNode):
-    """Runs a scene in real time: configure builds the model, activate starts it, deactivate pauses."""
+    """Runs a scene in real time: configure builds it, activate starts it, deactivate pauses it."""
 
     def __init__(self) -> None:
         super().__init__("simulation")
@@ -47,8 +48,8 @@ class Simulation(ManagedNode):
         self._telemetry.begin(self.get_clock().now().nanoseconds, instant)
         self._telemetry.announce(twin.operating_point, instant)
         self._live = LiveTwin(twin, 1.0 / self._rate, self._rate_factor, self)
-        self._report = RealTimeReport(self.get_namespace(), self._rate_factor, self._live.begun)
-        self._live.start()
+        begun = self._live.start()
+        self._report = RealTimeReport(self.get_namespace(), self._rate_factor, begun)
 
     def deactivate(self) -> None:
         """Stop after the interval in progress; the last report counts every message."""
@@ -181,8 +182,10 @@ class Simulation(ManagedNode):
         status = message.status[0]
         if status.level != self._level:
             self._level = status.level
-            log = self.get_logger()
-            (log.info if status.level == DiagnosticStatus.OK else log.warning)(status.message)
+            if status.level == DiagnosticStatus.OK:
+                self.get_logger().info(status.message)
+            else:  # not the line above with another level: rclpy refuses that
+                self.get_logger().warning(status.message)
 
     def _running_twin(self) -> pt.Twin:
         if self._twin is None:

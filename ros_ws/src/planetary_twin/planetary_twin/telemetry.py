@@ -7,11 +7,12 @@ from typing import Any
 
 from diagnostic_msgs.msg import DiagnosticArray
 from planetary_twin_msgs import msg
-from planetary_twin_py import OperatingPoint, Scene, Window
 from rclpy.node import Node
 from rclpy.publisher import Publisher
 from rclpy.qos import DurabilityPolicy, QoSProfile
 from sensor_msgs.msg import JointState
+
+from planetary_twin_py import OperatingPoint, Scene, Window
 
 from .messages import JointsMessage, OperatingPointMessage, StateMessage, WaveformMessage
 
@@ -20,7 +21,7 @@ _DEPTH = 10
 
 
 class Telemetry:
-    """Publishes windows, operating points and diagnostics, stamped with the ROS time they are of."""
+    """Publishes windows, operating points and diagnostics, stamped with their own ROS time."""
 
     def __init__(self, node: Node, scene: Scene, frame: str, sample_rate: float) -> None:
         self._state = node.create_publisher(msg.GearboxState, "gearbox_state", _DEPTH)
@@ -39,7 +40,7 @@ class Telemetry:
         self._published = dict.fromkeys(publishers, 0)
 
     def begin(self, now: int, simulated: float) -> None:
-        """Let simulated time `simulated` [s] be the ROS time `now` [ns], or later if stamps ran ahead."""
+        """Let time `simulated` [s] be the ROS time `now` [ns], or later if stamps ran ahead."""
         self._origin = max(now, self._newest) - round(simulated * 1e9)
 
     def stamp(self, simulated: float) -> int:

@@ -6,8 +6,6 @@ from collections.abc import Sequence
 from importlib import import_module
 from typing import Any
 
-from planetary_twin_py.recording.rosbag2 import Topic
-from planetary_twin_py.recording.schema import message_definition
 from rclpy.duration import Duration, Infinite
 from rclpy.node import Node
 from rclpy.qos import (
@@ -18,6 +16,9 @@ from rclpy.qos import (
     ReliabilityPolicy,
 )
 from rclpy.topic_endpoint_info import TopicEndpointInfo
+
+from planetary_twin_py.recording.rosbag2 import Topic
+from planetary_twin_py.recording.schema import message_definition
 
 # Room for two seconds of every topic at 500 Hz while the disk is slow.
 _DEPTH = 1000

@@ -15,7 +15,7 @@ from typing import Self
 _PATIENCE = {signal.SIGINT: 10.0, signal.SIGTERM: 3.0, signal.SIGKILL: 3.0}  # [s]
 
 
-class RunError(Exception):
+class RunError(ValueError):
     """A run that cannot go on; the message says why in one line."""
 
 
@@ -31,7 +31,7 @@ class Child:
         command += ["-r", f"__ns:={namespace}"]
         for name, value in parameters.items():
             command += ["-p", f"{name}:={value}"]
-        self._log = tempfile.TemporaryFile()
+        self._log = tempfile.TemporaryFile()  # noqa: SIM115 (closed with the child)
         self._process = subprocess.Popen(
             command,
             stdin=subprocess.DEVNULL,

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import threading
 import time
 from collections.abc import Callable, Mapping
@@ -82,6 +83,17 @@ class Operator:
             time.sleep(_POLL)
         return True
 
+    def next_state(self, after: float, seconds: float) -> GearboxState:
+        """The newest state later than simulated time `after` [s], within `seconds`."""
+        newest: list[GearboxState] = []
+
+        def heard() -> bool:
+            newest[:] = [self.state] if self.state is not None else []
+            return bool(newest) and newest[0].simulated_time > after
+
+        self.wait("simulation: publishes its state", heard, seconds)
+        return newest[0]
+
     def bring(self, transition: str, begin: str, goal: str, seconds: float) -> None:
         """Take the simulation through a lifecycle `transition` from state `begin` to `goal`."""
         deadline = time.monotonic() + seconds
@@ -148,10 +160,8 @@ class Operator:
         return None
 
     def _spin(self) -> None:
-        try:
+        with contextlib.suppress(ExternalShutdownException):
             self._executor.spin()
-        except ExternalShutdownException:
-            pass
 
     def _hear_state(self, message: GearboxState) -> None:
         self.state = message

@@ -10,10 +10,11 @@ from typing import Any
 import numpy as np
 from mcap.reader import make_reader
 from planetary_twin_msgs.msg import GearboxState
-from planetary_twin_py.recording.bag import ACCOUNT_RECORD
 from rclpy.serialization import deserialize_message
 from rich.console import Console
 from rich.table import Table
+
+from planetary_twin_py.recording.bag import ACCOUNT_RECORD
 
 _STATE = "planetary_twin_msgs/msg/GearboxState"
 

@@ -57,11 +57,11 @@ def run_session(plan: Plan, console: Console) -> Outcome:
                 _drive(operator, plan, show)
             with _undisturbed():
                 _finish(operator)
+        if operator.state is None:
+            raise KeyboardInterrupt  # before there was anything to record
         if logger.stop() != 0:
             raise RunError(logger.last_words() or "logger: ended with an error")
     file = plan.folder / f"{plan.folder.name}_0.mcap"
-    if not file.exists():
-        raise KeyboardInterrupt  # before there was anything to record
     return read_outcome(file, operator.published(), operator.figures)
 
 
@@ -95,12 +95,7 @@ def _drive(operator: Operator, plan: Plan, show: Show) -> None:
     stops = list(plan.stops)
     seen = 0.0
     while seen < plan.duration:
-        operator.wait(
-            "simulation: publishes its state",
-            lambda: operator.state is not None and operator.state.simulated_time > seen,
-            _SILENCE / min(plan.rate_factor, 1.0),
-        )
-        state = operator.state
+        state = operator.next_state(seen, _SILENCE / min(plan.rate_factor, 1.0))
         seen = state.simulated_time
         show.update(state, operator.figures.get("real_time_factor", "-"))
         while stops and stops[0].time <= seen:

@@ -34,7 +34,7 @@ PAPER: Sequence[Stop] = (
 TOURS: Mapping[str, Sequence[Stop]] = {"paper": PAPER}
 
 
-def tour(scene: str, duration: float) -> list[Stop]:
+def tour_of(scene: str, duration: float) -> list[Stop]:
     """The stops for a packaged scene's name in a run of `duration` [s]; none for other scenes."""
     scale = duration / LENGTH
     return [stop._replace(time=stop.time * scale) for stop in TOURS.get(scene, ())]
