@@ -12,6 +12,9 @@ from collections.abc import Callable
 from pathlib import Path
 
 import pytest
+from mcap.reader import make_reader
+
+from planetary_twin_py.scene import load_scene, parse_scene
 
 from .peer import TWIN
 from .recordings import counts
@@ -74,6 +77,10 @@ def test_a_run_records_every_message_it_publishes(
     assert figures["topics"][f"{TWIN}/gearbox_state"]["lost"] == 0
     assert figures["topics"][f"{TWIN}/operating_point"]["published"] == 7
     assert figures["duration_s"] >= 3.0
+    with (tmp_path / figures["file"]).open("rb") as stream:
+        (attachment,) = make_reader(stream).iter_attachments()
+    assert attachment.name == "scene.yaml"
+    assert parse_scene(attachment.data.decode()) == load_scene("paper")
     assert Path(tmp_path / figures["file"]).exists()
     assert _processes(tmp_path) == []
 

@@ -43,7 +43,10 @@ def generate_launch_description() -> LaunchDescription:
         executable="logger",
         namespace=given["namespace"],
         output="screen",
-        parameters=[given["params"]],
+        parameters=[
+            given["params"],
+            {"scene": ParameterValue(given["scene"], value_type=str)},
+        ],
         condition=IfCondition(given["record"]),
     )
     return LaunchDescription([*arguments, logger, simulation])

@@ -7,6 +7,7 @@ import time
 from pathlib import Path
 from typing import Any
 
+import yaml
 from planetary_twin_msgs.msg import RecorderStatus
 from rclpy.event_handler import QoSMessageLostInfo, SubscriptionEventCallbacks
 from rclpy.logging import get_logger
@@ -14,6 +15,7 @@ from rclpy.qos import DurabilityPolicy
 from rclpy.subscription import Subscription
 from rclpy.timer import Timer
 
+import planetary_twin_py as pt
 from planetary_twin_py.recording.account import TopicAccount
 from planetary_twin_py.recording.bag import BagWriter, free_folder
 
@@ -67,6 +69,9 @@ class Logger(ManagedNode):
             )
             if topic
         ]
+        self._scene = declare_fixed(
+            self, "scene", "", "scene to keep in the recording, so that viewers know the gears"
+        )
         self._flush_period = declare_bounded(
             self, "flush_period", 0.5, (0.01, 60.0), "longest stretch that a kill can cost [s]"
         )
@@ -80,6 +85,7 @@ class Logger(ManagedNode):
 
     def configure(self) -> None:
         """Create the recording's folder and file."""
+        scene = pt.load_scene(self._scene).model_dump(mode="json") if self._scene else None
         directory = Path(self._directory).expanduser()
         folder = directory / self._name if self._name else free_folder(directory, "twin")
         try:
@@ -88,6 +94,9 @@ class Logger(ManagedNode):
             raise NodeError(f"name = {self._name}: {folder} exists; choose a free name") from None
         except OSError as reason:
             raise NodeError(f"directory = {directory}: {reason.strerror}") from None
+        if scene is not None:
+            text = yaml.safe_dump(scene, sort_keys=False)
+            self._bag.attach("scene.yaml", text.encode(), "application/yaml")
         self._begun = time.monotonic_ns()
         self.get_logger().info(f"recording into {self._bag.file}")
 

@@ -66,7 +66,11 @@ def run_session(plan: Plan, console: Console) -> Outcome:
 
 
 def _logger_parameters(plan: Plan) -> dict[str, object]:
-    return {"directory": plan.folder.parent.absolute(), "name": plan.folder.name}
+    return {
+        "directory": plan.folder.parent.absolute(),
+        "name": plan.folder.name,
+        "scene": plan.scene,
+    }
 
 
 def _simulation_parameters(plan: Plan) -> dict[str, object]:
