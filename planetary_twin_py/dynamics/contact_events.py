@@ -63,19 +63,21 @@ def flank_force(
 
 @kernel
 def departure(
-    model: Record, state: Record, i: int, cycle: float, tau: float, d: float, rate: float
+    model: Record, state: Record, i: int, tau: float, d: float, rate: float, slack: float
 ) -> float:
-    """How far mesh i is from changing its contact: positive while it stays as it is.
+    """Play [m] that mesh i has left before its contact changes; negative: it has changed.
 
-    In contact the force [N]; open the smaller distance of both sides to contact, as a force [N].
+    Contact ends where d - b + tau d', which is F/k, falls below zero, and begins where that and
+    d - b are positive, on whichever side. Both by `slack`: without load, flanks rest against each
+    other with no force, and would part and meet without end.
     """
     side = state.side[i]
+    half = model.load.half_backlash
     if side != OPEN:
-        return flank_force(model, i, side, state.segment[i], cycle, tau, d, rate)[1]
-    k = model.train.stiffness[model.train.kind[i]]
-    drive = k * min(d - model.load.half_backlash, d - model.load.half_backlash + tau * rate)
-    coast = k * min(-d - model.load.half_backlash, -d - model.load.half_backlash - tau * rate)
-    return -max(drive, coast)
+        return side * (d + tau * rate) - half + slack
+    drive = min(d, d + tau * rate) - half
+    coast = min(-d, -d - tau * rate) - half
+    return slack - max(drive, coast)
 
 
 @kernel

@@ -85,7 +85,7 @@ def forces(
     power[:] = 0.0
     advance = moment.cycle_rate * delay + cycle_shift(train, x) - cycle_shift(train, state.x)
     pace = moment.cycle_rate + cycle_shift(train, v)
-    count = 0
+    pairs.count = 0
     for i in range(train.meshes):
         side = state.side[i]
         if side == OPEN:
@@ -106,10 +106,10 @@ def forces(
         growth = train.stiffness[kind] * train.pair_gain * slope * side * pace
         power[STIFFNESS_WORK] += 0.5 * growth * squeeze * squeeze
         if train.friction:
-            count = gather(model, state, i, cycle, max(total, 0.0), v, pairs, count)
-    if count > 0:
-        evaluate(model, pairs, count)
-        power[FRICTION] = apply_friction(train, pairs, count, force)
+            gather(model, state, i, cycle, max(total, 0.0), v, pairs)
+    if pairs.count > 0:
+        evaluate(model, pairs)
+        power[FRICTION] = apply_friction(train, pairs, force)
     _machines(model, state, moment, x, v, delay, trim, out)
     force[ground] = 0.0
 

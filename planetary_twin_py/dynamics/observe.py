@@ -27,7 +27,7 @@ def observe(
     train = model.train
     advance = moment.cycle_rate * delay + cycle_shift(train, x) - cycle_shift(train, state.x)
     out[:] = 0.0
-    count = 0
+    pairs.count = 0
     for i in range(train.meshes):
         side = state.side[i]
         d = mesh_motion(train, i, x)
@@ -41,9 +41,9 @@ def observe(
         rate = side * mesh_motion(train, i, v)
         force = k * (side * d - model.load.half_backlash + moment.tau[kind] * rate)
         out[MESH_FORCE, i] = side * max(force, 0.0)
-        count = gather(model, state, i, cycle, max(force, 0.0), v, pairs, count)
-    evaluate(model, pairs, count)
-    for p in range(count):
+        gather(model, state, i, cycle, max(force, 0.0), v, pairs)
+    evaluate(model, pairs)
+    for p in range(pairs.count):
         i = pairs.mesh[p]
         out[FILM, i] += pairs.share[p] * pairs.film[p]
         out[LAMBDA, i] += pairs.share[p] * pairs.lambda_ratio[p]

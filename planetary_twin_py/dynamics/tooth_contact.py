@@ -11,9 +11,6 @@ from ..lubrication.traction import sliding_sense, viscous_friction
 
 LIGHTEST_LOAD = 1e-6  # [N] keeps logarithms finite; friction vanishes with the load
 
-# Columns of the answer of `tooth_contact`.
-SIGNED, BOUNDARY, VISCOUS, FILM, LAMBDA, SLIDING = range(6)
-
 
 @law
 def tooth_contact(
@@ -25,7 +22,7 @@ def tooth_contact(
     speed2: float,
     load: float,
     lambda_ratio: float,
-) -> tuple[float, float, float, float, float, float]:
+) -> tuple[float, float, float, float, float, float, float]:
     """Friction of a tooth pair, positive against the sliding of the first flank on the second.
 
     Args:
@@ -38,7 +35,7 @@ def tooth_contact(
 
     Returns:
         Signed friction [N], boundary and viscous friction [N], film [m], lambda ratio [-],
-        sliding speed [m/s].
+        sliding speed [m/s], growth of the friction with the sliding speed [N s/m].
     """
     u1, u2 = rho1 * speed1, -external * rho2 * speed2
     sliding = u1 - u2
@@ -58,4 +55,6 @@ def tooth_contact(
     sense = sliding_sense(sliding, speed, oil.sliding_threshold)
     boundary = boundary_shear(oil.asperities, ratio) * area
     viscous = viscous_friction(oil.traction, load, area, radius, film, speed)
-    return (boundary + viscous) * sense, boundary, viscous, film, ratio, sliding
+    full = boundary + viscous
+    slope = full * (1.0 - sense * sense) / (oil.sliding_threshold * speed)
+    return full * sense, boundary, viscous, film, ratio, sliding, slope

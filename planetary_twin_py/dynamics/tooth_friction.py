@@ -18,6 +18,7 @@ REGISTER = 8  # doubles the compiler works on at a time
 LANES = -(-MESHES * PAIRS // REGISTER) * REGISTER  # room for all tooth pairs
 
 TOOTH_PAIRS = layout(
+    count=WHOLE,  # how many there are
     mesh=(WHOLE, (LANES,)),
     share=(REAL, (LANES,)),  # of the mesh force [-]
     rho1=(REAL, (LANES,)),  # radii of curvature [m]
@@ -32,15 +33,16 @@ TOOTH_PAIRS = layout(
     film=(REAL, (LANES,)),  # [m]
     lambda_ratio=(REAL, (LANES,)),  # [-]
     sliding=(REAL, (LANES,)),  # [m/s]
+    slope=(REAL, (LANES,)),  # of friction over sliding [N s/m]
 )
 
 
 @kernel
 def gather(
     model: Record, state: Record, i: int, cycle: float, force: float, v: np.ndarray,
-    pairs: Record, count: int,
-) -> int:
-    """Append the tooth pairs of mesh i at a fraction of its cycle; return the new count."""
+    pairs: Record,
+) -> None:
+    """Append the tooth pairs of mesh i, which carries `force`, at a fraction of its cycle."""
     train = model.train
     kind, segment = train.kind[i], state.segment[i]
     first, second, carrier = train.body[i, 0], train.body[i, 1], train.body[i, 2]
@@ -48,7 +50,7 @@ def gather(
     speed1 = train.ratio[first] * state.speed + v[first] / train.radius[first] - frame
     speed2 = train.ratio[second] * state.speed + v[second] / train.radius[second] - frame
     total = 0.0
-    begin = count
+    begin = count = pairs.count
     for p in range(PAIRS):
         weight = train.offset[kind, segment, p] + train.slope[kind, segment, p] * cycle
         if weight <= 0.0:
@@ -66,14 +68,14 @@ def gather(
     for p in range(begin, count):
         pairs.share[p] /= total
         pairs.load[p] = pairs.share[p] * force
-    return count
+    pairs.count = count
 
 
 @kernel
-def evaluate(model: Record, pairs: Record, count: int) -> None:
-    """Film and friction of the first `count` pairs; whole registers, so lanes beyond are idle."""
-    for p in range(-(-count // REGISTER) * REGISTER):
-        signed, boundary, viscous, film, ratio, sliding = tooth_contact(
+def evaluate(model: Record, pairs: Record) -> None:
+    """Film and friction of all pairs; whole registers, so that lanes beyond `count` are idle."""
+    for p in range(-(-pairs.count // REGISTER) * REGISTER):
+        signed, boundary, viscous, film, ratio, sliding, slope = tooth_contact(
             model.oil, pairs.rho1[p], pairs.rho2[p], pairs.external[p], pairs.speed1[p],
             pairs.speed2[p], pairs.load[p], model.load.lambda_ratio,
         )
@@ -83,13 +85,14 @@ def evaluate(model: Record, pairs: Record, count: int) -> None:
         pairs.film[p] = film
         pairs.lambda_ratio[p] = ratio
         pairs.sliding[p] = sliding
+        pairs.slope[p] = slope
 
 
 @kernel
-def apply_friction(train: Record, pairs: Record, count: int, force: np.ndarray) -> float:
+def apply_friction(train: Record, pairs: Record, force: np.ndarray) -> float:
     """Add the generalised forces -f dVs/dw/r of all pairs; return the power they take [W]."""
     power = 0.0
-    for p in range(count):
+    for p in range(pairs.count):
         i = pairs.mesh[p]
         first, second, carrier = train.body[i, 0], train.body[i, 1], train.body[i, 2]
         f, rho1, rho2 = pairs.friction[p], pairs.rho1[p], pairs.external[p] * pairs.rho2[p]
@@ -98,3 +101,39 @@ def apply_friction(train: Record, pairs: Record, count: int, force: np.ndarray) 
         force[carrier] += f * (rho1 + rho2) / train.radius[carrier]
         power += f * pairs.sliding[p]
     return power
+
+
+@kernel
+def friction_damping(train: Record, pairs: Record, matrix: np.ndarray) -> None:
+    """Add to `matrix` what friction adds to the damping matrix: slope dVs/dv dVs/dv^T.
+
+    Large where little slides: at the pitch point, and for everything near standstill.
+    """
+    row = np.empty(3)
+    for p in range(pairs.count):
+        i = pairs.mesh[p]
+        rho1, rho2 = pairs.rho1[p], pairs.external[p] * pairs.rho2[p]
+        row[0] = rho1 / train.radius[train.body[i, 0]]
+        row[1] = rho2 / train.radius[train.body[i, 1]]
+        row[2] = -(rho1 + rho2) / train.radius[train.body[i, 2]]
+        add_outer(matrix, train.body[i], row, pairs.slope[p])
+
+
+@kernel
+def add_outer(matrix: np.ndarray, body: np.ndarray, row: np.ndarray, factor: float) -> None:
+    """matrix[body, body] += factor * row row^T."""
+    for a in range(body.size):
+        for b in range(body.size):
+            matrix[body[a], body[b]] += factor * row[a] * row[b]
+
+
+@kernel
+def copy_friction(source: Record, target: Record) -> None:
+    """Copy what `friction_damping` reads."""
+    target.count = source.count
+    for p in range(source.count):
+        target.mesh[p] = source.mesh[p]
+        target.rho1[p] = source.rho1[p]
+        target.rho2[p] = source.rho2[p]
+        target.external[p] = source.external[p]
+        target.slope[p] = source.slope[p]

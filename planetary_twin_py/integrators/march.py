@@ -23,16 +23,18 @@ from ..dynamics.equations import (
 )
 from ..dynamics.observe import QUANTITIES, observe
 from ..dynamics.state import OPEN, STATE
+from ..dynamics.tooth_friction import copy_friction
 from .rosenbrock import ORDER, WORKSPACE, step
 
 SHORTEST_STEP = 1e-13  # [s] below it two events count as one
 EDGE = 1e-9  # [-] mesh cycles within which a tooth pair counts as having entered or left
+SLACK = 0.01  # share of the local tolerance by which flanks may pull or pass each other
 SAFETY, SHRINK, GROW = 0.8, 0.25, 2.0
 
 # Step control and counters.
 CONTROL = layout(
     tolerance_x=REAL,  # local error a step may make in a transmission error [m]
-    tolerance_v=REAL,  # and in its rate [m/s]
+    tolerance_v=REAL,  # and in the speed of a body [m/s]
     next_step=REAL,  # [s]
     step=REAL,  # the last one taken [s]
     longest=REAL,  # [s]
@@ -125,13 +127,17 @@ def _time_to_event(model: Record, march: Record) -> float:
 
 @kernel
 def _error_norm(model: Record, march: Record) -> float:
-    """Largest local error of a mesh, relative to its tolerance."""
+    """Largest local error of a mesh or of the speed of a body, relative to its tolerance."""
     work, control = march.work, march.control
     largest = 0.0
     for i in range(model.train.meshes):
-        error_x = abs(mesh_motion(model.train, i, work.error_x)) / control.tolerance_x
-        error_v = abs(mesh_motion(model.train, i, work.error_v)) / control.tolerance_v
-        largest = max(largest, max(error_x, error_v))
+        tau = march.moment.tau[model.train.kind[i]]
+        error = abs(mesh_motion(model.train, i, work.error_x))
+        # Damping turns an error of the rate into one of the force, k tau times as large.
+        error = max(error, tau * abs(mesh_motion(model.train, i, work.error_v)))
+        largest = max(largest, error / control.tolerance_x)
+    for j in range(model.train.bodies):
+        largest = max(largest, abs(work.error_v[j]) / control.tolerance_v)
     return largest
 
 
@@ -182,12 +188,10 @@ def interpolate(model: Record, march: Record, delay: float) -> None:
 def _departure_at(model: Record, march: Record, i: int, delay: float) -> float:
     """`departure` of mesh i on the interpolant."""
     interpolate(model, march, delay)
-    train, begin = model.train, march.begin
-    advance = march.moment.cycle_rate * delay
-    advance += cycle_shift(train, march.dense_x) - cycle_shift(train, begin.x)
-    cycle = march.moment.start[i] + begin.side[i] * advance
+    train = model.train
     d, rate = mesh_motion(train, i, march.dense_x), mesh_motion(train, i, march.dense_v)
-    return departure(model, begin, i, cycle, march.moment.tau[train.kind[i]], d, rate)
+    slack = SLACK * march.control.tolerance_x
+    return departure(model, march.begin, i, march.moment.tau[train.kind[i]], d, rate, slack)
 
 
 @kernel
@@ -264,6 +268,7 @@ def begin_step(model: Record, march: Record) -> None:
     else:  # forces do not depend on the frame in which x is measured
         march.first.force[:] = march.last.force
         march.first.power[:] = march.last.power
+        copy_friction(march.last.pairs, march.first.pairs)
 
 
 @kernel

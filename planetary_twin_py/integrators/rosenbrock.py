@@ -2,7 +2,8 @@
 
 Rang and Angermann 2005, New Rosenbrock W-methods of order 3 for partial differential algebraic
 equations of index 1, BIT 45, 761-787. A W-method: its order does not need the exact Jacobian, so
-the matrix holds the meshes and couplings only, while friction and the speed loop stay explicit.
+the matrix holds meshes, couplings and the growth of friction with sliding, but neither the
+change of friction with the load nor the speed loop.
 L-stable, which the damping of a mesh at low speed asks for, and stiffly accurate.
 
 The second-order form halves the linear system: with x' = v, stages need one Cholesky
@@ -18,6 +19,7 @@ from .._compile import kernel
 from .._records import BODIES, REAL, Record, layout
 from ..dynamics.equations import EVALUATION, forces, stiffness
 from ..dynamics.state import LEDGER, OPEN
+from ..dynamics.tooth_friction import add_outer, friction_damping
 
 ORDER = 3
 STAGES = 4
@@ -77,18 +79,13 @@ WORKSPACE = layout(
 )
 
 
-@kernel
-def _add_outer(matrix: np.ndarray, body: np.ndarray, sign: np.ndarray, factor: float) -> None:
-    for a in range(body.size):
-        for b in range(body.size):
-            matrix[body[a], body[b]] += factor * sign[a] * sign[b]
-
-
 _ENDS = np.array([1.0, -1.0])
 
 
 @kernel
-def _assemble(model: Record, state: Record, moment: Record, h: float, work: Record) -> None:
+def _assemble(
+    model: Record, state: Record, moment: Record, h: float, first: Record, work: Record
+) -> None:
     """K, and M/(gamma h) + C + gamma h K, of the contacts at the middle of the step."""
     train = model.train
     step = GAMMA * h
@@ -101,12 +98,13 @@ def _assemble(model: Record, state: Record, moment: Record, h: float, work: Reco
         kind = train.kind[i]
         cycle = moment.start[i] + side * moment.cycle_rate * 0.5 * h
         k = stiffness(train, kind, state.segment[i], cycle)
-        _add_outer(work.stiffness, train.body[i], train.sign[i], k)
-        _add_outer(work.system, train.body[i], train.sign[i], k * (moment.tau[kind] + step))
+        add_outer(work.stiffness, train.body[i], train.sign[i], k)
+        add_outer(work.system, train.body[i], train.sign[i], k * (moment.tau[kind] + step))
     for c in range(2):
         k = train.coupling_stiffness[c]
-        _add_outer(work.stiffness, train.coupling[c], _ENDS, k)
-        _add_outer(work.system, train.coupling[c], _ENDS, train.coupling_damping[c] + step * k)
+        add_outer(work.stiffness, train.coupling[c], _ENDS, k)
+        add_outer(work.system, train.coupling[c], _ENDS, train.coupling_damping[c] + step * k)
+    friction_damping(train, first.pairs, work.system)
     for j in range(train.bodies + 1):
         work.system[j, j] += train.mass[j] / step
 
@@ -194,7 +192,7 @@ def step(
     `first` holds the forces at the start. The growth of the energy ledger and the local errors
     are left in `work`. Sides and segments stay those of `state`.
     """
-    _assemble(model, state, moment, h, work)
+    _assemble(model, state, moment, h, first, work)
     _factorise(work.system, model.train.bodies)
     work.energy[:] = 0.0
     new.x[:] = state.x
