@@ -131,6 +131,20 @@ def test_the_death_of_a_node_ends_the_run_with_one_line(
     assert _processes(tmp_path) == []
 
 
+def test_kill_minus_nine_of_the_run_takes_its_nodes_along(
+    run: Callable[..., subprocess.Popen[str]], tmp_path: Path
+) -> None:
+    process = run("--duration", "600", "--record", "bag")
+    _line(process, "rpm")
+    process.kill()
+    process.communicate(timeout=60)
+    deadline = time.monotonic() + 20.0
+    while _processes(tmp_path):
+        assert time.monotonic() < deadline
+        time.sleep(0.05)
+    assert counts(tmp_path / "recordings/bag")[f"{TWIN}/gearbox_state"] > 0
+
+
 @pytest.mark.parametrize(
     ("options", "reason"),
     [

@@ -45,10 +45,12 @@ class Simulation(ManagedNode):
         """Run from where the twin stands, with what was set while it stood."""
         twin = self._running_twin()
         instant = twin.set(**self._wanted())
-        self._telemetry.begin(self.get_clock().now().nanoseconds, instant)
-        self._telemetry.announce(twin.operating_point, instant)
         self._live = LiveTwin(twin, 1.0 / self._rate, self._rate_factor, self)
+        point = twin.operating_point
+        # Nothing between these two: stamps and wall instants must start from the same moment.
+        self._telemetry.begin(self.get_clock().now().nanoseconds, instant)
         begun = self._live.start()
+        self._telemetry.announce(point, instant)
         self._report = RealTimeReport(self.get_namespace(), self._rate_factor, begun)
 
     def deactivate(self) -> None:

@@ -53,9 +53,9 @@ class Telemetry:
             self._joints_message = JointsMessage(window.bodies)
         end = self._newest = self.stamp(window.end)
         self._prepared = [
-            (self._waveform, self._waveform_message.fill(window, self._origin)),
             (self._state, self._state_message.fill(window, end)),
             (self._joints, self._joints_message.fill(window, end)),
+            (self._waveform, self._waveform_message.fill(window, self._origin)),
         ]
 
     def publish(self) -> None:

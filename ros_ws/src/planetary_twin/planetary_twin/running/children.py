@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import contextlib
+import ctypes
 import os
 import signal
 import subprocess
@@ -12,7 +13,13 @@ from collections.abc import Mapping
 from types import TracebackType
 from typing import Self
 
+_PR_SET_PDEATHSIG = 1  # linux/prctl.h
 _PATIENCE = {signal.SIGINT: 10.0, signal.SIGTERM: 3.0, signal.SIGKILL: 3.0}  # [s]
+
+
+def _end_with_parent() -> None:
+    """Have the kernel send SIGTERM when the run dies without a chance to end its nodes."""
+    ctypes.CDLL(None).prctl(_PR_SET_PDEATHSIG, signal.SIGTERM)
 
 
 class RunError(ValueError):
@@ -38,6 +45,7 @@ class Child:
             stdout=self._log,
             stderr=self._log,
             start_new_session=True,
+            preexec_fn=_end_with_parent,  # no thread runs yet
         )
 
     def __enter__(self) -> Self:
