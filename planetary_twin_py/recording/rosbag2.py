@@ -1,0 +1,84 @@
+"""The description rosbag2 keeps of a bag: `metadata.yaml`, version 9, and MCAP's copy of it."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from typing import Any
+
+import yaml
+
+VERSION = 9
+
+
+@dataclass(frozen=True)
+class Topic:
+    """A topic as the bag describes it.
+
+    `type_hash` is the RIHS01 text, `offered_qos` one mapping per publisher in rosbag2's words,
+    `definition` the `ros2msg` schema text.
+    """
+
+    name: str
+    type: str
+    type_hash: str
+    definition: str
+    offered_qos: Sequence[Mapping[str, Any]] = field(default_factory=list)
+
+    @property
+    def qos_yaml(self) -> str:
+        """The offered profiles as MCAP's channel metadata holds them."""
+        return yaml.safe_dump([dict(qos) for qos in self.offered_qos], sort_keys=False)
+
+
+@dataclass
+class Extent:
+    """First and last log time [ns since the epoch] of a file's messages."""
+
+    start: int = 0
+    end: int = 0
+
+    def include(self, time: int) -> None:
+        """Widen to hold `time`."""
+        self.start = min(self.start, time) if self.start else time
+        self.end = max(self.end, time)
+
+
+def bag_metadata(file_name: str, topics: Sequence[tuple[Topic, int]], extent: Extent) -> str:
+    """YAML text of `metadata.yaml` for a bag with one file, from its topics' message counts."""
+    total = sum(count for _, count in topics)
+    information = {
+        "version": VERSION,
+        "storage_identifier": "mcap",
+        **_span(extent, total),
+        "topics_with_message_count": [_topic_entry(topic, count) for topic, count in topics],
+        "compression_format": "",
+        "compression_mode": "",
+        "relative_file_paths": [file_name],
+        "files": [{"path": file_name, **_span(extent, total)}],
+        "custom_data": None,
+        "ros_distro": os.environ.get("ROS_DISTRO", "jazzy"),
+    }
+    return yaml.safe_dump({"rosbag2_bagfile_information": information}, sort_keys=False)
+
+
+def _span(extent: Extent, messages: int) -> dict[str, Any]:
+    return {
+        "duration": {"nanoseconds": extent.end - extent.start},
+        "starting_time": {"nanoseconds_since_epoch": extent.start},
+        "message_count": messages,
+    }
+
+
+def _topic_entry(topic: Topic, count: int) -> dict[str, Any]:
+    return {
+        "topic_metadata": {
+            "name": topic.name,
+            "type": topic.type,
+            "serialization_format": "cdr",
+            "offered_qos_profiles": [dict(qos) for qos in topic.offered_qos],
+            "type_description_hash": topic.type_hash,
+        },
+        "message_count": count,
+    }

@@ -1,0 +1,109 @@
+"""Commands that need ROS, offered to the `planetary-twin` command line."""
+
+from __future__ import annotations
+
+import json
+import signal
+import sys
+from collections.abc import Mapping
+from pathlib import Path
+from types import FrameType
+from typing import Annotated, Any
+
+import typer
+
+RECORDINGS = Path("recordings")
+
+
+def run(
+    scene: Annotated[str, typer.Argument(help="Packaged scene, or path of a YAML file.")] = "paper",
+    duration: Annotated[float, typer.Option(help="Gearbox time [s].", min=0.1)] = 12.0,
+    record: Annotated[
+        str | None, typer.Option(metavar="NAME", help="Folder in recordings/; must be free.")
+    ] = None,
+    set_: Annotated[
+        list[str] | None,
+        typer.Option("--set", metavar="NAME=VALUE", help="Parameter at start (SI); repeatable."),
+    ] = None,
+    rate_factor: Annotated[
+        float, typer.Option(help="Gearbox seconds per second.", min=0.01, max=100.0)
+    ] = 1.0,
+    tour: Annotated[
+        bool, typer.Option(help="Change the operating point on the way, to show what it does.")
+    ] = True,
+    json_: Annotated[
+        str | None, typer.Option("--json", metavar="FILE", help="Write figures; - prints them.")
+    ] = None,
+) -> None:
+    """Run a gearbox live on ROS 2, change it while it runs, and record it."""
+    for number in (signal.SIGTERM, signal.SIGHUP):
+        signal.signal(number, _interrupt)
+    options = {"scene": scene, "duration": duration, "rate_factor": rate_factor}
+    try:
+        _run(options, record, set_ or [], tour, json_)
+    except KeyboardInterrupt:
+        print("interrupted before the recording began", file=sys.stderr)
+    except (ValueError, OSError) as reason:
+        print(f"planetary-twin run: {reason}", file=sys.stderr)
+        raise typer.Exit(1) from None
+
+
+def _run(
+    options: Mapping[str, Any],
+    record: str | None,
+    settings: list[str],
+    tour: bool,
+    target: str | None,
+) -> None:
+    # Loading ROS and the model takes a second in which Ctrl-C must end as cleanly as later.
+    from rich.console import Console
+
+    from .running.outcome import print_outcome
+    from .running.session import Plan, run_session
+    from .running.tour import tour_of
+
+    scene, duration = options["scene"], options["duration"]
+    plan = Plan(
+        **options,
+        folder=_folder(record, scene),
+        values=_values(scene, settings),
+        stops=tour_of(scene, duration) if tour else [],
+    )
+    # Standard output is the machine's where figures are printed there.
+    console = Console(stderr=target == "-")
+    outcome = run_session(plan, console)
+    print_outcome(console, outcome)
+    if target is not None:
+        text = json.dumps(outcome.figures(), indent=2) + "\n"
+        sys.stdout.write(text) if target == "-" else Path(target).write_text(text, "utf-8")
+
+
+def _folder(record: str | None, scene: str) -> Path:
+    from planetary_twin_py.recording.bag import free_folder
+
+    if record is None:
+        return free_folder(RECORDINGS, Path(scene).stem)
+    if not record or Path(record).name != record:
+        raise ValueError(f"--record = {record!r}: must be a plain name; it lands in {RECORDINGS}/")
+    if (RECORDINGS / record).exists():
+        raise ValueError(f"--record = {record!r}: {RECORDINGS / record} exists; choose a free name")
+    return RECORDINGS / record
+
+
+def _values(scene: str, settings: list[str]) -> dict[str, float]:
+    """The settings in SI, tried on the scene before any process starts."""
+    import planetary_twin_py as pt
+
+    values = {}
+    for setting in settings:
+        name, equals, value = setting.partition("=")
+        if not equals or name not in pt.TUNABLES:
+            known = ", ".join(pt.TUNABLES)
+            raise ValueError(f"--set {setting!r}: must be NAME=VALUE, with NAME of {known}")
+        values[name] = value
+    point = pt.load_scene(scene).replace(**values).operating_point
+    return {name: getattr(point, name) for name in values}
+
+
+def _interrupt(number: int, frame: FrameType | None) -> None:
+    raise KeyboardInterrupt

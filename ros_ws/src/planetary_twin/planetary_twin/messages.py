@@ -1,0 +1,150 @@
+"""Fills the twin's messages in place: making them anew would cost more than sending them."""
+
+from __future__ import annotations
+
+from array import array
+
+import numpy as np
+from numpy.typing import NDArray
+from planetary_twin_msgs import msg
+from sensor_msgs.msg import JointState
+from std_msgs.msg import Header
+
+from planetary_twin_py import TUNABLES, OperatingPoint, Scene, Window
+
+_POWER_FLOW = (
+    "mesh_frequency",
+    "input_speed",
+    "input_torque",
+    "output_speed",
+    "output_torque",
+    "input_power",
+    "output_power",
+    "power_loss",
+    "stored_power",
+    "efficiency",
+)
+_MEMBERS = ("sun", "ring", "carrier")
+_WAVES = ("dte", "mesh_force", "friction")
+
+
+def set_stamp(header: Header, stamp: int) -> None:
+    """Write a time [ns since the epoch] into `header`."""
+    header.stamp.sec, header.stamp.nanosec = divmod(stamp, 1_000_000_000)
+
+
+class StateMessage:
+    """GearboxState; entries of planets the gearset does not have stay NaN."""
+
+    def __init__(self, scene: Scene, frame: str) -> None:
+        self.message = msg.GearboxState(planets=scene.gearset.planets)
+        self.message.header.frame_id = frame
+        names = self.message.get_fields_and_field_types()
+        for name, kind in names.items():
+            if kind == "double[7]":
+                getattr(self.message, name)[:] = np.nan
+        self._planets = scene.gearset.planets
+        self._mesh = [
+            (getattr(self.message, name)[: self._planets], name[len(kind) + 1 :], first)
+            for kind, first in (("sun_planet", 0), ("planet_ring", self._planets))
+            for name in names
+            if name.startswith(f"{kind}_")
+        ]
+
+    def fill(self, window: Window, stamp: int) -> msg.GearboxState:
+        """Describe `window`; `stamp` [ns] is the instant of its end."""
+        message = self.message
+        set_stamp(message.header, stamp)
+        message.sequence += 1
+        message.simulated_time = window.end
+        message.interval = window.end - window.start
+        for name in _MEMBERS:
+            body = window.bodies.index(name)
+            setattr(message, f"{name}_angle", float(window.angle[body]))
+            setattr(message, f"{name}_speed", float(window.mean_speed[body]))
+        first = window.bodies.index("planet_1")
+        planets = slice(first, first + self._planets)
+        message.planet_angle[: self._planets] = window.angle[planets]
+        message.planet_speed[: self._planets] = window.mean_speed[planets]
+        for name in _POWER_FLOW:
+            setattr(message, name, float(getattr(window, name)))
+        for target, name, mesh in self._mesh:
+            target[:] = window.mesh[name][mesh : mesh + self._planets]
+        return message
+
+
+class WaveformMessage:
+    """MeshWaveform, mesh after mesh."""
+
+    def __init__(self, scene: Scene, frame: str, sample_rate: float) -> None:
+        planets = scene.gearset.planets
+        self.message = msg.MeshWaveform(planets=planets, sample_period=1.0 / sample_rate)
+        self.message.header.frame_id = frame
+        self._meshes = 2 * planets
+        self._views: list[NDArray[np.float32]] = []
+
+    def fill(self, window: Window, origin: int) -> msg.MeshWaveform:
+        """Describe `window`; `origin` [ns] is the instant of simulated time 0."""
+        wave, message = window.waveform, self.message
+        if message.samples != len(wave.time):
+            self._allocate(len(wave.time))
+        set_stamp(message.header, origin + round(wave.time[0] * 1e9))
+        message.sequence += 1
+        message.start_time = float(wave.time[0])
+        for view, name in zip(self._views, _WAVES, strict=True):
+            view[:] = getattr(wave, name).T
+        return message
+
+    def _allocate(self, samples: int) -> None:
+        self.message.samples = samples
+        self._views = []
+        for name in _WAVES:
+            values = array("f", bytes(4 * self._meshes * samples))
+            setattr(self.message, name, values)
+            # The view writes into the message's own memory.
+            view = np.frombuffer(getattr(self.message, name), dtype=np.float32)
+            self._views.append(view.reshape(self._meshes, samples))
+
+
+class JointsMessage:
+    """JointState with one joint per body, `<body>_joint`."""
+
+    def __init__(self, bodies: tuple[str, ...]) -> None:
+        size = bytes(8 * len(bodies))
+        self.message = JointState(
+            name=[f"{body}_joint" for body in bodies],
+            position=array("d", size),
+            velocity=array("d", size),
+        )
+        self._position = np.frombuffer(self.message.position)
+        self._velocity = np.frombuffer(self.message.velocity)
+
+    def fill(self, window: Window, stamp: int) -> JointState:
+        """Describe `window`; `stamp` [ns] is the instant of its end."""
+        set_stamp(self.message.header, stamp)
+        self._position[:] = window.angle
+        self._velocity[:] = window.mean_speed
+        return self.message
+
+
+class OperatingPointMessage:
+    """OperatingPoint, with the names that differ from the one before."""
+
+    def __init__(self, frame: str) -> None:
+        self.message = msg.OperatingPoint()
+        self.message.header.frame_id = frame
+        self._last: OperatingPoint | None = None
+
+    def fill(self, point: OperatingPoint, instant: float, stamp: int) -> msg.OperatingPoint:
+        """Describe `point`, in force from simulated time `instant` [s], ROS time `stamp` [ns]."""
+        message, last = self.message, self._last
+        set_stamp(message.header, stamp)
+        message.sequence += 1
+        message.simulated_time = instant
+        message.changed = ",".join(
+            name for name in TUNABLES if last is None or getattr(point, name) != getattr(last, name)
+        )
+        for name in TUNABLES:
+            setattr(message, name, float(getattr(point, name)))
+        self._last = point
+        return message

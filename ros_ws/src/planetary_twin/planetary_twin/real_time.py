@@ -1,0 +1,77 @@
+"""Tells in /diagnostics whether the simulation keeps up with the wall clock."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Mapping
+
+from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus, KeyValue
+
+from .live import Progress
+
+_TOLERATED_LAG = 0.01  # share of the wanted rate; below it the real-time factor is a warning
+_SHORTEST = 0.5  # [s] over less than this, one late wake-up would already look like a lag
+
+
+class RealTimeReport:
+    """Compares where a live twin stands now with where it stood at the report before."""
+
+    def __init__(self, hardware: str, rate_factor: float, begun: Progress) -> None:
+        self._hardware = hardware
+        self._rate_factor = rate_factor
+        self._begun = self._last = begun
+        self._process_cpu = time.process_time()
+        self._wall = time.monotonic()
+
+    def message(
+        self, now: Progress, published: Mapping[str, int], stamp: int, *, last: bool
+    ) -> DiagnosticArray:
+        """The report: `published` counts messages by topic, `stamp` [ns] is the ROS time.
+
+        The `last` one is sent when the twin has stopped, so its counts are final.
+        """
+        recent = _rate(self._last, now, self._rate_factor)
+        overruns = now.overruns - self._last.overruns
+        lags = recent < (1.0 - _TOLERATED_LAG) * self._rate_factor
+        late = overruns > 0 or (lags and now.wall - self._last.wall >= _SHORTEST)
+        status = DiagnosticStatus(
+            level=DiagnosticStatus.WARN if late else DiagnosticStatus.OK,
+            name="simulation: real time",
+            message=f"falls behind: real time x {recent:.3f}, {overruns} overruns"
+            if late
+            else "keeps up",
+            hardware_id=self._hardware,
+        )
+        figures: dict[str, object] = {
+            "state": "stopped" if last else "running",
+            "real_time_factor": f"{recent:.4f}",
+            "real_time_factor_mean": f"{_rate(self._begun, now, self._rate_factor):.4f}",
+            "rate_factor": f"{self._rate_factor:g}",
+            "simulated_time": f"{now.simulated:.6f}",
+            "overruns": now.overruns,
+            **self._cpu(now),
+            **{f"published.{topic}": count for topic, count in published.items()},
+        }
+        status.values = [KeyValue(key=key, value=str(value)) for key, value in figures.items()]
+        self._last = now
+        array = DiagnosticArray(status=[status])
+        array.header.stamp.sec, array.header.stamp.nanosec = divmod(stamp, 1_000_000_000)
+        return array
+
+    def _cpu(self, now: Progress) -> dict[str, str]:
+        """Shares of one core since the report before."""
+        wall, process = time.monotonic(), time.process_time()
+        span = max(wall - self._wall, 1e-9)
+        loop = (now.cpu - self._last.cpu) / max(now.wall - self._last.wall, 1e-9)
+        shares = {
+            "cpu_twin": f"{loop:.3f}",
+            "cpu_process": f"{(process - self._process_cpu) / span:.3f}",
+        }
+        self._wall, self._process_cpu = wall, process
+        return shares
+
+
+def _rate(before: Progress, now: Progress, unknown: float) -> float:
+    """Simulated seconds per second of wall time; `unknown` where no time has passed."""
+    wall = now.wall - before.wall
+    return (now.simulated - before.simulated) / wall if wall > 0 else unknown

@@ -1,0 +1,83 @@
+"""Nodes as child processes that never outlive the run."""
+
+from __future__ import annotations
+
+import contextlib
+import ctypes
+import os
+import signal
+import subprocess
+import sys
+import tempfile
+from collections.abc import Mapping
+from types import TracebackType
+from typing import Self
+
+_PR_SET_PDEATHSIG = 1  # linux/prctl.h
+_PATIENCE = {signal.SIGINT: 10.0, signal.SIGTERM: 3.0, signal.SIGKILL: 3.0}  # [s]
+
+
+def _end_with_parent() -> None:
+    """Have the kernel send SIGTERM when the run dies without a chance to end its nodes."""
+    ctypes.CDLL(None).prctl(_PR_SET_PDEATHSIG, signal.SIGTERM)
+
+
+class RunError(ValueError):
+    """A run that cannot go on; the message says why in one line."""
+
+
+class Child:
+    """A node of this package, started with `parameters` in `namespace`.
+
+    It stands in a session of its own: Ctrl-C reaches the run alone, which ends its nodes in order.
+    """
+
+    def __init__(self, node: str, namespace: str, parameters: Mapping[str, object]) -> None:
+        self.node = node
+        command = [sys.executable, "-m", f"planetary_twin.{node}", "--ros-args"]
+        command += ["-r", f"__ns:={namespace}"]
+        for name, value in parameters.items():
+            command += ["-p", f"{name}:={value}"]
+        self._log = tempfile.TemporaryFile()  # noqa: SIM115 (closed with the child)
+        self._process = subprocess.Popen(
+            command,
+            stdin=subprocess.DEVNULL,
+            stdout=self._log,
+            stderr=self._log,
+            start_new_session=True,
+            preexec_fn=_end_with_parent,  # no thread runs yet
+        )
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(
+        self,
+        kind: type[BaseException] | None,
+        value: BaseException | None,
+        trace: TracebackType | None,
+    ) -> None:
+        self.stop()
+        self._log.close()
+
+    def check(self) -> None:
+        """Raise `RunError` if the process has ended."""
+        code = self._process.poll()
+        if code is not None:
+            raise RunError(self.last_words() or f"{self.node}: ended with exit code {code}")
+
+    def stop(self) -> int:
+        """End the process, the gentle way first; returns its exit code."""
+        for number, patience in _PATIENCE.items():
+            if self._process.poll() is None:
+                with contextlib.suppress(ProcessLookupError):
+                    os.kill(self._process.pid, number)
+                with contextlib.suppress(subprocess.TimeoutExpired):
+                    self._process.wait(patience)
+        return self._process.returncode
+
+    def last_words(self) -> str:
+        """The last line the process printed, or nothing."""
+        self._log.seek(0)
+        lines = self._log.read().decode(errors="replace").strip().splitlines()
+        return lines[-1] if lines else ""

@@ -1,0 +1,134 @@
+"""What came of a run: counted from the finished file, told as a table or as figures."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from mcap.reader import make_reader
+from planetary_twin_msgs.msg import GearboxState
+from rclpy.serialization import deserialize_message
+from rich.console import Console
+from rich.table import Table
+
+from planetary_twin_py.recording.bag import ACCOUNT_RECORD
+
+_STATE = "planetary_twin_msgs/msg/GearboxState"
+
+
+@dataclass(frozen=True)
+class Tally:
+    """One topic: what was published, what the file holds, and the gaps in its numbering."""
+
+    type: str
+    published: int
+    recorded: int
+    gaps: int
+
+    @property
+    def lost(self) -> int:
+        """Messages published but not in the file."""
+        return self.published - self.recorded
+
+
+@dataclass(frozen=True)
+class Outcome:
+    """A finished run."""
+
+    file: Path
+    topics: Mapping[str, Tally]
+    duration: float  # [s] simulated
+    power_loss: float  # [W] mean; NaN without a state
+    efficiency: float  # [-] over the whole run; NaN unless power went in
+    real_time_factor: float
+    overruns: int
+
+    def figures(self) -> dict[str, Any]:
+        """For machines."""
+        topics = {
+            name: {
+                "type": tally.type,
+                "published": tally.published,
+                "recorded": tally.recorded,
+                "lost": tally.lost,
+            }
+            for name, tally in self.topics.items()
+        }
+        return {
+            "topics": topics,
+            "duration_s": self.duration,
+            "real_time_factor": self.real_time_factor,
+            "overruns": self.overruns,
+            "mean_power_loss_w": None if np.isnan(self.power_loss) else self.power_loss,
+            "efficiency": None if np.isnan(self.efficiency) else self.efficiency,
+            "file": str(self.file),
+        }
+
+
+def read_outcome(file: Path, published: Mapping[str, int], figures: Mapping[str, str]) -> Outcome:
+    """Count what `file` holds against what was `published`; `figures` are the last report's."""
+    types: dict[str, str] = {}
+    recorded: dict[str, int] = {}
+    states: list[GearboxState] = []
+    with file.open("rb") as stream:
+        reader = make_reader(stream)
+        for schema, channel, message in reader.iter_messages():
+            recorded[channel.topic] = recorded.get(channel.topic, 0) + 1
+            if schema is not None and schema.name == _STATE:
+                states.append(deserialize_message(message.data, GearboxState))
+        summary = reader.get_summary()
+        for channel in summary.channels.values() if summary else ():
+            types[channel.topic] = summary.schemas[channel.schema_id].name
+        gaps = {
+            record.metadata["topic"]: int(record.metadata["lost"])
+            for record in reader.iter_metadata()
+            if record.name == ACCOUNT_RECORD
+        }
+    loss, power, span = (
+        np.array([getattr(state, name) for state in states])
+        for name in ("power_loss", "input_power", "interval")
+    )
+    put_in = float(np.sum(power * span))
+    return Outcome(
+        file=file,
+        topics={
+            name: _tally(types[name], published.get(name), recorded.get(name, 0), gaps.get(name, 0))
+            for name in types
+        },
+        duration=float(span.sum()),
+        power_loss=float(np.sum(loss * span) / span.sum()) if states else float("nan"),
+        efficiency=1.0 - float(np.sum(loss * span)) / put_in if put_in > 0 else float("nan"),
+        real_time_factor=float(figures.get("real_time_factor_mean", "nan")),
+        overruns=int(figures.get("overruns", 0)),
+    )
+
+
+def _tally(kind: str, published: int | None, recorded: int, gaps: int) -> Tally:
+    # A topic of another publisher has no counter to read: its numbering is all there is.
+    return Tally(kind, recorded + gaps if published is None else published, recorded, gaps)
+
+
+def print_outcome(console: Console, outcome: Outcome) -> None:
+    """A short table, and how to look at the recording."""
+    table = Table(box=None, pad_edge=False)
+    table.add_column("topic")
+    for title in ("published", "recorded", "lost", "gaps"):
+        table.add_column(title, justify="right")
+    for name, tally in sorted(outcome.topics.items()):
+        counts = (tally.published, tally.recorded, tally.lost, tally.gaps)
+        table.add_row(name, *map(str, counts), style="red" if tally.lost else None)
+    console.print(table)
+    rows = {
+        "gearbox time": f"{outcome.duration:.2f} s",
+        "real-time factor": f"{outcome.real_time_factor:.4f}, {outcome.overruns} overruns",
+        "mean power loss": f"{outcome.power_loss:.2f} W",
+        "efficiency": f"{outcome.efficiency:.3%}",
+        "recording": str(outcome.file),
+        "view it": f"planetary-twin view {outcome.file.parent}",
+    }
+    console.print()
+    for name, value in rows.items():
+        console.print(f"{name:17} {value}", highlight=False, soft_wrap=True)

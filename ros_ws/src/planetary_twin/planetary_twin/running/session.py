@@ -1,0 +1,137 @@
+"""The course of one run, from two fresh processes to a finished recording."""
+
+from __future__ import annotations
+
+import contextlib
+import os
+import signal
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, field
+from pathlib import Path
+
+from rich.console import Console
+
+from .children import Child, RunError
+from .operator import Operator
+from .outcome import Outcome, read_outcome
+from .show import Show
+from .tour import Stop
+
+_START = 60.0  # [s] longest wait for the nodes to find one another
+_BUILD = 300.0  # [s] longest wait for the model, which a first run compiles
+_END = 3.0  # [s] longest wait for the last messages to reach the file
+_SILENCE = 10.0  # [s] longest silence of a running twin
+
+
+@dataclass(frozen=True)
+class Plan:
+    """What to run; `values` are parameters of the simulation given at start."""
+
+    scene: str
+    duration: float  # [s] simulated
+    folder: Path
+    rate_factor: float = 1.0
+    values: Mapping[str, float] = field(default_factory=dict)
+    stops: list[Stop] = field(default_factory=list)
+    namespace: str = "/planetary_twin"
+
+
+def run_session(plan: Plan, console: Console) -> Outcome:
+    """Run `plan` to its end, or until interrupted; either way the recording is finished.
+
+    Raises `RunError` where a node fails.
+    """
+    # Discovery stays on this machine unless the user has said otherwise.
+    os.environ.setdefault("ROS_AUTOMATIC_DISCOVERY_RANGE", "LOCALHOST")
+    logger = Child("logger", plan.namespace, _logger_parameters(plan))
+    with logger:
+        simulation = Child("simulation", plan.namespace, _simulation_parameters(plan))
+
+        def watch() -> None:
+            logger.check()
+            simulation.check()
+
+        with simulation, Operator(plan.namespace, watch) as operator:
+            with contextlib.suppress(KeyboardInterrupt), Show(console, plan.duration) as show:
+                _begin(operator)
+                _drive(operator, plan, show)
+            with _undisturbed():
+                _finish(operator)
+        if operator.state is None:
+            raise KeyboardInterrupt  # before there was anything to record
+        if logger.stop() != 0:
+            raise RunError(logger.last_words() or "logger: ended with an error")
+    file = plan.folder / f"{plan.folder.name}_0.mcap"
+    return read_outcome(file, operator.published(), operator.figures)
+
+
+def _logger_parameters(plan: Plan) -> dict[str, object]:
+    return {
+        "directory": plan.folder.parent.absolute(),
+        "name": plan.folder.name,
+        "scene": plan.scene,
+    }
+
+
+def _simulation_parameters(plan: Plan) -> dict[str, object]:
+    return {
+        "scene": plan.scene,
+        "rate_factor": plan.rate_factor,
+        "autostart": "false",
+        **plan.values,
+    }
+
+
+def _begin(operator: Operator) -> None:
+    """Build the model, and let it run once the logger hears every topic: nothing gets lost."""
+    operator.bring("configure", "unconfigured", "inactive", _BUILD)
+
+    def heard() -> bool:
+        topics = operator.topics()
+        return bool(topics) and topics <= set(operator.recorder.topics)
+
+    operator.wait("logger: hears every topic of the simulation", heard, _START)
+    operator.bring("activate", "inactive", "active", _START)
+
+
+def _drive(operator: Operator, plan: Plan, show: Show) -> None:
+    """Follow the twin to the end of the run, turning the knobs on the way."""
+    stops = list(plan.stops)
+    seen = 0.0
+    while seen < plan.duration:
+        state = operator.next_state(seen, _SILENCE / min(plan.rate_factor, 1.0))
+        seen = state.simulated_time
+        show.update(state, operator.figures.get("real_time_factor", "-"))
+        while stops and stops[0].time <= seen:
+            stop = stops.pop(0)
+            if stop.values:
+                operator.set(stop.values)
+            show.say(seen, stop.caption)
+
+
+def _finish(operator: Operator) -> None:
+    """Stop the twin, then wait until the file holds what it says it has published."""
+    if operator.state is None:
+        return
+    operator.bring("deactivate", "active", "inactive", _END + 2.0)
+    operator.wait_or_go_on(lambda: operator.figures.get("state") == "stopped", _END)
+
+    def written() -> bool:
+        recorded = dict(zip(operator.recorder.topics, operator.recorder.recorded, strict=True))
+        return all(recorded.get(name, 0) >= n for name, n in operator.published().items())
+
+    operator.wait_or_go_on(written, _END)
+
+
+@contextlib.contextmanager
+def _undisturbed() -> Iterator[None]:
+    """Ignore further Ctrl-C: what runs inside is short and must come to its end."""
+    handlers = {number: signal.signal(number, signal.SIG_IGN) for number in _INTERRUPTS}
+    try:
+        yield
+    finally:
+        for number, handler in handlers.items():
+            signal.signal(number, handler)
+
+
+_INTERRUPTS = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)

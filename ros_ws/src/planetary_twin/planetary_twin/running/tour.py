@@ -1,0 +1,40 @@
+"""What a run shows by itself: changes of the operating point, one after the other."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import NamedTuple
+
+from planetary_twin_py import rpm
+
+LENGTH = 12.0  # [s] the times below are meant for a run this long, and scale with it
+
+
+class Stop(NamedTuple):
+    """At simulated `time` [s], set `values` (SI) and tell why."""
+
+    time: float
+    values: Mapping[str, float]
+    caption: str
+
+
+PAPER: Sequence[Stop] = (
+    Stop(0.0, {}, "steady: 1000 rpm, 63 N m, lambda ratio 1"),
+    Stop(2.0, {"lambda_ratio": 2.0}, "lambda ratio 1 -> 2: the film parts the asperities"),
+    Stop(3.5, {"backlash": 3.5e-7}, "backlash 0.2 -> 0.35 um: under load DTE shifts by half of it"),
+    Stop(5.0, {"input_speed": rpm(2000)}, "1000 -> 2000 rpm: mesh frequency and losses follow"),
+    Stop(
+        7.0,
+        {"input_torque": 0.3, "torque_ripple": 1.0},
+        "light, rippling load: teeth separate and rattle",
+    ),
+    Stop(9.0, {"input_torque": 63.0, "torque_ripple": 0.0}, "63 N m again"),
+    Stop(10.0, {"input_speed": rpm(3000)}, "2000 -> 3000 rpm"),
+)
+TOURS: Mapping[str, Sequence[Stop]] = {"paper": PAPER}
+
+
+def tour_of(scene: str, duration: float) -> list[Stop]:
+    """The stops for a packaged scene's name in a run of `duration` [s]; none for other scenes."""
+    scale = duration / LENGTH
+    return [stop._replace(time=stop.time * scale) for stop in TOURS.get(scene, ())]

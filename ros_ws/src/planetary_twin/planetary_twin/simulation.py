@@ -1,0 +1,208 @@
+"""The simulation node: a twin in real time, its parameters and its service."""
+
+from __future__ import annotations
+
+import sys
+import traceback
+from concurrent.futures import Future
+
+from diagnostic_msgs.msg import DiagnosticStatus
+from planetary_twin_msgs.srv import SetOperatingPoint
+from rcl_interfaces.msg import SetParametersResult
+from rclpy.parameter import Parameter
+
+import planetary_twin_py as pt
+
+from .live import LiveTwin
+from .managed import ManagedNode, NodeError, run_node
+from .parameters import coerce, declare_bounded, declare_fixed, declare_tunable
+from .real_time import RealTimeReport
+from .telemetry import Telemetry
+
+_REPORT_PERIOD = 1.0  # [s]
+
+
+class Simulation(ManagedNode):
+    """Runs a scene in real time: configure builds it, activate starts it, deactivate pauses it."""
+
+    def __init__(self) -> None:
+        super().__init__("simulation")
+        self._twin: pt.Twin | None = None
+        self._live: LiveTwin | None = None
+        self._report: RealTimeReport | None = None
+        self._level = DiagnosticStatus.OK
+        self._submitted: Future[float] | None = None
+        self._declare()
+        self._telemetry = Telemetry(self, self._scene, self._frame, self._sample_rate)
+        self._timer = self.create_timer(_REPORT_PERIOD, self._diagnose)
+        self.create_service(SetOperatingPoint, "~/set_operating_point", self._set_operating_point)
+
+    def configure(self) -> None:
+        """Build and compile the model at the operating point the parameters give."""
+        self._twin = pt.Twin(self._scene.replace(**self._wanted()), sample_rate=self._sample_rate)
+
+    def activate(self) -> None:
+        """Run from where the twin stands, with what was set while it stood."""
+        twin = self._running_twin()
+        instant = twin.set(**self._wanted())
+        self._live = LiveTwin(twin, 1.0 / self._rate, self._rate_factor, self)
+        point = twin.operating_point
+        # Nothing between these two: stamps and wall instants must start from the same moment.
+        self._telemetry.begin(self.get_clock().now().nanoseconds, instant)
+        begun = self._live.start()
+        self._telemetry.announce(point, instant)
+        self._report = RealTimeReport(self.get_namespace(), self._rate_factor, begun)
+
+    def deactivate(self) -> None:
+        """Stop after the interval in progress; the last report counts every message."""
+        live, self._live = self._live, None
+        if live is not None:
+            live.stop()
+            self._diagnose(live, last=True)
+
+    def close(self) -> None:
+        """Let the model go."""
+        live, self._live = self._live, None
+        if live is not None:
+            live.stop()
+        self._twin = None
+
+    # Called by the live twin, in its thread.
+
+    def prepare(self, window: pt.Window) -> None:
+        """Turn an interval into messages ahead of its wall instant."""
+        self._telemetry.prepare(window)
+
+    def publish(self) -> None:
+        """Send them at that instant."""
+        self._telemetry.publish()
+
+    def changed(self, instant: float) -> None:
+        """Tell of a new operating point."""
+        self._telemetry.announce(self._running_twin().operating_point, instant)
+
+    def stopped(self, defect: Exception) -> None:
+        """End the process with the reason; a publisher refuses once a signal has shut ROS down."""
+        if not self.context.ok():
+            return
+        if not isinstance(defect, (ValueError, ArithmeticError)):
+            self.get_logger().error("".join(traceback.format_exception(defect)))
+        self.fail(f"the twin stopped: {defect}")
+
+    # Parameters.
+
+    def _declare(self) -> None:
+        name = declare_fixed(self, "scene", "paper", "packaged scene, or path of a YAML file")
+        self._frame = declare_fixed(self, "frame_id", "gearbox", "frame of the gearbox's base")
+        self._rate = declare_bounded(
+            self, "publish_rate", 100.0, (10.0, 1000.0), "messages per simulated second [Hz]"
+        )
+        self._sample_rate = declare_bounded(
+            self, "sample_rate", 50e3, (1e3, 1e6), "samples of mesh_waveform [Hz]"
+        )
+        self._rate_factor = declare_bounded(
+            self, "rate_factor", 1.0, (0.01, 100.0), "simulated seconds per second [-]"
+        )
+        self._scene = pt.load_scene(name)
+        for tunable in pt.TUNABLES.values():
+            default = getattr(self._scene.operating_point, tunable.name)
+            declare_tunable(self, tunable, default)
+        self._scene = self._scene.replace(**self._wanted())
+        self.add_pre_set_parameters_callback(lambda given: coerce(given, pt.TUNABLES))
+        self.add_on_set_parameters_callback(self._validate)
+        self.add_post_set_parameters_callback(self._submit)
+
+    def set_parameters_atomically(self, parameter_list: list[Parameter]) -> SetParametersResult:
+        """As rclpy's, with a refusal instead of an exception for text that is no number."""
+        try:
+            return super().set_parameters_atomically(parameter_list)
+        except ValueError as refusal:
+            return SetParametersResult(successful=False, reason=str(refusal))
+
+    def _wanted(self) -> dict[str, float]:
+        return {name: self.get_parameter(name).value for name in pt.TUNABLES}
+
+    def _validate(self, parameters: list[Parameter]) -> SetParametersResult:
+        try:
+            self._scene.replace(**self._wanted() | _tunables(parameters))
+        except ValueError as refusal:
+            return SetParametersResult(successful=False, reason=str(refusal))
+        return SetParametersResult(successful=True)
+
+    def _submit(self, parameters: list[Parameter]) -> None:
+        values = _tunables(parameters)
+        if values and self._live is not None:
+            self._submitted = self._live.submit(values)
+
+    def _set_operating_point(
+        self, request: SetOperatingPoint.Request, response: SetOperatingPoint.Response
+    ) -> SetOperatingPoint.Response:
+        try:
+            instant = self._change(request.names, request.values)
+        except (ValueError, TimeoutError) as refusal:
+            response.success, response.message = False, str(refusal)
+            return response
+        response.success = True
+        response.simulated_time = instant
+        response.stamp.sec, response.stamp.nanosec = divmod(
+            self._telemetry.stamp(instant), 1_000_000_000
+        )
+        return response
+
+    def _change(self, names: list[str], values: list[float]) -> float:
+        """Set parameters and wait for the instant [s] at which the twin follows."""
+        if len(names) != len(values) or not names:
+            raise ValueError(f"{len(names)} names for {len(values)} values: one each, at least one")
+        for name in names:
+            if name not in pt.TUNABLES:
+                raise ValueError(f"{name}: no such quantity; there are {', '.join(pt.TUNABLES)}")
+            if list(names).count(name) > 1:
+                raise ValueError(f"{name}: named twice")
+        if self._live is None:
+            raise ValueError("the simulation is not active, so there is no instant to change at")
+        parameters = [
+            Parameter(name, Parameter.Type.DOUBLE, value)
+            for name, value in zip(names, values, strict=True)
+        ]
+        result = self.set_parameters_atomically(parameters)
+        if not result.successful or self._submitted is None:
+            raise ValueError(result.reason)
+        # The loop takes changes up between two intervals, so this wait is one interval long.
+        longest = 2.0 / (self._rate * self._rate_factor) + 1.0
+        return self._submitted.result(timeout=longest)
+
+    # Diagnostics.
+
+    def _diagnose(self, live: LiveTwin | None = None, *, last: bool = False) -> None:
+        live, report = live or self._live, self._report
+        if live is None or report is None:
+            return
+        stamp = self.get_clock().now().nanoseconds
+        message = self._telemetry.diagnose(
+            lambda published: report.message(live.progress, published, stamp, last=last)
+        )
+        status = message.status[0]
+        if status.level != self._level:
+            self._level = status.level
+            if status.level == DiagnosticStatus.OK:
+                self.get_logger().info(status.message)
+            else:  # not the line above with another level: rclpy refuses that
+                self.get_logger().warning(status.message)
+
+    def _running_twin(self) -> pt.Twin:
+        if self._twin is None:
+            raise NodeError("the model is not built: configure the node first")
+        return self._twin
+
+
+def _tunables(parameters: list[Parameter]) -> dict[str, float]:
+    return {p.name: p.value for p in parameters if p.name in pt.TUNABLES}
+
+
+def main(args: list[str] | None = None) -> int:
+    """Run the node until it is told to end."""
+    return run_node(Simulation, args)
+
+
+if __name__ == "__main__":
+    sys.exit(main())

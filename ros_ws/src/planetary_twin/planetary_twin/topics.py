@@ -1,0 +1,96 @@
+"""Finds what there is to record in the ROS graph: names, types, and a QoS that gets everything."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from importlib import import_module
+from typing import Any
+
+from rclpy.duration import Duration, Infinite
+from rclpy.node import Node
+from rclpy.qos import (
+    DurabilityPolicy,
+    HistoryPolicy,
+    LivelinessPolicy,
+    QoSProfile,
+    ReliabilityPolicy,
+)
+from rclpy.topic_endpoint_info import TopicEndpointInfo
+
+from planetary_twin_py.recording.rosbag2 import Topic
+from planetary_twin_py.recording.schema import message_definition
+
+# Room for two seconds of every topic at 500 Hz while the disk is slow.
+_DEPTH = 1000
+_EVERYWHERE = ("/diagnostics",)
+
+
+def wanted_topics(node: Node, chosen: Sequence[str]) -> list[str]:
+    """Topics that exist and are to be recorded.
+
+    `chosen` names them; without it, they are those that stand directly in the node's namespace,
+    and /diagnostics.
+    """
+    names = {name for name, _ in node.get_topic_names_and_types()}
+    if chosen:
+        return sorted(names & {node.resolve_topic_name(name) for name in chosen})
+    namespace = node.get_namespace().rstrip("/") + "/"
+    direct = {name for name in names if name.rpartition("/")[0] + "/" == namespace}
+    return sorted((direct | set(_EVERYWHERE)) & names - {"/rosout", "/parameter_events"})
+
+
+def describe(name: str, publishers: Sequence[TopicEndpointInfo]) -> Topic:
+    """The topic as a bag describes it."""
+    first = publishers[0]
+    return Topic(
+        name=name,
+        type=first.topic_type,
+        type_hash=str(first.topic_type_hash),
+        definition=message_definition(first.topic_type),
+        offered_qos=[_rosbag2_qos(publisher.qos_profile) for publisher in publishers],
+    )
+
+
+def message_class(type_name: str) -> type:
+    """The class of `pkg/msg/Name`; raises `ImportError` where its package is not installed."""
+    package, kind, name = type_name.split("/")
+    try:
+        return getattr(import_module(f"{package}.{kind}"), name)
+    except AttributeError as missing:
+        raise ImportError(f"{type_name}: no such message") from missing
+
+
+def matching_qos(publishers: Sequence[TopicEndpointInfo]) -> QoSProfile:
+    """The strongest profile that every publisher still meets."""
+    offered = [publisher.qos_profile for publisher in publishers]
+    reliable = all(qos.reliability == ReliabilityPolicy.RELIABLE for qos in offered)
+    latched = all(qos.durability == DurabilityPolicy.TRANSIENT_LOCAL for qos in offered)
+    return QoSProfile(
+        depth=_DEPTH,
+        reliability=ReliabilityPolicy.RELIABLE if reliable else ReliabilityPolicy.BEST_EFFORT,
+        durability=DurabilityPolicy.TRANSIENT_LOCAL if latched else DurabilityPolicy.VOLATILE,
+    )
+
+
+def _rosbag2_qos(qos: QoSProfile) -> dict[str, Any]:
+    return {
+        "history": _word(HistoryPolicy(qos.history)),
+        "depth": qos.depth,
+        "reliability": _word(ReliabilityPolicy(qos.reliability)),
+        "durability": _word(DurabilityPolicy(qos.durability)),
+        "deadline": _span(qos.deadline),
+        "lifespan": _span(qos.lifespan),
+        "liveliness": _word(LivelinessPolicy(qos.liveliness)),
+        "liveliness_lease_duration": _span(qos.liveliness_lease_duration),
+        "avoid_ros_namespace_conventions": qos.avoid_ros_namespace_conventions,
+    }
+
+
+def _word(policy: Any) -> str:
+    return policy.name.lower()
+
+
+def _span(duration: Duration) -> dict[str, int]:
+    infinite = duration == Infinite
+    nanoseconds = 2**63 - 1 if infinite else duration.nanoseconds
+    return {"sec": nanoseconds // 1_000_000_000, "nsec": nanoseconds % 1_000_000_000}

@@ -1,0 +1,89 @@
+"""A user's program: listens to topics and calls services with plain rclpy."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable
+from typing import Any
+
+import rclpy
+from rcl_interfaces.msg import Parameter as ParameterMsg
+from rcl_interfaces.msg import ParameterType, ParameterValue
+from rcl_interfaces.srv import GetParameters, SetParameters, SetParametersAtomically
+from rclpy.executors import SingleThreadedExecutor
+from rclpy.qos import QoSProfile
+from rclpy.signals import SignalHandlerOptions
+
+TWIN = "/planetary_twin"
+
+
+class Peer:
+    """Polls with a deadline; never sleeps and hopes."""
+
+    def __init__(self) -> None:
+        self.context = rclpy.Context()
+        rclpy.init(context=self.context, signal_handler_options=SignalHandlerOptions.NO)
+        self.node = rclpy.create_node("peer", context=self.context)
+        self._executor = SingleThreadedExecutor(context=self.context)
+        self._executor.add_node(self.node)
+
+    def close(self) -> None:
+        self._executor.shutdown()
+        self.node.destroy_node()
+        self.context.try_shutdown()
+
+    def until(self, ready: Callable[[], Any], seconds: float = 30.0) -> Any:
+        """The first true value of `ready`; fails the test after `seconds`."""
+        deadline = time.monotonic() + seconds
+        while not (value := ready()):
+            assert time.monotonic() < deadline, "nothing came in time"
+            self._executor.spin_once(timeout_sec=0.02)
+        return value
+
+    def listen(self, kind: type, topic: str, qos: QoSProfile | int = 100) -> list[Any]:
+        """A list that fills with the messages of `topic`."""
+        heard: list[Any] = []
+        self.node.create_subscription(kind, topic, heard.append, qos)
+        return heard
+
+    def call(self, kind: type, service: str, request: Any) -> Any:
+        """The answer of a service; asks again where the first call after discovery gets lost."""
+        client = self.node.create_client(kind, service)
+        self.until(client.service_is_ready, 60.0)
+        for _ in range(5):
+            future = client.call_async(request)
+            deadline = time.monotonic() + 3.0
+            while not future.done() and time.monotonic() < deadline:
+                self._executor.spin_once(timeout_sec=0.02)
+            if future.done():
+                self.node.destroy_client(client)
+                return future.result()
+            client.remove_pending_request(future)
+        raise AssertionError(f"{service}: no answer")
+
+    def set(self, node: str, *, atomically: bool = False, **values: Any) -> Any:
+        """Set parameters, each value in the type `ros2 param set` would give it."""
+        parameters = [ParameterMsg(name=name, value=_typed(v)) for name, v in values.items()]
+        if atomically:
+            request = SetParametersAtomically.Request(parameters=parameters)
+            service = f"{node}/set_parameters_atomically"
+            return self.call(SetParametersAtomically, service, request).result
+        request = SetParameters.Request(parameters=parameters)
+        return self.call(SetParameters, f"{node}/set_parameters", request).results[0]
+
+    def get(self, node: str, name: str) -> float:
+        """A parameter that must be a DOUBLE."""
+        request = GetParameters.Request(names=[name])
+        value = self.call(GetParameters, f"{node}/get_parameters", request).values[0]
+        assert value.type == ParameterType.PARAMETER_DOUBLE
+        return value.double_value
+
+
+def _typed(value: Any) -> ParameterValue:
+    if isinstance(value, bool):
+        return ParameterValue(type=ParameterType.PARAMETER_BOOL, bool_value=value)
+    if isinstance(value, int):
+        return ParameterValue(type=ParameterType.PARAMETER_INTEGER, integer_value=value)
+    if isinstance(value, float):
+        return ParameterValue(type=ParameterType.PARAMETER_DOUBLE, double_value=value)
+    return ParameterValue(type=ParameterType.PARAMETER_STRING, string_value=value)

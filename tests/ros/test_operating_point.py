@@ -1,0 +1,135 @@
+"""The operating point is changed as users do it, and nonsense changes nothing."""
+
+from __future__ import annotations
+
+import math
+from pathlib import Path
+
+import pytest
+from planetary_twin_msgs.msg import GearboxState, OperatingPoint
+from planetary_twin_msgs.srv import SetOperatingPoint
+from rclpy.qos import DurabilityPolicy, QoSProfile
+
+import planetary_twin_py as pt
+
+from .conftest import Start
+from .peer import TWIN, Peer
+
+ROOT = Path(__file__).parents[2]
+NODE = f"{TWIN}/simulation"
+LATCHED = QoSProfile(depth=100, durability=DurabilityPolicy.TRANSIENT_LOCAL)
+
+
+@pytest.fixture
+def points(peer: Peer, start: Start) -> list[OperatingPoint]:
+    """What a running simulation has published as its operating point."""
+    start("planetary_twin.simulation")
+    points = peer.listen(OperatingPoint, f"{TWIN}/operating_point", LATCHED)
+    peer.until(lambda: points, 120.0)
+    return points
+
+
+def test_a_number_may_be_typed_as_users_type_it(peer: Peer, points: list[OperatingPoint]) -> None:
+    for typed in ("3e-7", 0, 2.5e-7):
+        assert peer.set(NODE, backlash=typed).successful
+        assert peer.get(NODE, "backlash") == float(typed)
+        peer.until(lambda value=typed: points[-1].backlash == float(value))
+    assert peer.set(NODE, lambda_ratio=2).successful
+    peer.until(lambda: points[-1].lambda_ratio == 2.0)
+    assert points[-1].changed == "lambda_ratio"
+
+
+def test_nonsense_is_refused_with_the_reason_and_changes_nothing(
+    peer: Peer, points: list[OperatingPoint]
+) -> None:
+    before = {name: peer.get(NODE, name) for name in ("backlash", "lambda_ratio")}
+    for values in (
+        {"backlash": "wide"},
+        {"backlash": 1.0},
+        {"backlash": -1e-9},
+        {"backlash": math.nan},
+        {"lambda_ratio": "inf"},
+        {"lambda_ratio": True},
+    ):
+        result = peer.set(NODE, **values)
+        assert not result.successful
+        ((name, value),) = values.items()
+        assert name in result.reason
+        assert str(value).lower() in result.reason.lower()
+    assert not peer.set(NODE, backlash_typo=1.0).successful
+    assert not peer.set(NODE, scene="other").successful
+    assert not peer.set(NODE, atomically=True, backlash=3e-7, lambda_ratio=99.0).successful
+    assert {name: peer.get(NODE, name) for name in before} == before
+    assert len(points) == 1
+
+
+def test_values_set_atomically_hold_from_one_instant(
+    peer: Peer, points: list[OperatingPoint]
+) -> None:
+    values = {"backlash": "3e-7", "lambda_ratio": 2, "input_speed": 200.0}
+    assert peer.set(NODE, atomically=True, **values).successful
+    peer.until(lambda: len(points) == 2)
+    point = points[-1]
+    assert set(point.changed.split(",")) == set(values)
+    assert (point.backlash, point.lambda_ratio, point.input_speed) == (3e-7, 2.0, 200.0)
+    assert point.simulated_time > points[0].simulated_time
+
+
+def test_the_service_answers_with_the_instant_and_the_parameters_follow(
+    peer: Peer, points: list[OperatingPoint]
+) -> None:
+    service = f"{NODE}/set_operating_point"
+    request = SetOperatingPoint.Request(names=["backlash", "lambda_ratio"], values=[3e-7, 1.5])
+    answer = peer.call(SetOperatingPoint, service, request)
+    assert answer.success
+    peer.until(lambda: len(points) == 2)
+    assert answer.simulated_time == points[-1].simulated_time
+    assert answer.stamp == points[-1].header.stamp
+    assert peer.get(NODE, "backlash") == 3e-7
+    for names, values in ((["backlash"], [1.0]), (["gap"], [1.0]), (["backlash"], []), ([], [])):
+        request = SetOperatingPoint.Request(names=names, values=values)
+        answer = peer.call(SetOperatingPoint, service, request)
+        assert not answer.success
+        assert answer.message
+    assert peer.get(NODE, "backlash") == 3e-7
+    assert len(points) == 2
+
+
+def test_film_and_speed_follow_the_parameters(peer: Peer, points: list[OperatingPoint]) -> None:
+    states = peer.listen(GearboxState, f"{TWIN}/gearbox_state")
+    assert peer.set(NODE, lambda_ratio=2).successful
+    peer.until(lambda: states and math.isclose(states[-1].sun_planet_lambda_ratio[0], 2.0))
+    assert peer.set(NODE, input_speed=200).successful
+    peer.until(lambda: abs(states[-1].sun_speed - 200.0) < 2.0)
+    state = states[-1]
+    assert math.isclose(state.ring_speed, -3.0 / 7.0 * state.sun_speed, rel_tol=0.01)
+    planets = state.planets
+    assert all(math.isnan(x) for x in state.sun_planet_dte_mean[planets:])
+
+
+def test_values_given_at_start_are_read_the_same_way(peer: Peer, start: Start) -> None:
+    start(
+        "planetary_twin.simulation", "--ros-args", "-p", "backlash:=3e-7", "-p", "lambda_ratio:=2"
+    )
+    points = peer.listen(OperatingPoint, f"{TWIN}/operating_point", LATCHED)
+    point = peer.until(lambda: points, 120.0)[0]
+    assert (point.backlash, point.lambda_ratio) == (3e-7, 2.0)
+
+
+@pytest.mark.parametrize("given", ["backlash:=7", "backlash:=wide", "scene:=nowhere"])
+def test_nonsense_at_start_ends_in_one_line(start: Start, given: str) -> None:
+    process = start("planetary_twin.simulation", "--ros-args", "-p", given)
+    _, errors = process.communicate(timeout=60)
+    assert process.returncode == 1
+    assert len(errors.strip().splitlines()) == 1
+    assert given.split(":=")[1] in errors
+
+
+def test_the_shipped_parameter_file_is_the_packaged_scene(peer: Peer, start: Start) -> None:
+    file = ROOT / "ros_ws/src/planetary_twin/config/paper.yaml"
+    start("planetary_twin.simulation", "--ros-args", "--params-file", str(file))
+    points = peer.listen(OperatingPoint, f"{TWIN}/operating_point", LATCHED)
+    point = peer.until(lambda: points, 120.0)[0]
+    shipped = pt.load_scene("paper").operating_point
+    for name in pt.TUNABLES:
+        assert math.isclose(getattr(point, name), getattr(shipped, name), rel_tol=1e-6)

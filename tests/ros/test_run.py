@@ -1,0 +1,165 @@
+"""One command runs, records, shows and accounts; it ends cleanly at any moment."""
+
+from __future__ import annotations
+
+import json
+import os
+import signal
+import subprocess
+import sys
+import time
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+from mcap.reader import make_reader
+
+from planetary_twin_py.scene import load_scene, parse_scene
+
+from .peer import TWIN
+from .recordings import counts
+
+COMMAND = (
+    "-c", "import typer; from planetary_twin.commands import run; app = typer.Typer(); "
+    "app.command()(run); app()",
+)  # fmt: skip
+
+
+@pytest.fixture
+def run(domain: int, tmp_path: Path) -> Callable[..., subprocess.Popen[str]]:
+    """Start `planetary-twin run` with options."""
+
+    def start(*options: str) -> subprocess.Popen[str]:
+        return subprocess.Popen(
+            [sys.executable, *COMMAND, *options],
+            cwd=tmp_path,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.PIPE,
+            text=True,
+        )
+
+    return start
+
+
+def _processes(tmp_path: Path) -> list[int]:
+    """Processes that work in `tmp_path`."""
+    found = []
+    for entry in Path("/proc").iterdir():
+        if entry.name.isdigit():
+            try:
+                if (entry / "cwd").resolve(strict=True) == tmp_path:
+                    found.append(int(entry.name))
+            except OSError:
+                continue
+    return found
+
+
+def _line(process: subprocess.Popen[str], text: str) -> None:
+    """Read the output up to a line that holds `text`."""
+    assert process.stdout is not None
+    for line in process.stdout:
+        if text in line:
+            return
+    raise AssertionError(f"the run ended before it said {text!r}")
+
+
+def test_a_run_records_every_message_it_publishes(
+    run: Callable[..., subprocess.Popen[str]], tmp_path: Path
+) -> None:
+    process = run("--duration", "3", "--record", "bag", "--json", "-", "--set", "backlash=3e-7")
+    output, errors = process.communicate(timeout=180)
+    assert process.returncode == 0, errors
+    figures = json.loads(output)
+    recorded = counts(tmp_path / "recordings/bag")
+    assert {name: topic["recorded"] for name, topic in figures["topics"].items()} == recorded
+    for topic in figures["topics"].values():
+        assert topic["recorded"] + topic["lost"] == topic["published"]
+    assert figures["topics"][f"{TWIN}/gearbox_state"]["lost"] == 0
+    assert figures["topics"][f"{TWIN}/operating_point"]["published"] == 7
+    assert figures["duration_s"] >= 3.0
+    with (tmp_path / figures["file"]).open("rb") as stream:
+        (attachment,) = make_reader(stream).iter_attachments()
+    assert attachment.name == "scene.yaml"
+    assert parse_scene(attachment.data.decode()) == load_scene("paper")
+    assert Path(tmp_path / figures["file"]).exists()
+    assert _processes(tmp_path) == []
+
+
+def test_ctrl_c_leaves_a_readable_recording_and_the_table(
+    run: Callable[..., subprocess.Popen[str]], tmp_path: Path
+) -> None:
+    process = run("--duration", "600", "--record", "bag")
+    _line(process, "rpm")
+    process.send_signal(signal.SIGINT)
+    output, errors = process.communicate(timeout=60)
+    assert process.returncode == 0, errors
+    assert "Traceback" not in errors
+    assert "published" in output
+    assert counts(tmp_path / "recordings/bag")[f"{TWIN}/gearbox_state"] > 0
+    assert _processes(tmp_path) == []
+
+
+@pytest.mark.parametrize("seconds", [0.9, 1.8, 2.7])
+def test_ctrl_c_while_it_starts_leaves_nothing_running(
+    run: Callable[..., subprocess.Popen[str]], tmp_path: Path, seconds: float
+) -> None:
+    process = run("--duration", "600")
+    time.sleep(seconds)  # the very thing under test: an arbitrary moment
+    process.send_signal(signal.SIGINT)
+    _, errors = process.communicate(timeout=60)
+    assert process.returncode == 0, errors
+    assert "Traceback" not in errors
+    assert _processes(tmp_path) == []
+
+
+@pytest.mark.parametrize("node", ["simulation", "logger"])
+def test_the_death_of_a_node_ends_the_run_with_one_line(
+    run: Callable[..., subprocess.Popen[str]], tmp_path: Path, node: str
+) -> None:
+    process = run("--duration", "600")
+    _line(process, "rpm")
+    victim = next(
+        pid
+        for pid in _processes(tmp_path)
+        if f"planetary_twin.{node}".encode() in Path(f"/proc/{pid}/cmdline").read_bytes()
+    )
+    os.kill(victim, signal.SIGKILL)
+    _, errors = process.communicate(timeout=60)
+    assert process.returncode == 1
+    assert len(errors.strip().splitlines()) == 1
+    assert node in errors
+    assert _processes(tmp_path) == []
+
+
+def test_kill_minus_nine_of_the_run_takes_its_nodes_along(
+    run: Callable[..., subprocess.Popen[str]], tmp_path: Path
+) -> None:
+    process = run("--duration", "600", "--record", "bag")
+    _line(process, "rpm")
+    process.kill()
+    process.communicate(timeout=60)
+    deadline = time.monotonic() + 20.0
+    while _processes(tmp_path):
+        assert time.monotonic() < deadline
+        time.sleep(0.05)
+    assert counts(tmp_path / "recordings/bag")[f"{TWIN}/gearbox_state"] > 0
+
+
+@pytest.mark.parametrize(
+    ("options", "reason"),
+    [
+        (["nowhere"], "nowhere"),
+        (["--set", "backlash=7"], "backlash"),
+        (["--set", "gap=7"], "gap"),
+        (["--record", "../x"], "--record"),
+    ],
+)
+def test_a_mistake_ends_in_one_line_before_anything_starts(
+    run: Callable[..., subprocess.Popen[str]], tmp_path: Path, options: list[str], reason: str
+) -> None:
+    process = run(*options)
+    _, errors = process.communicate(timeout=60)
+    assert process.returncode == 1
+    assert len(errors.strip().splitlines()) == 1
+    assert reason in errors
+    assert not (tmp_path / "recordings").exists()
