@@ -48,6 +48,14 @@ class Engine:
         self.march.control.longest = LONGEST_STEP
         self._load(scene.operating_point)
         self.march.begin = self.march.end = start_state(scene, self.model)
+        self._compile()
+
+    def _compile(self) -> None:
+        """Have every kernel ready before the clock runs; at time zero none changes anything."""
+        self.advance(0.0, 1, 1.0, 0)
+        self.sample(0.0)
+        self.stored()
+        cut(self.model, self.march, 0.0)
 
     def _load(self, point: OperatingPoint) -> None:
         """Put an operating point into the model, and scale the tolerances to its deflection."""

@@ -47,7 +47,6 @@ def simulate(
         )
     engine = Engine(scene, tolerance)
     stored = engine.stored()
-    engine.advance(0.0, 1, sample_rate, 0)  # compiles, so that the clock measures the run
     room = math.floor(duration * sample_rate + 1e-6)
     begin = time.perf_counter()
     samples = engine.advance(duration, 1, sample_rate, room)
