@@ -25,7 +25,7 @@ PAPER: Sequence[Stop] = (
     Stop(5.0, {"input_speed": rpm(2000)}, "1000 -> 2000 rpm: mesh frequency and losses follow"),
     Stop(
         7.0,
-        {"input_torque": 0.3, "torque_ripple": 3.0},
+        {"input_torque": 0.3, "torque_ripple": 1.0},
         "light, rippling load: teeth separate and rattle",
     ),
     Stop(9.0, {"input_torque": 63.0, "torque_ripple": 0.0}, "63 N m again"),
