@@ -14,7 +14,9 @@ from .dynamics.equations import MODEL
 from .dynamics.oil import build_oil
 from .dynamics.start import build_load, mesh_loads, start_state
 from .dynamics.train import build_train
-from .integrators.march import MARCH, Samples, advance, cut, new_samples, sample
+from .integrators.interpolant import Samples, new_samples, sample
+from .integrators.march import advance, cut
+from .integrators.progress import MARCH
 from .scene import OperatingPoint, Scene
 
 LONGEST_STEP = 1e-3  # [s]
