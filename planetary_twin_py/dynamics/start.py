@@ -17,6 +17,7 @@ from .contact_events import find_segment, mesh_cycle, nearest_to_segment
 from .equations import EVALUATION, MOMENT, forces, stiffness
 from .state import COAST_SIDE, DRIVE_SIDE, FRICTION, LOAD, STATE
 
+SETTLING_ROUNDS = 3
 CYCLE_POINTS = 64  # positions within the mesh cycle over which friction is averaged
 
 
@@ -90,14 +91,19 @@ def _settle(model: Record, state: Record, moment: Record, mean: np.ndarray) -> N
     """Choose x so that every mesh and coupling carries its mean load at the present angle.
 
     Least squares, because more meshes than bodies ask for a place: all of them get theirs only
-    if all are equally stiff at this angle.
+    if all are equally stiff at this angle. Repeated, because the wound-up couplings turn the
+    gears on to where the meshes have another stiffness.
     """
+    for _ in range(SETTLING_ROUNDS):
+        _settle_once(model, state, moment, mean)
+
+
+def _settle_once(model: Record, state: Record, moment: Record, mean: np.ndarray) -> None:
     train, load = model.train, model.load
     bodies = train.bodies + 1
     rows, targets, weights = [], [], []
     for i in range(train.meshes):
         kind, side = train.kind[i], int(state.side[i])
-        state.x[:] = 0.0
         cycle = mesh_cycle(train, state, i, side)
         state.segment[i] = find_segment(
             train, kind, cycle, math.copysign(1.0, side * moment.cycle_rate)

@@ -137,7 +137,7 @@ def _pass_edges(model: Record, march: Record) -> None:
 
 
 @kernel
-def _accept(model: Record, march: Record, mesh: int) -> None:
+def accept(model: Record, march: Record, mesh: int) -> None:
     """Let the step stand; `mesh` changes its contact at its end (-1: none)."""
     if mesh >= 0:
         change_contact(model, march.end, mesh)
@@ -193,26 +193,24 @@ def one_step(model: Record, march: Record, longest: float) -> None:
     candidate = h * min(GROW, max(SHRINK, factor))
     # A step cut short by an event says little about the steps to come.
     control.next_step = max(candidate, control.next_step) if factor >= 1.0 else candidate
-    _accept(model, march, mesh)
+    accept(model, march, mesh)
 
 
 @kernel
 def advance(
     model: Record, march: Record, until: float, first_sample: int, sample_rate: float, out: Samples
-) -> int:
-    """Integrate to `until` [s]; sample k is taken at k/sample_rate seconds on the way.
+) -> None:
+    """Integrate to `until` [s], and fill `out` with the samples from number `first_sample` on.
 
-    Returns:
-        How many samples were taken, beginning with number `first_sample`.
+    Sample k is taken at k/sample_rate seconds, none later than `until`.
     """
-    taken = 0
+    taken, room = 0, out.turns.size
     while True:
-        end = min(until, march.end.time)
-        while taken < out.turns.size and (first_sample + taken) / sample_rate <= end:
+        while taken < room and (first_sample + taken) / sample_rate <= march.end.time:
             sample(model, march, (first_sample + taken) / sample_rate, out, taken)
             taken += 1
-        if march.end.time >= until:
-            return taken
+        if taken == room and march.end.time >= until:
+            return
         begin_step(model, march)
         one_step(model, march, math.inf)
 
