@@ -5,6 +5,7 @@ BIN := $(VENV)/bin
 STAMPS := $(VENV)/stamps
 INSTALL := $(BIN)/uv pip install --quiet --python $(BIN)/python --no-deps --no-build-isolation
 INTERFACES := msgs_spec/package.xml msgs_spec/CMakeLists.txt $(wildcard msgs_spec/msg/* msgs_spec/srv/*)
+KERNELS := $(wildcard $(addprefix planetary_twin_py/,_*.py dynamics/*.py integrators/*.py lubrication/*.py mesh/*.py))
 NODES := $(shell find ros_ws/src/planetary_twin -not -path '*/build*' -not -path '*.egg-info*' \
 	-not -name '*.pyc' -not -name __pycache__)
 
@@ -16,7 +17,7 @@ endif
 
 .PHONY: setup run test test-fast bench view lint lock clean
 
-setup: $(STAMPS)/interfaces $(STAMPS)/model $(STAMPS)/nodes
+setup: $(STAMPS)/interfaces $(STAMPS)/kernels $(STAMPS)/nodes
 
 run: setup
 	@$(BIN)/planetary-twin run $(ARGS)
@@ -55,6 +56,11 @@ $(STAMPS)/interfaces: $(STAMPS)/dependencies tools/build_interfaces tools/ros_fr
 
 $(STAMPS)/model: $(STAMPS)/dependencies pyproject.toml
 	$(INSTALL) --editable .
+	@touch $@
+
+# Compiles the numerical kernels into the user's cache, so that the first run starts at once.
+$(STAMPS)/kernels: $(STAMPS)/model $(KERNELS)
+	$(BIN)/python -c 'import planetary_twin_py as pt; pt.Twin(pt.load_scene("paper"))'
 	@touch $@
 
 $(STAMPS)/nodes: $(STAMPS)/dependencies tools/install_nodes $(NODES)

@@ -1,7 +1,7 @@
 """How the numerical kernels are compiled.
 
 numba keeps compiled code per file, and does not notice when a function a kernel calls from
-another file has changed. The cache folder is therefore named after the whole package's source.
+another file has changed. The cache folder is therefore named after the source of all kernels.
 """
 
 from __future__ import annotations
@@ -20,9 +20,14 @@ F = TypeVar("F", bound=Callable[..., Any])
 _FAST = {"reassoc", "nsz", "arcp", "contract"}
 
 
+# Where kernels are, and what they take constants from.
+_KERNELS = ("_*.py", "dynamics/*.py", "integrators/*.py", "lubrication/*.py", "mesh/*.py")
+
+
 def _source_hash() -> str:
     digest = hashlib.sha256(numba.__version__.encode())
-    for path in sorted(Path(__file__).parent.rglob("*.py")):
+    home = Path(__file__).parent
+    for path in sorted(p for place in _KERNELS for p in home.glob(place)):
         digest.update(path.read_bytes())
     return digest.hexdigest()[:16]
 

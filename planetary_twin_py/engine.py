@@ -14,7 +14,9 @@ from .dynamics.equations import MODEL
 from .dynamics.oil import build_oil
 from .dynamics.start import build_load, mesh_loads, start_state
 from .dynamics.train import build_train
-from .integrators.march import MARCH, Samples, advance, cut, new_samples, sample
+from .integrators.interpolant import Samples, new_samples, sample
+from .integrators.march import advance, cut
+from .integrators.progress import MARCH
 from .scene import OperatingPoint, Scene
 
 LONGEST_STEP = 1e-3  # [s]
@@ -48,6 +50,14 @@ class Engine:
         self.march.control.longest = LONGEST_STEP
         self._load(scene.operating_point)
         self.march.begin = self.march.end = start_state(scene, self.model)
+        self._compile()
+
+    def _compile(self) -> None:
+        """Have every kernel ready before the clock runs; at time zero none changes anything."""
+        self.advance(0.0, 1, 1.0, 0)
+        self.sample(0.0)
+        self.stored()
+        cut(self.model, self.march, 0.0)
 
     def _load(self, point: OperatingPoint) -> None:
         """Put an operating point into the model, and scale the tolerances to its deflection."""

@@ -11,7 +11,7 @@ from .dynamics.observe import BOUNDARY, DTE, FILM, LAMBDA, MESH_FORCE, POWER_LOS
 from .dynamics.state import DAMPING, FRICTION, INPUT, OUTPUT, STIFFNESS_WORK
 from .dynamics.train import body_names, mesh_names
 from .engine import Engine
-from .integrators.march import Samples
+from .integrators.interpolant import Samples
 from .result import Energy, Result, Stats
 from .scene import Scene
 
@@ -47,7 +47,6 @@ def simulate(
         )
     engine = Engine(scene, tolerance)
     stored = engine.stored()
-    engine.advance(0.0, 1, sample_rate, 0)  # compiles, so that the clock measures the run
     room = math.floor(duration * sample_rate + 1e-6)
     begin = time.perf_counter()
     samples = engine.advance(duration, 1, sample_rate, room)

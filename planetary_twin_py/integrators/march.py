@@ -9,80 +9,25 @@ the end of the window is that of the last step begun. So the path does not depen
 from __future__ import annotations
 
 import math
-from typing import NamedTuple
-
-import numpy as np
 
 from .._compile import kernel
-from .._records import BODIES, FLAG, REAL, WHOLE, Record, layout
+from .._records import Record
 from ..dynamics.contact_events import (
     change_contact,
     change_segment,
-    departure,
     mesh_cycle,
     nearest_to_segment,
 )
-from ..dynamics.equations import (
-    EVALUATION,
-    MOMENT,
-    cycle_shift,
-    damping_time,
-    forces,
-    mesh_motion,
-)
-from ..dynamics.observe import QUANTITIES, observe
-from ..dynamics.state import OPEN, STATE
+from ..dynamics.equations import cycle_shift, damping_time, forces, mesh_motion
+from ..dynamics.state import OPEN
 from ..dynamics.tooth_friction import copy_friction
-from .rosenbrock import ORDER, WORKSPACE, step
+from .interpolant import Samples, first_flank_event, sample
+from .progress import copy_state
+from .rosenbrock import ORDER, step
 
 SHORTEST_STEP = 1e-13  # [s] below it two events count as one
 EDGE = 1e-9  # [-] mesh cycles within which a tooth pair counts as having entered or left
-SLACK = 0.01  # share of the local tolerance by which flanks may pull or pass each other
 SAFETY, SHRINK, GROW = 0.8, 0.25, 2.0
-
-# Step control and counters.
-CONTROL = layout(
-    tolerance_x=REAL,  # local error a step may make in a transmission error [m]
-    tolerance_v=REAL,  # and in the speed of a body [m/s]
-    next_step=REAL,  # [s]
-    step=REAL,  # the last one taken [s]
-    longest=REAL,  # [s]
-    changed=FLAG,  # contacts or loads are no longer those of the last evaluation
-    steps=WHOLE,
-    rejected=WHOLE,
-    evaluations=WHOLE,
-    pair_events=WHOLE,
-    flank_events=WHOLE,
-)
-
-# A run in progress: the step from `begin` to `end`, and what interpolates it.
-MARCH = layout(
-    begin=STATE,
-    end=STATE,
-    moment=MOMENT,
-    first=EVALUATION,  # forces at `begin`
-    last=EVALUATION,  # forces at `end`, with the contacts of `begin`
-    dense_x=(REAL, (BODIES,)),  # interpolated
-    dense_v=(REAL, (BODIES,)),
-    control=CONTROL,
-    work=WORKSPACE,
-)
-
-
-@kernel
-def copy_state(source: Record, target: Record) -> None:
-    """Overwrite `target`."""
-    target.x[:] = source.x
-    target.v[:] = source.v
-    target.side[:] = source.side
-    target.segment[:] = source.segment
-    target.time = source.time
-    target.turns = source.turns
-    target.fraction = source.fraction
-    target.speed = source.speed
-    target.trim = source.trim
-    target.set_speed = source.set_speed
-    target.energy[:] = source.energy
 
 
 @kernel
@@ -168,61 +113,6 @@ def _try(model: Record, march: Record, h: float) -> None:
 
 
 @kernel
-def interpolate(model: Record, march: Record, delay: float) -> None:
-    """x and v within the last step: quintic and quartic Hermite interpolants."""
-    h = march.control.step
-    t = delay / h
-    u = t * t * t
-    # Quintic basis on position, velocity and acceleration at both ends, and its derivative.
-    p1 = u * (10.0 + t * (-15.0 + 6.0 * t))
-    v0, v1 = t - u * (6.0 + t * (-8.0 + 3.0 * t)), u * (-4.0 + t * (7.0 - 3.0 * t))
-    a0 = 0.5 * (t * t - u * (3.0 + t * (-3.0 + t)))
-    a1 = 0.5 * u * (1.0 + t * (-2.0 + t))
-    s = t * t
-    dp1 = s * (30.0 + t * (-60.0 + 30.0 * t))
-    dv0, dv1 = 1.0 - s * (18.0 + t * (-32.0 + 15.0 * t)), s * (-12.0 + t * (28.0 - 15.0 * t))
-    da0 = 0.5 * (2.0 * t - s * (9.0 + t * (-12.0 + 5.0 * t)))
-    da1 = 0.5 * s * (3.0 + t * (-8.0 + 5.0 * t))
-    b, e = march.begin, march.end
-    for j in range(model.train.bodies):
-        f0 = march.first.force[j] / model.train.mass[j] * h * h
-        f1 = march.last.force[j] / model.train.mass[j] * h * h
-        gap = e.x[j] - b.x[j]
-        march.dense_x[j] = b.x[j] + gap * p1 + h * (v0 * b.v[j] + v1 * e.v[j]) + a0 * f0 + a1 * f1
-        slope = gap * dp1 + h * (dv0 * b.v[j] + dv1 * e.v[j]) + da0 * f0 + da1 * f1
-        march.dense_v[j] = slope / h
-
-
-@kernel
-def _departure_at(model: Record, march: Record, i: int, delay: float) -> float:
-    """`departure` of mesh i on the interpolant."""
-    interpolate(model, march, delay)
-    train = model.train
-    d, rate = mesh_motion(train, i, march.dense_x), mesh_motion(train, i, march.dense_v)
-    slack = SLACK * march.control.tolerance_x
-    return departure(model, march.begin, i, march.moment.tau[train.kind[i]], d, rate, slack)
-
-
-@kernel
-def _first_flank_event(model: Record, march: Record) -> tuple[int, float]:
-    """Mesh whose contact changes first within the step, and when; (-1, step) if none does."""
-    h = march.control.step
-    first, when = -1, h
-    for i in range(model.train.meshes):
-        if _departure_at(model, march, i, when) >= 0.0:
-            continue
-        low, high = 0.0, when
-        for _ in range(50):
-            middle = 0.5 * (low + high)
-            if _departure_at(model, march, i, middle) >= 0.0:
-                low = middle
-            else:
-                high = middle
-        first, when = i, high
-    return first, when
-
-
-@kernel
 def _pass_edges(model: Record, march: Record) -> None:
     """Change the segment of every mesh that has come to the edge of its own."""
     train, end = model.train, march.end
@@ -297,49 +187,13 @@ def one_step(model: Record, march: Record, longest: float) -> None:
             break
         march.control.rejected += 1
         h = max(h * max(SHRINK, factor), SHORTEST_STEP)
-    mesh, when = _first_flank_event(model, march)
+    mesh, when = first_flank_event(model, march)
     if mesh >= 0 and when < h:
         _try(model, march, max(when, SHORTEST_STEP))
     candidate = h * min(GROW, max(SHRINK, factor))
     # A step cut short by an event says little about the steps to come.
     control.next_step = max(candidate, control.next_step) if factor >= 1.0 else candidate
     _accept(model, march, mesh)
-
-
-class Samples(NamedTuple):
-    """Samples of one window. The body j of a sample stands at turns * ratio[j] turns + angle[j]."""
-
-    mesh: np.ndarray  # (room, QUANTITIES, meshes), see `observe`
-    turns: np.ndarray  # (room,) whole turns of the motor
-    angle: np.ndarray  # (room, bodies) [rad]
-    speed: np.ndarray  # (room, bodies) [rad/s]
-
-
-def new_samples(train: Record, room: int) -> Samples:
-    """Room for `room` samples."""
-    bodies, meshes = int(train.bodies), int(train.meshes)
-    return Samples(
-        np.zeros((room, QUANTITIES, meshes)),
-        np.zeros(room),
-        np.zeros((room, bodies)),
-        np.zeros((room, bodies)),
-    )
-
-
-@kernel
-def sample(model: Record, march: Record, time: float, out: Samples, row: int) -> None:
-    """Write what the train shows at `time`, which lies within the last step."""
-    train, begin = model.train, march.begin
-    delay = time - begin.time
-    interpolate(model, march, delay)
-    pairs = march.work.evaluation.pairs
-    observe(model, begin, march.moment, march.dense_x, march.dense_v, delay, pairs, out.mesh[row])
-    speed = begin.speed
-    frame = 2.0 * math.pi * begin.fraction + speed * delay
-    out.turns[row] = begin.turns
-    for j in range(train.bodies):
-        out.angle[row, j] = train.ratio[j] * frame + march.dense_x[j] / train.radius[j]
-        out.speed[row, j] = train.ratio[j] * speed + march.dense_v[j] / train.radius[j]
 
 
 @kernel

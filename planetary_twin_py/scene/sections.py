@@ -140,7 +140,7 @@ class SpeedControl(Section):
 
     bandwidth: float = quantity("Hz", "of the speed loop", 3.0, gt=0.0, le=100.0)
     slew_rate: float = quantity("rad/s^2", "of the speed set-point", 500.0, gt=0.0, le=1e6)
-    ripple_order: int = Field(6, ge=1, le=100, description="torque cycles per turn of the motor")
+    ripple_order: int = Field(2, ge=1, le=100, description="torque cycles per turn of the motor")
 
 
 class Drive(Section):
