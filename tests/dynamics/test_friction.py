@@ -6,25 +6,25 @@ from power_flows import ALL_FLOWS, scene_of
 
 from planetary_twin_py._records import new_record
 from planetary_twin_py.dynamics.contact_events import find_segment
-from planetary_twin_py.dynamics.equations import EVALUATION, MOMENT, forces
-from planetary_twin_py.dynamics.state import FRICTION
+from planetary_twin_py.dynamics.equations import EVALUATION, MOMENT, forces, mesh_motion
+from planetary_twin_py.dynamics.state import COAST_SIDE, DRIVE_SIDE, FRICTION
 from planetary_twin_py.dynamics.tooth_friction import apply_friction
 from planetary_twin_py.engine import Engine
 
 
 def random_moment(engine, random):
-    """Some meshes on either side, at any place in their cycle, and bodies moving at random."""
+    """Bodies anywhere, moving at random, meshes on the side this takes them to."""
     train, state, moment = engine.train, engine.march.begin, new_record(MOMENT)
     moment.tau[:] = 1e-6
     bodies = int(train.bodies)
-    for i in range(train.meshes):
-        state.side[i] = random.choice([-1, 1, 1])
-        moment.start[i] = random.uniform()
-        state.segment[i] = find_segment(train, train.kind[i], moment.start[i], 1.0)
     x, v = np.zeros_like(state.x), np.zeros_like(state.v)
     x[:bodies] = random.normal(0.0, 1e-5, bodies)
     state.x = x
     v[:bodies] = random.normal(0.0, 0.3, bodies)
+    for i in range(train.meshes):
+        state.side[i] = DRIVE_SIDE if mesh_motion(train, i, x) > 0.0 else COAST_SIDE
+        moment.start[i] = random.uniform()
+        state.segment[i] = find_segment(train, train.kind[i], moment.start[i], 1.0)
     return state, moment, x, v
 
 

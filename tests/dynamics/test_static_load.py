@@ -18,9 +18,11 @@ def test_every_mesh_carries_1879_newtons_without_friction(flow):
     """Of 63 N m at the sun, 147 N m at the ring, -210 N m at the carrier, any two give it."""
     scene = scene_of(flow, **{"lubrication.friction": False, "input_speed": rpm(1000)})
     result = simulate(scene, 0.1)
-    late = result.mesh_force[result.time > 0.02]
+    mean = result.mesh_force[result.time > 0.02].mean(axis=0)
     assert pytest.approx(1878.8, abs=0.1) == FORCE
-    assert late.mean(axis=0) == pytest.approx(FORCE, rel=2e-3)
+    assert mean.mean() == pytest.approx(FORCE, rel=2e-4)
+    assert mean == pytest.approx(FORCE, rel=0.02)  # planets share unequally, by their phases
+    assert mean[:3] == pytest.approx(mean[3:], rel=1e-3)  # a planet's torques cancel
 
 
 @ALL_FLOWS
