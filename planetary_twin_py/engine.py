@@ -15,7 +15,7 @@ from .dynamics.oil import build_oil
 from .dynamics.start import build_load, mesh_loads, start_state
 from .dynamics.train import build_train
 from .integrators.interpolant import Samples, new_samples, sample
-from .integrators.march import advance, cut
+from .integrators.march import advance, begin_step, cut
 from .integrators.progress import MARCH
 from .scene import OperatingPoint, Scene
 
@@ -46,7 +46,7 @@ class Engine:
         self.train = build_train(scene)
         self.model: Record = new_record(MODEL, train=self.train, oil=build_oil(scene))
         self.march: Record = new_record(MARCH)
-        self.march.control.next_step = FIRST_STEP
+        self.march.control.step = self.march.control.next_step = FIRST_STEP
         self.march.control.longest = LONGEST_STEP
         self._load(scene.operating_point)
         self.march.begin = self.march.end = start_state(scene, self.model)
@@ -55,6 +55,7 @@ class Engine:
     def _compile(self) -> None:
         """Have every kernel ready before the clock runs; at time zero none changes anything."""
         self.advance(0.0, 1, 1.0, 0)
+        begin_step(self.model, self.march)
         self.sample(0.0)
         self.stored()
         cut(self.model, self.march, 0.0)

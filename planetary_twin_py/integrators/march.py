@@ -227,5 +227,8 @@ def cut(model: Record, march: Record, time: float) -> None:
             one_step(model, march, length)
         else:
             copy_state(march.begin, march.end)
+        while time - march.end.time > SHORTEST_STEP:  # an event came before
+            begin_step(model, march)
+            one_step(model, march, time - march.end.time)
     march.end.time = time
     march.control.changed = True
