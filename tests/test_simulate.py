@@ -72,14 +72,17 @@ def test_computed_lambda_ratio_is_film_over_roughness():
 
 
 def test_force_scales_with_torque_and_backlash_without_friction():
-    """Contact loss depends on speed, not load: everything scales, teeth that rattle as well."""
-    scene = PAPER.replace(**{"lubrication.friction": False, "backlash": 1e-5})
-    heavy = pt.simulate(scene.replace(input_torque=10.0, torque_ripple=60.0), 0.05, tolerance=1e-6)
-    light = pt.simulate(
-        scene.replace(input_torque=1.0, torque_ripple=6.0, backlash=1e-6), 0.05, tolerance=1e-6
+    """Contact loss depends on speed, not load: everything scales, teeth that part as well."""
+    stiff = {f"drive.{side}.coupling_stiffness": 1e8 for side in ("input", "output")}
+    scene = PAPER.replace(
+        **stiff,  # or the couplings would wind up the lighter train to another mesh phase
+        **{"lubrication.friction": False, "mesh.damping.law": "viscous"},
+        **{"mesh.damping.damping_ratio": 0.01, "input_speed": 780.0},
     )
-    early = heavy.time < 0.01
-    assert heavy.dte[early] == pytest.approx(10 * light.dte[early], rel=1e-3, abs=1e-8)
+    heavy = pt.simulate(scene.replace(input_torque=1.0, backlash=1e-7), 0.004, tolerance=1e-6)
+    light = pt.simulate(scene.replace(input_torque=0.1, backlash=1e-8), 0.004, tolerance=1e-6)
+    assert np.any(heavy.mesh_force == 0.0)
+    assert heavy.dte == pytest.approx(10 * light.dte, rel=1e-2, abs=2e-9)
 
 
 def test_negative_torque_runs_on_the_coast_flanks():
@@ -99,7 +102,7 @@ def test_turning_backwards_mirrors_the_forces_on_the_other_flanks():
 def test_standstill_without_torque_stays_at_rest():
     run = pt.simulate(PAPER.replace(input_speed=0.0, input_torque=0.0), 0.05)
     assert np.abs(run.speed).max() < 1e-6
-    assert np.isfinite(run.dte).all() and not run.mesh_force.any()
+    assert np.abs(run.mesh_force).max() < 1e-9
 
 
 def test_standstill_under_torque_creeps_at_most():
