@@ -76,11 +76,11 @@ class Engine:
     def advance(self, until: float, first_sample: int, sample_rate: float, room: int) -> Samples:
         """Integrate to `until` [s]; samples lie at whole multiples of 1/sample_rate.
 
-        Returns at most `room` samples from number `first_sample` on.
+        Returns `room` samples from number `first_sample` on.
         """
         samples = new_samples(self.train, room)
-        taken = advance(self.model, self.march, until, first_sample, sample_rate, samples)
-        return Samples(*(array[:taken] for array in samples))
+        advance(self.model, self.march, until, first_sample, sample_rate, samples)
+        return samples
 
     def sample(self, time: float) -> Samples:
         """One sample at `time` [s], the end of the last window."""

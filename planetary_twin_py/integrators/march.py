@@ -81,9 +81,12 @@ def _time_to_event(model: Record, march: Record) -> float:
 
 @kernel
 def _error_norm(model: Record, march: Record) -> float:
-    """Largest local error of a mesh or of the speed of a body, relative to its tolerance."""
+    """Largest local error of a mesh or of the speed of a body, relative to its tolerance.
+
+    Infinite where the step went astray: a comparison with NaN would let it pass.
+    """
     work, control = march.work, march.control
-    largest = 0.0
+    largest = total = 0.0
     for i in range(model.train.meshes):
         tau = march.moment.tau[model.train.kind[i]]
         error = abs(mesh_motion(model.train, i, work.error_x))
@@ -92,7 +95,8 @@ def _error_norm(model: Record, march: Record) -> float:
         largest = max(largest, error / control.tolerance_x)
     for j in range(model.train.bodies):
         largest = max(largest, abs(work.error_v[j]) / control.tolerance_v)
-    return largest
+        total += work.error_v[j]
+    return largest if math.isfinite(total) else math.inf
 
 
 @kernel
@@ -199,20 +203,18 @@ def one_step(model: Record, march: Record, longest: float) -> None:
 @kernel
 def advance(
     model: Record, march: Record, until: float, first_sample: int, sample_rate: float, out: Samples
-) -> int:
-    """Integrate to `until` [s]; sample k is taken at k/sample_rate seconds on the way.
+) -> None:
+    """Integrate to `until` [s]; row i of `out` is taken at (first_sample + i)/sample_rate [s].
 
-    Returns:
-        How many samples were taken, beginning with number `first_sample`.
+    The caller counts the samples: that of the last instant must not hang on rounding.
     """
     taken = 0
     while True:
-        end = min(until, march.end.time)
-        while taken < out.turns.size and (first_sample + taken) / sample_rate <= end:
+        while taken < out.turns.size and (first_sample + taken) / sample_rate <= march.end.time:
             sample(model, march, (first_sample + taken) / sample_rate, out, taken)
             taken += 1
-        if march.end.time >= until:
-            return taken
+        if march.end.time >= until and taken == out.turns.size:
+            return
         begin_step(model, march)
         one_step(model, march, math.inf)
 
