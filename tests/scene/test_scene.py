@@ -76,7 +76,7 @@ def test_text_that_is_no_scene_is_refused_in_one_line(broken):
 
 
 def test_a_missing_file_is_refused_with_the_packaged_names():
-    with pytest.raises(pt.SceneError, match="'nowhere'.*paper"):
+    with pytest.raises(pt.SceneError, match=r"'nowhere'.*paper"):
         pt.load_scene("nowhere")
 
 
