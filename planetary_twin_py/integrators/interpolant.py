@@ -44,7 +44,7 @@ def interpolate(model: Record, march: Record, delay: float) -> None:
 
 
 @kernel
-def _departure_at(model: Record, march: Record, i: int, delay: float) -> float:
+def departure_at(model: Record, march: Record, i: int, delay: float) -> float:
     """`departure` of mesh i on the interpolant."""
     interpolate(model, march, delay)
     train = model.train
@@ -54,17 +54,24 @@ def _departure_at(model: Record, march: Record, i: int, delay: float) -> float:
 
 
 @kernel
+def at_event(model: Record, march: Record, i: int) -> bool:
+    """Whether the step ends where the contact of mesh i changes, to within its slack."""
+    play = departure_at(model, march, i, march.control.step)
+    return abs(play) <= SLACK * march.control.tolerance_x
+
+
+@kernel
 def first_flank_event(model: Record, march: Record) -> tuple[int, float]:
     """Mesh whose contact changes first within the step, and when; (-1, step) if none does."""
     h = march.control.step
     first, when = -1, h
     for i in range(model.train.meshes):
-        if _departure_at(model, march, i, when) >= 0.0:
+        if departure_at(model, march, i, when) >= 0.0:
             continue
         low, high = 0.0, when
         for _ in range(BISECTIONS):
             middle = 0.5 * (low + high)
-            if _departure_at(model, march, i, middle) >= 0.0:
+            if departure_at(model, march, i, middle) >= 0.0:
                 low = middle
             else:
                 high = middle

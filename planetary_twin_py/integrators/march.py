@@ -21,12 +21,13 @@ from ..dynamics.contact_events import (
 from ..dynamics.equations import cycle_shift, damping_time, forces, mesh_motion
 from ..dynamics.state import OPEN
 from ..dynamics.tooth_friction import copy_friction
-from .interpolant import Samples, first_flank_event, sample
+from .interpolant import Samples, at_event, first_flank_event, sample
 from .progress import copy_state
 from .rosenbrock import ORDER, step
 
 SHORTEST_STEP = 1e-13  # [s] below it two events count as one
 EDGE = 1e-9  # [-] mesh cycles within which a tooth pair counts as having entered or left
+NEAREST, FARTHEST = 0.1, 0.9  # by which a step is shortened at a time to meet a flank event
 SAFETY, SHRINK, GROW = 0.8, 0.25, 2.0
 
 
@@ -141,7 +142,7 @@ def _pass_edges(model: Record, march: Record) -> None:
 
 
 @kernel
-def _accept(model: Record, march: Record, mesh: int) -> None:
+def accept(model: Record, march: Record, mesh: int) -> None:
     """Let the step stand; `mesh` changes its contact at its end (-1: none)."""
     if mesh >= 0:
         change_contact(model, march.end, mesh)
@@ -183,37 +184,59 @@ def one_step(model: Record, march: Record, longest: float) -> None:
     if event < 2.0 * h:  # two equal steps rather than a long and a tiny one
         h = event if event <= h else 0.5 * event
     h = min(h, longest)
+    h, factor = _controlled(model, march, h)
+    candidate = h * min(GROW, max(SHRINK, factor))
+    # A step cut short by an event says little about the steps to come.
+    control.next_step = max(candidate, control.next_step) if factor >= 1.0 else candidate
+    accept(model, march, _end_on_flank_event(model, march, h))
+
+
+@kernel
+def _controlled(model: Record, march: Record, h: float) -> tuple[float, float]:
+    """Try steps from h downwards until the error is allowed; the step, and how it may change."""
     while True:
         _try(model, march, h)
         error = _error_norm(model, march)
         factor = SAFETY * error ** (-1.0 / ORDER) if error > 0.0 else GROW
         if error <= 1.0 or h <= SHORTEST_STEP:
-            break
+            return h, factor
         march.control.rejected += 1
         h = max(h * max(SHRINK, factor), SHORTEST_STEP)
-    mesh, when = first_flank_event(model, march)
-    if mesh >= 0 and when < h:
-        _try(model, march, max(when, SHORTEST_STEP))
-    candidate = h * min(GROW, max(SHRINK, factor))
-    # A step cut short by an event says little about the steps to come.
-    control.next_step = max(candidate, control.next_step) if factor >= 1.0 else candidate
-    _accept(model, march, mesh)
+
+
+@kernel
+def _end_on_flank_event(model: Record, march: Record, h: float) -> int:
+    """Shorten the step until it ends where a mesh changes its contact; that mesh, or -1.
+
+    The interpolant of a long stiff step may put the event anywhere, so each shorter step is
+    looked at afresh; one that turns out to end before the event is as good as any.
+    """
+    target = -1
+    while True:
+        mesh, when = first_flank_event(model, march)
+        if mesh < 0 and target >= 0 and at_event(model, march, target):
+            return target
+        if mesh < 0 or h <= SHORTEST_STEP or at_event(model, march, mesh):
+            return mesh
+        target = mesh
+        h = max(min(max(when, NEAREST * h), FARTHEST * h), SHORTEST_STEP)
+        _try(model, march, h)
 
 
 @kernel
 def advance(
     model: Record, march: Record, until: float, first_sample: int, sample_rate: float, out: Samples
 ) -> None:
-    """Integrate to `until` [s]; row i of `out` is taken at (first_sample + i)/sample_rate [s].
+    """Integrate to `until` [s], and fill `out` with the samples from number `first_sample` on.
 
-    The caller counts the samples: that of the last instant must not hang on rounding.
+    Sample k is taken at k/sample_rate seconds, none later than `until`.
     """
-    taken = 0
+    taken, room = 0, out.turns.size
     while True:
-        while taken < out.turns.size and (first_sample + taken) / sample_rate <= march.end.time:
+        while taken < room and (first_sample + taken) / sample_rate <= march.end.time:
             sample(model, march, (first_sample + taken) / sample_rate, out, taken)
             taken += 1
-        if march.end.time >= until and taken == out.turns.size:
+        if taken == room and march.end.time >= until:
             return
         begin_step(model, march)
         one_step(model, march, math.inf)
