@@ -6,7 +6,7 @@ from itertools import pairwise
 import pytest
 from power_flows import ALL_FLOWS, FLOWS, scene_of
 
-from planetary_twin_py.simulate import simulate
+from planetary_twin_py.simulation import simulate
 
 RATTLE = {"input_torque": 0.3, "torque_ripple": 3.0}
 

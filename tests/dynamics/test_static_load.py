@@ -7,7 +7,7 @@ import pytest
 from power_flows import ALL_FLOWS, scene_of
 
 from planetary_twin_py.engine import Engine
-from planetary_twin_py.simulate import simulate
+from planetary_twin_py.simulation import simulate
 from planetary_twin_py.units import rpm
 
 FORCE = 63.0 / 3 / (0.012 * math.cos(math.radians(21.34)))  # 1878.8 N
