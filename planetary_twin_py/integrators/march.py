@@ -82,9 +82,12 @@ def _time_to_event(model: Record, march: Record) -> float:
 
 @kernel
 def _error_norm(model: Record, march: Record) -> float:
-    """Largest local error of a mesh or of the speed of a body, relative to its tolerance."""
+    """Largest local error of a mesh or of the speed of a body, relative to its tolerance.
+
+    Infinite where the step went astray: a comparison with NaN would let it pass.
+    """
     work, control = march.work, march.control
-    largest = 0.0
+    largest = total = 0.0
     for i in range(model.train.meshes):
         tau = march.moment.tau[model.train.kind[i]]
         error = abs(mesh_motion(model.train, i, work.error_x))
@@ -93,7 +96,8 @@ def _error_norm(model: Record, march: Record) -> float:
         largest = max(largest, error / control.tolerance_x)
     for j in range(model.train.bodies):
         largest = max(largest, abs(work.error_v[j]) / control.tolerance_v)
-    return largest
+        total += work.error_v[j]
+    return largest if math.isfinite(total) else math.inf
 
 
 @kernel

@@ -18,7 +18,7 @@ import numpy as np
 
 from .._compile import kernel
 from .._records import BODIES, REAL, Record, layout
-from ..dynamics.equations import EVALUATION, forces, stiffness
+from ..dynamics.equations import EVALUATION, cycle_shift, forces, stiffness
 from ..dynamics.state import LEDGER, OPEN
 from ..dynamics.tooth_friction import add_outer, friction_damping
 
@@ -88,6 +88,7 @@ def _assemble(
     """K, and M/(gamma h) + C + gamma h K, of the contacts at the middle of the step."""
     train = model.train
     step = GAMMA * h
+    pace = moment.cycle_rate + cycle_shift(train, state.v)
     work.stiffness[:] = 0.0
     work.system[:] = 0.0
     for i in range(train.meshes):
@@ -95,7 +96,7 @@ def _assemble(
         if side == OPEN:
             continue
         kind = train.kind[i]
-        cycle = moment.start[i] + side * moment.cycle_rate * 0.5 * h
+        cycle = moment.start[i] + side * pace * 0.5 * h
         k = stiffness(train, kind, state.segment[i], cycle)
         add_outer(work.stiffness, train.body[i], train.sign[i], k)
         add_outer(work.system, train.body[i], train.sign[i], k * (moment.tau[kind] + step))

@@ -127,3 +127,12 @@ def test_arguments_out_of_range_are_refused_by_name(arguments, named):
     with pytest.raises(ValueError, match=named) as error:
         pt.simulate(PAPER, **arguments)
     assert "\n" not in str(error.value)
+
+
+def test_it_is_the_function_whatever_was_imported_before():
+    """A module of the same name, once imported, would take its place in the package."""
+    import planetary_twin_py.simulation
+
+    assert callable(planetary_twin_py.simulate)
+    for name in pt.__all__:
+        assert not isinstance(getattr(pt, name), type(pt))
