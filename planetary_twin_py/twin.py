@@ -80,6 +80,7 @@ class Twin:
         point = checked_operating_point(self.operating_point, **changes)
         if point != self.operating_point:
             self._engine.change(point, self._time)
+            self._books = self._account()  # play that opens or closes stores no work of this window
             self.log.append(Change(self._time, point))
         return self._time
 

@@ -198,8 +198,10 @@ def _controlled(model: Record, march: Record, h: float) -> tuple[float, float]:
         _try(model, march, h)
         error = _error_norm(model, march)
         factor = SAFETY * error ** (-1.0 / ORDER) if error > 0.0 else GROW
-        if error <= 1.0 or h <= SHORTEST_STEP:
+        if error <= 1.0 or (h <= SHORTEST_STEP and error < math.inf):
             return h, factor
+        if h <= SHORTEST_STEP:
+            raise ArithmeticError("no finite state can be reached, however short the step")
         march.control.rejected += 1
         h = max(h * max(SHRINK, factor), SHORTEST_STEP)
 

@@ -10,6 +10,7 @@ from planetary_twin_py.engine import Engine
 from planetary_twin_py.integrators.march import begin_step
 from planetary_twin_py.integrators.progress import copy_state
 from planetary_twin_py.integrators.rosenbrock import WORKSPACE, step
+from planetary_twin_py.scene import load_scene
 
 SPAN = 4e-5  # [s] within one segment of all meshes
 
@@ -40,3 +41,10 @@ def test_global_error_falls_with_the_third_power_of_the_step():
     errors = [np.abs(march(count) - exact).max() for count in counts]
     order = np.polyfit(np.log(SPAN / counts), np.log(errors), 1)[0]
     assert order == pytest.approx(3.0, abs=0.2)
+
+
+def test_a_state_that_is_not_finite_ends_the_run_instead_of_stalling_it():
+    engine = Engine(load_scene("paper"), 1e-3)
+    engine.march.end.x[0] = np.nan
+    with pytest.raises(ArithmeticError, match="no finite state"):
+        engine.advance(0.01, 1, 1e4, 100)
