@@ -163,3 +163,16 @@ def test_a_mistake_ends_in_one_line_before_anything_starts(
     assert len(errors.strip().splitlines()) == 1
     assert reason in errors
     assert not (tmp_path / "recordings").exists()
+
+
+def test_a_second_run_on_the_same_domain_is_refused_and_leaves_the_first_alone(run):
+    first = run("--duration", "60", "--no-tour")
+    _line(first, "rpm")
+    second = run("--duration", "1")
+    _, errors = second.communicate(timeout=60)
+    assert second.returncode == 1
+    assert "another twin runs on ROS_DOMAIN_ID" in errors.strip().splitlines()[-1]
+    first.send_signal(signal.SIGINT)
+    output, _ = first.communicate(timeout=60)
+    assert first.returncode == 0
+    assert "efficiency" in output

@@ -94,6 +94,10 @@ class Operator:
         self.wait("simulation: publishes its state", heard, seconds)
         return newest[0]
 
+    def twins(self) -> int:
+        """Simulations in this namespace, this run's own included."""
+        return self._node.get_node_names_and_namespaces().count((_NODE, self._namespace))
+
     def bring(self, transition: str, begin: str, goal: str, seconds: float) -> None:
         """Take the simulation through a lifecycle `transition` from state `begin` to `goal`."""
         deadline = time.monotonic() + seconds

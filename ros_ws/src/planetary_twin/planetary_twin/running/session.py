@@ -84,6 +84,12 @@ def _simulation_parameters(plan: Plan) -> dict[str, object]:
 
 def _begin(operator: Operator) -> None:
     """Build the model, and let it run once the logger hears every topic: nothing gets lost."""
+    operator.wait("simulation: appears", lambda: operator.twins() > 0, _START)
+    if operator.twins() > 1:
+        domain = os.environ.get("ROS_DOMAIN_ID", "0")
+        raise RunError(
+            f"another twin runs on ROS_DOMAIN_ID = {domain}: end it, or choose another domain"
+        )
     operator.bring("configure", "unconfigured", "inactive", _BUILD)
 
     def heard() -> bool:
