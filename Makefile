@@ -15,7 +15,7 @@ ifneq ($(AMENT_PREFIX_PATH)$(_ROS_WHEELS_BOOTSTRAP_COMPLETE),)
 unexport LD_LIBRARY_PATH _ROS_WHEELS_BOOTSTRAP_COMPLETE
 endif
 
-.PHONY: setup run test test-fast bench view lint lock clean
+.PHONY: setup run test test-fast bench view picture lint lock clean
 
 setup: $(STAMPS)/interfaces $(STAMPS)/kernels $(STAMPS)/nodes
 
@@ -36,6 +36,12 @@ bench: setup
 
 view: setup
 	@$(BIN)/planetary-twin view $(or $(FILE),$(error FILE is missing: make view FILE=recordings/NAME)) $(ARGS)
+
+# The picture of the README, from a recording made for it.
+picture: setup
+	rm -rf recordings/picture
+	$(BIN)/planetary-twin run --record picture
+	$(BIN)/planetary-twin view recordings/picture --screenshot docs/recording.png --at 8.005
 
 lock: setup
 	$(BIN)/uv pip compile --quiet --universal --python-version 3.11 --generate-hashes --all-extras \

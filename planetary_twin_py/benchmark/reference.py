@@ -81,7 +81,7 @@ class Reference:
         motor = train.coupling[0, 0]
         speed = march.begin.speed + self._v[motor] / train.radius[motor]
         error = march.begin.set_speed + march.moment.slew * t - speed
-        return np.concatenate([y[n : 2 * n], (self._work.force / train.mass)[:n], [error]])
+        return np.concatenate([y[n : 2 * n], self._work.force[:n] / train.mass[:n], [error]])
 
     def _events(self) -> list[Callable[[float, np.ndarray], float]]:
         """A terminal event for every edge of a tooth pair and every flank."""

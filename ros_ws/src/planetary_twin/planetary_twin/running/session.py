@@ -83,13 +83,16 @@ def _simulation_parameters(plan: Plan) -> dict[str, object]:
 
 
 def _begin(operator: Operator) -> None:
+    """Bring the twin up; what goes wrong may be that another run's simulation answered."""
+    try:
+        _bring_up(operator)
+    except RunError:
+        _refuse_company(operator)
+        raise
+
+
+def _bring_up(operator: Operator) -> None:
     """Build the model, and let it run once the logger hears every topic: nothing gets lost."""
-    operator.wait("simulation: appears", lambda: operator.twins() > 0, _START)
-    if operator.twins() > 1:
-        domain = os.environ.get("ROS_DOMAIN_ID", "0")
-        raise RunError(
-            f"another twin runs on ROS_DOMAIN_ID = {domain}: end it, or choose another domain"
-        )
     operator.bring("configure", "unconfigured", "inactive", _BUILD)
 
     def heard() -> bool:
@@ -97,7 +100,17 @@ def _begin(operator: Operator) -> None:
         return bool(topics) and topics <= set(operator.recorder.topics)
 
     operator.wait("logger: hears every topic of the simulation", heard, _START)
+    _refuse_company(operator)
     operator.bring("activate", "inactive", "active", _START)
+
+
+def _refuse_company(operator: Operator) -> None:
+    """Raise `RunError` if the services may have answered for another run's simulation."""
+    if operator.twins() > 1:
+        domain = os.environ.get("ROS_DOMAIN_ID", "0")
+        raise RunError(
+            f"another twin runs on ROS_DOMAIN_ID = {domain}: end it, or choose another domain"
+        )
 
 
 def _drive(operator: Operator, plan: Plan, show: Show) -> None:
