@@ -1,0 +1,27 @@
+"""Speed never comes without its error: both from one run, the error against another method."""
+
+import math
+
+import pytest
+
+from planetary_twin_py.benchmark.cases import Case
+from planetary_twin_py.benchmark.report import as_markdown
+from planetary_twin_py.benchmark.table import measure
+
+SHORT = Case("short", {}, 0.002, 2)
+RATTLE = Case("rattle", {"input_torque": 0.3, "torque_ripple": 60.0}, 0.004, 2)
+
+
+@pytest.mark.parametrize("case", [SHORT, RATTLE], ids=lambda case: case.name)
+def test_the_error_against_the_reference_falls_with_the_tolerance(case):
+    rows = measure([case], (1e-2, 1e-5))
+    assert 20 * rows[1].error_dte < rows[0].error_dte < 5e-2
+    assert rows[1].error_dte < 1e-4
+    assert rows[1].error_power_loss < 1e-4
+    assert all(row.rtf_low <= row.rtf <= row.rtf_high for row in rows)
+
+
+def test_the_page_of_the_documentation_shows_what_was_measured():
+    (row,) = measure([SHORT], (1e-3,))
+    cells = f"| short | 1e-03 | {row.error_dte:.1e} | {row.error_power_loss:.1e} | {row.rtf:.2f} |"
+    assert cells in as_markdown([row]) and math.isfinite(row.rtf)
