@@ -52,7 +52,7 @@ def records_of(file: Path, remarks: list[str]) -> Iterator[Any]:
                 return
             except UnsupportedCompressionError as missing:
                 raise RecordingError(f"{file}: {missing}") from None
-            except _TORN as reason:
+            except TORN as reason:
                 lost = file.stat().st_size - sound
                 remarks.append(
                     f"{file.name}: ends torn, the last {lost} of {file.stat().st_size} bytes "
@@ -73,4 +73,4 @@ def _torn_errors() -> tuple[type[Exception], ...]:
     return (*errors, zstandard.ZstdError)
 
 
-_TORN = _torn_errors()
+TORN = _torn_errors()
