@@ -22,7 +22,7 @@ if TYPE_CHECKING:
         packaged_scenes,
         parse_scene,
     )
-    from .simulate import simulate
+    from .simulation import simulate
     from .twin import Change, Twin, checked_operating_point
     from .units import rpm
     from .window import Waveform, Window
@@ -33,7 +33,7 @@ _HOME = {
         "TUNABLES", "OperatingPoint", "Scene", "SceneError", "Tunable", "load_scene",
         "packaged_scenes", "parse_scene",
     ),
-    "simulate": ("simulate",),
+    "simulation": ("simulate",),
     "twin": ("Change", "Twin", "checked_operating_point"),
     "units": ("rpm",),
     "window": ("Waveform", "Window"),

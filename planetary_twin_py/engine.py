@@ -14,7 +14,9 @@ from .dynamics.equations import MODEL
 from .dynamics.oil import build_oil
 from .dynamics.start import build_load, mesh_loads, start_state
 from .dynamics.train import build_train
-from .integrators.march import MARCH, Samples, advance, cut, new_samples, sample
+from .integrators.interpolant import Samples, new_samples, sample
+from .integrators.march import advance, begin_step, cut
+from .integrators.progress import MARCH
 from .scene import OperatingPoint, Scene
 
 LONGEST_STEP = 1e-3  # [s]
@@ -44,7 +46,7 @@ class Engine:
         self.train = build_train(scene)
         self.model: Record = new_record(MODEL, train=self.train, oil=build_oil(scene))
         self.march: Record = new_record(MARCH)
-        self.march.control.next_step = FIRST_STEP
+        self.march.control.step = self.march.control.next_step = FIRST_STEP
         self.march.control.longest = LONGEST_STEP
         self._load(scene.operating_point)
         self.march.begin = self.march.end = start_state(scene, self.model)
@@ -53,6 +55,7 @@ class Engine:
     def _compile(self) -> None:
         """Have every kernel ready before the clock runs; at time zero none changes anything."""
         self.advance(0.0, 1, 1.0, 0)
+        begin_step(self.model, self.march)
         self.sample(0.0)
         self.stored()
         cut(self.model, self.march, 0.0)
@@ -73,11 +76,11 @@ class Engine:
     def advance(self, until: float, first_sample: int, sample_rate: float, room: int) -> Samples:
         """Integrate to `until` [s]; samples lie at whole multiples of 1/sample_rate.
 
-        Returns at most `room` samples from number `first_sample` on.
+        Returns `room` samples from number `first_sample` on.
         """
         samples = new_samples(self.train, room)
-        taken = advance(self.model, self.march, until, first_sample, sample_rate, samples)
-        return Samples(*(array[:taken] for array in samples))
+        advance(self.model, self.march, until, first_sample, sample_rate, samples)
+        return samples
 
     def sample(self, time: float) -> Samples:
         """One sample at `time` [s], the end of the last window."""

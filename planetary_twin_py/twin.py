@@ -12,7 +12,7 @@ from .dynamics.observe import BOUNDARY, DTE, MESH_FORCE, VISCOUS
 from .dynamics.state import FRICTION, INPUT, LOAD_IMPULSE, MOTOR_IMPULSE, OUTPUT
 from .dynamics.train import body_names, mesh_names
 from .engine import Engine
-from .integrators.march import Samples
+from .integrators.interpolant import Samples
 from .scene import OperatingPoint, Scene, SceneError
 from .scene.quantity import explain
 from .window import Waveform, Window, mesh_statistics

@@ -59,9 +59,7 @@ def damping_time(train: Record, kind: int, speed: float) -> float:
 @kernel
 def cycle_shift(train: Record, x: np.ndarray) -> float:
     """Mesh cycles by which the train is ahead of the rigid frame."""
-    return (
-        x[train.sun] - x[train.carrier] * train.radius[train.sun] / train.radius[train.carrier]
-    ) / train.base_pitch
+    return train.sun_advance * x[train.sun] + train.carrier_advance * x[train.carrier]
 
 
 @kernel

@@ -18,6 +18,7 @@ from .equations import EVALUATION, MOMENT, forces, stiffness
 from .state import COAST_SIDE, DRIVE_SIDE, FRICTION, LOAD, STATE
 
 CYCLE_POINTS = 64  # positions within the mesh cycle over which friction is averaged
+SETTLING_PASSES = 3  # the first winds up the couplings, the others find the tooth pairs there
 
 
 def build_load(scene: Scene, point: OperatingPoint, train: Record) -> Record:
@@ -87,7 +88,29 @@ def _friction_power(model: Record, state: Record, moment: Record, evaluation: Re
 
 
 def _settle(model: Record, state: Record, moment: Record, mean: np.ndarray) -> None:
-    """Choose x so that every mesh and coupling carries its mean load at the present angle.
+    """Choose x so that every mesh and coupling carries its mean load at the present motor angle.
+
+    The couplings wind up by a good part of a mesh cycle, which moves the tooth pairs, whose
+    stiffness decides how far the meshes yield.
+    """
+    for _ in range(SETTLING_PASSES):
+        _place_pairs(model.train, state, moment)
+        _balance(model, state, moment, mean)
+    _place_pairs(model.train, state, moment)
+
+
+def _place_pairs(train: Record, state: Record, moment: Record) -> None:
+    """Let every mesh have the tooth pairs that belong to its place in the cycle."""
+    for i in range(train.meshes):
+        kind, side = train.kind[i], int(state.side[i])
+        cycle = mesh_cycle(train, state, i, side)
+        direction = math.copysign(1.0, side * moment.cycle_rate)
+        state.segment[i] = find_segment(train, kind, cycle, direction)
+        moment.start[i] = nearest_to_segment(train, kind, state.segment[i], cycle)
+
+
+def _balance(model: Record, state: Record, moment: Record, mean: np.ndarray) -> None:
+    """Choose x for the tooth pairs that are in contact.
 
     Least squares, because more meshes than bodies ask for a place: all of them get theirs only
     if all are equally stiff at this angle.
@@ -96,18 +119,11 @@ def _settle(model: Record, state: Record, moment: Record, mean: np.ndarray) -> N
     bodies = train.bodies + 1
     rows, targets, weights = [], [], []
     for i in range(train.meshes):
-        kind, side = train.kind[i], int(state.side[i])
-        state.x[:] = 0.0
-        cycle = mesh_cycle(train, state, i, side)
-        state.segment[i] = find_segment(
-            train, kind, cycle, math.copysign(1.0, side * moment.cycle_rate)
-        )
-        moment.start[i] = nearest_to_segment(train, kind, state.segment[i], cycle)
-        k = stiffness(train, kind, state.segment[i], moment.start[i])
+        k = stiffness(train, train.kind[i], state.segment[i], moment.start[i])
         row = np.zeros(bodies)
         np.add.at(row, train.body[i], train.sign[i])
         rows.append(row)
-        targets.append(side * load.half_backlash + mean[i] / k)
+        targets.append(state.side[i] * load.half_backlash + mean[i] / k)
         weights.append(k)
     torques = (load.torque, load.output_gain * load.torque)
     for c, (machine, member) in enumerate(train.coupling):

@@ -58,6 +58,8 @@ TRAIN = layout(
     cycles_denominator=WHOLE,
     sun=WHOLE,  # body or ground
     carrier=WHOLE,
+    sun_advance=REAL,  # mesh cycles per x of the sun [1/m]
+    carrier_advance=REAL,  # and per x of the carrier
     friction=FLAG,
 )
 
@@ -145,7 +147,7 @@ def build_train(scene: Scene) -> Record:
         for path in (sun_planet_path, planet_ring_path)
     ]
     sun_phase, ring_phase = mesh_phases(teeth, gearset.planet_angles)
-    sine = math.sin(angle)
+    sine, pitch = math.sin(angle), base_pitch(gearset.module, angle)
     curvature = {n: pitch_radius(z, gearset.module) * sine for n, z in teeth._asdict().items()}
     cycles = mesh_cycles_per_turn(teeth, gearset.held, scene.drive.input.member)
     machines = (("motor", scene.drive.input), ("load", scene.drive.output))
@@ -167,7 +169,7 @@ def build_train(scene: Scene) -> Record:
         damping_time=np.zeros(2) if by_frequency else _viscous_times(scene, stiffness),
         damping_cycles=mesh.damping.loss_factor if by_frequency else 0.0,
         lowest_frequency=mesh.damping.lowest_frequency,
-        base_pitch=base_pitch(gearset.module, angle),
+        base_pitch=pitch,
         pitch_curvature=np.array(
             [[curvature["sun"], curvature["planet"]], [curvature["planet"], curvature["ring"]]]
         ),
@@ -185,6 +187,8 @@ def build_train(scene: Scene) -> Record:
         cycles_denominator=cycles.denominator,
         sun=place["sun"],
         carrier=place["carrier"],
+        sun_advance=1.0 / pitch,
+        carrier_advance=-base_radii(scene)["sun"] / base_radii(scene)["carrier"] / pitch,
         friction=scene.lubrication.friction,
     )
 

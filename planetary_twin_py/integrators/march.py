@@ -9,80 +9,26 @@ the end of the window is that of the last step begun. So the path does not depen
 from __future__ import annotations
 
 import math
-from typing import NamedTuple
-
-import numpy as np
 
 from .._compile import kernel
-from .._records import BODIES, FLAG, REAL, WHOLE, Record, layout
+from .._records import Record
 from ..dynamics.contact_events import (
     change_contact,
     change_segment,
-    departure,
     mesh_cycle,
     nearest_to_segment,
 )
-from ..dynamics.equations import (
-    EVALUATION,
-    MOMENT,
-    cycle_shift,
-    damping_time,
-    forces,
-    mesh_motion,
-)
-from ..dynamics.observe import QUANTITIES, observe
-from ..dynamics.state import OPEN, STATE
+from ..dynamics.equations import cycle_shift, damping_time, forces, mesh_motion
+from ..dynamics.state import OPEN
 from ..dynamics.tooth_friction import copy_friction
-from .rosenbrock import ORDER, WORKSPACE, step
+from .interpolant import Samples, at_event, first_flank_event, sample
+from .progress import copy_state
+from .rosenbrock import ORDER, step
 
 SHORTEST_STEP = 1e-13  # [s] below it two events count as one
 EDGE = 1e-9  # [-] mesh cycles within which a tooth pair counts as having entered or left
-SLACK = 0.01  # share of the local tolerance by which flanks may pull or pass each other
+NEAREST, FARTHEST = 0.1, 0.9  # by which a step is shortened at a time to meet a flank event
 SAFETY, SHRINK, GROW = 0.8, 0.25, 2.0
-
-# Step control and counters.
-CONTROL = layout(
-    tolerance_x=REAL,  # local error a step may make in a transmission error [m]
-    tolerance_v=REAL,  # and in the speed of a body [m/s]
-    next_step=REAL,  # [s]
-    step=REAL,  # the last one taken [s]
-    longest=REAL,  # [s]
-    changed=FLAG,  # contacts or loads are no longer those of the last evaluation
-    steps=WHOLE,
-    rejected=WHOLE,
-    evaluations=WHOLE,
-    pair_events=WHOLE,
-    flank_events=WHOLE,
-)
-
-# A run in progress: the step from `begin` to `end`, and what interpolates it.
-MARCH = layout(
-    begin=STATE,
-    end=STATE,
-    moment=MOMENT,
-    first=EVALUATION,  # forces at `begin`
-    last=EVALUATION,  # forces at `end`, with the contacts of `begin`
-    dense_x=(REAL, (BODIES,)),  # interpolated
-    dense_v=(REAL, (BODIES,)),
-    control=CONTROL,
-    work=WORKSPACE,
-)
-
-
-@kernel
-def copy_state(source: Record, target: Record) -> None:
-    """Overwrite `target`."""
-    target.x[:] = source.x
-    target.v[:] = source.v
-    target.side[:] = source.side
-    target.segment[:] = source.segment
-    target.time = source.time
-    target.turns = source.turns
-    target.fraction = source.fraction
-    target.speed = source.speed
-    target.trim = source.trim
-    target.set_speed = source.set_speed
-    target.energy[:] = source.energy
 
 
 @kernel
@@ -168,61 +114,6 @@ def _try(model: Record, march: Record, h: float) -> None:
 
 
 @kernel
-def interpolate(model: Record, march: Record, delay: float) -> None:
-    """x and v within the last step: quintic and quartic Hermite interpolants."""
-    h = march.control.step
-    t = delay / h
-    u = t * t * t
-    # Quintic basis on position, velocity and acceleration at both ends, and its derivative.
-    p1 = u * (10.0 + t * (-15.0 + 6.0 * t))
-    v0, v1 = t - u * (6.0 + t * (-8.0 + 3.0 * t)), u * (-4.0 + t * (7.0 - 3.0 * t))
-    a0 = 0.5 * (t * t - u * (3.0 + t * (-3.0 + t)))
-    a1 = 0.5 * u * (1.0 + t * (-2.0 + t))
-    s = t * t
-    dp1 = s * (30.0 + t * (-60.0 + 30.0 * t))
-    dv0, dv1 = 1.0 - s * (18.0 + t * (-32.0 + 15.0 * t)), s * (-12.0 + t * (28.0 - 15.0 * t))
-    da0 = 0.5 * (2.0 * t - s * (9.0 + t * (-12.0 + 5.0 * t)))
-    da1 = 0.5 * s * (3.0 + t * (-8.0 + 5.0 * t))
-    b, e = march.begin, march.end
-    for j in range(model.train.bodies):
-        f0 = march.first.force[j] / model.train.mass[j] * h * h
-        f1 = march.last.force[j] / model.train.mass[j] * h * h
-        gap = e.x[j] - b.x[j]
-        march.dense_x[j] = b.x[j] + gap * p1 + h * (v0 * b.v[j] + v1 * e.v[j]) + a0 * f0 + a1 * f1
-        slope = gap * dp1 + h * (dv0 * b.v[j] + dv1 * e.v[j]) + da0 * f0 + da1 * f1
-        march.dense_v[j] = slope / h
-
-
-@kernel
-def _departure_at(model: Record, march: Record, i: int, delay: float) -> float:
-    """`departure` of mesh i on the interpolant."""
-    interpolate(model, march, delay)
-    train = model.train
-    d, rate = mesh_motion(train, i, march.dense_x), mesh_motion(train, i, march.dense_v)
-    slack = SLACK * march.control.tolerance_x
-    return departure(model, march.begin, i, march.moment.tau[train.kind[i]], d, rate, slack)
-
-
-@kernel
-def _first_flank_event(model: Record, march: Record) -> tuple[int, float]:
-    """Mesh whose contact changes first within the step, and when; (-1, step) if none does."""
-    h = march.control.step
-    first, when = -1, h
-    for i in range(model.train.meshes):
-        if _departure_at(model, march, i, when) >= 0.0:
-            continue
-        low, high = 0.0, when
-        for _ in range(50):
-            middle = 0.5 * (low + high)
-            if _departure_at(model, march, i, middle) >= 0.0:
-                low = middle
-            else:
-                high = middle
-        first, when = i, high
-    return first, when
-
-
-@kernel
 def _pass_edges(model: Record, march: Record) -> None:
     """Change the segment of every mesh that has come to the edge of its own."""
     train, end = model.train, march.end
@@ -247,7 +138,7 @@ def _pass_edges(model: Record, march: Record) -> None:
 
 
 @kernel
-def _accept(model: Record, march: Record, mesh: int) -> None:
+def accept(model: Record, march: Record, mesh: int) -> None:
     """Let the step stand; `mesh` changes its contact at its end (-1: none)."""
     if mesh >= 0:
         change_contact(model, march.end, mesh)
@@ -289,76 +180,60 @@ def one_step(model: Record, march: Record, longest: float) -> None:
     if event < 2.0 * h:  # two equal steps rather than a long and a tiny one
         h = event if event <= h else 0.5 * event
     h = min(h, longest)
+    h, factor = _controlled(model, march, h)
+    candidate = h * min(GROW, max(SHRINK, factor))
+    # A step cut short by an event says little about the steps to come.
+    control.next_step = max(candidate, control.next_step) if factor >= 1.0 else candidate
+    accept(model, march, _end_on_flank_event(model, march, h))
+
+
+@kernel
+def _controlled(model: Record, march: Record, h: float) -> tuple[float, float]:
+    """Try steps from h downwards until the error is allowed; the step, and how it may change."""
     while True:
         _try(model, march, h)
         error = _error_norm(model, march)
         factor = SAFETY * error ** (-1.0 / ORDER) if error > 0.0 else GROW
         if error <= 1.0 or h <= SHORTEST_STEP:
-            break
+            return h, factor
         march.control.rejected += 1
         h = max(h * max(SHRINK, factor), SHORTEST_STEP)
-    mesh, when = _first_flank_event(model, march)
-    if mesh >= 0 and when < h:
-        _try(model, march, max(when, SHORTEST_STEP))
-    candidate = h * min(GROW, max(SHRINK, factor))
-    # A step cut short by an event says little about the steps to come.
-    control.next_step = max(candidate, control.next_step) if factor >= 1.0 else candidate
-    _accept(model, march, mesh)
-
-
-class Samples(NamedTuple):
-    """Samples of one window. The body j of a sample stands at turns * ratio[j] turns + angle[j]."""
-
-    mesh: np.ndarray  # (room, QUANTITIES, meshes), see `observe`
-    turns: np.ndarray  # (room,) whole turns of the motor
-    angle: np.ndarray  # (room, bodies) [rad]
-    speed: np.ndarray  # (room, bodies) [rad/s]
-
-
-def new_samples(train: Record, room: int) -> Samples:
-    """Room for `room` samples."""
-    bodies, meshes = int(train.bodies), int(train.meshes)
-    return Samples(
-        np.zeros((room, QUANTITIES, meshes)),
-        np.zeros(room),
-        np.zeros((room, bodies)),
-        np.zeros((room, bodies)),
-    )
 
 
 @kernel
-def sample(model: Record, march: Record, time: float, out: Samples, row: int) -> None:
-    """Write what the train shows at `time`, which lies within the last step."""
-    train, begin = model.train, march.begin
-    delay = time - begin.time
-    interpolate(model, march, delay)
-    pairs = march.work.evaluation.pairs
-    observe(model, begin, march.moment, march.dense_x, march.dense_v, delay, pairs, out.mesh[row])
-    speed = begin.speed
-    frame = 2.0 * math.pi * begin.fraction + speed * delay
-    out.turns[row] = begin.turns
-    for j in range(train.bodies):
-        out.angle[row, j] = train.ratio[j] * frame + march.dense_x[j] / train.radius[j]
-        out.speed[row, j] = train.ratio[j] * speed + march.dense_v[j] / train.radius[j]
+def _end_on_flank_event(model: Record, march: Record, h: float) -> int:
+    """Shorten the step until it ends where a mesh changes its contact; that mesh, or -1.
+
+    The interpolant of a long stiff step may put the event anywhere, so each shorter step is
+    looked at afresh; one that turns out to end before the event is as good as any.
+    """
+    target = -1
+    while True:
+        mesh, when = first_flank_event(model, march)
+        if mesh < 0 and target >= 0 and at_event(model, march, target):
+            return target
+        if mesh < 0 or h <= SHORTEST_STEP or at_event(model, march, mesh):
+            return mesh
+        target = mesh
+        h = max(min(max(when, NEAREST * h), FARTHEST * h), SHORTEST_STEP)
+        _try(model, march, h)
 
 
 @kernel
 def advance(
     model: Record, march: Record, until: float, first_sample: int, sample_rate: float, out: Samples
-) -> int:
-    """Integrate to `until` [s]; sample k is taken at k/sample_rate seconds on the way.
+) -> None:
+    """Integrate to `until` [s], and fill `out` with the samples from number `first_sample` on.
 
-    Returns:
-        How many samples were taken, beginning with number `first_sample`.
+    Sample k is taken at k/sample_rate seconds, none later than `until`.
     """
-    taken = 0
+    taken, room = 0, out.turns.size
     while True:
-        end = min(until, march.end.time)
-        while taken < out.turns.size and (first_sample + taken) / sample_rate <= end:
+        while taken < room and (first_sample + taken) / sample_rate <= march.end.time:
             sample(model, march, (first_sample + taken) / sample_rate, out, taken)
             taken += 1
-        if march.end.time >= until:
-            return taken
+        if taken == room and march.end.time >= until:
+            return
         begin_step(model, march)
         one_step(model, march, math.inf)
 
@@ -375,5 +250,8 @@ def cut(model: Record, march: Record, time: float) -> None:
             one_step(model, march, length)
         else:
             copy_state(march.begin, march.end)
+        while time - march.end.time > SHORTEST_STEP:  # an event came before
+            begin_step(model, march)
+            one_step(model, march, time - march.end.time)
     march.end.time = time
     march.control.changed = True

@@ -50,7 +50,7 @@ class Scene(Section):
             node = data
             for part in path[:-1]:
                 node = node.get(part, {}) if isinstance(node, dict) else {}
-            if path[-1] not in node:
+            if not isinstance(node, dict) or path[-1] not in node:
                 raise SceneError(f"{name}: no such field")
             node[path[-1]] = value
         return _validated(data)

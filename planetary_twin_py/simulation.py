@@ -11,7 +11,7 @@ from .dynamics.observe import BOUNDARY, DTE, FILM, LAMBDA, MESH_FORCE, POWER_LOS
 from .dynamics.state import DAMPING, FRICTION, INPUT, OUTPUT, STIFFNESS_WORK
 from .dynamics.train import body_names, mesh_names
 from .engine import Engine
-from .integrators.march import Samples
+from .integrators.interpolant import Samples
 from .result import Energy, Result, Stats
 from .scene import Scene
 

@@ -1,0 +1,1 @@
+"""Speed against error: cases, a converged reference by another method, and one table."""

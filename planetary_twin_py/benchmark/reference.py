@@ -1,0 +1,138 @@
+"""A converged reference: SciPy's DOP853 from event to event.
+
+An explicit Runge-Kutta method of order 8 with its own error control and its own event location
+(Brent's method on its own interpolant) shares the equations of motion with the march, but neither
+step, nor step control, nor interpolant, nor the way events are found.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+from scipy.integrate import solve_ivp
+
+from .._records import Record, new_record
+from ..dynamics.contact_events import departure
+from ..dynamics.equations import EVALUATION, cycle_shift, forces, mesh_motion
+from ..dynamics.observe import QUANTITIES, observe
+from ..dynamics.state import OPEN
+from ..engine import Engine
+from ..integrators.march import accept, begin_step
+from ..scene import Scene
+
+RELATIVE, ABSOLUTE_X, ABSOLUTE_V = 1e-11, 1e-16, 1e-12
+LONGEST = 1e-3  # [s] stretch between two restarts
+
+
+class Reference:
+    """Integrates a scene from the same start as `Engine`, and samples its meshes."""
+
+    def __init__(self, scene: Scene) -> None:
+        self._engine = Engine(scene, 1e-8)
+        self._model, self._march = self._engine.model, self._engine.march
+        self._bodies = int(self._engine.train.bodies)
+        self._work: Record = new_record(EVALUATION)
+        self._x = np.zeros_like(self._march.begin.x)
+        self._v = np.zeros_like(self._march.begin.v)
+
+    def run(self, duration: float, sample_rate: float) -> np.ndarray:
+        """Samples (samples, QUANTITIES, meshes) at whole multiples of 1/sample_rate [s]."""
+        count = round(duration * sample_rate)
+        samples = np.zeros((count, QUANTITIES, int(self._engine.train.meshes)))
+        taken = 0
+        while taken < count:
+            begin_step(self._model, self._march)
+            stretch = self._stretch()
+            begin, end = self._march.begin.time, self._march.begin.time + stretch.t[-1]
+            while taken < count and (taken + 1) / sample_rate <= end:
+                self._observe(stretch.sol, (taken + 1) / sample_rate - begin, samples[taken])
+                taken += 1
+            self._finish(stretch)
+        return samples
+
+    def _stretch(self) -> Any:
+        """Integrate from `begin` to the next event."""
+        begin, n = self._march.begin, self._bodies
+        start = np.concatenate([begin.x[:n], begin.v[:n], [begin.trim]])
+        tolerance = np.concatenate([np.full(n, ABSOLUTE_X), np.full(n, ABSOLUTE_V), [ABSOLUTE_X]])
+        return solve_ivp(
+            self._derivative, (0.0, self._longest()), start, method="DOP853", rtol=RELATIVE,
+            atol=tolerance, events=self._events(), dense_output=True,
+        )  # fmt: skip
+
+    def _longest(self) -> float:
+        slew, gap = self._march.moment.slew, self._gap()
+        return min(LONGEST, gap / slew) if slew != 0.0 else LONGEST
+
+    def _gap(self) -> float:
+        return float(self._model.load.target_speed - self._march.begin.set_speed)
+
+    def _unpack(self, y: np.ndarray) -> None:
+        n = self._bodies
+        self._x[:n], self._v[:n] = y[:n], y[n : 2 * n]
+
+    def _derivative(self, t: float, y: np.ndarray) -> np.ndarray:
+        n, train = self._bodies, self._engine.train
+        self._unpack(y)
+        march = self._march
+        forces(self._model, march.begin, march.moment, self._x, self._v, t, y[-1], self._work)
+        motor = train.coupling[0, 0]
+        speed = march.begin.speed + self._v[motor] / train.radius[motor]
+        error = march.begin.set_speed + march.moment.slew * t - speed
+        return np.concatenate([y[n : 2 * n], (self._work.force / train.mass)[:n], [error]])
+
+    def _events(self) -> list[Callable[[float, np.ndarray], float]]:
+        """A terminal event for every edge of a tooth pair and every flank."""
+        events: list[Any] = []
+        for i in range(int(self._engine.train.meshes)):
+            events.append(lambda t, y, i=i: self._departure(i, y))
+            if self._march.begin.side[i] != OPEN:
+                events.append(lambda t, y, i=i: self._to_edge(i, t, y))
+        for event in events:
+            event.terminal = True
+            event.direction = -1.0
+        return events
+
+    def _departure(self, i: int, y: np.ndarray) -> float:
+        self._unpack(y)
+        train, moment = self._engine.train, self._march.moment
+        d, rate = mesh_motion(train, i, self._x), mesh_motion(train, i, self._v)
+        tau = float(moment.tau[train.kind[i]])
+        return float(departure(self._model, self._march.begin, i, tau, d, rate, 0.0))
+
+    def _to_edge(self, i: int, t: float, y: np.ndarray) -> float:
+        """Mesh cycles left to the edge ahead."""
+        self._unpack(y)
+        train, begin, moment = self._engine.train, self._march.begin, self._march.moment
+        side, segment, kind = int(begin.side[i]), begin.segment[i], train.kind[i]
+        shift = cycle_shift(train, self._x) - cycle_shift(train, begin.x)
+        cycle = moment.start[i] + side * (moment.cycle_rate * t + shift)
+        if side * moment.cycle_rate >= 0.0:
+            return float(train.edge[kind, segment + 1] - cycle)
+        return float(cycle - train.edge[kind, segment])
+
+    def _observe(self, solution: Any, delay: float, out: np.ndarray) -> None:
+        self._unpack(solution(delay))
+        march = self._march
+        observe(
+            self._model, march.begin, march.moment, self._x, self._v, delay, self._work.pairs, out
+        )
+
+    def _finish(self, stretch: Any) -> None:
+        """Hand the end of the stretch to the march, which changes contacts and segments."""
+        begin, end, n = self._march.begin, self._march.end, self._bodies
+        y, length = stretch.y[:, -1], float(stretch.t[-1])
+        self._march.end = begin
+        end.x[:n], end.v[:n], end.trim = y[:n], y[n : 2 * n], y[-1]
+        end.time = begin.time + length
+        end.set_speed = begin.set_speed + self._march.moment.slew * length
+        turn = begin.fraction + begin.speed * length / (2.0 * np.pi)
+        end.turns, end.fraction = begin.turns + np.floor(turn), turn - np.floor(turn)
+        flank = -1
+        for i in range(int(self._engine.train.meshes)):
+            if stretch.status == 1 and abs(self._departure(i, y)) < 1e-18:
+                flank = i
+        accept(self._model, self._march, flank)
+        self._march.control.changed = True

@@ -1,0 +1,115 @@
+"""What lies within the last step: its interpolant, samples from it, contacts that change on it."""
+
+from __future__ import annotations
+
+import math
+from typing import NamedTuple
+
+import numpy as np
+
+from .._compile import kernel
+from .._records import Record
+from ..dynamics.contact_events import departure
+from ..dynamics.equations import mesh_motion
+from ..dynamics.observe import QUANTITIES, observe
+
+SLACK = 0.01  # share of the local tolerance by which flanks may pull or pass each other
+BISECTIONS = 50  # down to the resolution of a double
+
+
+@kernel
+def interpolate(model: Record, march: Record, delay: float) -> None:
+    """x and v within the last step: quintic and quartic Hermite interpolants."""
+    h = march.control.step
+    t = delay / h
+    u = t * t * t
+    # Quintic basis on position, velocity and acceleration at both ends, and its derivative.
+    p1 = u * (10.0 + t * (-15.0 + 6.0 * t))
+    v0, v1 = t - u * (6.0 + t * (-8.0 + 3.0 * t)), u * (-4.0 + t * (7.0 - 3.0 * t))
+    a0 = 0.5 * (t * t - u * (3.0 + t * (-3.0 + t)))
+    a1 = 0.5 * u * (1.0 + t * (-2.0 + t))
+    s = t * t
+    dp1 = s * (30.0 + t * (-60.0 + 30.0 * t))
+    dv0, dv1 = 1.0 - s * (18.0 + t * (-32.0 + 15.0 * t)), s * (-12.0 + t * (28.0 - 15.0 * t))
+    da0 = 0.5 * (2.0 * t - s * (9.0 + t * (-12.0 + 5.0 * t)))
+    da1 = 0.5 * s * (3.0 + t * (-8.0 + 5.0 * t))
+    b, e = march.begin, march.end
+    for j in range(model.train.bodies):
+        f0 = march.first.force[j] / model.train.mass[j] * h * h
+        f1 = march.last.force[j] / model.train.mass[j] * h * h
+        gap = e.x[j] - b.x[j]
+        march.dense_x[j] = b.x[j] + gap * p1 + h * (v0 * b.v[j] + v1 * e.v[j]) + a0 * f0 + a1 * f1
+        slope = gap * dp1 + h * (dv0 * b.v[j] + dv1 * e.v[j]) + da0 * f0 + da1 * f1
+        march.dense_v[j] = slope / h
+
+
+@kernel
+def departure_at(model: Record, march: Record, i: int, delay: float) -> float:
+    """`departure` of mesh i on the interpolant."""
+    interpolate(model, march, delay)
+    train = model.train
+    d, rate = mesh_motion(train, i, march.dense_x), mesh_motion(train, i, march.dense_v)
+    slack = SLACK * march.control.tolerance_x
+    return departure(model, march.begin, i, march.moment.tau[train.kind[i]], d, rate, slack)
+
+
+@kernel
+def at_event(model: Record, march: Record, i: int) -> bool:
+    """Whether the step ends where the contact of mesh i changes, to within its slack."""
+    play = departure_at(model, march, i, march.control.step)
+    return abs(play) <= SLACK * march.control.tolerance_x
+
+
+@kernel
+def first_flank_event(model: Record, march: Record) -> tuple[int, float]:
+    """Mesh whose contact changes first within the step, and when; (-1, step) if none does."""
+    h = march.control.step
+    first, when = -1, h
+    for i in range(model.train.meshes):
+        if departure_at(model, march, i, when) >= 0.0:
+            continue
+        low, high = 0.0, when
+        for _ in range(BISECTIONS):
+            middle = 0.5 * (low + high)
+            if departure_at(model, march, i, middle) >= 0.0:
+                low = middle
+            else:
+                high = middle
+        first, when = i, high
+    return first, when
+
+
+class Samples(NamedTuple):
+    """Samples of one window. The body j of a sample stands at turns * ratio[j] turns + angle[j]."""
+
+    mesh: np.ndarray  # (room, QUANTITIES, meshes), see `observe`
+    turns: np.ndarray  # (room,) whole turns of the motor
+    angle: np.ndarray  # (room, bodies) [rad]
+    speed: np.ndarray  # (room, bodies) [rad/s]
+
+
+def new_samples(train: Record, room: int) -> Samples:
+    """Room for `room` samples."""
+    bodies, meshes = int(train.bodies), int(train.meshes)
+    return Samples(
+        np.zeros((room, QUANTITIES, meshes)),
+        np.zeros(room),
+        np.zeros((room, bodies)),
+        np.zeros((room, bodies)),
+    )
+
+
+@kernel
+def sample(model: Record, march: Record, time: float, out: Samples, row: int) -> None:
+    """Write what the train shows at `time`, which lies within the last step."""
+    train, begin = model.train, march.begin
+    delay = time - begin.time
+    interpolate(model, march, delay)
+    pairs = march.work.evaluation.pairs
+    observe(model, begin, march.moment, march.dense_x, march.dense_v, delay, pairs, out.mesh[row])
+    speed = begin.speed
+    frame = 2.0 * math.pi * begin.fraction + speed * delay
+    out.turns[row] = begin.turns
+    for j in range(train.bodies):
+        out.angle[row, j] = train.ratio[j] * frame + march.dense_x[j] / train.radius[j]
+        out.speed[row, j] = train.ratio[j] * speed + march.dense_v[j] / train.radius[j]

@@ -1,0 +1,53 @@
+"""A run in progress, as records that the kernels of this folder write in place."""
+
+from __future__ import annotations
+
+from .._compile import kernel
+from .._records import BODIES, FLAG, REAL, WHOLE, Record, layout
+from ..dynamics.equations import EVALUATION, MOMENT
+from ..dynamics.state import STATE
+from .rosenbrock import WORKSPACE
+
+# Step control and counters.
+CONTROL = layout(
+    tolerance_x=REAL,  # local error a step may make in a transmission error [m]
+    tolerance_v=REAL,  # and in the speed of a body [m/s]
+    next_step=REAL,  # [s]
+    step=REAL,  # the last one taken [s]
+    longest=REAL,  # [s]
+    changed=FLAG,  # contacts or loads are no longer those of the last evaluation
+    steps=WHOLE,
+    rejected=WHOLE,
+    evaluations=WHOLE,
+    pair_events=WHOLE,
+    flank_events=WHOLE,
+)
+
+# A run in progress: the step from `begin` to `end`, and what interpolates it.
+MARCH = layout(
+    begin=STATE,
+    end=STATE,
+    moment=MOMENT,
+    first=EVALUATION,  # forces at `begin`
+    last=EVALUATION,  # forces at `end`, with the contacts of `begin`
+    dense_x=(REAL, (BODIES,)),  # interpolated
+    dense_v=(REAL, (BODIES,)),
+    control=CONTROL,
+    work=WORKSPACE,
+)
+
+
+@kernel
+def copy_state(source: Record, target: Record) -> None:
+    """Overwrite `target`."""
+    target.x[:] = source.x
+    target.v[:] = source.v
+    target.side[:] = source.side
+    target.segment[:] = source.segment
+    target.time = source.time
+    target.turns = source.turns
+    target.fraction = source.fraction
+    target.speed = source.speed
+    target.trim = source.trim
+    target.set_speed = source.set_speed
+    target.energy[:] = source.energy

@@ -1,0 +1,63 @@
+"""The energy ledger: what the motor puts in is what comes out, is stored, and is lost."""
+
+import math
+from itertools import pairwise
+
+import pytest
+from power_flows import ALL_FLOWS, FLOWS, scene_of
+
+from planetary_twin_py import simulate
+
+RATTLE = {"input_torque": 0.3, "torque_ripple": 3.0}
+
+
+def imbalance(scene, tolerance):
+    energy = simulate(scene, 0.05, tolerance=tolerance).energy
+    assert energy.friction > 0.0 and energy.damping > 0.0
+    return abs(energy.residual) / abs(energy.input)
+
+
+def assert_balanced(scene):
+    coarse, fine = imbalance(scene, 1e-4), imbalance(scene, 1e-5)
+    assert coarse < 1e-5
+    assert fine < 1e-6
+
+
+@ALL_FLOWS
+@pytest.mark.parametrize("law", ["meshing_frequency", "viscous"])
+def test_balance_closes_whatever_is_held_and_driven(flow, law):
+    assert_balanced(scene_of(flow, **{"mesh.damping.law": law}))
+
+
+@pytest.mark.parametrize("law", ["meshing_frequency", "viscous"])
+def test_balance_closes_while_teeth_rattle(law):
+    scene = scene_of(FLOWS[0], **RATTLE, **{"mesh.damping.law": law})
+    assert simulate(scene, 0.05).stats.flank_events > 20
+    assert_balanced(scene)
+
+
+@pytest.mark.parametrize("planets", [2, 4, 5, 6])
+def test_balance_closes_for_any_number_of_planets(planets):
+    step = 2 * math.pi / 100
+    angles = tuple(step * round(100 * k / planets) for k in range(planets))
+    assert_balanced(scene_of(FLOWS[0], **{"gearset.planet_angles": angles}))
+
+
+@pytest.mark.parametrize(
+    "changes",
+    [
+        {"mesh.ramp": 0.0},
+        {"input_speed": -100.0},
+        {"input_torque": -63.0},
+        {"lubrication.lambda_ratio": "computed", "lubrication.film": "dowson_toyoda"},
+    ],
+    ids=str,
+)
+def test_balance_closes_for_steps_of_the_stiffness_and_for_every_direction(changes):
+    assert_balanced(scene_of(FLOWS[0], **changes))
+
+
+def test_residual_falls_with_the_tolerance():
+    residuals = [imbalance(scene_of(FLOWS[0]), tol) for tol in (1e-2, 1e-3, 1e-4, 1e-5, 1e-6)]
+    assert all(b < 0.5 * a for a, b in pairwise(residuals))
+    assert residuals[-1] < 1e-7

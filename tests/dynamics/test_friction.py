@@ -1,0 +1,93 @@
+"""Tooth friction as a generalised force: its power on any motion is that of the sliding."""
+
+import numpy as np
+import pytest
+from power_flows import ALL_FLOWS, scene_of
+
+from planetary_twin_py._records import new_record
+from planetary_twin_py.dynamics.contact_events import find_segment
+from planetary_twin_py.dynamics.equations import EVALUATION, MOMENT, forces, mesh_motion
+from planetary_twin_py.dynamics.state import COAST_SIDE, DRIVE_SIDE, FRICTION
+from planetary_twin_py.dynamics.tooth_friction import apply_friction
+from planetary_twin_py.engine import Engine
+
+
+def random_moment(engine, random):
+    """Bodies anywhere, moving at random, meshes on the side this takes them to."""
+    train, state, moment = engine.train, engine.march.begin, new_record(MOMENT)
+    moment.tau[:] = 1e-6
+    bodies = int(train.bodies)
+    x, v = np.zeros_like(state.x), np.zeros_like(state.v)
+    x[:bodies] = random.normal(0.0, 1e-5, bodies)
+    state.x = x
+    v[:bodies] = random.normal(0.0, 0.3, bodies)
+    for i in range(train.meshes):
+        state.side[i] = DRIVE_SIDE if mesh_motion(train, i, x) > 0.0 else COAST_SIDE
+        moment.start[i] = random.uniform()
+        state.segment[i] = find_segment(train, train.kind[i], moment.start[i], 1.0)
+    return state, moment, x, v
+
+
+def sliding_speeds(train, pairs, speed):
+    """rho1 (w1 - wc) + rho2 (w2 - wc) at an external mesh, rho1 (w1 - wc) - rho2 (w2 - wc) at an
+    internal one, at angular speeds of bodies and ground."""
+    result = []
+    for p in range(pairs.count):
+        first, second, carrier = (speed[j] for j in train.body[pairs.mesh[p]])
+        sense = 1.0 if train.kind[pairs.mesh[p]] == 0 else -1.0
+        result.append(
+            pairs.rho1[p] * (first - carrier) + sense * pairs.rho2[p] * (second - carrier)
+        )
+    return np.array(result)
+
+
+@ALL_FLOWS
+@pytest.mark.parametrize("seed", range(3))
+def test_friction_takes_what_the_sliding_loses(flow, seed):
+    random = np.random.default_rng(seed)
+    engine = Engine(scene_of(flow), 1e-4)
+    train = engine.train
+    state, moment, x, v = random_moment(engine, random)
+    with_friction, without = new_record(EVALUATION), new_record(EVALUATION)
+    forces(engine.model, state, moment, x, v, 0.0, 0.0, with_friction)
+    engine.model.train.friction = False
+    forces(engine.model, state, moment, x, v, 0.0, 0.0, without)
+
+    pairs, bodies = with_friction.pairs, int(train.bodies)
+    friction = pairs.friction[: pairs.count]
+    assert pairs.count >= 3 and np.abs(friction).max() > 1.0
+    q = (with_friction.force - without.force)[:bodies]
+    speed = train.ratio * state.speed + v / train.radius.clip(1e-9)
+    sliding = sliding_speeds(train, pairs, speed)
+    assert pairs.sliding[: pairs.count] == pytest.approx(sliding, rel=1e-9)
+    assert (friction * sliding).min() >= 0.0
+    loss = friction @ sliding
+    assert with_friction.power[FRICTION] == pytest.approx(loss, rel=1e-12)
+    assert q @ (train.radius * speed)[:bodies] == pytest.approx(-loss, rel=1e-9)
+
+    virtual = np.append(random.normal(size=bodies), 0.0)
+    power = q @ (train.radius[:bodies] * virtual[:bodies])
+    expected = -friction @ sliding_speeds(train, pairs, virtual)
+    assert power == pytest.approx(expected, rel=1e-9, abs=1e-12 * np.abs(friction).sum())
+
+
+@ALL_FLOWS
+def test_turning_everything_together_meets_no_friction(flow):
+    engine = Engine(scene_of(flow), 1e-4)
+    out, bodies = new_record(EVALUATION), int(engine.train.bodies)
+    forces(engine.model, *random_moment(engine, np.random.default_rng(1)), 0.0, 0.0, out)
+    q = np.zeros_like(out.force)
+    apply_friction(engine.train, out.pairs, q)
+    torque = (q * engine.train.radius)[: bodies + 1]  # the last is that on the ground
+    assert torque.sum() == pytest.approx(0.0, abs=1e-12 * np.abs(torque).sum())
+
+
+@ALL_FLOWS
+def test_pairs_of_a_mesh_share_all_of_its_force(flow):
+    engine = Engine(scene_of(flow), 1e-4)
+    out = new_record(EVALUATION)
+    forces(engine.model, *random_moment(engine, np.random.default_rng(2)), 0.0, 0.0, out)
+    shares = np.bincount(
+        out.pairs.mesh[: out.pairs.count], out.pairs.share[: out.pairs.count], engine.train.meshes
+    )
+    assert shares == pytest.approx(1.0)

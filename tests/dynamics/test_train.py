@@ -1,0 +1,78 @@
+"""Bodies and meshes as arrays: no slip in rigid motion, and the natural frequencies."""
+
+import math
+
+import numpy as np
+import pytest
+from power_flows import ALL_FLOWS, FLOWS, scene_of
+from scipy.linalg import eigvalsh
+
+from planetary_twin_py._records import new_record
+from planetary_twin_py.dynamics.equations import EVALUATION, MOMENT, forces
+from planetary_twin_py.dynamics.train import build_train
+from planetary_twin_py.engine import Engine
+
+
+@ALL_FLOWS
+def test_rigid_motion_leaves_every_mesh_as_it_is(flow):
+    train = build_train(scene_of(flow))
+    travel = train.ratio * train.radius
+    meshes = int(train.meshes)
+    motion = (train.sign[:meshes] * travel[train.body[:meshes]]).sum(axis=1)
+    assert motion == pytest.approx(0.0, abs=1e-15)
+
+
+def stiffness_matrix(model, state, bodies):
+    """-dF/dx of the compiled equations, by differences of what is linear."""
+    out, moment = new_record(EVALUATION), new_record(MOMENT)
+    columns = []
+    for j in range(bodies):
+        ends = []
+        for x in (-1e-6, 1e-6):
+            place = np.zeros_like(state.x)
+            place[j] = x
+            forces(model, state, moment, place, np.zeros_like(place), 0.0, 0.0, out)
+            ends.append(np.array(out.force[:bodies]))
+        columns.append((ends[0] - ends[1]) / 2e-6)
+    return np.array(columns).T
+
+
+def natural_frequencies(flow, **changes):
+    """Of gears and carrier alone [Hz], machines off, one constant stiffness in all meshes."""
+    scene = scene_of(
+        flow, **{"mesh.double_pair_ratio": 1.0, "lubrication.friction": False, **changes}
+    )
+    engine = Engine(scene, 1e-4)
+    model = engine.model
+    model.train.coupling_stiffness[:] = 0.0
+    bare = int(model.train.bodies) - 2
+    stiffness = stiffness_matrix(model, engine.march.begin, bare)
+    assert stiffness == pytest.approx(stiffness.T, abs=1e-6 * stiffness.max())
+    squares = eigvalsh(stiffness, np.diag(model.train.mass[:bare]))
+    return np.sqrt(np.maximum(squares, 0.0)) / (2 * math.pi)
+
+
+@pytest.mark.parametrize(
+    "flow, expected",
+    [
+        (FLOWS[0], [0, 5500.36, 9375.70, 9375.70, 11112.99]),
+        (FLOWS[2], [0, 5620.95, 9375.70, 9375.70, 10928.67]),
+        (FLOWS[4], [0, 4724.50, 9375.70, 9375.70, 9879.57]),
+    ],
+    ids=lambda value: value[0] if isinstance(value, tuple) else "",
+)
+def test_natural_frequencies_of_the_bare_gearset(flow, expected):
+    found = natural_frequencies(flow)
+    assert found[0] == pytest.approx(0.0, abs=0.5)
+    assert found[1:] == pytest.approx(expected[1:], abs=0.01)
+
+
+@pytest.mark.parametrize("planets", [2, 4, 5])
+def test_planet_modes_depend_on_nothing_but_planet_and_meshes(planets):
+    angles = tuple(2 * math.pi * k / planets for k in range(planets))
+    found = natural_frequencies(
+        FLOWS[0], **{"gearset.planet_angles": angles, "mesh.planet_ring_stiffness": 3e8}
+    )
+    mass = 0.1 / math.cos(math.radians(21.34)) ** 2
+    mode = math.sqrt((2e8 + 3e8) / mass) / (2 * math.pi)
+    assert np.isclose(found, mode, rtol=1e-7).sum() == planets - 1

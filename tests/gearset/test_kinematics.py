@@ -1,0 +1,46 @@
+"""Speeds against Willis' relations and against the numbers of the paper's gearset."""
+
+from fractions import Fraction
+from itertools import permutations
+
+import pytest
+
+from planetary_twin_py.gearset.kinematics import (
+    MEMBERS,
+    Teeth,
+    mesh_cycles_per_turn,
+    speed_ratios,
+)
+
+PAPER = Teeth(30, 20, 70)
+PAIRS = list(permutations(MEMBERS, 2))
+
+
+@pytest.mark.parametrize("held, reference", PAIRS)
+@pytest.mark.parametrize("teeth", [PAPER, Teeth(21, 39, 99)])
+def test_pitch_lines_roll_without_slip_whatever_is_held(teeth, held, reference):
+    w = speed_ratios(teeth, held, reference)
+    zs, zp, zr = teeth
+    assert w[held] == 0 and w[reference] == 1
+    assert zs * (w["sun"] - w["carrier"]) + zp * (w["planet"] - w["carrier"]) == 0
+    assert zp * (w["planet"] - w["carrier"]) == zr * (w["ring"] - w["carrier"])
+    assert (zr + zs) * w["carrier"] == zr * w["ring"] + zs * w["sun"]
+
+
+def test_held_carrier_turns_ring_at_minus_three_sevenths_and_planets_at_minus_three_halves():
+    w = speed_ratios(PAPER, "carrier", "sun")
+    assert (w["ring"], w["planet"]) == (Fraction(-3, 7), Fraction(-3, 2))
+
+
+@pytest.mark.parametrize(
+    "held, reference, frequency",
+    [("carrier", "sun", 500), ("ring", "sun", 350), ("sun", "carrier", 500), ("sun", "ring", 350)],
+)
+def test_meshing_frequency_at_1000_rpm(held, reference, frequency):
+    assert abs(mesh_cycles_per_turn(PAPER, held, reference)) * Fraction(1000, 60) == frequency
+
+
+@pytest.mark.parametrize("held, reference", [("sun", "sun"), ("planet", "sun"), ("ring", "")])
+def test_a_member_cannot_be_held_and_turn_and_must_be_central(held, reference):
+    with pytest.raises(ValueError, match="two of"):
+        speed_ratios(PAPER, held, reference)

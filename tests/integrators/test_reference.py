@@ -1,0 +1,69 @@
+"""The compiled model and integrator against an independent one that knows only the scene."""
+
+import math
+
+import numpy as np
+import pytest
+from power_flows import FLOWS, scene_of
+from reference_model import Reference
+
+from planetary_twin_py.dynamics.observe import DTE
+from planetary_twin_py.dynamics.train import body_names
+from planetary_twin_py.engine import Engine
+
+RATE = 50_000.0
+RATTLE = {"input_torque": 0.3, "torque_ripple": 3.0, "drive.speed_control.ripple_order": 6}
+
+
+def absolute(engine):
+    """Angles, speeds and the speed loop's integral at the end of the last step, sides."""
+    train, state = engine.train, engine.march.end
+    bodies = int(train.bodies)
+    place = np.append(body_names(engine.scene).place, [bodies - 2, bodies - 1])
+    with_ground = slice(bodies + 1)
+    turned = 2 * math.pi * (state.turns + state.fraction)
+    angle = train.ratio * turned + state.x / np.where(train.radius, train.radius, 1.0)
+    speed = train.ratio * state.speed + state.v / np.where(train.radius, train.radius, 1.0)
+    y = np.concatenate([angle[with_ground][place], speed[with_ground][place], [state.trim]])
+    return y, state.side[: train.meshes]
+
+
+def errors(scene, begin, duration, tolerances):
+    """Difference of all transmission errors from the reference over their rms, per tolerance."""
+    source = Engine(scene, 1e-6)
+    source.advance(begin, 1, RATE, 0)
+    start = source.march.end.time
+    first, last = math.floor(start * RATE) + 1, round((begin + duration) * RATE)
+    times = np.arange(first, last + 1) / RATE
+    exact, flank_events = Reference(scene).transmission_errors(*absolute(source), times - start)
+    result = []
+    for tolerance in tolerances:
+        engine = Engine(scene, tolerance)
+        engine.march.end = source.march.end
+        mine = engine.advance(times[-1], first, RATE, len(times)).mesh[:, DTE]
+        result.append(np.sqrt(np.mean((mine - exact) ** 2) / np.mean(exact**2)))
+    return result, flank_events
+
+
+@pytest.mark.parametrize(
+    "flow, changes",
+    [
+        (FLOWS[0], {}),
+        (FLOWS[2], {"input_torque": -40.0}),
+        (FLOWS[4], {"mesh.damping.law": "viscous", "backlash": 1e-6}),
+    ],
+    ids=str,
+)
+def test_steady_running_converges_to_the_reference(flow, changes):
+    found, _ = errors(scene_of(flow, **changes), 0.0, 2.5e-3, [5e-3, 1e-4, 1e-6])
+    assert found[0] < 2e-2
+    assert found[1] < 0.1 * found[0]
+    assert found[2] < min(0.1 * found[1], 1e-5)
+
+
+def test_rattling_converges_to_the_reference():
+    found, flank_events = errors(scene_of(FLOWS[0], **RATTLE), 0.02, 4e-3, [5e-3, 1e-4, 1e-6])
+    assert flank_events >= 5
+    assert found[0] < 5e-2
+    assert found[1] < 0.2 * found[0]
+    assert found[2] < min(0.2 * found[1], 1e-4)

@@ -1,0 +1,42 @@
+"""Order of the step on a smooth stretch: no event, no friction, equal steps."""
+
+import numpy as np
+import pytest
+from power_flows import FLOWS, scene_of
+
+from planetary_twin_py._records import new_record
+from planetary_twin_py.dynamics.equations import forces
+from planetary_twin_py.engine import Engine
+from planetary_twin_py.integrators.march import begin_step
+from planetary_twin_py.integrators.progress import copy_state
+from planetary_twin_py.integrators.rosenbrock import WORKSPACE, step
+
+SPAN = 4e-5  # [s] within one segment of all meshes
+
+
+def march(steps):
+    """Bodies displaced from balance, after SPAN in equal steps."""
+    scene = scene_of(FLOWS[0], **{"lubrication.friction": False, "mesh.damping.law": "viscous"})
+    engine = Engine(scene, 1e-4)
+    model, run = engine.model, engine.march
+    run.end.x[:5] += np.array([3.0, -2.0, 1.0, 2.0, -1.0]) * 1e-6
+    work, h = new_record(WORKSPACE), SPAN / steps
+    run.control.changed = True
+    begin_step(model, run)
+    state, new, moment = run.begin.copy(), run.begin.copy(), run.moment
+    start = moment.start.copy()
+    for i in range(steps):
+        moment.start[:] = start + moment.cycle_rate * i * h
+        forces(model, state, moment, state.x, state.v, 0.0, state.trim, run.first)
+        step(model, state, moment, h, run.first, new, work)
+        copy_state(new, state)
+        state.fraction = run.begin.fraction + run.begin.speed * h * (i + 1) / (2 * np.pi)
+    return np.concatenate([state.x, state.v / 1e4])
+
+
+def test_global_error_falls_with_the_third_power_of_the_step():
+    exact = march(4096)
+    counts = np.array([16, 24, 32, 48, 64])
+    errors = [np.abs(march(count) - exact).max() for count in counts]
+    order = np.polyfit(np.log(SPAN / counts), np.log(errors), 1)[0]
+    assert order == pytest.approx(3.0, abs=0.2)

@@ -1,0 +1,30 @@
+"""Fits of the asperity functions against the integrals they stand for."""
+
+import math
+
+import numpy as np
+import pytest
+from scipy.integrate import quad
+
+from planetary_twin_py.lubrication.asperities import contact_area_function, contact_load_function
+
+BOTH = pytest.mark.parametrize(
+    "function, n", [(contact_area_function, 2.0), (contact_load_function, 2.5)]
+)
+
+
+@BOTH
+def test_fit_is_within_three_in_ten_thousand_of_the_integral(function, n):
+    for x in np.linspace(0.0, 4.0, 81):
+        exact = quad(
+            lambda s, x=x: (s - x) ** n * math.exp(-0.5 * s * s), x, x + 12.0, epsabs=0, epsrel=1e-9
+        )[0]
+        assert function(x) == pytest.approx(exact / math.sqrt(2 * math.pi), rel=3e-4)
+
+
+@BOTH
+def test_fit_is_positive_and_never_rises(function, n):
+    values = np.array([function(x) for x in np.linspace(0.0, 10.0, 2001)])
+    assert values.min() > 0.0
+    assert np.diff(values).max() <= 0.0
+    assert np.diff(values[:1200]).max() < 0.0

@@ -1,0 +1,47 @@
+"""Viscous friction against eqs. (12), (13) evaluated at the pitch points."""
+
+import math
+
+import pytest
+from lubrication.pitch_point import CASES, LOAD, MODULUS, VISCOSITY, film, pitch_point
+
+from planetary_twin_py.dynamics.oil import build_oil
+from planetary_twin_py.lubrication.traction import sliding_sense, viscous_friction
+from planetary_twin_py.scene import load_scene
+
+TRACTION = build_oil(load_scene("paper")).traction
+
+
+def friction(mesh, rpm, load=LOAD):
+    point = pitch_point(mesh, rpm)
+    area = point.area * math.sqrt(load / LOAD)
+    h = film("salagianni", mesh, rpm, load)
+    return viscous_friction(TRACTION, load, area, point.radius, h, point.speed)
+
+
+def test_coefficients_at_the_pitch_points():
+    coefficients = [friction(mesh, rpm) / LOAD for mesh, rpm in CASES]
+    expected = [0.04251, 0.04179, 0.04123, 0.04105, 0.03988, 0.03897]
+    assert coefficients == pytest.approx(expected, abs=6e-6)
+
+
+@pytest.mark.parametrize("mesh, rpm", CASES)
+def test_friction_is_equation_12_with_the_temperature_coefficient(mesh, rpm):
+    point, h = pitch_point(mesh, rpm), film("salagianni", mesh, rpm)
+    p = LOAD / point.area
+    zeta = 4 / math.pi * 0.137 / (h / point.radius)
+    zeta *= math.sqrt(p / (MODULUS * point.radius * 46 * 7800 * 470 * point.speed))
+    root = math.sqrt(2 * 0.137 * VISCOSITY / 0.04 / (1 + 9.6 * zeta))
+    mu = 0.87 * 2.1e-8 * 2.3e6 + 1.74 * 2.3e6 / p * math.log(1.2 / (2.3e6 * h) * root)
+    assert friction(mesh, rpm) == pytest.approx(mu * LOAD, rel=1e-9)
+
+
+def test_friction_is_zero_not_negative_under_a_load_too_light_for_the_law():
+    assert friction("pr", 1000, LOAD / 1000) == 0.0
+
+
+def test_sense_of_sliding_is_an_odd_tanh_of_the_slide_to_roll_ratio():
+    for ratio in (0.0, 1e-4, 0.015, 0.1, 3.0):
+        expected = math.tanh(ratio / 0.015)
+        assert sliding_sense(ratio * 0.5, 0.5, 0.015) == pytest.approx(expected, abs=1e-11)
+        assert sliding_sense(-ratio * 0.5, 0.5, 0.015) == pytest.approx(-expected, abs=1e-11)

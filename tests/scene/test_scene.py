@@ -1,0 +1,99 @@
+"""Scenes from YAML: units at the edge, and errors in one line that name the field."""
+
+import math
+
+import pytest
+import yaml
+
+import planetary_twin_py as pt
+
+PAPER = pt.load_scene("paper")
+
+
+def text(**changes):
+    """The paper's scene as YAML, with other values at dotted paths."""
+    data = PAPER.model_dump(mode="json")
+    for path, value in changes.items():
+        *parents, last = path.split("__")
+        node = data
+        for parent in parents:
+            node = node[parent]
+        node[last] = value
+    return yaml.safe_dump(data)
+
+
+def test_the_packaged_scene_is_the_papers_gearbox():
+    gears = PAPER.gearset
+    assert (gears.teeth.sun, gears.teeth.planet, gears.teeth.ring) == (30, 20, 70)
+    assert math.degrees(gears.pressure_angle) == pytest.approx(21.34)
+    assert gears.module == pytest.approx(0.8e-3)
+    assert PAPER.operating_point.input_speed == pytest.approx(1000 * 2 * math.pi / 60)
+
+
+def test_a_scene_survives_its_own_yaml():
+    assert pt.parse_scene(text()) == PAPER
+
+
+@pytest.mark.parametrize(
+    "written, meant",
+    [("0.3 um", 3e-7), ("3e-4 mm", 3e-7), ("3e-7", 3e-7), (3e-7, 3e-7)],
+)
+def test_quantities_are_read_in_their_units(written, meant):
+    scene = pt.parse_scene(text(operating_point__backlash=written))
+    assert scene.operating_point.backlash == pytest.approx(meant)
+
+
+@pytest.mark.parametrize(
+    "changes, words",
+    [
+        ({"mesh__stifness": 1.0}, ["mesh.stifness", "no such field"]),
+        ({"operating_point__backlash": "0.2 kg"}, ["backlash", "0.2 kg", "within 0 and 0.001 m"]),
+        ({"operating_point__backlash": "a hair"}, ["backlash", "a hair", "within 0 and 0.001 m"]),
+        ({"operating_point__input_speed": math.nan}, ["input_speed", "nan", "1100 rad/s"]),
+        ({"operating_point__lambda_ratio": -1.0}, ["lambda_ratio", "-1", "within 0 and 10"]),
+        ({"gearset__teeth__planet": 21}, ["30/21/70", "ring = sun + 2 planet = 72"]),
+        ({"gearset__teeth__sun": 2}, ["gearset.teeth.sun", "2", "5"]),
+        ({"gearset__planet_angles": ["90 deg", "-30 deg", "210 deg"]}, ["90, -28.8, 208.8 deg"]),
+        ({"gearset__held": "planet"}, ["gearset.held", "planet", "carrier"]),
+        ({"gearset__held": "sun"}, ["drive.input.member", "sun"]),
+        ({"drive__output__member": "sun"}, ["output.member", "sun"]),
+        ({"mesh__ramp": 0.5}, ["mesh.ramp", "0.5", "within 0 and 0.2"]),
+    ],
+    ids=str,
+)
+def test_a_scene_that_cannot_be_is_refused_in_one_line(changes, words):
+    with pytest.raises(pt.SceneError) as error:
+        pt.parse_scene(text(**changes))
+    message = str(error.value)
+    assert "\n" not in message
+    assert [word for word in words if word not in message] == []
+
+
+@pytest.mark.parametrize("broken", ["[1, 2]", "a: [", "", "just text"])
+def test_text_that_is_no_scene_is_refused_in_one_line(broken):
+    with pytest.raises(pt.SceneError, match=r"^scene[^\n]*YAML[^\n]*$"):
+        pt.parse_scene(broken)
+
+
+def test_a_missing_file_is_refused_with_the_packaged_names():
+    with pytest.raises(pt.SceneError, match=r"'nowhere'.*paper"):
+        pt.load_scene("nowhere")
+
+
+def test_a_missing_section_is_named():
+    data = yaml.safe_load(text())
+    del data["gearset"]["module"]
+    with pytest.raises(pt.SceneError, match=r"^gearset\.module: missing$"):
+        pt.parse_scene(yaml.safe_dump(data))
+
+
+@pytest.mark.parametrize("name", ["colour", "mesh.colour", "mesh.ramp.colour", "nothing.here"])
+def test_replacing_what_there_is_not_is_refused(name):
+    with pytest.raises(pt.SceneError, match="no such field"):
+        PAPER.replace(**{name: 1.0})
+
+
+def test_replace_leaves_the_original():
+    other = PAPER.replace(backlash="0.3 um", **{"mesh.ramp": 0.0})
+    assert (other.operating_point.backlash, other.mesh.ramp) == (pytest.approx(3e-7), 0.0)
+    assert (PAPER.operating_point.backlash, PAPER.mesh.ramp) == (pytest.approx(2e-7), 0.03)

@@ -1,0 +1,170 @@
+"""The twin stepped live: windows, changes while it runs, and its limits."""
+
+import math
+
+import numpy as np
+import pytest
+
+import planetary_twin_py as pt
+
+PAPER = pt.load_scene("paper")
+OUT_OF_RANGE = [
+    {"backlash": -1e-9},
+    {"backlash": 2e-3},
+    {"lambda_ratio": 11.0},
+    {"input_speed": math.nan},
+    {"input_torque": math.inf},
+    {"input_torque": "a lot"},
+    {"torque_ripple": -1.0},
+]
+
+
+def waveform(twin, window, windows):
+    """All samples of `windows` windows, columns of dte, force and friction of every mesh."""
+    parts = [twin.advance(window).waveform for _ in range(windows)]
+    return np.vstack([np.hstack([p.dte, p.mesh_force, p.friction]) for p in parts])
+
+
+def settled(scene, windows=10):
+    twin = pt.Twin(scene)
+    for _ in range(windows):
+        twin.advance(0.02)
+    return twin
+
+
+def test_powers_of_a_window_balance_within_a_thousandth():
+    window = settled(PAPER).advance(0.1)
+    assert window.input_power == pytest.approx(
+        window.output_power + window.power_loss + window.stored_power, rel=1e-3
+    )
+    assert 0.982 < window.efficiency < 0.989
+    assert window.input_torque == pytest.approx(63.0, rel=2e-3)
+    assert window.mesh["mesh_force_mean"].mean() == pytest.approx(1878.8, rel=0.01)
+    assert window.mesh["power_loss"].sum() == pytest.approx(window.power_loss, rel=2e-3)
+
+
+@pytest.mark.parametrize("first", [True, False])
+def test_speeds_of_a_window(first):
+    window = (pt.Twin(PAPER) if first else settled(PAPER)).advance(0.1)
+    assert window.mesh_frequency == pytest.approx(500.0, rel=2e-3)
+    speed = dict(zip(window.bodies, window.mean_speed, strict=True))
+    assert speed["ring"] / speed["sun"] == pytest.approx(-3 / 7, rel=1e-3)
+    assert speed["planet_1"] / speed["sun"] == pytest.approx(-3 / 2, rel=1e-3)
+
+
+def test_waveform_does_not_depend_on_the_windows():
+    whole = waveform(pt.Twin(PAPER), 0.14, 1)
+    for window, windows in ((1e-3, 140), (7e-3, 20), (2e-2, 7)):
+        assert np.array_equal(waveform(pt.Twin(PAPER), window, windows), whole)
+
+
+def test_samples_lie_on_one_clock_through_windows_that_split_them():
+    twin = pt.Twin(PAPER, sample_rate=3000.0)
+    times = np.concatenate([twin.advance(0.7e-3).waveform.time for _ in range(100)])
+    assert times == pytest.approx(np.arange(1, 211) / 3000.0, abs=1e-12)
+
+
+@pytest.mark.parametrize("instant", [0.01, 0.01234567])
+def test_a_change_takes_effect_at_its_instant_and_not_before(instant):
+    changed, undisturbed = pt.Twin(PAPER), pt.Twin(PAPER)
+    before = [twin.advance(instant).waveform for twin in (changed, undisturbed)]
+    assert np.array_equal(before[0].dte, before[1].dte)
+    assert changed.set(backlash=4e-7) == changed.time == instant
+    assert [change.time for change in changed.log] == [0.0, instant]
+    after = [twin.advance(2e-4).waveform for twin in (changed, undisturbed)]
+    assert np.array_equal(after[0].time, after[1].time)
+    # Half the widening, 1e-7 m, at 2e8 N/m and more.
+    assert np.all(after[1].mesh_force[0] - after[0].mesh_force[0] > 0.2)
+
+
+def test_setting_what_holds_already_changes_nothing():
+    twin, undisturbed = pt.Twin(PAPER), pt.Twin(PAPER)
+    first = waveform(twin, 0.00123, 1)
+    twin.set(**PAPER.operating_point.model_dump())
+    assert np.array_equal(
+        np.vstack([first, waveform(twin, 0.01, 1)]),
+        np.vstack([waveform(undisturbed, 0.00123, 1), waveform(undisturbed, 0.01, 1)]),
+    )
+
+
+@pytest.mark.parametrize("change", OUT_OF_RANGE, ids=str)
+def test_a_refused_change_names_field_value_and_range_and_changes_nothing(change):
+    twin, ((name, value),) = pt.Twin(PAPER), change.items()
+    with pytest.raises(pt.SceneError) as error:
+        twin.set(lambda_ratio=1.7, **{**change}) if name != "lambda_ratio" else twin.set(**change)
+    text, tunable = str(error.value), pt.TUNABLES[name]
+    assert text.startswith(f"{name} = {value!r}") and "\n" not in text
+    assert f"{tunable.minimum:g}" in text and f"{tunable.maximum:g}" in text
+    assert twin.operating_point == PAPER.operating_point
+    assert len(twin.log) == 1
+
+
+def test_an_unknown_name_is_refused():
+    with pytest.raises(pt.SceneError, match=r"^lambda: no such field$"):
+        pt.Twin(PAPER).set(**{"lambda": 1.0})
+
+
+def test_speed_change_is_followed_at_the_slew_rate_without_drift():
+    twin = settled(PAPER, 2)
+    twin.set(input_speed=pt.rpm(1500))
+    for _ in range(50):
+        window = twin.advance(0.02)
+    assert window.input_speed == pytest.approx(pt.rpm(1500), rel=2e-3)
+    assert window.mesh_frequency == pytest.approx(750.0, rel=2e-3)
+
+
+def test_reversal_passes_through_standstill_and_settles():
+    twin = settled(PAPER, 2)
+    twin.set(input_speed=pt.rpm(-1000), input_torque=-63.0)
+    for _ in range(75):
+        window = twin.advance(0.02)
+        assert np.isfinite(window.waveform.dte).all()
+    assert window.input_speed == pytest.approx(pt.rpm(-1000), rel=5e-3)
+    assert window.mesh["mesh_force_mean"].mean() == pytest.approx(-1878.8, rel=0.02)
+    assert 0.98 < window.efficiency < 0.99
+
+
+def test_teeth_rattle_under_a_light_load_and_a_strong_ripple():
+    twin = pt.Twin(PAPER.replace(input_torque=0.3, torque_ripple=1.0))
+    window = twin.advance(0.2)
+    assert np.all(window.mesh["contact_fraction"] < 0.99)
+    force = window.waveform.mesh_force
+    assert force.max() > 1.0 and force.min() < -1.0
+
+
+EXTREMES = [
+    {"backlash": 0.0},
+    {"backlash": 1e-3},
+    {"lambda_ratio": 0.0},
+    {"lambda_ratio": 10.0},
+    {"input_speed": 1100.0},
+    {"input_speed": -1100.0},
+    {"input_torque": 1000.0},
+    {"input_torque": -1000.0},
+    {"input_torque": 0.0},
+    {"torque_ripple": 1000.0},
+    {"input_speed": 0.0, "input_torque": 0.0},
+    {"input_speed": 0.0, "input_torque": 1000.0, "torque_ripple": 1000.0},
+    {"input_speed": 0.0, "input_torque": 0.0, "torque_ripple": 1000.0, "backlash": 1e-3},
+    {"input_speed": 1e-3, "input_torque": 1e-3, "backlash": 0.0},
+    {"input_speed": 1100.0, "input_torque": 0.0, "torque_ripple": 1000.0, "backlash": 1e-3},
+]
+
+
+@pytest.mark.parametrize("point", EXTREMES, ids=str)
+def test_the_ends_of_the_ranges_stay_finite_at_a_change_and_from_the_start(point):
+    started, changed = pt.Twin(PAPER.replace(**point)), pt.Twin(PAPER)
+    changed.advance(0.01)
+    changed.set(**point)
+    for twin in (started, changed):
+        window = twin.advance(0.02)
+        for values in (window.waveform.dte, window.waveform.mesh_force, window.waveform.friction):
+            assert np.isfinite(values).all()
+        assert np.isfinite(window.mean_speed).all()
+        assert math.isfinite(window.power_loss) and window.power_loss >= 0.0
+
+
+@pytest.mark.parametrize("duration", [0.0, -1.0, 61.0, math.nan])
+def test_a_window_that_cannot_be_is_refused(duration):
+    with pytest.raises(ValueError, match="duration"):
+        pt.Twin(PAPER).advance(duration)
