@@ -228,7 +228,7 @@ def test_what_cannot_be_played_ends_in_one_line(play: Play, bag: Path, tmp_path:
     _refused(play("nowhere"), "nowhere: no such file")
     _refused(play("text"), "text: no recording")
     _refused(play("empty"), "empty: no recording")
-    _refused(play(bag, "--start", "99"), "start = 99", "1.0")
+    _refused(play(bag, "--start", "99"), "start = 99", "s long")
 
 
 def test_a_message_type_that_is_not_installed_ends_in_one_line(play: Play, tmp_path: Path) -> None:
