@@ -31,6 +31,7 @@ class Simulation(ManagedNode):
         self._twin: pt.Twin | None = None
         self._live: LiveTwin | None = None
         self._report: RealTimeReport | None = None
+        self._urdf = ""
         self._level = DiagnosticStatus.OK
         self._submitted: Future[float] | None = None
         self._declare()
@@ -40,7 +41,7 @@ class Simulation(ManagedNode):
 
     def configure(self) -> None:
         """Build and compile the model at the operating point the parameters give."""
-        self._telemetry.describe(self._robot_description())
+        self._urdf = self._robot_description()
         self._twin = pt.Twin(self._scene.replace(**self._wanted()), sample_rate=self._sample_rate)
 
     def activate(self) -> None:
@@ -53,6 +54,7 @@ class Simulation(ManagedNode):
         self._telemetry.begin(self.get_clock().now().nanoseconds, instant)
         begun = self._live.start()
         self._telemetry.announce(point, instant)
+        self._telemetry.describe(self._urdf)
         self._report = RealTimeReport(self.get_namespace(), self._rate_factor, begun)
 
     def deactivate(self) -> None:
