@@ -36,7 +36,7 @@ def view(
         import rerun  # noqa: F401
     except ImportError:
         fail("the viewer is not installed: pip install 'planetary_twin_py[view]'")
-    from ..recording.reader import RecordingError
+    from ..recording.records import RecordingError
     from ..scene import SceneError
     from ..view.screenshot import ScreenshotError
 
@@ -79,7 +79,7 @@ def _save(recording: Recording, scene: Scene | None, rrd: Path) -> None:
 
 
 def _picture(recording: Recording, scene: Scene | None, png: Path, at: float | None) -> None:
-    from ..recording.reader import RecordingError
+    from ..recording.records import RecordingError
     from ..view import show
     from ..view.screenshot import save_screenshot
 

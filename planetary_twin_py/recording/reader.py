@@ -1,35 +1,22 @@
-"""Reads a recording into plain arrays; needs no ROS.
-
-A recording is an MCAP file, or the bag folder that holds one or several. Records are read in file
-order, so that a file torn by a killed logger still yields every chunk it completed.
-"""
+"""Reads a recording into plain arrays; needs no ROS."""
 
 from __future__ import annotations
 
-import struct
 from collections.abc import Iterator
 from dataclasses import dataclass, field, fields
 from pathlib import Path
 from typing import Any
 
 import numpy as np
-from mcap.exceptions import McapError
 from mcap.records import Attachment, Channel, Message, Schema
-from mcap.stream_reader import StreamReader
 from numpy.typing import NDArray
 from rosbags.typesys import Stores, get_types_from_msg, get_typestore
 from rosbags.typesys.store import Typestore
 
-MAGIC = b"\x89MCAP0\r\n"
+from .records import RecordingError, files_of, records_of
+
 SCENE_ATTACHMENT = "scene.yaml"
 STATE, WAVEFORM, OPERATING_POINT = "gearbox_state", "mesh_waveform", "operating_point"
-# The longest record a sound recording holds is a chunk of a few MiB: a torn length field may
-# claim any size, and nothing near memory's size must be allocated for it.
-_LONGEST_RECORD = 256 * 2**20
-
-
-class RecordingError(ValueError):
-    """The path is no recording, or not one of this gearbox; the message says why in one line."""
 
 
 @dataclass
@@ -103,7 +90,7 @@ def read_recording(path: str | Path, namespace: str | None = None) -> Recording:
     remarks: list[str] = []
     by_topic: dict[str, list[Any]] = {}
     scene_yaml = None
-    for file in _files(Path(path)):
+    for file in files_of(Path(path)):
         for topic, message in _messages(file, remarks):
             if topic == SCENE_ATTACHMENT:
                 scene_yaml = scene_yaml or message.decode()
@@ -127,23 +114,12 @@ def read_recording(path: str | Path, namespace: str | None = None) -> Recording:
     )
 
 
-def _files(path: Path) -> list[Path]:
-    if path.is_dir():
-        files = sorted(path.glob("*.mcap"), key=lambda file: (len(file.name), file.name))
-        if not files:
-            raise RecordingError(f"{path}: no recording: the folder holds no .mcap file")
-        return files
-    if not path.exists():
-        raise RecordingError(f"{path}: no such file or folder")
-    return [path]
-
-
 def _messages(file: Path, remarks: list[str]) -> Iterator[tuple[str, Any]]:
     """Pairs of topic and decoded message, and the scene attachment as ("scene.yaml", bytes)."""
     types = get_typestore(Stores.EMPTY)
     schemas: dict[int, Schema] = {}
     channels: dict[int, Channel] = {}
-    for record in _records(file, remarks):
+    for record in records_of(file, remarks):
         if isinstance(record, Schema):
             schemas[record.id] = record
         elif isinstance(record, Channel):
@@ -166,44 +142,6 @@ def _register(types: Typestore, schema: Schema, channel: Channel) -> None:
         )
     found = get_types_from_msg(schema.data.decode(), schema.name)
     types.register({name: parts for name, parts in found.items() if name not in types.types})
-
-
-def _records(file: Path, remarks: list[str]) -> Iterator[Any]:
-    """Every complete record of `file`; a torn end is told in `remarks`."""
-    with file.open("rb") as stream:
-        if stream.read(len(MAGIC)) != MAGIC:
-            raise RecordingError(f"{file}: no recording: not an MCAP file")
-        stream.seek(0)
-        reader = StreamReader(stream, validate_crcs=True, record_size_limit=_LONGEST_RECORD)
-        records = reader.records
-        sound = 0
-        while True:
-            try:
-                record = next(records)
-            except StopIteration:
-                return
-            except _TORN as reason:
-                lost = file.stat().st_size - sound
-                remarks.append(
-                    f"{file.name}: ends torn, the last {lost} of {file.stat().st_size} bytes "
-                    f"are not readable ({type(reason).__name__}); everything before is shown"
-                )
-                return
-            sound = stream.tell()
-            yield record
-
-
-def _torn_errors() -> tuple[type[Exception], ...]:
-    """What a record cut in the middle raises: at its end, in its fields, in its compressed data."""
-    errors: tuple[type[Exception], ...] = (McapError, struct.error, ValueError, EOFError)
-    try:
-        import zstandard
-    except ImportError:
-        return errors
-    return (*errors, zstandard.ZstdError)
-
-
-_TORN = _torn_errors()
 
 
 def _namespace(by_topic: dict[str, list[Any]], wanted: str | None, path: str | Path) -> str:

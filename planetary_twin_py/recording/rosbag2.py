@@ -10,6 +10,7 @@ from typing import Any
 import yaml
 
 VERSION = 9
+_TRANSIENT_LOCAL = ("transient_local", 1)  # the number in bags before version 9
 
 
 @dataclass(frozen=True)
@@ -30,6 +31,18 @@ class Topic:
     def qos_yaml(self) -> str:
         """The offered profiles as MCAP's channel metadata holds them."""
         return yaml.safe_dump([dict(qos) for qos in self.offered_qos], sort_keys=False)
+
+    @property
+    def kept(self) -> int:
+        """How many messages a late subscriber still gets; 0 unless the topic is latched.
+
+        A publisher whose depth the recorder could not learn is taken to keep its newest one.
+        """
+        return sum(
+            max(int(qos.get("depth", 0)), 1)
+            for qos in self.offered_qos
+            if qos.get("durability") in _TRANSIENT_LOCAL
+        )
 
 
 @dataclass

@@ -6,7 +6,8 @@ from pathlib import Path
 
 import rerun as rr
 
-from ..recording.reader import Recording, RecordingError
+from ..recording.reader import Recording
+from ..recording.records import RecordingError
 from ..scene import Scene, SceneError, parse_scene
 from .blueprint import blueprint
 from .events import log_events

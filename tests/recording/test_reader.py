@@ -4,7 +4,8 @@ import numpy as np
 import pytest
 from synthetic_recording import BLOCK, SAMPLE_PERIOD, START_NS, state, waveform, write_recording
 
-from planetary_twin_py.recording.reader import RecordingError, read_recording
+from planetary_twin_py.recording.reader import read_recording
+from planetary_twin_py.recording.records import RecordingError
 
 DURATION = 0.3
 

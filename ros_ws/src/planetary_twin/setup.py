@@ -22,7 +22,11 @@ setup(
         "console_scripts": [
             "simulation = planetary_twin.simulation:main",
             "logger = planetary_twin.logger:main",
+            "replay = planetary_twin.replay:main",
         ],
-        "planetary_twin.commands": ["run = planetary_twin.commands:run"],
+        "planetary_twin.commands": [
+            "run = planetary_twin.commands:run",
+            "replay = planetary_twin.commands:replay",
+        ],
     },
 )

@@ -1,16 +1,18 @@
-"""What both nodes share: a life cycle that starts by itself, and one way to end."""
+"""What the nodes share: a life cycle that starts by itself, and one way to end."""
 
 from __future__ import annotations
 
 import sys
 import traceback
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
+from typing import Any
 
 import rclpy
 from rclpy.exceptions import ParameterException
 from rclpy.executors import ExternalShutdownException, SingleThreadedExecutor
 from rclpy.impl.implementation_singleton import rclpy_implementation
 from rclpy.lifecycle import LifecycleNode, LifecycleState, TransitionCallbackReturn
+from rclpy.parameter import Parameter
 
 from .parameters import declare_fixed
 
@@ -25,12 +27,14 @@ class NodeError(Exception):
 class ManagedNode(LifecycleNode):
     """Lifecycle node that configures and activates itself unless `autostart` is false.
 
-    Subclasses override `configure`, `activate`, `deactivate` and `close`; what these raise is
-    logged and fails the transition, where rclpy alone would swallow it.
+    `given` are parameters as from the command line. Subclasses override `configure`, `activate`,
+    `deactivate` and `close`; what these raise is logged and fails the transition, where rclpy alone
+    would swallow it.
     """
 
-    def __init__(self, name: str) -> None:
-        super().__init__(name, namespace=NAMESPACE)
+    def __init__(self, name: str, given: Mapping[str, Any] | None = None) -> None:
+        overrides = [Parameter(key, value=value) for key, value in (given or {}).items()]
+        super().__init__(name, namespace=NAMESPACE, parameter_overrides=overrides)
         self.failure: str | None = None
         self._starting = False
         self._autostart = bool(
@@ -99,8 +103,13 @@ class ManagedNode(LifecycleNode):
         return TransitionCallbackReturn.SUCCESS
 
 
-def run_node(make: Callable[[], ManagedNode], args: list[str] | None = None) -> int:
-    """Run a node until SIGINT, SIGTERM or its own failure; returns the exit code."""
+def run_node(
+    make: Callable[[], ManagedNode], args: list[str] | None = None, title: str | None = None
+) -> int:
+    """Run a node until SIGINT, SIGTERM or its own end; returns the exit code.
+
+    Why it failed is printed in one line that begins with `title`, by default the node's class.
+    """
     node: ManagedNode | None = None
     failure: str | None = None
     try:
@@ -122,7 +131,7 @@ def run_node(make: Callable[[], ManagedNode], args: list[str] | None = None) -> 
         failure = _end(node) or failure
         rclpy.try_shutdown()
     if failure:
-        print(f"{make.__name__.lower()}: {failure}", file=sys.stderr)
+        print(f"{title or make.__name__.lower()}: {failure}", file=sys.stderr)
     return 1 if failure else 0
 
 

@@ -107,7 +107,10 @@ class WaveformMessage:
 
 
 class JointsMessage:
-    """JointState with one joint per body, `<body>_joint`."""
+    """JointState: a joint `<body>_joint` per body, its position the absolute angle of the body.
+
+    The URDF in `robot_description` hangs the planets so that this also moves them rightly.
+    """
 
     def __init__(self, bodies: tuple[str, ...]) -> None:
         size = bytes(8 * len(bodies))

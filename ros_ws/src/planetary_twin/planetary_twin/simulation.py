@@ -12,6 +12,7 @@ from rcl_interfaces.msg import SetParametersResult
 from rclpy.parameter import Parameter
 
 import planetary_twin_py as pt
+from planetary_twin_py.robot import robot_description
 
 from .live import LiveTwin
 from .managed import ManagedNode, NodeError, run_node
@@ -30,6 +31,7 @@ class Simulation(ManagedNode):
         self._twin: pt.Twin | None = None
         self._live: LiveTwin | None = None
         self._report: RealTimeReport | None = None
+        self._urdf = ""
         self._level = DiagnosticStatus.OK
         self._submitted: Future[float] | None = None
         self._declare()
@@ -39,6 +41,7 @@ class Simulation(ManagedNode):
 
     def configure(self) -> None:
         """Build and compile the model at the operating point the parameters give."""
+        self._urdf = self._robot_description()
         self._twin = pt.Twin(self._scene.replace(**self._wanted()), sample_rate=self._sample_rate)
 
     def activate(self) -> None:
@@ -51,6 +54,7 @@ class Simulation(ManagedNode):
         self._telemetry.begin(self.get_clock().now().nanoseconds, instant)
         begun = self._live.start()
         self._telemetry.announce(point, instant)
+        self._telemetry.describe(self._urdf)
         self._report = RealTimeReport(self.get_namespace(), self._rate_factor, begun)
 
     def deactivate(self) -> None:
@@ -118,6 +122,15 @@ class Simulation(ManagedNode):
             return super().set_parameters_atomically(parameter_list)
         except ValueError as refusal:
             return SetParametersResult(successful=False, reason=str(refusal))
+
+    def _robot_description(self) -> str:
+        try:
+            return robot_description(self._scene.gearset, self._frame)
+        except OSError as reason:
+            raise NodeError(
+                f"{reason.filename}: {reason.strerror}: the gears' meshes are kept there, "
+                "or in another folder that XDG_CACHE_HOME names"
+            ) from None
 
     def _wanted(self) -> dict[str, float]:
         return {name: self.get_parameter(name).value for name in pt.TUNABLES}

@@ -11,6 +11,7 @@ from rclpy.node import Node
 from rclpy.publisher import Publisher
 from rclpy.qos import DurabilityPolicy, QoSProfile
 from sensor_msgs.msg import JointState
+from std_msgs.msg import String
 
 from planetary_twin_py import OperatingPoint, Scene, Window
 
@@ -28,6 +29,7 @@ class Telemetry:
         self._waveform = node.create_publisher(msg.MeshWaveform, "mesh_waveform", _DEPTH)
         self._joints = node.create_publisher(JointState, "joint_states", _DEPTH)
         self._point = node.create_publisher(msg.OperatingPoint, "operating_point", _LATCHED)
+        self._description = node.create_publisher(String, "robot_description", _LATCHED)
         self._diagnostics = node.create_publisher(DiagnosticArray, "/diagnostics", _DEPTH)
         self._state_message = StateMessage(scene, frame)
         self._waveform_message = WaveformMessage(scene, frame, sample_rate)
@@ -36,8 +38,19 @@ class Telemetry:
         self._prepared: list[tuple[Publisher, Any]] = []
         self._origin = 0
         self._newest = 0
-        publishers = (self._state, self._waveform, self._joints, self._point, self._diagnostics)
+        publishers = (
+            self._state,
+            self._waveform,
+            self._joints,
+            self._point,
+            self._description,
+            self._diagnostics,
+        )
         self._published = dict.fromkeys(publishers, 0)
+
+    def describe(self, urdf: str) -> None:
+        """Publish what the gearbox looks like."""
+        self._send(self._description, String(data=urdf))
 
     def begin(self, now: int, simulated: float) -> None:
         """Let time `simulated` [s] be the ROS time `now` [ns], or later if stamps ran ahead."""

@@ -4,21 +4,15 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from importlib import import_module
-from typing import Any
 
-from rclpy.duration import Duration, Infinite
 from rclpy.node import Node
-from rclpy.qos import (
-    DurabilityPolicy,
-    HistoryPolicy,
-    LivelinessPolicy,
-    QoSProfile,
-    ReliabilityPolicy,
-)
+from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
 from rclpy.topic_endpoint_info import TopicEndpointInfo
 
 from planetary_twin_py.recording.rosbag2 import Topic
 from planetary_twin_py.recording.schema import message_definition
+
+from .qos import to_words
 
 # Room for two seconds of every topic at 500 Hz while the disk is slow.
 _DEPTH = 1000
@@ -47,7 +41,7 @@ def describe(name: str, publishers: Sequence[TopicEndpointInfo]) -> Topic:
         type=first.topic_type,
         type_hash=str(first.topic_type_hash),
         definition=message_definition(first.topic_type),
-        offered_qos=[_rosbag2_qos(publisher.qos_profile) for publisher in publishers],
+        offered_qos=[to_words(publisher.qos_profile) for publisher in publishers],
     )
 
 
@@ -70,27 +64,3 @@ def matching_qos(publishers: Sequence[TopicEndpointInfo]) -> QoSProfile:
         reliability=ReliabilityPolicy.RELIABLE if reliable else ReliabilityPolicy.BEST_EFFORT,
         durability=DurabilityPolicy.TRANSIENT_LOCAL if latched else DurabilityPolicy.VOLATILE,
     )
-
-
-def _rosbag2_qos(qos: QoSProfile) -> dict[str, Any]:
-    return {
-        "history": _word(HistoryPolicy(qos.history)),
-        "depth": qos.depth,
-        "reliability": _word(ReliabilityPolicy(qos.reliability)),
-        "durability": _word(DurabilityPolicy(qos.durability)),
-        "deadline": _span(qos.deadline),
-        "lifespan": _span(qos.lifespan),
-        "liveliness": _word(LivelinessPolicy(qos.liveliness)),
-        "liveliness_lease_duration": _span(qos.liveliness_lease_duration),
-        "avoid_ros_namespace_conventions": qos.avoid_ros_namespace_conventions,
-    }
-
-
-def _word(policy: Any) -> str:
-    return policy.name.lower()
-
-
-def _span(duration: Duration) -> dict[str, int]:
-    infinite = duration == Infinite
-    nanoseconds = 2**63 - 1 if infinite else duration.nanoseconds
-    return {"sec": nanoseconds // 1_000_000_000, "nsec": nanoseconds % 1_000_000_000}

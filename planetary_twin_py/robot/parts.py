@@ -1,0 +1,94 @@
+"""The parts of a gearset as solids about their own axis, in metres; tooth 0 around angle zero."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..gearset.involute import SpurGear
+from ..gearset.solid import TriangleMesh, circle, extrude
+from ..scene.sections import Gearset
+
+SUN, PLANET, RING, CARRIER, PIN = (
+    (236, 176, 64),
+    (92, 150, 214),
+    (150, 158, 170),
+    (176, 98, 84),
+    (210, 214, 220),
+)
+
+
+def sun(gearset: Gearset) -> TriangleMesh:
+    """The sun: a toothed wheel with a bore for its shaft."""
+    return _wheel(gearset, gearset.teeth.sun, bore=0.3)
+
+
+def planet(gearset: Gearset) -> TriangleMesh:
+    """A planet: a toothed wheel with a bore for its pin."""
+    return _wheel(gearset, gearset.teeth.planet, bore=0.35)
+
+
+def ring(gearset: Gearset) -> TriangleMesh:
+    """The ring: an annulus with internal teeth, its rim two and a half modules thick."""
+    gear = gear_of(gearset, gearset.teeth.ring, internal=True)
+    return _toothed_rim(gear, gear.root_radius + 2.5 * gear.module, 0.5 * gearset.face_width)
+
+
+def pin(gearset: Gearset) -> TriangleMesh:
+    """The pin that a planet turns on, from the carrier through the planet."""
+    radius = 0.33 * gear_of(gearset, gearset.teeth.planet).root_radius
+    return extrude(0.0, circle(radius), -0.7 * gearset.face_width, 0.56 * gearset.face_width)
+
+
+def spider(gearset: Gearset) -> TriangleMesh:
+    """The carrier: a plate behind the gears with one arm per planet."""
+    width = 0.6 * gear_of(gearset, gearset.teeth.planet).root_radius
+    hub = 0.9 * gear_of(gearset, gearset.teeth.sun).root_radius
+    angles = np.linspace(0.0, 2.0 * math.pi, 720, endpoint=False)
+    radius = np.full_like(angles, hub)
+    for psi in gearset.planet_angles:
+        radius = np.maximum(radius, _arm(angles - psi, carrier_radius(gearset), width))
+    outline = np.column_stack((radius, angles))
+    back = -0.54 * gearset.face_width
+    return extrude(0.5 * hub, outline, back - 0.18 * gearset.face_width, back)
+
+
+def gear_of(gearset: Gearset, teeth: int, internal: bool = False) -> SpurGear:
+    """The teeth of one gear."""
+    return SpurGear(teeth, gearset.module, gearset.pressure_angle, gearset.addendum, internal)
+
+
+def carrier_radius(gearset: Gearset) -> float:
+    """Radius of the circle the planets' centres stand on [m]."""
+    return 0.5 * gearset.module * (gearset.teeth.sun + gearset.teeth.planet)
+
+
+def _arm(angle: NDArray[np.float64], length: float, width: float) -> NDArray[np.float64]:
+    """Polar outline of an arm with a round end, of half `width`, along angle zero."""
+    across, along = np.abs(np.sin(angle)), np.cos(angle)
+    end = length * along + np.sqrt(np.maximum(width**2 - (length * across) ** 2, 0.0))
+    side = np.minimum(width / np.maximum(across, 1e-12), length)
+    reach = np.where(length * across <= width, end, side)
+    return np.where(along > 0.0, reach, 0.0)
+
+
+def _wheel(gearset: Gearset, teeth: int, bore: float) -> TriangleMesh:
+    """Teeth on a rim, a thinner web inside it, and a hub around the bore."""
+    half = 0.5 * gearset.face_width
+    gear = gear_of(gearset, teeth)
+    root = gear.root_radius
+    rim = max(root - 1.8 * gear.module, 0.7 * root)
+    hub = min(1.35 * bore * root, 0.9 * rim)
+    body = _toothed_rim(gear, rim, half) + extrude(bore * root, circle(hub), -half, half)
+    return body + extrude(hub, circle(rim), -0.82 * half, 0.82 * half)
+
+
+def _toothed_rim(gear: SpurGear, edge: float, half: float) -> TriangleMesh:
+    """The teeth, and apart from them the plain rim between the root circle and radius `edge`."""
+    outline = gear.outline()
+    root = np.column_stack((np.full(len(outline), gear.root_radius), outline[:, 1]))
+    if gear.internal:
+        return extrude(outline, root, -half, half) + extrude(root, edge, -half, half)
+    return extrude(root, outline, -half, half) + extrude(edge, root, -half, half)

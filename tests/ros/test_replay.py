@@ -1,0 +1,260 @@
+"""A replay is the recording again: every byte, in order, at its instant, to whoever listens."""
+
+from __future__ import annotations
+
+import itertools
+import os
+import signal
+import subprocess
+import sys
+import time
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from lifecycle_msgs.msg import Transition
+from lifecycle_msgs.srv import ChangeState
+from mcap.reader import make_reader
+from planetary_twin.topics import message_class
+from planetary_twin_msgs.msg import GearboxState, OperatingPoint
+from rclpy.qos import DurabilityPolicy, QoSProfile
+from rosbags.rosbag2 import Reader, StoragePlugin, Writer
+from rosbags.typesys import Stores, get_types_from_msg, get_typestore
+from std_msgs.msg import String
+
+from planetary_twin_py.recording.bag import BagWriter
+from planetary_twin_py.recording.rosbag2 import Topic
+
+from .peer import TWIN, Peer
+
+COMMAND = Path(sys.executable).with_name("planetary-twin")
+LATCHED_TOPICS = {f"{TWIN}/operating_point", f"{TWIN}/robot_description"}
+LATCHED = QoSProfile(depth=100, durability=DurabilityPolicy.TRANSIENT_LOCAL)
+Play = Callable[..., "subprocess.Popen[str]"]
+
+
+@pytest.fixture(scope="module")
+def bag(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """A recording of one second, made by the real thing."""
+    place = tmp_path_factory.mktemp("replay")
+    environment = os.environ | {"ROS_DOMAIN_ID": str(1 + (os.getpid() + 50) % 100)}
+    command = [COMMAND, "run", "--duration", "1", "--record", "bag"]
+    subprocess.run(command, cwd=place, env=environment, check=True, capture_output=True)
+    return place / "recordings/bag"
+
+
+@pytest.fixture
+def play(domain: int, tmp_path: Path) -> Play:
+    """Start `planetary-twin replay` with arguments."""
+
+    def start(*arguments: str | Path) -> subprocess.Popen[str]:
+        return subprocess.Popen(
+            [COMMAND, "replay", *map(str, arguments)],
+            cwd=tmp_path,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.PIPE,
+            text=True,
+        )
+
+    return start
+
+
+def _recorded(file: Path) -> dict[str, list[tuple[int, bytes]]]:
+    """Log times and bytes by topic, as MCAP's own reader sees them."""
+    recorded: dict[str, list[tuple[int, bytes]]] = {}
+    with file.open("rb") as stream:
+        for _, channel, message in make_reader(stream).iter_messages():
+            recorded.setdefault(channel.topic, []).append((message.log_time, message.data))
+    return recorded
+
+
+def _hear(peer: Peer, bag: Path) -> dict[str, list[tuple[int, bytes]]]:
+    """Reception times and bytes by topic, filling while the peer runs."""
+    heard: dict[str, list[tuple[int, bytes]]] = {}
+    with Reader(bag) as reader:
+        kinds = {connection.topic: connection.msgtype for connection in reader.connections}
+    for topic, kind in kinds.items():
+        got = heard[topic] = []
+
+        def take(raw: bytes, info: dict[str, Any], got: list[tuple[int, bytes]] = got) -> None:
+            got.append((info["received_timestamp"], raw))
+
+        peer.node.create_subscription(message_class(kind), topic, take, 1000, raw=True)
+    return heard
+
+
+def _end(process: subprocess.Popen[str], peer: Peer, seconds: float = 30.0) -> tuple[str, str]:
+    """What it has printed; the peer goes on listening while it ends."""
+    peer.until(lambda: process.poll() is not None, seconds)
+    output, errors = process.communicate()
+    assert process.returncode == 0, errors
+    assert "Traceback" not in errors
+    return output, errors
+
+
+def _refused(process: subprocess.Popen[str], *reasons: str) -> None:
+    _, errors = process.communicate(timeout=30)
+    assert process.returncode == 1
+    assert len(errors.strip().splitlines()) == 1
+    assert all(reason in errors for reason in reasons), errors
+
+
+@pytest.mark.parametrize("rate_factor", [1.0, 4.0])
+def test_every_message_comes_again_in_order_byte_by_byte_and_in_time(
+    peer: Peer, play: Play, bag: Path, rate_factor: float
+) -> None:
+    recorded = _recorded(bag / "bag_0.mcap")
+    heard = _hear(peer, bag)
+    process = play(bag, "--rate-factor", str(rate_factor))
+    _end(process, peer)
+    peer.until(lambda: all(len(heard[name]) == len(recorded[name]) for name in recorded), 5.0)
+    for name, messages in recorded.items():
+        assert [data for _, data in heard[name]] == [data for _, data in messages]
+    names = [name for name in recorded if len(recorded[name]) > 50]
+    assert len(names) == 3
+    for name in names:
+        then, now = (np.array([t for t, _ in source[name]]) for source in (recorded, heard))
+        off = (now - now[0]) * 1e-9 - (then - then[0]) * 1e-9 / rate_factor
+        assert np.median(np.abs(off - np.median(off))) < 3e-3
+
+
+def test_a_late_subscriber_still_gets_what_was_latched(peer: Peer, play: Play, bag: Path) -> None:
+    newest = _recorded(bag / "bag_0.mcap")[f"{TWIN}/operating_point"][-1][1]
+    process = play(bag, "--rate-factor", "0.2")
+    states = peer.listen(GearboxState, f"{TWIN}/gearbox_state")
+    peer.until(lambda: states and states[-1].simulated_time > 0.95)
+    late = []
+    topic = f"{TWIN}/operating_point"
+    peer.node.create_subscription(OperatingPoint, topic, late.append, LATCHED, raw=True)
+    peer.until(lambda: late)
+    assert late == [newest]
+    process.send_signal(signal.SIGINT)
+    _end(process, peer)
+
+
+def test_a_stretch_begins_with_what_was_latched_before_it(
+    peer: Peer, play: Play, bag: Path
+) -> None:
+    recorded = _recorded(bag / "bag_0.mcap")
+    heard = _hear(peer, bag)
+    output, _ = _end(play(bag, "--start", "0.5", "--duration", "0.2"), peer)
+    assert "replaying 0.20 s" in output
+    first = min(time for messages in recorded.values() for time, _ in messages)
+    begin, end = first + 500_000_000, first + 700_000_000
+    for topic, messages in recorded.items():
+        stretch = [data for time, data in messages if begin <= time <= end]
+        if topic in LATCHED_TOPICS:
+            stretch = [data for time, data in messages if time < begin][-1:] + stretch
+        got = heard[topic]
+        peer.until(lambda got=got, stretch=stretch: len(got) >= len(stretch), 5.0)
+        assert [data for _, data in got] == stretch
+
+
+def test_a_loop_goes_on_until_it_is_told_to_end(peer: Peer, play: Play, bag: Path) -> None:
+    states = peer.listen(GearboxState, f"{TWIN}/gearbox_state", 1000)
+    process = play(bag, "--loop", "--rate-factor", "5")
+
+    def passes() -> int:
+        times = [state.simulated_time for state in states]
+        return 1 + sum(later < earlier for earlier, later in itertools.pairwise(times))
+
+    peer.until(lambda: states and passes() >= 3)
+    process.send_signal(signal.SIGTERM)
+    output, _ = _end(process, peer)
+    assert "replayed" in output
+
+
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
+@pytest.mark.parametrize("seconds", [0.7, 1.2, 2.2])
+def test_a_signal_ends_it_cleanly_at_any_moment(
+    peer: Peer, play: Play, bag: Path, number: int, seconds: float
+) -> None:
+    process = play(bag, "--rate-factor", "0.1")
+    time.sleep(seconds)  # the very thing under test: an arbitrary moment
+    process.send_signal(number)
+    _end(process, peer, 10.0)
+
+
+def test_a_torn_file_is_played_up_to_the_tear(
+    peer: Peer, play: Play, bag: Path, tmp_path: Path
+) -> None:
+    whole = (bag / "bag_0.mcap").read_bytes()
+    torn = tmp_path / "torn.mcap"
+    torn.write_bytes(whole[: int(0.6 * len(whole))])
+    states = peer.listen(GearboxState, f"{TWIN}/gearbox_state", 1000)
+    output, _ = _end(play(torn), peer)
+    assert "ends torn" in output
+    expected = [data for _, data in _recorded(bag / "bag_0.mcap")[f"{TWIN}/gearbox_state"]]
+    peer.until(lambda: len(states) > 0.2 * len(expected), 5.0)
+    first = states[0].sequence
+    assert [state.sequence for state in states] == list(range(first, first + len(states)))
+
+
+def test_a_live_twin_on_the_same_topics_is_warned_of(peer: Peer, play: Play, bag: Path) -> None:
+    other = peer.node.create_publisher(GearboxState, f"{TWIN}/gearbox_state", 10)
+    output, _ = _end(play(bag, "--rate-factor", "10"), peer)
+    peer.node.destroy_publisher(other)
+    assert f"others publish too, subscribers hear both: {TWIN}/gearbox_state\n" in output
+
+
+def test_the_node_runs_on_its_own_and_pauses(peer: Peer, start: Play, bag: Path) -> None:
+    states = peer.listen(GearboxState, f"{TWIN}/gearbox_state", 1000)
+    arguments = ("--ros-args", "-p", f"file:={bag}", "-p", "rate_factor:=0.25")
+    process = start("planetary_twin.replay", *arguments)
+    peer.until(lambda: len(states) > 10)
+
+    def change(label: str) -> None:
+        request = ChangeState.Request(transition=Transition(label=label))
+        assert peer.call(ChangeState, f"{TWIN}/replay/change_state", request).success
+
+    change("deactivate")
+    held = len(states)
+    assert held < 100
+    change("activate")
+    _end(process, peer)
+    count = len(_recorded(bag / "bag_0.mcap")[f"{TWIN}/gearbox_state"])
+    peer.until(lambda: len(states) == count, 5.0)
+    assert [state.sequence for state in states] == list(range(1, count + 1))
+
+
+def test_a_bag_of_another_recorder_is_played(peer: Peer, play: Play, tmp_path: Path) -> None:
+    _foreign(tmp_path / "bag", "std_msgs/msg/String", "string data")
+    heard = peer.listen(String, "/chatter")
+    _end(play(tmp_path / "bag"), peer)
+    peer.until(lambda: len(heard) == 3, 5.0)
+
+
+def test_what_cannot_be_played_ends_in_one_line(play: Play, bag: Path, tmp_path: Path) -> None:
+    (tmp_path / "text").write_text("no recording")
+    (tmp_path / "empty").mkdir()
+    _refused(play("nowhere"), "nowhere: no such file")
+    _refused(play("text"), "text: no recording")
+    _refused(play("empty"), "empty: no recording")
+    _refused(play(bag, "--start", "99"), "start = 99", "s long")
+
+
+def test_a_message_type_that_is_not_installed_ends_in_one_line(play: Play, tmp_path: Path) -> None:
+    _foreign(tmp_path / "bag", "foreign_msgs/msg/Odd", "string data")
+    _refused(play("bag"), "/chatter", "foreign_msgs/msg/Odd is not installed")
+
+
+def test_another_version_of_a_message_type_ends_in_one_line(play: Play, tmp_path: Path) -> None:
+    bag = BagWriter(tmp_path / "bag")
+    topic = Topic("/chatter", "std_msgs/msg/String", "RIHS01_" + "0" * 64, "string other")
+    bag.write(bag.add_topic(topic), b"\0\1\0\0\1\0\0\0\0", 1, 1, 1)
+    bag.close()
+    _refused(play("bag"), "/chatter", "another version of std_msgs/msg/String")
+
+
+def _foreign(folder: Path, kind: str, definition: str) -> None:
+    """A bag that rosbags writes, with three messages of the given type."""
+    types = get_typestore(Stores.EMPTY)
+    types.register(get_types_from_msg(definition, kind))
+    with Writer(folder, version=9, storage_plugin=StoragePlugin.MCAP) as writer:
+        connection = writer.add_connection("/chatter", kind, typestore=types)
+        texts = [""] * len(definition.splitlines())
+        data = types.serialize_cdr(types.types[kind](*texts), kind)
+        for k in range(3):
+            writer.write(connection, 1_000_000_000 + 10_000_000 * k, data)
