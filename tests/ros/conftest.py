@@ -59,3 +59,11 @@ def peer(domain: int) -> Iterator[Peer]:
     user = Peer()
     yield user
     user.close()
+
+
+def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
+    """Tests that start nodes take seconds each: they are not of the fast tier."""
+    here = Path(__file__).parent
+    for item in items:
+        if item.path.is_relative_to(here):
+            item.add_marker(pytest.mark.slow)
