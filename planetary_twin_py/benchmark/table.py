@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import time
 from collections.abc import Callable, Iterable
 from typing import NamedTuple
@@ -30,6 +31,13 @@ class Row(NamedTuple):
     rtf_low: float  # the slowest round
     rtf_high: float  # the fastest
     setup_s: float  # building and starting the model, kernels compiled [s]
+
+    def figures(self) -> dict[str, str | float | None]:
+        """For JSON, which knows no NaN."""
+        values = self._asdict()
+        if math.isnan(self.error_power_loss):
+            values["error_power_loss"] = None
+        return values
 
 
 def measure(

@@ -32,5 +32,5 @@ def bench(
     if markdown is not None:
         markdown.write_text(as_markdown(rows), "utf-8")
     if json_ is not None:
-        text = json.dumps([row._asdict() for row in rows], indent=2) + "\n"
+        text = json.dumps([row.figures() for row in rows], indent=2) + "\n"
         sys.stdout.write(text) if json_ == "-" else Path(json_).write_text(text, "utf-8")

@@ -1,5 +1,6 @@
 """Speed never comes without its error: both from one run, the error against another method."""
 
+import json
 import math
 
 import pytest
@@ -25,3 +26,9 @@ def test_the_page_of_the_documentation_shows_what_was_measured():
     (row,) = measure([SHORT], (1e-3,))
     cells = f"| short | 1e-03 | {row.error_dte:.1e} | {row.error_power_loss:.1e} | {row.rtf:.2f} |"
     assert cells in as_markdown([row]) and math.isfinite(row.rtf)
+
+
+def test_figures_are_json_also_without_friction():
+    case = Case("smooth", {"lubrication.friction": False}, 0.001, 1)
+    (row,) = measure([case], (1e-2,))
+    assert json.loads(json.dumps(row.figures(), allow_nan=False))["error_power_loss"] is None
