@@ -21,7 +21,7 @@ from ..gearset.kinematics import mesh_cycles_per_turn, speed_ratios
 from ..gearset.phasing import mesh_phases
 from ..mesh.tooth_pairs import PAIRS, SEGMENTS, pair_table
 from ..scene import Scene
-from ..scene.sections import Machine
+from ..scene.drive import Machine
 
 # Constant data of the gearbox. `bodies` of them can turn; entry `bodies` is the ground.
 # Order of the bodies: planets, then what is free of sun, ring, carrier, then motor, load.

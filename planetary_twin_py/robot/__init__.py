@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from ..scene.sections import Gearset
+from ..scene.gearset import Gearset
 from .mesh_files import mesh_files
 from .urdf import urdf
 

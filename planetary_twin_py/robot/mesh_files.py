@@ -7,7 +7,7 @@ import os
 import tempfile
 from pathlib import Path
 
-from ..scene.sections import Gearset
+from ..scene.gearset import Gearset
 from .parts import pin, planet, ring, spider, sun
 from .stl import to_stl
 

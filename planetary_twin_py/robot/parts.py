@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from ..gearset.involute import SpurGear
 from ..gearset.solid import TriangleMesh, circle, extrude
-from ..scene.sections import Gearset
+from ..scene.gearset import Gearset
 
 SUN, PLANET, RING, CARRIER, PIN = (
     (236, 176, 64),

@@ -17,7 +17,7 @@ from collections.abc import Mapping
 from xml.etree.ElementTree import Element, SubElement, indent, tostring
 
 from ..gearset.mount import mount
-from ..scene.sections import Gearset
+from ..scene.gearset import Gearset
 from . import parts
 
 _COLOURS = {

@@ -9,9 +9,12 @@ from typing import Any, Self
 import yaml
 from pydantic import ValidationError, model_validator
 
+from .drive import Drive
+from .gearset import Gearset
+from .lubrication import Lubrication
+from .mesh import Mesh
 from .operating_point import OperatingPoint
 from .quantity import SceneError, Section, explain
-from .sections import Drive, Gearset, Lubrication, Mesh
 
 
 class Scene(Section):

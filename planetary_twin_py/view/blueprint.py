@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import rerun.blueprint as rrb
 
-from ..scene.sections import Gearset
+from ..scene.gearset import Gearset
 from .gears import MILLIMETRES
 from .quantities import MESH, OPERATING_POINT, TRAIN, WAVEFORM
 from .timeline import SIMULATED_TIME

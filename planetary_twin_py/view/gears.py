@@ -30,7 +30,7 @@ from ..robot.parts import (
     spider,
     sun,
 )
-from ..scene.sections import Gearset
+from ..scene.gearset import Gearset
 from . import timeline
 from .motion import Motion
 

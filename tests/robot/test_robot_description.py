@@ -15,7 +15,7 @@ import planetary_twin_py as pt
 from planetary_twin_py.gearset.involute import SpurGear
 from planetary_twin_py.gearset.kinematics import speed_ratios
 from planetary_twin_py.robot import robot_description
-from planetary_twin_py.scene.sections import Gearset
+from planetary_twin_py.scene.gearset import Gearset
 
 TURN = 2.0 * math.pi
 REFERENCE = {"carrier": "sun", "ring": "sun", "sun": "carrier"}

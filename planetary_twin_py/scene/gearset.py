@@ -1,0 +1,67 @@
+"""What the gears are: teeth, sizes, inertia, positions."""
+
+from __future__ import annotations
+
+from typing import Literal, Self
+
+from pydantic import Field, model_validator
+
+from ..gearset.kinematics import Teeth
+from ..gearset.phasing import check_assembly
+from .quantity import Section, quantity
+
+Member = Literal["sun", "ring", "carrier"]
+
+
+class ToothNumbers(Section):
+    """Tooth numbers of the three kinds of gear."""
+
+    sun: int = Field(ge=5, le=1000)
+    planet: int = Field(ge=5, le=1000)
+    ring: int = Field(ge=15, le=3000)
+
+
+class EquivalentMasses(Section):
+    """J/r^2 with the pitch radius; with the radius of the planet centres for the carrier."""
+
+    sun: float = quantity("kg", "J/r^2 of the sun", gt=0.0, le=1e6)
+    planet: float = quantity("kg", "J/r^2 of one planet", gt=0.0, le=1e6)
+    ring: float = quantity("kg", "J/r^2 of the ring", gt=0.0, le=1e6)
+    carrier: float = quantity("kg", "J/r^2 of the carrier without planets", gt=0.0, le=1e6)
+
+
+class Gearset(Section):
+    """Geometry and inertia of a simple planetary gearset of standard spur gears."""
+
+    teeth: ToothNumbers
+    module: float = quantity("m", "module", gt=0.0, le=1.0)
+    pressure_angle: float = quantity("rad", "pressure angle", ge=0.15, le=0.6)
+    addendum: float = quantity("", "addendum in modules", 1.0, gt=0.0, le=1.5)
+    face_width: float = quantity("m", "face width", gt=0.0, le=5.0)
+    planet_angles: tuple[float, ...] = quantity(
+        "rad", "positions of the planets on the carrier", min_length=2, max_length=7
+    )
+    held: Member = "carrier"
+    equivalent_mass: EquivalentMasses
+    planet_mass: float = quantity("kg", "mass of one planet", gt=0.0, le=1e6)
+
+    @property
+    def planets(self) -> int:
+        """Number of planets."""
+        return len(self.planet_angles)
+
+    @property
+    def tooth_numbers(self) -> Teeth:
+        """Tooth numbers as the kinematics takes them."""
+        return Teeth(self.teeth.sun, self.teeth.planet, self.teeth.ring)
+
+    @model_validator(mode="after")
+    def _can_be_put_together(self) -> Self:
+        sun, planet, ring = self.tooth_numbers
+        if ring != sun + 2 * planet:
+            raise ValueError(
+                f"teeth = {sun}/{planet}/{ring}: standard gears share their axes only if "
+                f"ring = sun + 2 planet = {sun + 2 * planet}"
+            )
+        check_assembly(self.tooth_numbers, self.planet_angles)
+        return self

@@ -1,0 +1,38 @@
+"""Oil, surfaces, and the laws of their friction."""
+
+from __future__ import annotations
+
+from typing import Literal
+
+from pydantic import Field
+
+from .quantity import Section, quantity
+
+
+class Lubrication(Section):
+    """Oil, surfaces, and the choice of laws for film, lambda ratio and traction."""
+
+    friction: bool = Field(True, description="tooth friction on or off")
+    film: Literal["dowson_higginson", "dowson_toyoda", "salagianni"] = "dowson_higginson"
+    lambda_ratio: Literal["prescribed", "computed"] = "computed"
+    viscosity: float = quantity("Pa s", "at atmospheric pressure", gt=0.0, le=10.0)
+    pressure_viscosity: float = quantity("1/Pa", "pressure coefficient", gt=0.0, le=1e-6)
+    temperature_viscosity: float = quantity("1/K", "thermal coefficient", 0.04, gt=0.0, le=1.0)
+    shear_stress: float = quantity("Pa", "Eyring stress", gt=0.0, le=1e9)
+    oil_conductivity: float = quantity("W/(m K)", "of the oil", 0.137, gt=0.0, le=1e4)
+    solid_conductivity: float = quantity("W/(m K)", "of the gears", 46.0, gt=0.0, le=1e4)
+    solid_density: float = quantity("kg/m^3", "of the gears", 7800.0, gt=0.0, le=1e5)
+    solid_heat_capacity: float = quantity("J/(kg K)", "of the gears", 470.0, gt=0.0, le=1e5)
+    youngs_modulus: float = quantity("Pa", "of the gears", 206e9, gt=0.0, le=1e12)
+    poisson_ratio: float = quantity("", "of the gears", 0.3, ge=0.0, lt=0.5)
+    roughness_parameter: float = quantity("", "xi beta sigma", 0.055, gt=0.0, le=1.0)
+    asperity_slope: float = quantity("", "sigma/beta", 0.001, gt=0.0, le=1.0)
+    pressure_coefficient: float = quantity("", "eps of the boundary film", 0.17, ge=0.0, le=1.0)
+    composite_roughness: float = quantity("m", "sigma of both flanks", 2e-7, gt=0.0, le=1e-4)
+    sliding_threshold: float = quantity(
+        "",
+        "slide-to-roll ratio at which traction reaches tanh(1) of its plateau",
+        0.015,
+        gt=0.0,
+        le=1.0,
+    )
