@@ -10,7 +10,7 @@ from __future__ import annotations
 import numpy as np
 
 from .._compile import kernel
-from .._records import MESHES, REAL, WHOLE, Record, layout
+from .._records import FLAG, MESHES, REAL, WHOLE, Record, layout
 from ..mesh.tooth_pairs import PAIRS
 from .tooth_contact import tooth_contact
 
@@ -19,8 +19,12 @@ LANES = -(-MESHES * PAIRS // REGISTER) * REGISTER  # room for all tooth pairs
 
 TOOTH_PAIRS = layout(
     count=WHOLE,  # how many there are
+    advance=REAL,  # mesh cycles since the start of the step
+    pace=REAL,  # mesh cycles per second
+    wanted=FLAG,  # whether the columns below are to be filled
     mesh=(WHOLE, (LANES,)),
     share=(REAL, (LANES,)),  # of the mesh force [-]
+    growth=(REAL, (LANES,)),  # of the weight behind it, per mesh cycle [-]
     rho1=(REAL, (LANES,)),  # radii of curvature [m]
     rho2=(REAL, (LANES,)),
     external=(REAL, (LANES,)),  # +1: external mesh, -1: internal
@@ -35,45 +39,6 @@ TOOTH_PAIRS = layout(
     sliding=(REAL, (LANES,)),  # [m/s]
     slope=(REAL, (LANES,)),  # of friction over sliding [N s/m]
 )
-
-
-@kernel
-def gather(
-    model: Record,
-    state: Record,
-    i: int,
-    cycle: float,
-    force: float,
-    v: np.ndarray,
-    pairs: Record,
-) -> None:
-    """Append the tooth pairs of mesh i, which carries `force`, at a fraction of its cycle."""
-    train = model.train
-    kind, segment = train.kind[i], state.segment[i]
-    first, second, carrier = train.body[i, 0], train.body[i, 1], train.body[i, 2]
-    frame = train.ratio[carrier] * state.speed + v[carrier] / train.radius[carrier]
-    speed1 = train.ratio[first] * state.speed + v[first] / train.radius[first] - frame
-    speed2 = train.ratio[second] * state.speed + v[second] / train.radius[second] - frame
-    total = 0.0
-    begin = count = pairs.count
-    for p in range(PAIRS):
-        weight = train.offset[kind, segment, p] + train.slope[kind, segment, p] * cycle
-        if weight <= 0.0:
-            continue
-        s = (cycle + train.shift[kind, segment, p]) * train.base_pitch
-        pairs.mesh[count] = i
-        pairs.share[count] = weight
-        pairs.rho1[count] = train.pitch_curvature[kind, 0] + s
-        pairs.rho2[count] = train.pitch_curvature[kind, 1] - train.external[kind] * s
-        pairs.external[count] = train.external[kind]
-        pairs.speed1[count] = speed1
-        pairs.speed2[count] = speed2
-        total += weight
-        count += 1
-    for p in range(begin, count):
-        pairs.share[p] /= total
-        pairs.load[p] = pairs.share[p] * force
-    pairs.count = count
 
 
 @kernel

@@ -17,8 +17,10 @@ import math
 import numpy as np
 
 from .._compile import kernel
-from .._records import BODIES, REAL, Record, layout
-from ..dynamics.equations import EVALUATION, cycle_shift, forces, stiffness
+from .._records import AXES, BODIES, REAL, Record, layout
+from ..dynamics.cycle import cycle_shift
+from ..dynamics.equations import EVALUATION, forces
+from ..dynamics.mesh_force import body_speed, mesh_stiffness
 from ..dynamics.state import LEDGER, OPEN
 from ..dynamics.tooth_friction import add_outer, friction_damping
 
@@ -68,7 +70,8 @@ WORKSPACE = layout(
     v=(REAL, (BODIES,)),
     rx=(REAL, (BODIES,)),  # right-hand sides
     rv=(REAL, (BODIES,)),
-    trim=(REAL, (STAGES,)),  # rates
+    trim=(REAL, (AXES,)),  # of a stage
+    trim_rate=(REAL, (STAGES, AXES)),
     stiffness=(REAL, (BODIES, BODIES)),  # K
     system=(REAL, (BODIES, BODIES)),  # factorised
     evaluation=EVALUATION,  # of the stage at hand
@@ -97,10 +100,10 @@ def _assemble(
             continue
         kind = train.kind[i]
         cycle = moment.start[i] + side * pace * 0.5 * h
-        k = stiffness(train, kind, state.segment[i], cycle)
+        k = mesh_stiffness(train, kind, state.segment[i], cycle)
         add_outer(work.stiffness, train.body[i], train.sign[i], k)
         add_outer(work.system, train.body[i], train.sign[i], k * (moment.tau[kind] + step))
-    for c in range(2):
+    for c in range(train.machines):
         k = train.coupling_stiffness[c]
         add_outer(work.stiffness, train.coupling[c], _ENDS, k)
         add_outer(work.system, train.coupling[c], _ENDS, train.coupling_damping[c] + step * k)
@@ -153,7 +156,6 @@ def _stage(
     train = model.train
     bodies = train.bodies + 1
     g = 1.0 / (GAMMA * h)
-    trim = state.trim
     for j in range(bodies):
         x, v, cx, cv = state.x[j], state.v[j], 0.0, 0.0
         for s in range(i):
@@ -164,14 +166,17 @@ def _stage(
         work.x[j], work.v[j] = x, v
         work.rx[j] = v + cx / h
         work.rv[j] = train.mass[j] * cv / h
-    for s in range(i):
-        trim += h * ALPHA[i, s] * work.trim[s]
+    for a in range(train.axes):
+        work.trim[a] = state.trim[a]
+        for s in range(i):
+            work.trim[a] += h * ALPHA[i, s] * work.trim_rate[s, a]
     out = first if i == 0 else work.evaluation
     if i > 0:
-        forces(model, state, moment, work.x, work.v, ABSCISSA[i] * h, trim, out)
-    motor = train.coupling[0, 0]
-    speed = state.speed + work.v[motor] / train.radius[motor]
-    work.trim[i] = state.set_speed + moment.slew * ABSCISSA[i] * h - speed
+        forces(model, state, moment, work.x, work.v, ABSCISSA[i] * h, work.trim, out)
+    for a in range(train.axes):
+        speed = body_speed(train, state, work.v, train.coupling[2 * a, 0])
+        set_speed = state.set_speed[a] + moment.slew[a] * ABSCISSA[i] * h
+        work.trim_rate[i, a] = set_speed - speed
     for e in range(LEDGER):
         work.energy[e] += h * B[i] * out.power[e]
     right = work.uv[i]
@@ -209,10 +214,11 @@ def step(
     new.v[:] = state.v
     work.error_x[:] = 0.0
     work.error_v[:] = 0.0
-    new.trim = state.trim
+    new.trim[:] = state.trim
     for i in range(STAGES):
         _stage(model, state, moment, h, i, first, work)
-        new.trim += h * B[i] * work.trim[i]
+        for a in range(model.train.axes):
+            new.trim[a] += h * B[i] * work.trim_rate[i, a]
         for j in range(model.train.bodies + 1):
             new.x[j] += WEIGHT[i] * work.ux[i, j]
             new.v[j] += WEIGHT[i] * work.uv[i, j]
