@@ -89,3 +89,13 @@ def form_error(
         error += train.line_amplitude[kind, n] * math.sin(turned)
         rate += train.line_amplitude[kind, n] * order * pace * math.cos(turned)
     return error, rate
+
+
+@kernel
+def form_error_bend(train: Record, i: int, angle: np.ndarray, pace: float) -> float:
+    """Second derivative of e [m/s^2] of mesh i at `place_lines`, at `pace` cycles/s."""
+    kind, bend = train.kind[i], 0.0
+    for n in range(train.lines[kind]):
+        order = 2.0 * math.pi * train.line_harmonic[kind, n] / train.line_period[kind, n]
+        bend -= train.line_amplitude[kind, n] * (order * pace) ** 2 * math.sin(angle[i, n])
+    return bend

@@ -12,7 +12,7 @@ import numpy as np
 from .._compile import kernel, law
 from .._records import Record
 from ..mesh.tooth_pairs import TOTAL
-from .form_errors import form_error
+from .form_errors import form_error, form_error_bend
 from .moment import place_mesh
 from .state import OPEN
 
@@ -167,6 +167,22 @@ def press(
         for n in range(begin, pairs.count):
             pairs.load[n] = max(pairs.share[n] * force, 0.0)
     return force, lost, side * (work * pairs.pace - force * e_rate)
+
+
+@kernel
+def push_drift(model: Record, state: Record, moment: Record, i: int, pace: float) -> float:
+    """Growth [N/s] of the push of closed mesh i with its cycle, were its bodies to rest in x."""
+    train, kind, side = model.train, model.train.kind[i], state.side[i]
+    tau, u = moment.tau[kind], moment.start[i] - train.edge[kind, state.segment[i]]
+    d, rate, e_rate = deflection(train, moment, i, state.x, state.v, 0.0, pace)
+    total, growth = total_weight(train, kind, state.segment[i], u)
+    push = side * d - model.load.offset + tau * side * rate
+    drift = train.gain[kind] * growth * side * pace * push
+    if train.lines[kind] > 0:
+        k = train.base[kind] + train.gain[kind] * total
+        bend = form_error_bend(train, i, moment.line_angle, pace)
+        drift -= k * side * (e_rate + tau * bend)
+    return drift
 
 
 @kernel

@@ -20,7 +20,7 @@ from .._compile import kernel
 from .._records import AXES, BODIES, REAL, Record, layout
 from ..dynamics.cycle import cycle_shift
 from ..dynamics.equations import EVALUATION, forces
-from ..dynamics.mesh_force import body_speed, mesh_stiffness
+from ..dynamics.mesh_force import body_speed, mesh_stiffness, push_drift
 from ..dynamics.state import LEDGER, OPEN
 from ..dynamics.tooth_friction import add_outer, friction_damping
 
@@ -60,6 +60,7 @@ ERROR_WEIGHT = WEIGHT - _B_EMBEDDED @ _INVERSE
 ALPHA = _ALPHA
 B = _B
 ABSCISSA = _ALPHA.sum(axis=1)
+DRIFT_WEIGHT = _GAMMAS.sum(axis=1)
 
 
 # Room for one step, and what it leaves behind besides the new state.
@@ -74,6 +75,7 @@ WORKSPACE = layout(
     trim_rate=(REAL, (STAGES, AXES)),
     stiffness=(REAL, (BODIES, BODIES)),  # K
     system=(REAL, (BODIES, BODIES)),  # factorised
+    drift=(REAL, (BODIES,)),  # of the forces with time at rest [N/s]
     evaluation=EVALUATION,  # of the stage at hand
     error_x=(REAL, (BODIES,)),  # local error of x [m]
     error_v=(REAL, (BODIES,)),  # local error of v [m/s]
@@ -94,11 +96,15 @@ def _assemble(
     pace = moment.cycle_rate + cycle_shift(train, state.v)
     work.stiffness[:] = 0.0
     work.system[:] = 0.0
+    work.drift[:] = 0.0
     for i in range(train.meshes):
         side = state.side[i]
         if side == OPEN:
             continue
         kind = train.kind[i]
+        drift = push_drift(model, state, moment, i, pace)
+        for j in range(3):
+            work.drift[train.body[i, j]] -= side * drift * train.sign[i, j]
         cycle = moment.start[i] + side * pace * 0.5 * h
         k = mesh_stiffness(train, kind, state.segment[i], cycle)
         add_outer(work.stiffness, train.body[i], train.sign[i], k)
@@ -181,7 +187,7 @@ def _stage(
         work.energy[e] += h * B[i] * out.power[e]
     right = work.uv[i]
     for j in range(bodies):
-        value = out.force[j] + work.rv[j]
+        value = out.force[j] + work.rv[j] + h * DRIFT_WEIGHT[i] * work.drift[j]
         for k in range(bodies):
             value -= work.stiffness[j, k] * work.rx[k] / g
         right[j] = value

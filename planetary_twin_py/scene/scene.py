@@ -135,6 +135,8 @@ def load_scene(name_or_path: str | Path) -> Scene:
 def parse_scene(text: str) -> Scene:
     """Read a scene from YAML text.
 
+    A scene with a ``base``, the name of a packaged scene, says only where it differs from that.
+
     Raises:
         SceneError: the text is no YAML mapping, or a field in it is wrong.
     """
@@ -144,4 +146,16 @@ def parse_scene(text: str) -> Scene:
         raise SceneError(f"scene is not YAML: {' '.join(str(error).split())}") from None
     if not isinstance(data, dict):
         raise SceneError("scene is not a YAML mapping")
+    if "base" in data:
+        base = data.pop("base")
+        if base not in packaged_scenes():
+            raise SceneError(f"base = {base!r}: must be one of {', '.join(packaged_scenes())}")
+        data = _overlaid(load_scene(base).model_dump(), data)
     return _validated(data)
+
+
+def _overlaid(base: Any, changes: Any) -> Any:
+    """Mappings are merged, everything else is replaced."""
+    if not isinstance(base, dict) or not isinstance(changes, dict):
+        return changes
+    return base | {name: _overlaid(base.get(name), value) for name, value in changes.items()}
