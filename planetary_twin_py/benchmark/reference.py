@@ -14,10 +14,10 @@ import numpy as np
 from scipy.integrate import solve_ivp
 
 from .._records import AXES, Record, new_record
+from ..dynamics.body_speed import body_speed
 from ..dynamics.contact_events import departure
 from ..dynamics.cycle import cycle_shift
 from ..dynamics.equations import EVALUATION, forces
-from ..dynamics.mesh_force import body_speed
 from ..dynamics.observe import QUANTITIES, observe
 from ..dynamics.state import OPEN
 from ..engine import Engine

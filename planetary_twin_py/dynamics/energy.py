@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from .._compile import kernel
 from .._records import Record
-from .mesh_force import body_speed, stored_energy
+from .body_speed import body_speed
+from .mesh_force import stored_energy
 
 
 @kernel

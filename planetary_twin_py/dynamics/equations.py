@@ -14,8 +14,9 @@ import numpy as np
 from .._compile import kernel
 from .._records import BODIES, REAL, Record, layout
 from .bodies import MOTOR
+from .body_speed import body_speed
 from .cycle import cycle_shift
-from .mesh_force import body_speed, press
+from .mesh_force import press
 from .oil import OIL
 from .state import (
     DAMPING,
@@ -27,7 +28,7 @@ from .state import (
     STIFFNESS_WORK,
     WORK,
 )
-from .tooth_friction import TOOTH_PAIRS, apply_friction, evaluate
+from .tooth_friction import TOOTH_PAIRS, apply_friction, apply_printed_friction, evaluate
 from .train import TRAIN
 
 # All that the equations of motion read.
@@ -90,7 +91,10 @@ def forces(
         pairs.count = 0
     elif pairs.count > 0:
         evaluate(model, pairs)
-        power[FRICTION] = apply_friction(train, pairs, force)
+        if train.printed_torque:
+            power[FRICTION] = apply_printed_friction(train, state, v, pairs, force)
+        else:
+            power[FRICTION] = apply_friction(train, pairs, force)
     _couplings(train, x, v, out)
     _machines(model, state, moment, x, v, delay, trim, out)
     force[train.bodies] = 0.0  # the ground

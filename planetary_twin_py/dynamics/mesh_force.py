@@ -12,6 +12,7 @@ import numpy as np
 from .._compile import kernel, law
 from .._records import Record
 from ..mesh.tooth_pairs import TOTAL
+from .body_speed import body_speed
 from .form_errors import form_error, form_error_bend
 from .moment import place_mesh
 from .state import OPEN
@@ -26,13 +27,6 @@ def mesh_motion(train: Record, i: int, x: np.ndarray) -> float:
     for j in range(3):
         total += train.sign[i, j] * x[train.body[i, j]]
     return total
-
-
-@law
-def body_speed(train: Record, state: Record, v: np.ndarray, j: int) -> float:
-    """Absolute speed of body j [rad/s]."""
-    rigid = train.ratio[j, 0] * state.speed[0] + train.ratio[j, 1] * state.speed[1]
-    return rigid + v[j] / train.radius[j]
 
 
 @law

@@ -105,9 +105,10 @@ def _stiffness_laws(scene: Scene) -> tuple[StiffnessLaw, StiffnessLaw]:
     mesh = scene.mesh
     assert mesh.sun_planet_stiffness is not None and mesh.planet_ring_stiffness is not None
     ratio = mesh.double_pair_ratio
+    along = math.cos(scene.gearset.pressure_angle) if mesh.motion == "pitch_arc" else 1.0
     return (
-        given_stiffness(mesh.sun_planet_stiffness, ratio),
-        given_stiffness(mesh.planet_ring_stiffness, ratio),
+        given_stiffness(mesh.sun_planet_stiffness / along, ratio),
+        given_stiffness(mesh.planet_ring_stiffness / along, ratio),
     )
 
 

@@ -37,8 +37,7 @@ def build_load(scene: Scene, point: OperatingPoint, train: Record) -> Record:
     trim_gain[LOAD_MACHINE, 0] = -torques[LOAD_MACHINE] * integral[0]
     if axes > 1:
         trim_gain[SECOND_MOTOR, 1] = integral[1]
-    half = 0.5 * point.backlash
-    offset = half if scene.mesh.backlash == "dead_zone" else 0.0
+    half, offset = _play(scene, point)
     return new_record(
         LOAD,
         half_backlash=half,
@@ -55,6 +54,15 @@ def build_load(scene: Scene, point: OperatingPoint, train: Record) -> Record:
         proportional=np.diag(inertia) * bandwidth,
         trim_gain=trim_gain,
     )
+
+
+def _play(scene: Scene, point: OperatingPoint) -> tuple[float, float]:
+    """Transmission errors at which flanks meet, and from which the force grows [m]."""
+    along = math.cos(scene.gearset.pressure_angle) if scene.mesh.motion == "pitch_arc" else 1.0
+    if scene.mesh.backlash == "regulatory_factor":
+        return point.backlash * along, 0.0
+    half = 0.5 * point.backlash * along
+    return half, half
 
 
 def static_torques(scene: Scene) -> np.ndarray:

@@ -12,8 +12,10 @@ import numpy as np
 from .._compile import kernel
 from .._records import FLAG, MESHES, REAL, WHOLE, Record, layout
 from ..mesh.tooth_pairs import PAIRS
+from .body_speed import body_speed
 from .tooth_contact import tooth_contact
 
+SLOWEST_TURN = 1e-3  # [rad/s] below which the printed torque fades out
 REGISTER = 8  # doubles the compiler works on at a time
 LANES = -(-MESHES * PAIRS // REGISTER) * REGISTER  # room for all tooth pairs
 
@@ -76,6 +78,27 @@ def apply_friction(train: Record, pairs: Record, force: np.ndarray) -> float:
         force[second] -= f * rho2 / train.radius[second]
         force[carrier] += f * (rho1 + rho2) / train.radius[carrier]
         power += f * pairs.sliding[p]
+    return power
+
+
+@kernel
+def apply_printed_friction(
+    train: Record, state: Record, v: np.ndarray, pairs: Record, force: np.ndarray
+) -> float:
+    """Friction torque as Salagianni et al. 2017 print it; return the power it takes [W].
+
+    T = P/w (17) on both gears, with the sign of (18)-(20): it drives every gear the way it turns,
+    and so puts in twice what is lost. Divided by (w^2 + w0^2)/w, as 0/0 would stand at rest.
+    """
+    power = 0.0
+    for p in range(pairs.count):
+        lost = pairs.friction[p] * pairs.sliding[p]
+        for gear in range(2):
+            body = train.body[pairs.mesh[p], gear]
+            speed = body_speed(train, state, v, body)
+            torque = lost * speed / (speed * speed + SLOWEST_TURN * SLOWEST_TURN)
+            force[body] += torque / train.radius[body]
+            power -= torque * speed
     return power
 
 

@@ -37,6 +37,7 @@ TRAIN = layout(
     sun_advance=REAL,  # mesh cycles per x of the sun [1/m]
     carrier_advance=REAL,  # and per x of the carrier
     friction=FLAG,
+    printed_torque=FLAG,  # friction torque P/w instead of -f dVs/dw
     **MESHES_LAYOUT,
 )
 
@@ -62,6 +63,7 @@ def build_train(scene: Scene) -> Record:
         sun_advance=1.0 / pitch,
         carrier_advance=-radii["sun"] / radii["carrier"] / pitch,
         friction=scene.lubrication.friction,
+        printed_torque=scene.lubrication.friction_torque == "printed",
         **_cycles(scene),
         **_couplings(scene, bodies),
         **build_meshes(scene, bodies.place),

@@ -9,9 +9,9 @@ import numpy as np
 
 from .._compile import kernel
 from .._records import AXES, Record
+from ..dynamics.body_speed import body_speed
 from ..dynamics.contact_events import departure
 from ..dynamics.cycle import cycle_shift
-from ..dynamics.mesh_force import body_speed
 from ..dynamics.observe import QUANTITIES, observe
 
 SLACK = 0.01  # share of the local tolerance by which flanks may pull or pass each other

@@ -18,9 +18,10 @@ import numpy as np
 
 from .._compile import kernel
 from .._records import AXES, BODIES, REAL, Record, layout
+from ..dynamics.body_speed import body_speed
 from ..dynamics.cycle import cycle_shift
 from ..dynamics.equations import EVALUATION, forces
-from ..dynamics.mesh_force import body_speed, mesh_stiffness, push_drift
+from ..dynamics.mesh_force import mesh_stiffness, push_drift
 from ..dynamics.state import LEDGER, OPEN
 from ..dynamics.tooth_friction import add_outer, friction_damping
 

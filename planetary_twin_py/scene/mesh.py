@@ -68,8 +68,12 @@ class Mesh(Section):
     Stiffness "given": by the numbers below. With `double_pair_ratio` 1 it is constant, with `ramp`
     0 it alternates at once. "involute": computed from the teeth for every position of a pair.
 
-    Backlash "dead_zone": F = k (DTE - b), b half the backlash. "regulatory_factor": F = k DTE
-    beyond b and none within, the printed form of Salagianni et al. 2017, (2)-(5), which jumps.
+    Backlash "dead_zone": F = k (DTE - B/2), B the backlash. "regulatory_factor": F = k DTE
+    beyond B and none within, the printed form of Salagianni et al. 2017, (2)-(5), which jumps.
+
+    Motion "line_of_action": stiffness and backlash refer to the DTE along it. "pitch_arc": to
+    that along the pitch circles, as their (2) and (3) print it, so the mesh is 1/cos(phi) stiffer.
+    Results are along the line of action in any case.
     """
 
     stiffness: Literal["given", "involute"] = "given"
@@ -86,6 +90,7 @@ class Mesh(Section):
         "", "base pitches over which a pair takes up its load; 0: at once", 0.03, ge=0.0, le=0.2
     )
     backlash: Literal["dead_zone", "regulatory_factor"] = "dead_zone"
+    motion: Literal["line_of_action", "pitch_arc"] = "line_of_action"
     damping: MeshDamping = MeshDamping()
     sun_planet_error: TransmissionError = TransmissionError()
     planet_ring_error: TransmissionError = TransmissionError()
