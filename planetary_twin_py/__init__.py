@@ -23,7 +23,7 @@ if TYPE_CHECKING:
         parse_scene,
     )
     from .simulation import simulate
-    from .twin import Change, Twin, checked_operating_point
+    from .twin import Change, Twin
     from .units import rpm
     from .window import Waveform, Window
 
@@ -34,7 +34,7 @@ _HOME = {
         "packaged_scenes", "parse_scene",
     ),
     "simulation": ("simulate",),
-    "twin": ("Change", "Twin", "checked_operating_point"),
+    "twin": ("Change", "Twin"),
     "units": ("rpm",),
     "window": ("Waveform", "Window"),
 }  # fmt: skip
@@ -53,7 +53,6 @@ __all__ = [
     "Twin",
     "Waveform",
     "Window",
-    "checked_operating_point",
     "load_scene",
     "packaged_scenes",
     "parse_scene",

@@ -10,11 +10,14 @@ from typing import Any
 
 import numpy as np
 
-# Room for 7 planets: planets, sun, ring, carrier, motor, load and the ground.
-BODIES = 13
+# Room for 7 planets: planets, sun, ring, carrier, machines and the ground.
+BODIES = 14
 MESHES = 14
+MACHINES = 3  # two motors and a load
+AXES = 2  # rigid motions of the train: one for each motor
 
 REAL, WHOLE, FLAG = "f8", "i8", "?"
+SMALL = "i1"  # for arrays of flags, which a compiled kernel cannot have in a record
 
 # mypy sees a record as what it is made of: anything with the fields of its layout.
 Record = Any

@@ -105,4 +105,4 @@ class Engine:
     def stored(self) -> tuple[float, float]:
         """Kinetic and elastic energy at `reached` [J]."""
         end = self.march.end
-        return float(kinetic(self.model, end)), float(elastic(self.model, end))
+        return float(kinetic(self.model, end)), float(elastic(self.model, end, self.march.aside))

@@ -6,15 +6,15 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from .dynamics.bodies import LOAD_MACHINE, MOTOR, SECOND_MOTOR
+
 
 @dataclass(frozen=True)
 class Energy:
     """Energy ledger of a run [J]: input = output + stored + lost - stiffness_work + residual."""
 
-    input: float
-    """Work of the motor."""
-    output: float
-    """Work taken by the load."""
+    machines: tuple[float, ...]
+    """Work put in by the motor, the load, and the second motor of a differential."""
     kinetic: float
     """Growth of the kinetic energy."""
     elastic: float
@@ -25,6 +25,21 @@ class Energy:
     """Taken by the damping of meshes and couplings."""
     stiffness_work: float
     """Put in by the meshes as their stiffness changes with the tooth pairs in contact."""
+
+    @property
+    def input(self) -> float:
+        """Work of the motors."""
+        return self.machines[MOTOR] + sum(self.machines[SECOND_MOTOR:])
+
+    @property
+    def output(self) -> float:
+        """Work taken by the load."""
+        return -self.machines[LOAD_MACHINE]
+
+    @property
+    def put_in(self) -> float:
+        """Work of those machines that drive; none of what they do circulates."""
+        return sum(max(work, 0.0) for work in self.machines)
 
     @property
     def residual(self) -> float:
@@ -88,7 +103,7 @@ class Result:
 
     @property
     def efficiency(self) -> float:
-        """1 - friction/input over the whole run; NaN unless power flowed in at the input."""
-        if self.energy.input <= 0.0:
+        """1 - friction/put_in over the whole run; NaN if no machine drives."""
+        if self.energy.put_in <= 0.0:
             return float("nan")
-        return 1.0 - self.energy.friction / self.energy.input
+        return 1.0 - self.energy.friction / self.energy.put_in

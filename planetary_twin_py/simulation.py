@@ -7,9 +7,9 @@ import time
 
 import numpy as np
 
+from .dynamics.bodies import body_names, mesh_names
 from .dynamics.observe import BOUNDARY, DTE, FILM, LAMBDA, MESH_FORCE, POWER_LOSS, VISCOUS
-from .dynamics.state import DAMPING, FRICTION, INPUT, OUTPUT, STIFFNESS_WORK
-from .dynamics.train import body_names, mesh_names
+from .dynamics.state import DAMPING, FRICTION, STIFFNESS_WORK, WORK
 from .engine import Engine
 from .integrators.interpolant import Samples
 from .result import Energy, Result, Stats
@@ -65,7 +65,7 @@ def _result(
     names = body_names(scene)
     mesh, count = samples.mesh, engine.march.control
     ground = np.zeros((len(mesh), 1))
-    turned = 2.0 * math.pi * samples.turns[:, None] * engine.train.ratio[: engine.train.bodies]
+    turned = 2.0 * math.pi * samples.turns @ engine.train.ratio[: engine.train.bodies].T
     return Result(
         time=np.arange(1, len(mesh) + 1) / sample_rate,
         bodies=names.names,
@@ -95,8 +95,7 @@ def _result(
 def _energy(engine: Engine, stored: tuple[float, float]) -> Energy:
     ledger, now = engine.ledger(), engine.stored()
     return Energy(
-        input=float(ledger[INPUT]),
-        output=float(ledger[OUTPUT]),
+        machines=tuple(float(ledger[WORK + m]) for m in range(int(engine.train.machines))),
         kinetic=now[0] - stored[0],
         elastic=now[1] - stored[1],
         friction=float(ledger[FRICTION]),

@@ -3,18 +3,17 @@
 from __future__ import annotations
 
 import math
+from fractions import Fraction
 from typing import NamedTuple
 
 import numpy as np
-from pydantic import ValidationError
 
+from .dynamics.bodies import Ratios, body_names, mesh_names
 from .dynamics.observe import BOUNDARY, DTE, MESH_FORCE, VISCOUS
-from .dynamics.state import FRICTION, INPUT, LOAD_IMPULSE, MOTOR_IMPULSE, OUTPUT
-from .dynamics.train import body_names, mesh_names
+from .dynamics.state import FRICTION, IMPULSE, WORK
 from .engine import Engine
 from .integrators.interpolant import Samples
-from .scene import OperatingPoint, Scene, SceneError
-from .scene.quantity import explain
+from .scene import TUNABLES, OperatingPoint, Scene, SceneError
 from .window import Waveform, Window, mesh_statistics
 
 LIVE_TOLERANCE = 5e-3
@@ -77,7 +76,12 @@ class Twin:
         Raises:
             ValueError: a name or a value is not allowed; nothing has changed.
         """
-        point = checked_operating_point(self.operating_point, **changes)
+        for name in changes:
+            if name not in TUNABLES:
+                raise SceneError(f"{name}: no such field")
+        point = self.scene.replace(
+            **{**self.operating_point.model_dump(), **changes}
+        ).operating_point
         if point != self.operating_point:
             self._engine.change(point, self._time)
             self._books = self._account()  # play that opens or closes stores no work of this window
@@ -116,11 +120,10 @@ class Twin:
             stored = (self._books[2] - before[2]) / elapsed
         else:  # a window within one step
             rate, stored = np.array(self._engine.march.last.power), float("nan")
-        turned = (self._end.turns - begin.turns) * 2.0 * math.pi * train.ratio[: train.bodies]
+        turned = 2.0 * math.pi * (self._end.turns - begin.turns) @ train.ratio[: train.bodies].T
         speed = ((turned + self._end.angle - begin.angle) / (self._time - start))[0]
         mean_speed = np.append(speed, 0.0)[names.place]
         sun, carrier = mean_speed[names.names.index("sun")], mean_speed[-1]
-        motor, load = train.coupling[0, 0], train.coupling[1, 0]
         mesh = samples.mesh
         return Window(
             start=start,
@@ -137,34 +140,20 @@ class Twin:
             angle=self._angles(),
             mean_speed=mean_speed,
             mesh_frequency=self.scene.gearset.teeth.sun * abs(sun - carrier) / (2.0 * math.pi),
-            input_speed=float(speed[motor]),
-            input_torque=float(rate[MOTOR_IMPULSE]),
-            output_speed=float(speed[load]),
-            output_torque=float(rate[LOAD_IMPULSE]),
-            input_power=float(rate[INPUT]),
-            output_power=float(rate[OUTPUT]),
+            machine_speed=speed[train.coupling[: train.machines, 0]],
+            machine_torque=rate[IMPULSE : IMPULSE + train.machines],
+            machine_power=rate[WORK : WORK + train.machines],
             power_loss=float(rate[FRICTION]),
             stored_power=stored,
         )
 
     def _angles(self) -> np.ndarray:
         """Angles modulo a turn, exact in the whole turns of the motor."""
-        turns = int(self._end.turns[0])
+        turns = [int(turn) for turn in self._end.turns[0]]
         relative = np.append(self._end.angle[0], 0.0)[self._names.place]
-        whole = [
-            (turns * ratio.numerator % ratio.denominator) / ratio.denominator
-            for ratio in self._names.ratio
-        ]
+        whole = [float(_turned(turns, ratios) % 1) for ratios in self._names.ratio]
         return np.mod(2.0 * math.pi * np.array(whole) + relative, 2.0 * math.pi)
 
 
-def checked_operating_point(point: OperatingPoint, **changes: object) -> OperatingPoint:
-    """A copy of `point` with some fields changed.
-
-    Raises:
-        SceneError: a name is unknown or a value out of its range.
-    """
-    try:
-        return OperatingPoint.model_validate({**point.model_dump(), **changes})
-    except ValidationError as error:
-        raise SceneError(explain(error, OperatingPoint)) from None
+def _turned(turns: list[int], ratios: Ratios) -> Fraction:
+    return sum((turn * ratio for turn, ratio in zip(turns, ratios, strict=False)), Fraction(0))

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import math
 import warnings
 from dataclasses import dataclass
 
 import numpy as np
 
+from .dynamics.bodies import LOAD_MACHINE, MOTOR, SECOND_MOTOR
 from .dynamics.observe import (
     BOUNDARY,
     DTE,
@@ -51,29 +53,66 @@ class Window:
     """[rad/s], shape (bodies,)"""
     mesh_frequency: float
     """Rate at which teeth pass a mesh [Hz]."""
-    input_speed: float
-    """Of the motor [rad/s]."""
-    input_torque: float
-    """Of the motor [N m]."""
-    output_speed: float
-    """Of the load [rad/s]."""
-    output_torque: float
-    """Of the load on its shaft [N m]."""
-    input_power: float
-    """From the motor into the train [W]."""
-    output_power: float
-    """From the train into the load [W]."""
+    machine_speed: np.ndarray
+    """Of the motor, the load, and the second motor of a differential [rad/s], (machines,)."""
+    machine_torque: np.ndarray
+    """Of each on its shaft [N m], (machines,)."""
+    machine_power: np.ndarray
+    """From each into the train [W], (machines,)."""
     power_loss: float
     """Tooth friction of all meshes [W]."""
     stored_power: float
     """Rate at which kinetic and elastic energy grow [W]."""
 
     @property
+    def input_speed(self) -> float:
+        """Of the motor [rad/s]."""
+        return float(self.machine_speed[MOTOR])
+
+    @property
+    def input_torque(self) -> float:
+        """Of the motor [N m]."""
+        return float(self.machine_torque[MOTOR])
+
+    @property
+    def second_input_speed(self) -> float:
+        """Of the second motor [rad/s], NaN without one."""
+        return float(self.machine_speed[SECOND_MOTOR]) if self._differential else math.nan
+
+    @property
+    def second_input_torque(self) -> float:
+        """Of the second motor [N m], NaN without one."""
+        return float(self.machine_torque[SECOND_MOTOR]) if self._differential else math.nan
+
+    @property
+    def _differential(self) -> bool:
+        return len(self.machine_speed) > SECOND_MOTOR
+
+    @property
+    def output_speed(self) -> float:
+        """Of the load [rad/s]."""
+        return float(self.machine_speed[LOAD_MACHINE])
+
+    @property
+    def output_torque(self) -> float:
+        """Of the load on its shaft [N m]."""
+        return float(self.machine_torque[LOAD_MACHINE])
+
+    @property
+    def input_power(self) -> float:
+        """From the motors into the train [W]."""
+        return float(self.machine_power[MOTOR] + self.machine_power[SECOND_MOTOR:].sum())
+
+    @property
+    def output_power(self) -> float:
+        """From the train into the load [W]."""
+        return -float(self.machine_power[LOAD_MACHINE])
+
+    @property
     def efficiency(self) -> float:
-        """1 - power_loss/input_power; NaN unless power flows in at the input."""
-        if self.input_power <= 0.0:
-            return float("nan")
-        return 1.0 - self.power_loss / self.input_power
+        """1 - power_loss over the power of those machines that drive; NaN if none does."""
+        put_in = float(np.maximum(self.machine_power, 0.0).sum())
+        return 1.0 - self.power_loss / put_in if put_in > 0.0 else math.nan
 
 
 def mesh_statistics(samples: np.ndarray) -> dict[str, np.ndarray]:

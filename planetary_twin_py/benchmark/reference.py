@@ -13,9 +13,11 @@ from typing import Any
 import numpy as np
 from scipy.integrate import solve_ivp
 
-from .._records import Record, new_record
+from .._records import AXES, Record, new_record
+from ..dynamics.body_speed import body_speed
 from ..dynamics.contact_events import departure
-from ..dynamics.equations import EVALUATION, cycle_shift, forces, mesh_motion
+from ..dynamics.cycle import cycle_shift
+from ..dynamics.equations import EVALUATION, forces
 from ..dynamics.observe import QUANTITIES, observe
 from ..dynamics.state import OPEN
 from ..engine import Engine
@@ -32,7 +34,8 @@ class Reference:
     def __init__(self, scene: Scene) -> None:
         self._engine = Engine(scene, 1e-8)
         self._model, self._march = self._engine.model, self._engine.march
-        self._bodies = int(self._engine.train.bodies)
+        self._bodies, self._axes = int(self._engine.train.bodies), int(self._engine.train.axes)
+        self._trim = np.zeros(AXES)
         self._work: Record = new_record(EVALUATION)
         self._x = np.zeros_like(self._march.begin.x)
         self._v = np.zeros_like(self._march.begin.v)
@@ -55,39 +58,39 @@ class Reference:
     def _stretch(self) -> Any:
         """Integrate from `begin` to the next event."""
         begin, n = self._march.begin, self._bodies
-        start = np.concatenate([begin.x[:n], begin.v[:n], [begin.trim]])
-        tolerance = np.concatenate([np.full(n, ABSOLUTE_X), np.full(n, ABSOLUTE_V), [ABSOLUTE_X]])
+        start = np.concatenate([begin.x[:n], begin.v[:n], begin.trim[: self._axes]])
+        tolerance = np.repeat([ABSOLUTE_X, ABSOLUTE_V, ABSOLUTE_X], [n, n, self._axes])
         return solve_ivp(
             self._derivative, (0.0, self._longest()), start, method="DOP853", rtol=RELATIVE,
             atol=tolerance, events=self._events(), dense_output=True,
         )  # fmt: skip
 
     def _longest(self) -> float:
-        slew, gap = self._march.moment.slew, self._gap()
-        return min(LONGEST, gap / slew) if slew != 0.0 else LONGEST
-
-    def _gap(self) -> float:
-        return float(self._model.load.target_speed - self._march.begin.set_speed)
+        slew = self._march.moment.slew[: self._axes]
+        gap = (self._model.load.target_speed - self._march.begin.set_speed)[: self._axes]
+        return min([LONGEST, *(gap[slew != 0.0] / slew[slew != 0.0])])
 
     def _unpack(self, y: np.ndarray) -> None:
         n = self._bodies
-        self._x[:n], self._v[:n] = y[:n], y[n : 2 * n]
+        self._x[:n], self._v[:n], self._trim[: self._axes] = y[:n], y[n : 2 * n], y[2 * n :]
 
     def _derivative(self, t: float, y: np.ndarray) -> np.ndarray:
-        n, train = self._bodies, self._engine.train
+        n, train, march = self._bodies, self._engine.train, self._march
         self._unpack(y)
-        march = self._march
-        forces(self._model, march.begin, march.moment, self._x, self._v, t, y[-1], self._work)
-        motor = train.coupling[0, 0]
-        speed = march.begin.speed + self._v[motor] / train.radius[motor]
-        error = march.begin.set_speed + march.moment.slew * t - speed
-        return np.concatenate([y[n : 2 * n], self._work.force[:n] / train.mass[:n], [error]])
+        begin = march.begin
+        forces(self._model, begin, march.moment, self._x, self._v, t, self._trim, self._work)
+        set_speed = begin.set_speed + march.moment.slew * t
+        lag = [
+            set_speed[a] - body_speed(train, begin, self._v, train.coupling[2 * a, 0])
+            for a in range(self._axes)
+        ]
+        return np.concatenate([y[n : 2 * n], self._work.force[:n] / train.mass[:n], lag])
 
     def _events(self) -> list[Callable[[float, np.ndarray], float]]:
         """A terminal event for every edge of a tooth pair and every flank."""
         events: list[Any] = []
         for i in range(int(self._engine.train.meshes)):
-            events.append(lambda t, y, i=i: self._departure(i, y))
+            events.append(lambda t, y, i=i: self._departure(i, t, y))
             if self._march.begin.side[i] != OPEN:
                 events.append(lambda t, y, i=i: self._to_edge(i, t, y))
         for event in events:
@@ -95,20 +98,24 @@ class Reference:
             event.direction = -1.0
         return events
 
-    def _departure(self, i: int, y: np.ndarray) -> float:
+    def _departure(self, i: int, t: float, y: np.ndarray) -> float:
+        advance, pace = self._stand(t, y)
+        march = self._march
+        stand = (advance, pace, 0.0)
+        return float(departure(self._model, march.begin, march.moment, i, self._x, self._v, stand))
+
+    def _stand(self, t: float, y: np.ndarray) -> tuple[float, float]:
+        """Mesh cycles since the start of the stretch, and their pace [1/s]."""
         self._unpack(y)
-        train, moment = self._engine.train, self._march.moment
-        d, rate = mesh_motion(train, i, self._x), mesh_motion(train, i, self._v)
-        tau = float(moment.tau[train.kind[i]])
-        return float(departure(self._model, self._march.begin, i, tau, d, rate, 0.0))
+        train, rate = self._engine.train, float(self._march.moment.cycle_rate)
+        shift = cycle_shift(train, self._x) - cycle_shift(train, self._march.begin.x)
+        return rate * t + shift, rate + cycle_shift(train, self._v)
 
     def _to_edge(self, i: int, t: float, y: np.ndarray) -> float:
         """Mesh cycles left to the edge ahead."""
-        self._unpack(y)
         train, begin, moment = self._engine.train, self._march.begin, self._march.moment
         side, segment, kind = int(begin.side[i]), begin.segment[i], train.kind[i]
-        shift = cycle_shift(train, self._x) - cycle_shift(train, begin.x)
-        cycle = moment.start[i] + side * (moment.cycle_rate * t + shift)
+        cycle = moment.start[i] + side * self._stand(t, y)[0]
         if side * moment.cycle_rate >= 0.0:
             return float(train.edge[kind, segment + 1] - cycle)
         return float(cycle - train.edge[kind, segment])
@@ -125,14 +132,14 @@ class Reference:
         begin, end, n = self._march.begin, self._march.end, self._bodies
         y, length = stretch.y[:, -1], float(stretch.t[-1])
         self._march.end = begin
-        end.x[:n], end.v[:n], end.trim = y[:n], y[n : 2 * n], y[-1]
+        end.x[:n], end.v[:n], end.trim[: self._axes] = y[:n], y[n : 2 * n], y[2 * n :]
         end.time = begin.time + length
         end.set_speed = begin.set_speed + self._march.moment.slew * length
         turn = begin.fraction + begin.speed * length / (2.0 * np.pi)
         end.turns, end.fraction = begin.turns + np.floor(turn), turn - np.floor(turn)
         flank = -1
         for i in range(int(self._engine.train.meshes)):
-            if stretch.status == 1 and abs(self._departure(i, y)) < 1e-18:
+            if stretch.status == 1 and abs(self._departure(i, length, y)) < 1e-18:
                 flank = i
         accept(self._model, self._march, flank)
         self._march.control.changed = True

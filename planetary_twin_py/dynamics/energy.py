@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from .._compile import kernel
 from .._records import Record
-from .contact_events import elastic_energy
+from .body_speed import body_speed
+from .mesh_force import stored_energy
 
 
 @kernel
@@ -13,19 +14,19 @@ def kinetic(model: Record, state: Record) -> float:
     train = model.train
     total = 0.0
     for j in range(train.bodies):
-        speed = train.ratio[j] * train.radius[j] * state.speed + state.v[j]
+        speed = body_speed(train, state, state.v, j) * train.radius[j]
         total += 0.5 * train.mass[j] * speed * speed
     return total
 
 
 @kernel
-def elastic(model: Record, state: Record) -> float:
-    """Elastic energy of meshes in contact and of the couplings [J]."""
+def elastic(model: Record, state: Record, moment: Record) -> float:
+    """Elastic energy of meshes in contact and of the couplings [J]; `moment` is room to work in."""
     train = model.train
     total = 0.0
     for i in range(train.meshes):
-        total += elastic_energy(model, state, i)
-    for c in range(2):
+        total += stored_energy(model, state, moment, i)
+    for c in range(train.machines):
         twist = state.x[train.coupling[c, 0]] - state.x[train.coupling[c, 1]]
         total += 0.5 * train.coupling_stiffness[c] * twist * twist
     return total

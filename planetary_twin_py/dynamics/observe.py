@@ -6,9 +6,10 @@ import numpy as np
 
 from .._compile import kernel
 from .._records import Record
-from .equations import cycle_shift, mesh_motion, stiffness
+from .equations import begin_pairs
+from .mesh_force import mesh_motion, press
 from .state import OPEN
-from .tooth_friction import evaluate, gather
+from .tooth_friction import evaluate
 
 # Rows of the answer of `observe`.
 DTE, MESH_FORCE, BOUNDARY, VISCOUS, FILM, LAMBDA, POWER_LOSS = range(7)
@@ -31,23 +32,17 @@ def observe(
     Both are means over the tooth pairs, weighted by load. Friction forces are magnitudes.
     """
     train = model.train
-    advance = moment.cycle_rate * delay + cycle_shift(train, x) - cycle_shift(train, state.x)
     out[:] = 0.0
-    pairs.count = 0
+    begin_pairs(train, state, moment, x, v, delay, pairs)
+    pairs.wanted = True
     for i in range(train.meshes):
         side = state.side[i]
-        d = mesh_motion(train, i, x)
-        out[DTE, i] = d
+        out[DTE, i] = mesh_motion(train, i, x)
         if side == OPEN:
             out[FILM, i] = out[LAMBDA, i] = np.nan
-            continue
-        kind, segment = train.kind[i], state.segment[i]
-        cycle = moment.start[i] + side * advance
-        k = stiffness(train, kind, segment, cycle)
-        rate = side * mesh_motion(train, i, v)
-        force = k * (side * d - model.load.half_backlash + moment.tau[kind] * rate)
-        out[MESH_FORCE, i] = side * max(force, 0.0)
-        gather(model, state, i, cycle, max(force, 0.0), v, pairs)
+        else:
+            force = press(model, state, moment, i, x, v, pairs)[0]
+            out[MESH_FORCE, i] = side * max(force, 0.0)
     evaluate(model, pairs)
     for p in range(pairs.count):
         i = pairs.mesh[p]

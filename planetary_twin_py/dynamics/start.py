@@ -1,8 +1,8 @@
 """Where a run begins: the train in quasi-static equilibrium at its operating point.
 
-Each flank carries what the mean torque puts on it, the couplings are wound up, and the load is
-trimmed for the friction of one mesh cycle, so that a run is steady from its first moment but for
-the vibration that the meshes start.
+Each flank carries what the mean torque puts on it, the couplings are wound up, and the torques
+are trimmed for the friction of one mesh cycle, so that a run is steady from its first moment but
+for the vibration that the meshes start.
 """
 
 from __future__ import annotations
@@ -11,11 +11,15 @@ import math
 
 import numpy as np
 
-from .._records import Record, new_record
+from .._records import AXES, MACHINES, Record, new_record
 from ..scene import OperatingPoint, Scene
-from .contact_events import find_segment, mesh_cycle, nearest_to_segment
-from .equations import EVALUATION, MOMENT, forces, stiffness
-from .state import COAST_SIDE, DRIVE_SIDE, FRICTION, LOAD, STATE
+from .bodies import LOAD_MACHINE, MOTOR, SECOND_MOTOR, base_radii, machines
+from .cycle import find_segment, mesh_cycle
+from .equations import EVALUATION, forces
+from .form_errors import form_error
+from .mesh_force import mesh_stiffness
+from .moment import MOMENT, frame_cycle_rate, set_moment
+from .state import COAST_SIDE, DRIVE_SIDE, LOAD, STATE
 
 CYCLE_POINTS = 64  # positions within the mesh cycle over which friction is averaged
 SETTLING_PASSES = 3  # the first winds up the couplings, the others find the tooth pairs there
@@ -23,68 +27,99 @@ SETTLING_PASSES = 3  # the first winds up the couplings, the others find the too
 
 def build_load(scene: Scene, point: OperatingPoint, train: Record) -> Record:
     """What acts on the train at an operating point."""
-    control = scene.drive.speed_control
-    motor, brake = train.coupling[0, 0], train.coupling[1, 0]
-    inertia = train.mass * train.radius**2  # J of each body
-    total = float(np.sum(inertia * train.ratio**2) / train.ratio[motor] ** 2)
+    control, axes = scene.drive.speed_control, int(train.axes)
+    torques = static_torques(scene)
+    inertia = np.einsum("j,ja,jb->ab", train.mass * train.radius**2, train.ratio, train.ratio)
     bandwidth = 2.0 * math.pi * control.bandwidth
+    integral = np.diag(inertia) * bandwidth**2 / 4.0  # critically damped
+    trim_gain = np.zeros((MACHINES, AXES))
+    # The first motor gives just its torque; the load is trimmed so that its speed holds.
+    trim_gain[LOAD_MACHINE, 0] = -torques[LOAD_MACHINE] * integral[0]
+    if axes > 1:
+        trim_gain[SECOND_MOTOR, 1] = integral[1]
+    half, offset = _play(scene, point)
     return new_record(
         LOAD,
-        half_backlash=0.5 * point.backlash,
+        half_backlash=half,
+        offset=offset,
+        inner_squared=(half - offset) ** 2,
+        release=1.0 if scene.mesh.backlash == "dead_zone" else 0.0,
         lambda_ratio=point.lambda_ratio,
-        target_speed=point.input_speed,
+        target_speed=np.array([point.input_speed, point.second_input_speed][:axes]),
         slew_rate=control.slew_rate,
-        torque=point.input_torque,
+        torque=point.input_torque * torques,
         ripple=point.torque_ripple,
         ripple_order=float(control.ripple_order),
-        output_gain=-1.0 / float(train.ratio[brake]),
-        inertia=total,
-        proportional=total * bandwidth,
-        integral=total * bandwidth**2 / 4.0,  # critically damped
+        inertia=inertia,
+        proportional=np.diag(inertia) * bandwidth,
+        trim_gain=trim_gain,
     )
+
+
+def _play(scene: Scene, point: OperatingPoint) -> tuple[float, float]:
+    """Transmission errors at which flanks meet, and from which the force grows [m]."""
+    along = math.cos(scene.gearset.pressure_angle) if scene.mesh.motion == "pitch_arc" else 1.0
+    if scene.mesh.backlash == "regulatory_factor":
+        return point.backlash * along, 0.0
+    half = 0.5 * point.backlash * along
+    return half, half
+
+
+def static_torques(scene: Scene) -> np.ndarray:
+    """Torque of every machine per torque of the first motor, without loss.
+
+    Those on sun, ring and carrier are as their teeth: Ts : Tr : Tc = Zs : Zr : -(Zs + Zr).
+    """
+    teeth = scene.gearset.tooth_numbers
+    parts = {"sun": teeth.sun, "ring": teeth.ring, "carrier": -(teeth.sun + teeth.ring)}
+    members = [parts[machine.member] for machine in machines(scene).values()]
+    return np.array(members) / members[MOTOR]
 
 
 def mesh_loads(scene: Scene, train: Record, torque: float) -> np.ndarray:
     """Mean mesh forces (meshes,) [N] that carry an input torque [N m] without loss."""
-    teeth, drive = scene.gearset.tooth_numbers, scene.drive
+    teeth, member = scene.gearset.tooth_numbers, scene.drive.input.member
     parts = {"sun": teeth.sun, "ring": teeth.ring, "carrier": -(teeth.sun + teeth.ring)}
-    # Sun and ring torques are as their teeth: Ts : Tr : Tc = Zs : Zr : -(Zs + Zr).
-    sun_torque = torque * teeth.sun / parts[drive.input.member]
-    force = sun_torque / (_sun_base_radius(scene) * scene.gearset.planets)
+    sun_torque = torque * teeth.sun / parts[member]
+    force = sun_torque / (base_radii(scene)["sun"] * scene.gearset.planets)
     return np.full(train.meshes, force)
-
-
-def _sun_base_radius(scene: Scene) -> float:
-    gearset = scene.gearset
-    return 0.5 * gearset.module * gearset.teeth.sun * math.cos(gearset.pressure_angle)
 
 
 def start_state(scene: Scene, model: Record) -> Record:
     """The state in which a run begins, at time zero and motor angle zero."""
-    train, load = model.train, model.load
-    state = new_record(STATE)
-    state.speed = state.set_speed = load.target_speed
-    mean = mesh_loads(scene, train, load.torque)
+    train, load, axes = model.train, model.load, int(model.train.axes)
+    state, moment = new_record(STATE), new_record(MOMENT)
+    state.speed[:] = load.target_speed
+    if scene.drive.speed_control.start_speed is not None:
+        state.speed[0] = scene.drive.speed_control.start_speed
+    state.set_speed[:] = state.speed
+    mean = mesh_loads(scene, train, load.torque[MOTOR])
     state.side[: train.meshes] = DRIVE_SIDE if mean[0] >= 0.0 else COAST_SIDE
-    moment = new_record(MOMENT)
-    moment.cycle_rate = train.cycles * load.target_speed / (2.0 * math.pi)
-    loss = 0.0
-    evaluation = new_record(EVALUATION)
+    drag = np.zeros(axes)
     for point in range(CYCLE_POINTS):
-        state.fraction = point / (CYCLE_POINTS * abs(train.cycles))
+        state.fraction[0] = point / (CYCLE_POINTS * abs(train.cycles[0]))
         _settle(model, state, moment, mean)
-        loss += _friction_power(model, state, moment, evaluation) / CYCLE_POINTS
-    state.fraction = 0.0
+        drag += _drag(model, state, moment) / CYCLE_POINTS
+    state.fraction[0] = 0.0
     _settle(model, state, moment, mean)
-    if load.target_speed != 0.0:
-        # In steady running the load gives up the torque that friction takes.
-        state.trim = loss / load.target_speed / load.integral
+    # In steady running the machines give what friction takes along each rigid motion.
+    bodies = train.coupling[: train.machines, 0]
+    effect = train.ratio[bodies, :axes].T @ load.trim_gain[: train.machines, :axes]
+    state.trim[:axes] = np.linalg.solve(effect, drag)
     return state
 
 
-def _friction_power(model: Record, state: Record, moment: Record, evaluation: Record) -> float:
-    forces(model, state, moment, state.x, state.v, 0.0, 0.0, evaluation)
-    return float(evaluation.power[FRICTION])
+def _drag(model: Record, state: Record, moment: Record) -> np.ndarray:
+    """Torques against the rigid motion of each motor [N m]: friction, all else being balanced."""
+    train, evaluation = model.train, new_record(EVALUATION)
+    steady = model.copy()
+    steady.load.ripple = 0.0
+    steady.load.proportional[:] = 0.0
+    still = moment.copy()
+    still.slew[:] = 0.0
+    forces(steady, state, still, state.x, state.v, 0.0, np.zeros(AXES), evaluation)
+    torque = evaluation.force * train.radius
+    return -(train.ratio.T @ torque)[: int(train.axes)]
 
 
 def _settle(model: Record, state: Record, moment: Record, mean: np.ndarray) -> None:
@@ -94,19 +129,20 @@ def _settle(model: Record, state: Record, moment: Record, mean: np.ndarray) -> N
     stiffness decides how far the meshes yield.
     """
     for _ in range(SETTLING_PASSES):
-        _place_pairs(model.train, state, moment)
+        _place_pairs(model, state, moment)
         _balance(model, state, moment, mean)
-    _place_pairs(model.train, state, moment)
+    _place_pairs(model, state, moment)
 
 
-def _place_pairs(train: Record, state: Record, moment: Record) -> None:
+def _place_pairs(model: Record, state: Record, moment: Record) -> None:
     """Let every mesh have the tooth pairs that belong to its place in the cycle."""
+    train = model.train
     for i in range(train.meshes):
-        kind, side = train.kind[i], int(state.side[i])
+        side = int(state.side[i])
+        direction = math.copysign(1.0, side * frame_cycle_rate(train, state))
         cycle = mesh_cycle(train, state, i, side)
-        direction = math.copysign(1.0, side * moment.cycle_rate)
-        state.segment[i] = find_segment(train, kind, cycle, direction)
-        moment.start[i] = nearest_to_segment(train, kind, state.segment[i], cycle)
+        state.segment[i] = find_segment(train, train.kind[i], cycle, direction)
+    set_moment(model, state, moment)
 
 
 def _balance(model: Record, state: Record, moment: Record, mean: np.ndarray) -> None:
@@ -119,25 +155,23 @@ def _balance(model: Record, state: Record, moment: Record, mean: np.ndarray) -> 
     bodies = train.bodies + 1
     rows, targets, weights = [], [], []
     for i in range(train.meshes):
-        k = stiffness(train, train.kind[i], state.segment[i], moment.start[i])
+        k = mesh_stiffness(train, train.kind[i], state.segment[i], moment.start[i])
+        error = form_error(train, i, moment.line_angle, 0.0, 0.0)[0]
         row = np.zeros(bodies)
         np.add.at(row, train.body[i], train.sign[i])
         rows.append(row)
-        targets.append(state.side[i] * load.half_backlash + mean[i] / k)
+        targets.append(state.side[i] * load.offset + error + mean[i] / k)
         weights.append(k)
-    torques = (load.torque, load.output_gain * load.torque)
-    for c, (machine, member) in enumerate(train.coupling):
+    for c, (machine, member) in enumerate(train.coupling[: train.machines]):
         row = np.zeros(bodies)
         row[machine], row[member] = 1.0, -1.0
         rows.append(row)
-        targets.append(torques[c] / train.radius[machine] / train.coupling_stiffness[c])
+        targets.append(load.torque[c] / train.radius[machine] / train.coupling_stiffness[c])
         weights.append(train.coupling_stiffness[c])
-    motor = np.zeros(bodies)
-    motor[train.coupling[0, 0]] = 1.0
-    ground = np.zeros(bodies)
-    ground[train.bodies] = 1.0
-    matrix = np.array([*rows, motor, ground])
-    scale = np.sqrt(np.array([*weights, max(weights), max(weights)]))
-    right = np.array([*targets, 0.0, 0.0])
+    still = [*train.coupling[: 2 * train.axes : 2, 0], train.bodies]  # motors and ground
+    rows += list(np.eye(bodies)[still])
+    scale = np.sqrt(np.array(weights + [max(weights)] * len(still)))
+    right = np.array(targets + [0.0] * len(still))
+    matrix = np.array(rows)
     state.x[:bodies] = np.linalg.lstsq(matrix * scale[:, None], right * scale, rcond=None)[0]
     state.x[train.bodies] = 0.0

@@ -10,17 +10,23 @@ from __future__ import annotations
 import numpy as np
 
 from .._compile import kernel
-from .._records import MESHES, REAL, WHOLE, Record, layout
+from .._records import FLAG, MESHES, REAL, WHOLE, Record, layout
 from ..mesh.tooth_pairs import PAIRS
+from .body_speed import body_speed
 from .tooth_contact import tooth_contact
 
+SLOWEST_TURN = 1e-3  # [rad/s] below which the printed torque fades out
 REGISTER = 8  # doubles the compiler works on at a time
 LANES = -(-MESHES * PAIRS // REGISTER) * REGISTER  # room for all tooth pairs
 
 TOOTH_PAIRS = layout(
     count=WHOLE,  # how many there are
+    advance=REAL,  # mesh cycles since the start of the step
+    pace=REAL,  # mesh cycles per second
+    wanted=FLAG,  # whether the columns below are to be filled
     mesh=(WHOLE, (LANES,)),
     share=(REAL, (LANES,)),  # of the mesh force [-]
+    growth=(REAL, (LANES,)),  # of the weight behind it, per mesh cycle [-]
     rho1=(REAL, (LANES,)),  # radii of curvature [m]
     rho2=(REAL, (LANES,)),
     external=(REAL, (LANES,)),  # +1: external mesh, -1: internal
@@ -35,45 +41,6 @@ TOOTH_PAIRS = layout(
     sliding=(REAL, (LANES,)),  # [m/s]
     slope=(REAL, (LANES,)),  # of friction over sliding [N s/m]
 )
-
-
-@kernel
-def gather(
-    model: Record,
-    state: Record,
-    i: int,
-    cycle: float,
-    force: float,
-    v: np.ndarray,
-    pairs: Record,
-) -> None:
-    """Append the tooth pairs of mesh i, which carries `force`, at a fraction of its cycle."""
-    train = model.train
-    kind, segment = train.kind[i], state.segment[i]
-    first, second, carrier = train.body[i, 0], train.body[i, 1], train.body[i, 2]
-    frame = train.ratio[carrier] * state.speed + v[carrier] / train.radius[carrier]
-    speed1 = train.ratio[first] * state.speed + v[first] / train.radius[first] - frame
-    speed2 = train.ratio[second] * state.speed + v[second] / train.radius[second] - frame
-    total = 0.0
-    begin = count = pairs.count
-    for p in range(PAIRS):
-        weight = train.offset[kind, segment, p] + train.slope[kind, segment, p] * cycle
-        if weight <= 0.0:
-            continue
-        s = (cycle + train.shift[kind, segment, p]) * train.base_pitch
-        pairs.mesh[count] = i
-        pairs.share[count] = weight
-        pairs.rho1[count] = train.pitch_curvature[kind, 0] + s
-        pairs.rho2[count] = train.pitch_curvature[kind, 1] - train.external[kind] * s
-        pairs.external[count] = train.external[kind]
-        pairs.speed1[count] = speed1
-        pairs.speed2[count] = speed2
-        total += weight
-        count += 1
-    for p in range(begin, count):
-        pairs.share[p] /= total
-        pairs.load[p] = pairs.share[p] * force
-    pairs.count = count
 
 
 @kernel
@@ -111,6 +78,27 @@ def apply_friction(train: Record, pairs: Record, force: np.ndarray) -> float:
         force[second] -= f * rho2 / train.radius[second]
         force[carrier] += f * (rho1 + rho2) / train.radius[carrier]
         power += f * pairs.sliding[p]
+    return power
+
+
+@kernel
+def apply_printed_friction(
+    train: Record, state: Record, v: np.ndarray, pairs: Record, force: np.ndarray
+) -> float:
+    """Friction torque as Salagianni et al. 2017 print it; return the power it takes [W].
+
+    T = P/w (17) on both gears, with the sign of (18)-(20): it drives every gear the way it turns,
+    and so puts in twice what is lost. Divided by (w^2 + w0^2)/w, as 0/0 would stand at rest.
+    """
+    power = 0.0
+    for p in range(pairs.count):
+        lost = pairs.friction[p] * pairs.sliding[p]
+        for gear in range(2):
+            body = train.body[pairs.mesh[p], gear]
+            speed = body_speed(train, state, v, body)
+            torque = lost * speed / (speed * speed + SLOWEST_TURN * SLOWEST_TURN)
+            force[body] += torque / train.radius[body]
+            power -= torque * speed
     return power
 
 

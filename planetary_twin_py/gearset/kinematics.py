@@ -6,6 +6,7 @@ All speeds are absolute and counter-clockwise positive. Salagianni et al. 2017, 
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from fractions import Fraction
 from typing import NamedTuple
 
@@ -42,10 +43,26 @@ def speed_ratios(teeth: Teeth, held: str, reference: str) -> dict[str, Fraction]
     return {body: speed / absolute[reference] for body, speed in absolute.items()}
 
 
-def mesh_cycles_per_turn(teeth: Teeth, held: str, reference: str) -> Fraction:
-    """Teeth passing a mesh per turn of `reference`: Zs (ws - wc), signed.
+def speeds_per_input(
+    teeth: Teeth, inputs: Sequence[str], held: str
+) -> tuple[dict[str, Fraction], ...]:
+    """Speeds per speed of each of the `inputs`, while the other input is at rest.
+
+    One input with one member held, or two inputs with none held (a differential): all speeds are
+    then the sum of what both inputs give.
+
+    Raises:
+        ValueError: a member is named twice or is no central member.
+    """
+    if len(inputs) == 1:
+        return (speed_ratios(teeth, held, inputs[0]),)
+    first, second = inputs
+    return speed_ratios(teeth, second, first), speed_ratios(teeth, first, second)
+
+
+def mesh_cycles_per_turn(teeth: Teeth, ratios: dict[str, Fraction]) -> Fraction:
+    """Teeth passing a mesh per turn of what `ratios` refer to: Zs (ws - wc), signed.
 
     Corrects Salagianni et al. 2017, eq. (1e), whose last form holds for a held ring only.
     """
-    ratios = speed_ratios(teeth, held, reference)
     return teeth.sun * (ratios["sun"] - ratios["carrier"])

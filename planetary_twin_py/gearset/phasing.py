@@ -44,19 +44,14 @@ def check_assembly(teeth: Teeth, angles: Sequence[float]) -> None:
 
 
 def mesh_phases(teeth: Teeth, angles: Sequence[float]) -> tuple[list[float], list[float]]:
-    """Phases of the sun meshes and of the ring meshes, each in [0, 1) cycles.
+    """Phases of the sun meshes and of the ring meshes [cycles].
 
-    Pitch point to pitch point across one planet: half a cycle between its sun mesh and its
-    ring mesh if it has an even number of teeth, none if odd.
+    Whole cycles count teeth: tooth n of the sun is at planet i once `n` + phase cycles have
+    passed, and so is tooth n of the ring. Pitch point to pitch point across one planet: half a
+    cycle between its sun mesh and its ring mesh if it has an even number of teeth, none if odd.
     """
     offset = 0.5 if teeth.planet % 2 == 0 else 0.0
     turns = [(angle - angles[0]) / (2.0 * math.pi) for angle in angles]
-    sun = [_fraction(teeth.sun * turn) for turn in turns]
-    ring = [_fraction(-teeth.ring * turn + offset) for turn in turns]
+    sun = [round(teeth.sun * turn, 9) for turn in turns]
+    ring = [round(-teeth.ring * turn + offset, 9) for turn in turns]
     return sun, ring
-
-
-def _fraction(cycles: float) -> float:
-    """The part of `cycles` within [0, 1), with rounding next to a whole cycle taken off."""
-    rounded = round(cycles, 9)
-    return rounded - math.floor(rounded)

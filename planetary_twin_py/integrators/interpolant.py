@@ -8,9 +8,10 @@ from typing import NamedTuple
 import numpy as np
 
 from .._compile import kernel
-from .._records import Record
+from .._records import AXES, Record
+from ..dynamics.body_speed import body_speed
 from ..dynamics.contact_events import departure
-from ..dynamics.equations import mesh_motion
+from ..dynamics.cycle import cycle_shift
 from ..dynamics.observe import QUANTITIES, observe
 
 SLACK = 0.01  # share of the local tolerance by which flanks may pull or pass each other
@@ -47,10 +48,11 @@ def interpolate(model: Record, march: Record, delay: float) -> None:
 def departure_at(model: Record, march: Record, i: int, delay: float) -> float:
     """`departure` of mesh i on the interpolant."""
     interpolate(model, march, delay)
-    train = model.train
-    d, rate = mesh_motion(train, i, march.dense_x), mesh_motion(train, i, march.dense_v)
+    train, moment, x, v = model.train, march.moment, march.dense_x, march.dense_v
+    advance = moment.cycle_rate * delay + cycle_shift(train, x) - cycle_shift(train, march.begin.x)
+    pace = moment.cycle_rate + cycle_shift(train, v)
     slack = SLACK * march.control.tolerance_x
-    return departure(model, march.begin, i, march.moment.tau[train.kind[i]], d, rate, slack)
+    return departure(model, march.begin, moment, i, x, v, (advance, pace, slack))
 
 
 @kernel
@@ -80,10 +82,10 @@ def first_flank_event(model: Record, march: Record) -> tuple[int, float]:
 
 
 class Samples(NamedTuple):
-    """Samples of one window. The body j of a sample stands at turns * ratio[j] turns + angle[j]."""
+    """Samples of one window. Body j stands at turns @ ratio[j] turns + angle[j]."""
 
     mesh: np.ndarray  # (room, QUANTITIES, meshes), see `observe`
-    turns: np.ndarray  # (room,) whole turns of the motor
+    turns: np.ndarray  # (room, AXES) whole turns of the motors
     angle: np.ndarray  # (room, bodies) [rad]
     speed: np.ndarray  # (room, bodies) [rad/s]
 
@@ -93,7 +95,7 @@ def new_samples(train: Record, room: int) -> Samples:
     bodies, meshes = int(train.bodies), int(train.meshes)
     return Samples(
         np.zeros((room, QUANTITIES, meshes)),
-        np.zeros(room),
+        np.zeros((room, AXES)),
         np.zeros((room, bodies)),
         np.zeros((room, bodies)),
     )
@@ -107,9 +109,10 @@ def sample(model: Record, march: Record, time: float, out: Samples, row: int) ->
     interpolate(model, march, delay)
     pairs = march.work.evaluation.pairs
     observe(model, begin, march.moment, march.dense_x, march.dense_v, delay, pairs, out.mesh[row])
-    speed = begin.speed
-    frame = 2.0 * math.pi * begin.fraction + speed * delay
     out.turns[row] = begin.turns
     for j in range(train.bodies):
-        out.angle[row, j] = train.ratio[j] * frame + march.dense_x[j] / train.radius[j]
-        out.speed[row, j] = train.ratio[j] * speed + march.dense_v[j] / train.radius[j]
+        out.angle[row, j] = march.dense_x[j] / train.radius[j]
+        out.speed[row, j] = body_speed(train, begin, march.dense_v, j)
+        for a in range(train.axes):
+            frame = 2.0 * math.pi * begin.fraction[a] + begin.speed[a] * delay
+            out.angle[row, j] += train.ratio[j, a] * frame

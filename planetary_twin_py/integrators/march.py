@@ -12,13 +12,11 @@ import math
 
 from .._compile import kernel
 from .._records import Record
-from ..dynamics.contact_events import (
-    change_contact,
-    change_segment,
-    mesh_cycle,
-    nearest_to_segment,
-)
-from ..dynamics.equations import cycle_shift, damping_time, forces, mesh_motion
+from ..dynamics.contact_events import change_contact, change_segment
+from ..dynamics.cycle import cycle_shift, mesh_cycle, nearest_to_segment
+from ..dynamics.equations import forces
+from ..dynamics.mesh_force import mesh_motion
+from ..dynamics.moment import damping_time, set_moment
 from ..dynamics.state import OPEN
 from ..dynamics.tooth_friction import copy_friction
 from .interpolant import Samples, at_event, first_flank_event, sample
@@ -33,30 +31,25 @@ SAFETY, SHRINK, GROW = 0.8, 0.25, 2.0
 
 @kernel
 def _rebase(train: Record, state: Record) -> None:
-    """Let the frame catch up with the motor: its x and v become zero."""
-    motor = train.coupling[0, 0]
-    angle, rate = state.x[motor] / train.radius[motor], state.v[motor] / train.radius[motor]
-    for j in range(train.bodies):
-        state.x[j] -= train.ratio[j] * train.radius[j] * angle
-        state.v[j] -= train.ratio[j] * train.radius[j] * rate
-    state.x[motor] = 0.0
-    state.v[motor] = 0.0
-    state.speed += rate
-    fraction = state.fraction + angle / (2.0 * math.pi)
-    state.turns += math.floor(fraction)
-    state.fraction = fraction - math.floor(fraction)
+    """Let the frame catch up with the motors: their x and v become zero."""
+    for a in range(train.axes):
+        motor = train.coupling[2 * a, 0]
+        angle, rate = state.x[motor] / train.radius[motor], state.v[motor] / train.radius[motor]
+        for j in range(train.bodies):
+            state.x[j] -= train.ratio[j, a] * train.radius[j] * angle
+            state.v[j] -= train.ratio[j, a] * train.radius[j] * rate
+        state.x[motor] = 0.0
+        state.v[motor] = 0.0
+        state.speed[a] += rate
+        _turn(state, a, angle / (2.0 * math.pi))
 
 
 @kernel
-def _set_moment(model: Record, state: Record, moment: Record) -> None:
-    train = model.train
-    moment.cycle_rate = train.cycles * state.speed / (2.0 * math.pi)
-    gap = model.load.target_speed - state.set_speed
-    moment.slew = math.copysign(model.load.slew_rate, gap) if gap != 0.0 else 0.0
-    for i in range(train.meshes):
-        if state.side[i] != OPEN:
-            cycle = mesh_cycle(train, state, i, state.side[i])
-            moment.start[i] = nearest_to_segment(train, train.kind[i], state.segment[i], cycle)
+def _turn(state: Record, a: int, turns: float) -> None:
+    """Turn the frame with motor a; whole turns are counted apart."""
+    fraction = state.fraction[a] + turns
+    state.turns[a] += math.floor(fraction)
+    state.fraction[a] = fraction - math.floor(fraction)
 
 
 @kernel
@@ -74,9 +67,10 @@ def _time_to_event(model: Record, march: Record) -> float:
             nearest = min(nearest, (train.edge[kind, segment + 1] - moment.start[i]) / rate)
         elif rate < 0.0:
             nearest = min(nearest, (train.edge[kind, segment] - moment.start[i]) / rate)
-    if moment.slew != 0.0:
-        gap = model.load.target_speed - state.set_speed
-        nearest = min(nearest, gap / moment.slew)
+    for a in range(train.axes):
+        if moment.slew[a] != 0.0:
+            gap = model.load.target_speed[a] - state.set_speed[a]
+            nearest = min(nearest, gap / moment.slew[a])
     return max(nearest, SHORTEST_STEP)
 
 
@@ -107,10 +101,9 @@ def _try(model: Record, march: Record, h: float) -> None:
     copy_state(begin, end)
     step(model, begin, march.moment, h, march.first, end, march.work)
     end.time = begin.time + h
-    end.set_speed = begin.set_speed + march.moment.slew * h
-    turn = begin.fraction + begin.speed * h / (2.0 * math.pi)
-    end.turns = begin.turns + math.floor(turn)
-    end.fraction = turn - math.floor(turn)
+    for a in range(model.train.axes):
+        end.set_speed[a] = begin.set_speed[a] + march.moment.slew[a] * h
+        _turn(end, a, begin.speed[a] * h / (2.0 * math.pi))
     end.energy[:] = begin.energy + march.work.energy
     march.control.step = h
     forces(model, begin, march.moment, end.x, end.v, h, end.trim, march.last)
@@ -132,9 +125,9 @@ def _pass_edges(model: Record, march: Record) -> None:
             segment = end.segment[i]
             cycle = nearest_to_segment(train, kind, segment, cycle)
             if side * pace > 0.0 and cycle >= train.edge[kind, segment + 1] - EDGE:
-                change_segment(model, end, i, 1)
+                change_segment(model, end, march.aside, i, 1)
             elif side * pace < 0.0 and cycle <= train.edge[kind, segment] + EDGE:
-                change_segment(model, end, i, -1)
+                change_segment(model, end, march.aside, i, -1)
             else:
                 break
             march.control.pair_events += 1
@@ -145,14 +138,15 @@ def _pass_edges(model: Record, march: Record) -> None:
 def accept(model: Record, march: Record, mesh: int) -> None:
     """Let the step stand; `mesh` changes its contact at its end (-1: none)."""
     if mesh >= 0:
-        change_contact(model, march.end, mesh)
+        change_contact(model, march.end, march.aside, mesh)
         march.control.flank_events += 1
         march.control.changed = True
     _pass_edges(model, march)
-    gap = model.load.target_speed - march.end.set_speed
-    if gap * march.moment.slew <= 0.0 or abs(gap) < 1e-12 * model.load.slew_rate:
-        march.end.set_speed = model.load.target_speed
-        march.control.changed |= march.moment.slew != 0.0
+    for a in range(model.train.axes):
+        gap = model.load.target_speed[a] - march.end.set_speed[a]
+        if gap * march.moment.slew[a] <= 0.0 or abs(gap) < 1e-12 * model.load.slew_rate:
+            march.end.set_speed[a] = model.load.target_speed[a]
+            march.control.changed |= march.moment.slew[a] != 0.0
     march.control.steps += 1
 
 
@@ -162,10 +156,10 @@ def begin_step(model: Record, march: Record) -> None:
     begin, moment = march.begin, march.moment
     copy_state(march.end, begin)
     _rebase(model.train, begin)
-    _set_moment(model, begin, moment)
+    set_moment(model, begin, moment)
     if march.control.changed:
         for kind in range(2):
-            moment.tau[kind] = damping_time(model.train, kind, begin.speed)
+            moment.tau[kind] = damping_time(model.train, kind, moment.cycle_rate)
         forces(model, begin, moment, begin.x, begin.v, 0.0, begin.trim, march.first)
         march.control.evaluations += 1
         march.control.changed = False
@@ -233,7 +227,7 @@ def advance(
 
     Sample k is taken at k/sample_rate seconds, none later than `until`.
     """
-    taken, room = 0, out.turns.size
+    taken, room = 0, len(out.turns)
     while True:
         while taken < room and (first_sample + taken) / sample_rate <= march.end.time:
             sample(model, march, (first_sample + taken) / sample_rate, out, taken)

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from .._compile import kernel
 from .._records import BODIES, FLAG, REAL, WHOLE, Record, layout
-from ..dynamics.equations import EVALUATION, MOMENT
+from ..dynamics.equations import EVALUATION
+from ..dynamics.moment import MOMENT
 from ..dynamics.state import STATE
 from .rosenbrock import WORKSPACE
 
@@ -28,6 +29,7 @@ MARCH = layout(
     begin=STATE,
     end=STATE,
     moment=MOMENT,
+    aside=MOMENT,  # room for where a mesh stands at an event
     first=EVALUATION,  # forces at `begin`
     last=EVALUATION,  # forces at `end`, with the contacts of `begin`
     dense_x=(REAL, (BODIES,)),  # interpolated
@@ -45,9 +47,9 @@ def copy_state(source: Record, target: Record) -> None:
     target.side[:] = source.side
     target.segment[:] = source.segment
     target.time = source.time
-    target.turns = source.turns
-    target.fraction = source.fraction
-    target.speed = source.speed
-    target.trim = source.trim
-    target.set_speed = source.set_speed
+    target.turns[:] = source.turns
+    target.fraction[:] = source.fraction
+    target.speed[:] = source.speed
+    target.trim[:] = source.trim
+    target.set_speed[:] = source.set_speed
     target.energy[:] = source.energy

@@ -17,8 +17,11 @@ import math
 import numpy as np
 
 from .._compile import kernel
-from .._records import BODIES, REAL, Record, layout
-from ..dynamics.equations import EVALUATION, cycle_shift, forces, stiffness
+from .._records import AXES, BODIES, REAL, Record, layout
+from ..dynamics.body_speed import body_speed
+from ..dynamics.cycle import cycle_shift
+from ..dynamics.equations import EVALUATION, forces
+from ..dynamics.mesh_force import mesh_stiffness, push_drift
 from ..dynamics.state import LEDGER, OPEN
 from ..dynamics.tooth_friction import add_outer, friction_damping
 
@@ -58,6 +61,7 @@ ERROR_WEIGHT = WEIGHT - _B_EMBEDDED @ _INVERSE
 ALPHA = _ALPHA
 B = _B
 ABSCISSA = _ALPHA.sum(axis=1)
+DRIFT_WEIGHT = _GAMMAS.sum(axis=1)
 
 
 # Room for one step, and what it leaves behind besides the new state.
@@ -68,9 +72,11 @@ WORKSPACE = layout(
     v=(REAL, (BODIES,)),
     rx=(REAL, (BODIES,)),  # right-hand sides
     rv=(REAL, (BODIES,)),
-    trim=(REAL, (STAGES,)),  # rates
+    trim=(REAL, (AXES,)),  # of a stage
+    trim_rate=(REAL, (STAGES, AXES)),
     stiffness=(REAL, (BODIES, BODIES)),  # K
     system=(REAL, (BODIES, BODIES)),  # factorised
+    drift=(REAL, (BODIES,)),  # of the forces with time at rest [N/s]
     evaluation=EVALUATION,  # of the stage at hand
     error_x=(REAL, (BODIES,)),  # local error of x [m]
     error_v=(REAL, (BODIES,)),  # local error of v [m/s]
@@ -91,16 +97,20 @@ def _assemble(
     pace = moment.cycle_rate + cycle_shift(train, state.v)
     work.stiffness[:] = 0.0
     work.system[:] = 0.0
+    work.drift[:] = 0.0
     for i in range(train.meshes):
         side = state.side[i]
         if side == OPEN:
             continue
         kind = train.kind[i]
+        drift = push_drift(model, state, moment, i, pace)
+        for j in range(3):
+            work.drift[train.body[i, j]] -= side * drift * train.sign[i, j]
         cycle = moment.start[i] + side * pace * 0.5 * h
-        k = stiffness(train, kind, state.segment[i], cycle)
+        k = mesh_stiffness(train, kind, state.segment[i], cycle)
         add_outer(work.stiffness, train.body[i], train.sign[i], k)
         add_outer(work.system, train.body[i], train.sign[i], k * (moment.tau[kind] + step))
-    for c in range(2):
+    for c in range(train.machines):
         k = train.coupling_stiffness[c]
         add_outer(work.stiffness, train.coupling[c], _ENDS, k)
         add_outer(work.system, train.coupling[c], _ENDS, train.coupling_damping[c] + step * k)
@@ -153,7 +163,6 @@ def _stage(
     train = model.train
     bodies = train.bodies + 1
     g = 1.0 / (GAMMA * h)
-    trim = state.trim
     for j in range(bodies):
         x, v, cx, cv = state.x[j], state.v[j], 0.0, 0.0
         for s in range(i):
@@ -164,19 +173,22 @@ def _stage(
         work.x[j], work.v[j] = x, v
         work.rx[j] = v + cx / h
         work.rv[j] = train.mass[j] * cv / h
-    for s in range(i):
-        trim += h * ALPHA[i, s] * work.trim[s]
+    for a in range(train.axes):
+        work.trim[a] = state.trim[a]
+        for s in range(i):
+            work.trim[a] += h * ALPHA[i, s] * work.trim_rate[s, a]
     out = first if i == 0 else work.evaluation
     if i > 0:
-        forces(model, state, moment, work.x, work.v, ABSCISSA[i] * h, trim, out)
-    motor = train.coupling[0, 0]
-    speed = state.speed + work.v[motor] / train.radius[motor]
-    work.trim[i] = state.set_speed + moment.slew * ABSCISSA[i] * h - speed
+        forces(model, state, moment, work.x, work.v, ABSCISSA[i] * h, work.trim, out)
+    for a in range(train.axes):
+        speed = body_speed(train, state, work.v, train.coupling[2 * a, 0])
+        set_speed = state.set_speed[a] + moment.slew[a] * ABSCISSA[i] * h
+        work.trim_rate[i, a] = set_speed - speed
     for e in range(LEDGER):
         work.energy[e] += h * B[i] * out.power[e]
     right = work.uv[i]
     for j in range(bodies):
-        value = out.force[j] + work.rv[j]
+        value = out.force[j] + work.rv[j] + h * DRIFT_WEIGHT[i] * work.drift[j]
         for k in range(bodies):
             value -= work.stiffness[j, k] * work.rx[k] / g
         right[j] = value
@@ -209,10 +221,11 @@ def step(
     new.v[:] = state.v
     work.error_x[:] = 0.0
     work.error_v[:] = 0.0
-    new.trim = state.trim
+    new.trim[:] = state.trim
     for i in range(STAGES):
         _stage(model, state, moment, h, i, first, work)
-        new.trim += h * B[i] * work.trim[i]
+        for a in range(model.train.axes):
+            new.trim[a] += h * B[i] * work.trim_rate[i, a]
         for j in range(model.train.bodies + 1):
             new.x[j] += WEIGHT[i] * work.ux[i, j]
             new.v[j] += WEIGHT[i] * work.uv[i, j]

@@ -1,24 +1,34 @@
 """Which tooth pairs share the load of a mesh, and with what weight.
 
-A pair enters and leaves over a short ramp: its weight rises linearly from 0 to 1 as it comes
-into contact and falls back at the end. Over one mesh cycle the weights are linear between a few
-breakpoints, so a mesh is a table of segments. The sum of the weights is the (fractional) number
-of pairs in contact, from which the mesh stiffness follows; their ratio shares the load.
-A ramp of zero is the rectangular single/double alternation of Salagianni et al. 2017, Fig. 4.
+A pair enters and leaves over a short ramp: its weight rises linearly from 0 to its full strength
+as it comes into contact and falls back at the end. Over one mesh cycle the weights are smooth
+between a few breakpoints, so a mesh is a table of segments with a polynomial for every pair.
+The mesh stiffness is base + gain * (sum of the weights), shared in the ratio of the weights:
+
+- given stiffness k of one pair, every further pair adds (r - 1) k: full strength 1, and
+  base = (2 - r) k, gain = (r - 1) k (r = 1.75 is the slope of ISO 6336-1, c_gamma over the contact
+  ratio; a ramp of zero is the single/double alternation of Salagianni et al. 2017, Fig. 4);
+- stiffness computed for every position of a pair: that is its strength, base = 0, gain = 1.
 """
 
 from __future__ import annotations
 
 import math
+from collections.abc import Callable, Sequence
 from itertools import pairwise
 from typing import NamedTuple
 
 import numpy as np
+from numpy.polynomial import Polynomial
 
 from ..gearset.geometry import PathOfContact
 
 PAIRS = 3  # tooth pairs in contact at most: contact ratios up to 3
-SEGMENTS = 4 * PAIRS  # breakpoints per cycle at most
+SEGMENTS = 32  # room for breakpoints: 4 for each pair and those of faults
+TERMS = 6  # coefficients of a polynomial
+TOTAL = PAIRS  # place of the sum over the pairs
+
+Along = Callable[[np.ndarray], np.ndarray]  # function of positions on the path of contact
 
 
 class PairTable(NamedTuple):
@@ -26,26 +36,31 @@ class PairTable(NamedTuple):
 
     The position s of a pair is its distance past the pitch point, in base pitches; the pairs of
     a mesh at the cycle fraction x stand at x + shift. In segment j, from edge[j] to edge[j + 1],
-    pair p has the weight offset[j, p] + slope[j, p] * x.
+    the weight of pair p is a polynomial in x - edge[j].
     """
 
     segments: int
     edge: np.ndarray  # (SEGMENTS + 1,)
     shift: np.ndarray  # (SEGMENTS, PAIRS)
-    offset: np.ndarray  # (SEGMENTS, PAIRS)
-    slope: np.ndarray  # (SEGMENTS, PAIRS)
+    present: np.ndarray  # (SEGMENTS, PAIRS) whether there is such a pair
+    weight: np.ndarray  # (SEGMENTS, PAIRS + 1, TERMS), the sum over the pairs at TOTAL
 
 
-def _weight(path: PathOfContact, ramp: float, s: float) -> float:
-    if not -path.approach <= s <= path.recess:
-        return 0.0
-    if ramp == 0.0:
-        return 1.0
-    return min(1.0, (s + path.approach) / ramp, (path.recess - s) / ramp)
+def one(s: np.ndarray) -> np.ndarray:
+    """The full strength of a pair whose stiffness is given."""
+    return np.ones_like(s)
 
 
-def pair_table(path: PathOfContact, ramp: float) -> PairTable:
+def pair_table(
+    path: PathOfContact, ramp: float, strength: Along = one, kinks: Sequence[float] = ()
+) -> PairTable:
     """Tabulate the tooth pairs of a mesh with a ramp of `ramp` base pitches.
+
+    Args:
+        path: where pairs are in contact.
+        ramp: base pitches over which a pair takes up and gives up its load.
+        strength: full weight of a pair at its positions [base pitches].
+        kinks: further positions at which something along the path is not smooth.
 
     Raises:
         ValueError: the contact ratio is below 1 + ramp (a moment without a full pair) or above 3.
@@ -55,32 +70,52 @@ def pair_table(path: PathOfContact, ramp: float) -> PairTable:
             f"contact ratio = {path.contact_ratio:.4g}: must be within 1 + ramp = {1 + ramp:g} "
             f"and {PAIRS}"
         )
-    kinks = (-path.approach, -path.approach + ramp, path.recess - ramp, path.recess)
-    edges = sorted({0.0, 1.0} | {round(kink - math.floor(kink), 12) for kink in kinks})
+    ends = (-path.approach, -path.approach + ramp, path.recess - ramp, path.recess)
+    kinks = [kink for kink in kinks if -path.approach < kink < path.recess]
+    edges = sorted({0.0, 1.0} | {round(kink - math.floor(kink), 12) for kink in (*ends, *kinks)})
     table = PairTable(
         len(edges) - 1,
         np.full(SEGMENTS + 1, 1.0),
         np.zeros((SEGMENTS, PAIRS)),
-        np.zeros((SEGMENTS, PAIRS)),
-        np.zeros((SEGMENTS, PAIRS)),
+        np.zeros((SEGMENTS, PAIRS), dtype=bool),
+        np.zeros((SEGMENTS, PAIRS + 1, TERMS)),
     )
     table.edge[: len(edges)] = edges
     for j, (low, high) in enumerate(pairwise(edges)):
-        _fill_segment(table, j, path, ramp, low, high)
+        middle = 0.5 * (low + high)
+        shifts = [n for n in range(-PAIRS, PAIRS + 1) if -path.approach < middle + n < path.recess]
+        table.shift[j, : len(shifts)] = shifts
+        table.present[j, : len(shifts)] = True
+    table.weight[:, :TOTAL] = along(table, lambda s: _ramp(path, ramp, s) * strength(s))
+    table.weight[:, TOTAL] = table.weight[:, :TOTAL].sum(axis=1)
     return table
 
 
-def _fill_segment(
-    table: PairTable, j: int, path: PathOfContact, ramp: float, low: float, high: float
-) -> None:
-    """Weights are linear within a segment: two inner points give them."""
-    x1, x2 = low + 0.25 * (high - low), low + 0.75 * (high - low)
-    pair = 0
-    for shift in range(-PAIRS, PAIRS + 1):
-        w1, w2 = (_weight(path, ramp, x + shift) for x in (x1, x2))
-        if w1 == 0.0 and w2 == 0.0:
-            continue
-        slope = (w2 - w1) / (x2 - x1)
-        table.shift[j, pair], table.slope[j, pair] = shift, slope
-        table.offset[j, pair] = w1 - slope * x1
-        pair += 1
+def _ramp(path: PathOfContact, ramp: float, s: np.ndarray) -> np.ndarray:
+    if ramp == 0.0:
+        return np.ones_like(s)
+    return np.minimum(1.0, np.minimum(s + path.approach, path.recess - s) / ramp)
+
+
+def along(table: PairTable, function: Along) -> np.ndarray:
+    """Coefficients (SEGMENTS, PAIRS, TERMS) of a function of the position of a pair.
+
+    Interpolates at the Chebyshev points of each segment: exact for a polynomial with as many
+    terms that has its breakpoints at edges.
+    """
+    result = np.zeros((SEGMENTS, PAIRS, TERMS))
+    nodes = 0.5 - 0.5 * np.cos(np.pi * (np.arange(TERMS) + 0.5) / TERMS)
+    for j, p in zip(*np.nonzero(table.present), strict=True):
+        length = table.edge[j + 1] - table.edge[j]
+        s = table.edge[j] + length * nodes + table.shift[j, p]
+        fitted = Polynomial.fit(nodes, function(s), TERMS - 1, domain=[0.0, 1.0], window=[0.0, 1.0])
+        result[j, p] = fitted.coef / length ** np.arange(TERMS)
+    return result
+
+
+def terms_in_use(table: PairTable) -> int:
+    """Coefficients that are more than rounding in some weight."""
+    lengths = np.diff(table.edge)[:, None, None]
+    sizes = np.abs(table.weight * lengths ** np.arange(TERMS))
+    largest = sizes.max(axis=(0, 1))
+    return max(2, int(np.max(np.nonzero(largest > 1e-12 * largest.max()))) + 1)

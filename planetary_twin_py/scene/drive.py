@@ -24,18 +24,45 @@ class SpeedControl(Section):
 
     bandwidth: float = quantity("Hz", "of the speed loop", 3.0, gt=0.0, le=100.0)
     slew_rate: float = quantity("rad/s^2", "of the speed set-point", 500.0, gt=0.0, le=1e6)
+    start_speed: float | None = quantity(
+        "rad/s",
+        "speed of the first motor at time zero; not given: that of the operating point",
+        None,
+        ge=-1e5,
+        le=1e5,
+    )
     ripple_order: int = Field(2, ge=1, le=100, description="torque cycles per turn of the motor")
 
 
 class Drive(Section):
-    """Power flow: motor at the input, load at the output."""
+    """Power flow: motors at the inputs, a load at the output.
+
+    A gearset with a held member has one input. A differential has two: both speeds are given, and
+    the torque of the second follows from that of the first.
+    """
 
     input: Machine
+    second_input: Machine | None = None
     output: Machine
     speed_control: SpeedControl = SpeedControl()
+    speed_limit: float = quantity(
+        "rad/s", "largest speed a motor may be set to", 1100.0, gt=0, le=1e5
+    )
+    torque_limit: float = quantity("N m", "largest torque it may be set to", 1000.0, gt=0, le=1e9)
+
+    @property
+    def inputs(self) -> tuple[Machine, ...]:
+        """The motors."""
+        return (self.input,) if self.second_input is None else (self.input, self.second_input)
 
     @model_validator(mode="after")
-    def _two_members(self) -> Self:
-        if self.input.member == self.output.member:
-            raise ValueError(f"output.member = {self.output.member!r}: is the input already")
+    def _a_member_each(self) -> Self:
+        taken: set[str] = set()
+        for side in ("input", "second_input", "output"):
+            machine = getattr(self, side)
+            if machine is None:
+                continue
+            if machine.member in taken:
+                raise ValueError(f"{side}.member = {machine.member!r}: has a machine already")
+            taken.add(machine.member)
         return self

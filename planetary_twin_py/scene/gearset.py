@@ -11,6 +11,7 @@ from ..gearset.phasing import check_assembly
 from .quantity import Section, quantity
 
 Member = Literal["sun", "ring", "carrier"]
+Held = Literal["sun", "ring", "carrier", "none"]
 
 
 class ToothNumbers(Section):
@@ -41,7 +42,7 @@ class Gearset(Section):
     planet_angles: tuple[float, ...] = quantity(
         "rad", "positions of the planets on the carrier", min_length=2, max_length=7
     )
-    held: Member = "carrier"
+    held: Held = Field("carrier", description="none: a differential with two inputs")
     equivalent_mass: EquivalentMasses
     planet_mass: float = quantity("kg", "mass of one planet", gt=0.0, le=1e6)
 

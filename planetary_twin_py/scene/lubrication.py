@@ -13,6 +13,10 @@ class Lubrication(Section):
     """Oil, surfaces, and the choice of laws for film, lambda ratio and traction."""
 
     friction: bool = Field(True, description="tooth friction on or off")
+    friction_torque: Literal["sliding", "printed"] = Field(
+        "sliding",
+        description="sliding: -f dVs/dw, takes f Vs; printed: P/w, Salagianni et al. (17)-(20)",
+    )
     film: Literal["dowson_higginson", "dowson_toyoda", "salagianni"] = "dowson_higginson"
     lambda_ratio: Literal["prescribed", "computed"] = "computed"
     viscosity: float = quantity("Pa s", "at atmospheric pressure", gt=0.0, le=10.0)

@@ -1,8 +1,10 @@
-"""How teeth touch along the line of action: stiffness and damping."""
+"""How teeth touch along the line of action: stiffness, damping, backlash, errors of form."""
 
 from __future__ import annotations
 
-from typing import Literal
+from typing import Literal, Self
+
+from pydantic import model_validator
 
 from .quantity import Section, quantity
 
@@ -11,27 +13,93 @@ class MeshDamping(Section):
     """Damping c = tau k of a mesh in every state of contact.
 
     "meshing_frequency": tau = loss_factor/f_m, f_m not below `lowest_frequency` (Salagianni et
-    al. 2017, section 3, whose printed law is unbounded at standstill). "viscous": tau constant,
-    from the damping ratio of the mesh on its own two gears at single-pair stiffness.
+    al. 2017, section 3, whose printed law is unbounded at standstill).
+    "printed_meshing_frequency": the same with f_m as their eq. (1e) prints it, which is that of a
+    held ring. "natural_frequency": tau = loss_factor/f_n with the natural frequency of the mesh on
+    its own two gears. "viscous": tau from the damping ratio of that natural mode. The last two
+    do not depend on the speed.
     """
 
-    law: Literal["meshing_frequency", "viscous"] = "viscous"
+    law: Literal[
+        "meshing_frequency", "printed_meshing_frequency", "natural_frequency", "viscous"
+    ] = "viscous"
     damping_ratio: float = quantity("", "damping ratio of one mesh", 0.05, ge=0.0, le=2.0)
-    loss_factor: float = quantity("", "tau times meshing frequency", 0.009, ge=0.0, le=1.0)
+    loss_factor: float = quantity("", "tau times frequency", 0.009, ge=0.0, le=1.0)
     lowest_frequency: float = quantity(
         "Hz", "meshing frequency below which the law no longer follows it", 5.0, gt=0.0, le=1e4
     )
 
+    @property
+    def follows_speed(self) -> bool:
+        """Whether the damping changes with the meshing frequency."""
+        return self.law in ("meshing_frequency", "printed_meshing_frequency")
+
+
+class TransmissionError(Section):
+    """Static transmission error of a mesh: harmonics of the meshing frequency.
+
+    e = sum of a_n sin(2 pi n x + p_n) over n = 1, 2, ..., x the mesh cycles since a pair was at
+    the pitch point; positive e is material that is missing.
+    """
+
+    amplitudes: tuple[float, ...] = quantity("m", "of harmonics 1, 2, ...", (), max_length=4)
+    phases: tuple[float, ...] = quantity("rad", "of the same; none: all zero", (), max_length=4)
+
+    @model_validator(mode="after")
+    def _a_phase_each(self) -> Self:
+        if self.phases and len(self.phases) != len(self.amplitudes):
+            raise ValueError(
+                f"phases = {list(self.phases)}: must be as many as amplitudes, or none"
+            )
+        return self
+
+
+class Runout(Section):
+    """Eccentricity of the gears on their bearings, which returns with every turn."""
+
+    sun: float = quantity("m", "eccentricity of the sun", 0.0, ge=0.0, le=1e-2)
+    planet: float = quantity("m", "eccentricity of every planet", 0.0, ge=0.0, le=1e-2)
+    ring: float = quantity("m", "eccentricity of the ring", 0.0, ge=0.0, le=1e-2)
+
 
 class Mesh(Section):
-    """Stiffness and damping along the line of action."""
+    """Stiffness, damping, backlash and errors along the line of action.
 
-    sun_planet_stiffness: float = quantity("N/m", "of a single tooth pair", ge=1e3, le=1e13)
-    planet_ring_stiffness: float = quantity("N/m", "of a single tooth pair", ge=1e3, le=1e13)
+    Stiffness "given": by the numbers below. With `double_pair_ratio` 1 it is constant, with `ramp`
+    0 it alternates at once. "involute": computed from the teeth for every position of a pair.
+
+    Backlash "dead_zone": F = k (DTE - B/2), B the backlash. "regulatory_factor": F = k DTE
+    beyond B and none within, the printed form of Salagianni et al. 2017, (2)-(5), which jumps.
+
+    Motion "line_of_action": stiffness and backlash refer to the DTE along it. "pitch_arc": to
+    that along the pitch circles, as their (2) and (3) print it, so the mesh is 1/cos(phi) stiffer.
+    Results are along the line of action in any case.
+    """
+
+    stiffness: Literal["given", "involute"] = "given"
+    sun_planet_stiffness: float | None = quantity(
+        "N/m", "of a single tooth pair", None, ge=1e3, le=1e13
+    )
+    planet_ring_stiffness: float | None = quantity(
+        "N/m", "of a single tooth pair", None, ge=1e3, le=1e13
+    )
     double_pair_ratio: float = quantity(
         "", "stiffness of two pairs over that of one", 1.75, ge=1.0, le=2.0
     )
     ramp: float = quantity(
         "", "base pitches over which a pair takes up its load; 0: at once", 0.03, ge=0.0, le=0.2
     )
+    backlash: Literal["dead_zone", "regulatory_factor"] = "dead_zone"
+    motion: Literal["line_of_action", "pitch_arc"] = "line_of_action"
     damping: MeshDamping = MeshDamping()
+    sun_planet_error: TransmissionError = TransmissionError()
+    planet_ring_error: TransmissionError = TransmissionError()
+    runout: Runout = Runout()
+
+    @model_validator(mode="after")
+    def _numbers_where_they_are_wanted(self) -> Self:
+        if self.stiffness == "given":
+            for name in ("sun_planet_stiffness", "planet_ring_stiffness"):
+                if getattr(self, name) is None:
+                    raise ValueError(f"{name}: missing; or choose stiffness: involute")
+        return self

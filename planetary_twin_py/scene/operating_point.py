@@ -5,11 +5,14 @@ from __future__ import annotations
 import math
 from typing import NamedTuple
 
-from .quantity import Section, bounds, quantity, unit_of
+from .quantity import Section, bounds, quantity, unit_of, within
 
 
 class OperatingPoint(Section):
-    """Set-points and state of wear; every field can be changed at any simulated instant."""
+    """Set-points and state of wear; every field can be changed at any simulated instant.
+
+    A scene's drive narrows the ranges of speeds and torques: see `Scene.tunables`.
+    """
 
     backlash: float = quantity(
         "m", "total play between the flanks, along the line of action", ge=0.0, le=1e-3
@@ -24,14 +27,21 @@ class OperatingPoint(Section):
     input_speed: float = quantity(
         "rad/s",
         "speed set-point of the motor, reached at the drive's slew rate",
-        ge=-1100.0,
-        le=1100.0,
+        ge=-1e5,
+        le=1e5,
+    )
+    second_input_speed: float = quantity(
+        "rad/s",
+        "speed set-point of the second motor of a differential",
+        0.0,
+        ge=-1e5,
+        le=1e5,
     )
     input_torque: float = quantity(
-        "N m", "mean torque of the motor in steady running", ge=-1000.0, le=1000.0
+        "N m", "mean torque of the motor in steady running", ge=-1e9, le=1e9
     )
     torque_ripple: float = quantity(
-        "N m", "amplitude of the motor's torque fluctuation", 0.0, ge=0.0, le=1000.0
+        "N m", "amplitude of the motor's torque fluctuation", 0.0, ge=0.0, le=1e9
     )
 
 
@@ -43,6 +53,15 @@ class Tunable(NamedTuple):
     description: str
     minimum: float
     maximum: float
+
+    @property
+    def range(self) -> str:
+        """The range in words."""
+        return within(self.minimum, self.maximum, self.unit)
+
+    def within(self, limit: float) -> Tunable:
+        """The same with no larger magnitudes than `limit`."""
+        return self._replace(minimum=max(self.minimum, -limit), maximum=min(self.maximum, limit))
 
 
 def _tunables() -> dict[str, Tunable]:

@@ -80,4 +80,9 @@ def _allowed(model: type[BaseModel], path: list[str]) -> str | None:
     low, high = bounds(field)
     if low == -math.inf and high == math.inf:
         return f"must be a finite number in {unit_of(field) or '1'}"
-    return f"must be a number within {low:g} and {high:g} {unit_of(field)}".rstrip()
+    return within(low, high, unit_of(field) or "")
+
+
+def within(low: float, high: float, unit: str) -> str:
+    """A range in words."""
+    return f"must be a number within {low:g} and {high:g} {unit}".rstrip()

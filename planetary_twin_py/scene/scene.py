@@ -7,13 +7,14 @@ from pathlib import Path
 from typing import Any, Self
 
 import yaml
-from pydantic import ValidationError, model_validator
+from pydantic import Field, ValidationError, model_validator
 
 from .drive import Drive
+from .faults import MOST_FAULTS, Fault
 from .gearset import Gearset
 from .lubrication import Lubrication
 from .mesh import Mesh
-from .operating_point import OperatingPoint
+from .operating_point import TUNABLES, OperatingPoint, Tunable
 from .quantity import SceneError, Section, explain
 
 
@@ -27,14 +28,54 @@ class Scene(Section):
     lubrication: Lubrication
     drive: Drive
     operating_point: OperatingPoint
+    faults: tuple[Fault, ...] = Field((), max_length=MOST_FAULTS, description="faulty teeth")
 
     @model_validator(mode="after")
     def _held_member_is_free_of_machines(self) -> Self:
-        for side in ("input", "output"):
-            member = getattr(self.drive, side).member
-            if member == self.gearset.held:
-                raise ValueError(f"drive.{side}.member = {member!r}: the gearset holds it")
+        held = self.gearset.held
+        for side in ("input", "second_input", "output"):
+            machine = getattr(self.drive, side)
+            if machine is not None and machine.member == held:
+                raise ValueError(f"drive.{side}.member = {machine.member!r}: the gearset holds it")
+        if (self.drive.second_input is None) != (held != "none"):
+            needed = "needs" if held == "none" else "has no place for"
+            raise ValueError(f"gearset.held = {held!r}: {needed} a drive.second_input")
+        if self.drive.second_input is None and self.operating_point.second_input_speed != 0.0:
+            speed = self.operating_point.second_input_speed
+            raise ValueError(f"second_input_speed = {speed!r}: must be 0, there is no second input")
         return self
+
+    @model_validator(mode="after")
+    def _within_the_limits_of_the_drive(self) -> Self:
+        for tunable in self.tunables.values():
+            value = getattr(self.operating_point, tunable.name)
+            if not tunable.minimum <= value <= tunable.maximum:
+                raise ValueError(f"{tunable.name} = {value!r}: {tunable.range}")
+        return self
+
+    @model_validator(mode="after")
+    def _faults_are_in_teeth_there_are(self) -> Self:
+        for n, fault in enumerate(self.faults):
+            teeth = getattr(self.gearset.teeth, fault.gear)
+            for name, last in (("tooth", teeth - 1), ("planet", self.gearset.planets)):
+                if getattr(fault, name) > last:
+                    value = getattr(fault, name)
+                    raise ValueError(f"faults.{n}.{name} = {value}: must be at most {last}")
+        return self
+
+    @property
+    def tunables(self) -> dict[str, Tunable]:
+        """What may change while this scene runs, each with its range."""
+        limits = {
+            "input_speed": self.drive.speed_limit,
+            "second_input_speed": self.drive.speed_limit,
+            "input_torque": self.drive.torque_limit,
+            "torque_ripple": self.drive.torque_limit,
+        }
+        return {
+            name: tunable.within(limits[name]) if name in limits else tunable
+            for name, tunable in TUNABLES.items()
+        }
 
     def replace(self, **changes: Any) -> Scene:
         """A copy with other values.
@@ -94,6 +135,8 @@ def load_scene(name_or_path: str | Path) -> Scene:
 def parse_scene(text: str) -> Scene:
     """Read a scene from YAML text.
 
+    A scene with a ``base``, the name of a packaged scene, says only where it differs from that.
+
     Raises:
         SceneError: the text is no YAML mapping, or a field in it is wrong.
     """
@@ -103,4 +146,16 @@ def parse_scene(text: str) -> Scene:
         raise SceneError(f"scene is not YAML: {' '.join(str(error).split())}") from None
     if not isinstance(data, dict):
         raise SceneError("scene is not a YAML mapping")
+    if "base" in data:
+        base = data.pop("base")
+        if base not in packaged_scenes():
+            raise SceneError(f"base = {base!r}: must be one of {', '.join(packaged_scenes())}")
+        data = _overlaid(load_scene(base).model_dump(), data)
     return _validated(data)
+
+
+def _overlaid(base: Any, changes: Any) -> Any:
+    """Mappings are merged, everything else is replaced."""
+    if not isinstance(base, dict) or not isinstance(changes, dict):
+        return changes
+    return base | {name: _overlaid(base.get(name), value) for name, value in changes.items()}

@@ -63,6 +63,7 @@ OPERATING_POINT = {
     "backlash": Quantity("Backlash", "µm", 1e6),
     "lambda_ratio": Quantity("Prescribed lambda ratio", "-"),
     "input_speed": Quantity("Speed set-point", "rpm", RPM),
+    "second_input_speed": Quantity("Second speed set-point", "rpm", RPM),
     "input_torque": Quantity("Input torque", "N m"),
     "torque_ripple": Quantity("Torque ripple", "N m"),
 }

@@ -6,15 +6,21 @@ from itertools import pairwise
 import pytest
 from power_flows import ALL_FLOWS, FLOWS, scene_of
 
-from planetary_twin_py import simulate
+from planetary_twin_py import load_scene, packaged_scenes, simulate
 
+SCENES = pytest.mark.parametrize("name", packaged_scenes())
 RATTLE = {"input_torque": 0.3, "torque_ripple": 3.0}
 
 
 def imbalance(scene, tolerance):
     energy = simulate(scene, 0.05, tolerance=tolerance).energy
     assert energy.friction > 0.0 and energy.damping > 0.0
-    return abs(energy.residual) / abs(energy.input)
+    return abs(energy.residual) / energy.put_in
+
+
+@SCENES
+def test_balance_closes_in_every_packaged_scene(name):
+    assert imbalance(load_scene(name), 1e-5) < 1e-6
 
 
 def assert_balanced(scene):
@@ -61,3 +67,21 @@ def test_residual_falls_with_the_tolerance():
     residuals = [imbalance(scene_of(FLOWS[0]), tol) for tol in (1e-2, 1e-3, 1e-4, 1e-5, 1e-6)]
     assert all(b < 0.5 * a for a, b in pairwise(residuals))
     assert residuals[-1] < 1e-7
+
+
+@pytest.mark.parametrize(
+    "changes",
+    [
+        {"mesh.sun_planet_error": {"amplitudes": ["3 um", "1 um"], "phases": [0.3, 2.0]}},
+        {"mesh.planet_ring_error": {"amplitudes": ["12 um"]}, "input_torque": -40.0},
+        {"mesh.runout": {"sun": "20 um", "planet": "10 um", "ring": "15 um"}},
+        {"faults": [{"kind": "crack", "gear": "planet", "planet": 2, "stiffness_loss": 0.5}]},
+        {"faults": [{"kind": "spall", "gear": "ring", "tooth": 1, "stiffness_loss": 0.4}]},
+        {"faults": [{"kind": "wear", "gear": "sun", "tooth": 1, "depth": "2 um"}]},
+        {"mesh.backlash": "regulatory_factor"},
+        {"mesh.damping.law": "natural_frequency"},
+    ],
+    ids=lambda changes: "-".join(changes),
+)
+def test_balance_closes_with_every_error_and_fault_of_the_teeth(changes):
+    assert imbalance(scene_of(FLOWS[0], **changes), 1e-5) < 1e-6

@@ -5,8 +5,10 @@ import pytest
 from power_flows import ALL_FLOWS, scene_of
 
 from planetary_twin_py._records import new_record
-from planetary_twin_py.dynamics.contact_events import find_segment
-from planetary_twin_py.dynamics.equations import EVALUATION, MOMENT, forces, mesh_motion
+from planetary_twin_py.dynamics.cycle import find_segment
+from planetary_twin_py.dynamics.equations import EVALUATION, forces
+from planetary_twin_py.dynamics.mesh_force import mesh_motion
+from planetary_twin_py.dynamics.moment import MOMENT
 from planetary_twin_py.dynamics.state import COAST_SIDE, DRIVE_SIDE, FRICTION
 from planetary_twin_py.dynamics.tooth_friction import apply_friction
 from planetary_twin_py.engine import Engine
@@ -49,15 +51,15 @@ def test_friction_takes_what_the_sliding_loses(flow, seed):
     train = engine.train
     state, moment, x, v = random_moment(engine, random)
     with_friction, without = new_record(EVALUATION), new_record(EVALUATION)
-    forces(engine.model, state, moment, x, v, 0.0, 0.0, with_friction)
+    forces(engine.model, state, moment, x, v, 0.0, np.zeros(2), with_friction)
     engine.model.train.friction = False
-    forces(engine.model, state, moment, x, v, 0.0, 0.0, without)
+    forces(engine.model, state, moment, x, v, 0.0, np.zeros(2), without)
 
     pairs, bodies = with_friction.pairs, int(train.bodies)
     friction = pairs.friction[: pairs.count]
     assert pairs.count >= 3 and np.abs(friction).max() > 1.0
     q = (with_friction.force - without.force)[:bodies]
-    speed = train.ratio * state.speed + v / train.radius.clip(1e-9)
+    speed = train.ratio @ state.speed + v / train.radius.clip(1e-9)
     sliding = sliding_speeds(train, pairs, speed)
     assert pairs.sliding[: pairs.count] == pytest.approx(sliding, rel=1e-9)
     assert (friction * sliding).min() >= 0.0
@@ -75,7 +77,7 @@ def test_friction_takes_what_the_sliding_loses(flow, seed):
 def test_turning_everything_together_meets_no_friction(flow):
     engine = Engine(scene_of(flow), 1e-4)
     out, bodies = new_record(EVALUATION), int(engine.train.bodies)
-    forces(engine.model, *random_moment(engine, np.random.default_rng(1)), 0.0, 0.0, out)
+    forces(engine.model, *random_moment(engine, np.random.default_rng(1)), 0.0, np.zeros(2), out)
     q = np.zeros_like(out.force)
     apply_friction(engine.train, out.pairs, q)
     torque = (q * engine.train.radius)[: bodies + 1]  # the last is that on the ground
@@ -86,7 +88,7 @@ def test_turning_everything_together_meets_no_friction(flow):
 def test_pairs_of_a_mesh_share_all_of_its_force(flow):
     engine = Engine(scene_of(flow), 1e-4)
     out = new_record(EVALUATION)
-    forces(engine.model, *random_moment(engine, np.random.default_rng(2)), 0.0, 0.0, out)
+    forces(engine.model, *random_moment(engine, np.random.default_rng(2)), 0.0, np.zeros(2), out)
     shares = np.bincount(
         out.pairs.mesh[: out.pairs.count], out.pairs.share[: out.pairs.count], engine.train.meshes
     )

@@ -10,6 +10,7 @@ from planetary_twin_py.gearset.kinematics import (
     Teeth,
     mesh_cycles_per_turn,
     speed_ratios,
+    speeds_per_input,
 )
 
 PAPER = Teeth(30, 20, 70)
@@ -37,7 +38,19 @@ def test_held_carrier_turns_ring_at_minus_three_sevenths_and_planets_at_minus_th
     [("carrier", "sun", 500), ("ring", "sun", 350), ("sun", "carrier", 500), ("sun", "ring", 350)],
 )
 def test_meshing_frequency_at_1000_rpm(held, reference, frequency):
-    assert abs(mesh_cycles_per_turn(PAPER, held, reference)) * Fraction(1000, 60) == frequency
+    ratios = speed_ratios(PAPER, held, reference)
+    assert abs(mesh_cycles_per_turn(PAPER, ratios)) * Fraction(1000, 60) == frequency
+
+
+def test_speeds_of_a_differential_are_those_of_both_inputs_together():
+    """1000 rpm at the sun and 500 at the carrier: ring 285.71 rpm, 250 Hz; alike: no meshing."""
+    sun, carrier = speeds_per_input(PAPER, ("sun", "carrier"), "none")
+    both = {body: 1000 * sun[body] + 500 * carrier[body] for body in sun}
+    assert (both["sun"], both["carrier"], both["ring"]) == (1000, 500, Fraction(2000, 7))
+    assert mesh_cycles_per_turn(PAPER, both) / 60 == 250
+    alike = {body: sun[body] + carrier[body] for body in sun}
+    assert set(alike.values()) == {1}
+    assert mesh_cycles_per_turn(PAPER, alike) == 0
 
 
 @pytest.mark.parametrize("held, reference", [("sun", "sun"), ("planet", "sun"), ("ring", "")])

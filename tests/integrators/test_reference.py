@@ -7,8 +7,8 @@ import pytest
 from power_flows import FLOWS, scene_of
 from reference_model import Reference
 
+from planetary_twin_py.dynamics.bodies import body_names
 from planetary_twin_py.dynamics.observe import DTE
-from planetary_twin_py.dynamics.train import body_names
 from planetary_twin_py.engine import Engine
 
 RATE = 50_000.0
@@ -22,9 +22,9 @@ def absolute(engine):
     place = np.append(body_names(engine.scene).place, [bodies - 2, bodies - 1])
     with_ground = slice(bodies + 1)
     turned = 2 * math.pi * (state.turns + state.fraction)
-    angle = train.ratio * turned + state.x / np.where(train.radius, train.radius, 1.0)
-    speed = train.ratio * state.speed + state.v / np.where(train.radius, train.radius, 1.0)
-    y = np.concatenate([angle[with_ground][place], speed[with_ground][place], [state.trim]])
+    angle = train.ratio @ turned + state.x / np.where(train.radius, train.radius, 1.0)
+    speed = train.ratio @ state.speed + state.v / np.where(train.radius, train.radius, 1.0)
+    y = np.concatenate([angle[with_ground][place], speed[with_ground][place], state.trim[:1]])
     return y, state.side[: train.meshes]
 
 

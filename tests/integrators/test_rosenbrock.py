@@ -31,7 +31,7 @@ def march(steps):
         forces(model, state, moment, state.x, state.v, 0.0, state.trim, run.first)
         step(model, state, moment, h, run.first, new, work)
         copy_state(new, state)
-        state.fraction = run.begin.fraction + run.begin.speed * h * (i + 1) / (2 * np.pi)
+        state.fraction[:] = run.begin.fraction + run.begin.speed * h * (i + 1) / (2 * np.pi)
     return np.concatenate([state.x, state.v / 1e4])
 
 

@@ -43,19 +43,31 @@ def test_quantities_are_read_in_their_units(written, meant):
     assert scene.operating_point.backlash == pytest.approx(meant)
 
 
+CRACK = {"kind": "crack", "gear": "sun", "tooth": 0, "stiffness_loss": 0.2}
+
+
 @pytest.mark.parametrize(
     "changes, words",
     [
         ({"mesh__stifness": 1.0}, ["mesh.stifness", "no such field"]),
         ({"operating_point__backlash": "0.2 kg"}, ["backlash", "0.2 kg", "within 0 and 0.001 m"]),
         ({"operating_point__backlash": "a hair"}, ["backlash", "a hair", "within 0 and 0.001 m"]),
-        ({"operating_point__input_speed": math.nan}, ["input_speed", "nan", "1100 rad/s"]),
+        ({"operating_point__input_speed": math.nan}, ["input_speed", "nan", "100000 rad/s"]),
         ({"operating_point__lambda_ratio": -1.0}, ["lambda_ratio", "-1", "within 0 and 10"]),
         ({"gearset__teeth__planet": 21}, ["30/21/70", "ring = sun + 2 planet = 72"]),
         ({"gearset__teeth__sun": 2}, ["gearset.teeth.sun", "2", "5"]),
         ({"gearset__planet_angles": ["90 deg", "-30 deg", "210 deg"]}, ["90, -28.8, 208.8 deg"]),
         ({"gearset__held": "planet"}, ["gearset.held", "planet", "carrier"]),
         ({"gearset__held": "sun"}, ["drive.input.member", "sun"]),
+        ({"gearset__held": "none"}, ["gearset.held", "'none'", "drive.second_input"]),
+        ({"operating_point__input_speed": 1200.0}, ["input_speed", "within -1100 and 1100 rad/s"]),
+        ({"operating_point__input_torque": -1e4}, ["input_torque", "within -1000 and 1000 N m"]),
+        ({"operating_point__second_input_speed": 1.0}, ["second_input_speed", "no second input"]),
+        ({"mesh__sun_planet_stiffness": None}, ["mesh", "sun_planet_stiffness", "missing"]),
+        ({"faults": [CRACK | {"tooth": 30}]}, ["faults.0.tooth", "30", "at most 29"]),
+        ({"faults": [CRACK | {"stiffness_loss": 2.0}]}, ["faults.0", "stiffness_loss", "2.0"]),
+        ({"faults": [CRACK | {"kind": "hole"}]}, ["faults.0", "hole", "crack"]),
+        ({"faults": [CRACK] * 5}, ["faults", "4"]),
         ({"drive__output__member": "sun"}, ["output.member", "sun"]),
         ({"mesh__ramp": 0.5}, ["mesh.ramp", "0.5", "within 0 and 0.2"]),
     ],

@@ -16,6 +16,8 @@ _POWER_FLOW = (
     "mesh_frequency",
     "input_speed",
     "input_torque",
+    "second_input_speed",
+    "second_input_torque",
     "output_speed",
     "output_torque",
     "input_power",

@@ -108,7 +108,7 @@ class Simulation(ManagedNode):
             self, "rate_factor", 1.0, (0.01, 100.0), "simulated seconds per second [-]"
         )
         self._scene = pt.load_scene(name)
-        for tunable in pt.TUNABLES.values():
+        for tunable in self._scene.tunables.values():
             default = getattr(self._scene.operating_point, tunable.name)
             declare_tunable(self, tunable, default)
         self._scene = self._scene.replace(**self._wanted())

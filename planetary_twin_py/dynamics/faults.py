@@ -1,0 +1,112 @@
+"""Faulty teeth: which pairs of which mesh they are in, and what they change there.
+
+Pairs are numbered as they pass the pitch point. On the drive side pair n of a mesh is tooth n of
+both gears (counted modulo their teeth, backwards on the mate); on the coast side, where the motion
+is mirrored and half a pitch late, it is tooth -n of the first gear and tooth 1 - n of the second.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from .._compile import kernel
+from .._records import MESHES, REAL, WHOLE, Record
+from ..mesh.tooth_pairs import PAIRS, SEGMENTS, TERMS, Along, PairTable, along
+from ..scene import Scene
+from ..scene.faults import MOST_FAULTS, SPALL_EDGE, Crack, Fault, Spall, Wear
+from .cycle import counted_cycle
+from .state import DRIVE_SIDE
+
+FAULTS = MOST_FAULTS
+NOWHERE = -1
+
+FAULTS_LAYOUT = {
+    "faults": WHOLE,
+    "fault_teeth": (WHOLE, (FAULTS,)),  # of the gear with the fault
+    "fault_pair": (WHOLE, (FAULTS, MESHES, 2)),  # pair on the drive and the coast side, or NOWHERE
+    "fault_gap": (REAL, (FAULTS,)),  # missing material [m]
+    "fault_factor": (REAL, (FAULTS, 2, SEGMENTS, PAIRS, TERMS)),  # on the stiffness of the pair
+}
+
+
+def fault_kinks(scene: Scene, kind: int) -> tuple[float, ...]:
+    """Positions on the path of a kind of mesh where a fault begins or ends."""
+    spalls = [f for f in scene.faults if isinstance(f, Spall) and kind in _kinds(f)]
+    ends = [(f.begin, f.end) for f in spalls]
+    return tuple(
+        kink for begin, end in ends for kink in (begin, begin + SPALL_EDGE, end - SPALL_EDGE, end)
+    )
+
+
+def build_faults(
+    scene: Scene, tables: list[PairTable], phases: np.ndarray
+) -> dict[str, np.ndarray | int]:
+    """Fields of `FAULTS_LAYOUT`; `phases` (meshes,) count whole cycles, too."""
+    teeth = scene.gearset.tooth_numbers._asdict()
+    pairs = np.full((FAULTS, MESHES, 2), NOWHERE)
+    factors = np.zeros((FAULTS, 2, SEGMENTS, PAIRS, TERMS))
+    for f, fault in enumerate(scene.faults):
+        for i in range(2 * scene.gearset.planets):
+            pairs[f, i] = _pairs(scene, fault, i, phases)
+        for kind, table in enumerate(tables):
+            factors[f, kind] = along(table, _factor(fault))
+    return {
+        "faults": len(scene.faults),
+        "fault_teeth": np.array([teeth[fault.gear] for fault in scene.faults], dtype=int),
+        "fault_pair": pairs,
+        "fault_gap": np.array([getattr(fault, "depth", 0.0) for fault in scene.faults]),
+        "fault_factor": factors,
+    }
+
+
+def _kinds(fault: Fault) -> tuple[int, ...]:
+    """Kinds of mesh a fault is felt in."""
+    if fault.gear != "planet":
+        return (0,) if fault.gear == "sun" else (1,)
+    if isinstance(fault, Crack):
+        return (0, 1)
+    return (0,) if fault.mesh == "sun" else (1,)
+
+
+def _pairs(scene: Scene, fault: Fault, i: int, phases: np.ndarray) -> tuple[int, int]:
+    """Numbers of the faulty pair in mesh i, on the drive and on the coast side."""
+    planets, teeth = scene.gearset.planets, scene.gearset.tooth_numbers
+    kind, planet = divmod(i, planets)
+    if kind not in _kinds(fault) or (fault.gear == "planet" and planet != fault.planet - 1):
+        return NOWHERE, NOWHERE
+    number = fault.tooth
+    if fault.gear == "planet" and kind == 1:
+        # A tooth comes to the ring half a turn after the sun, with its other flank.
+        number += round(phases[planet] - phases[i] + 0.5 * teeth.planet - 0.5)
+    first = fault.gear == ("sun", "planet")[kind]
+    modulus = teeth._asdict()[fault.gear]
+    drive, coast = number % modulus, (-number if first else 1 - number) % modulus
+    if isinstance(fault, Crack):
+        return drive, coast
+    return (drive, NOWHERE) if fault.flank == "drive" else (NOWHERE, coast)
+
+
+def _factor(fault: Fault) -> Along:
+    """Factor on the stiffness of the pair at its positions on the path."""
+    if isinstance(fault, Wear):
+        return np.ones_like
+    if isinstance(fault, Crack):
+        return lambda s: np.full_like(s, 1.0 - fault.stiffness_loss)
+    corners = [fault.begin, fault.begin + SPALL_EDGE, fault.end - SPALL_EDGE, fault.end]
+    return lambda s: 1.0 - fault.stiffness_loss * np.interp(s, corners, [0.0, 1.0, 1.0, 0.0])
+
+
+@kernel
+def find_faults(
+    train: Record, state: Record, i: int, side: int, start: float, faulty: np.ndarray
+) -> None:
+    """Fill faulty[i, p, f]: whether pair p of mesh i, at `start` in its cycle, has fault f."""
+    kind, segment = train.kind[i], state.segment[i]
+    flank = 0 if side == DRIVE_SIDE else 1
+    for f in range(train.faults):
+        pair, teeth = train.fault_pair[f, i, flank], train.fault_teeth[f]
+        cycle = counted_cycle(train, state, i, side, teeth)
+        whole = round(cycle - start)
+        for p in range(PAIRS):
+            number = whole - int(train.shift[kind, segment, p])
+            faulty[i, p, f] = pair != NOWHERE and (number - pair) % teeth == 0

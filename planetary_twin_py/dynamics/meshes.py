@@ -1,0 +1,149 @@
+"""The meshes of a scene as arrays: tables of tooth pairs, phases, errors of form.
+
+Order of the meshes: sun meshes of all planets, then their ring meshes. Arrays with a first length
+of 2 hold the sun-planet mesh at 0 and the planet-ring mesh at 1.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import numpy as np
+
+from .._records import MESHES, REAL, WHOLE
+from ..gearset.geometry import base_pitch, pitch_radius, planet_ring_path, sun_planet_path
+from ..gearset.kinematics import mesh_cycles_per_turn
+from ..gearset.phasing import mesh_phases
+from ..mesh.stiffness import StiffnessLaw, given_stiffness
+from ..mesh.tooth_pairs import PAIRS, SEGMENTS, TERMS, pair_table, terms_in_use
+from ..scene import Scene
+from .bodies import rigid_ratios, rim_masses
+from .faults import FAULTS_LAYOUT, build_faults, fault_kinks
+from .form_errors import FORM_ERRORS_LAYOUT, build_form_errors
+
+GEARS = (("sun", "planet"), ("planet", "ring"))  # of each kind: first and second
+
+MESHES_LAYOUT: dict[str, Any] = {
+    "meshes": WHOLE,
+    "body": (WHOLE, (MESHES, 3)),  # first gear, second gear, carrier
+    "sign": (REAL, (MESHES, 3)),  # of their x in d
+    "kind": (WHOLE, (MESHES,)),
+    "phase": (REAL, (MESHES,)),  # delay in mesh cycles; whole cycles count teeth
+    "stiffness": (REAL, (2,)),  # of one tooth pair, about [N/m]
+    "base": (REAL, (2,)),  # of the law of stiffness, see `tooth_pairs` [N/m]
+    "gain": (REAL, (2,)),
+    "damping_time": (REAL, (2,)),  # tau of c = tau k [s]; 0: by the meshing frequency
+    "damping_cycles": REAL,  # tau times meshing frequency [-]
+    "lowest_frequency": REAL,  # [Hz]
+    "base_pitch": REAL,  # [m]
+    "pitch_curvature": (REAL, (2, 2)),  # radii of curvature at the pitch point, both gears [m]
+    "external": (REAL, (2,)),  # +1: external, -1: internal
+    "segments": (WHOLE, (2,)),  # number of segments in a mesh cycle
+    "edge": (REAL, (2, SEGMENTS + 1)),
+    "shift": (REAL, (2, SEGMENTS, PAIRS)),
+    "present": (WHOLE, (2, SEGMENTS)),  # number of tooth pairs
+    "terms": WHOLE,  # of the polynomials below that are in use
+    "weight": (REAL, (2, SEGMENTS, PAIRS + 1, TERMS)),
+    **FORM_ERRORS_LAYOUT,
+    **FAULTS_LAYOUT,
+}
+
+
+def build_meshes(scene: Scene, place: dict[str, int]) -> dict[str, object]:
+    """Fields of `MESHES_LAYOUT`.
+
+    Raises:
+        ValueError: the teeth leave a moment without contact (see `pair_table`).
+    """
+    gearset, damping = scene.gearset, scene.mesh.damping
+    teeth, angle = gearset.tooth_numbers, gearset.pressure_angle
+    laws = _stiffness_laws(scene)
+    tables = [
+        pair_table(
+            path(teeth, angle, gearset.addendum),
+            scene.mesh.ramp,
+            laws[kind].strength,
+            fault_kinks(scene, kind),
+        )
+        for kind, path in enumerate((sun_planet_path, planet_ring_path))
+    ]
+    body, sign = _rows(gearset.planets, place)
+    phases = np.concatenate(mesh_phases(teeth, gearset.planet_angles))
+    curvature = {
+        name: pitch_radius(z, gearset.module) * math.sin(angle)
+        for name, z in teeth._asdict().items()
+    }
+    stiffness = np.array([law.single for law in laws])
+    return {
+        "meshes": 2 * gearset.planets,
+        "body": body,
+        "sign": sign,
+        "kind": np.repeat([0, 1], gearset.planets),
+        "phase": phases,
+        "stiffness": stiffness,
+        "base": np.array([law.base for law in laws]),
+        "gain": np.array([law.gain for law in laws]),
+        "damping_time": _damping_times(scene, stiffness),
+        "damping_cycles": _damping_cycles(scene),
+        "lowest_frequency": damping.lowest_frequency,
+        "base_pitch": base_pitch(gearset.module, angle),
+        "pitch_curvature": np.array([[curvature[gear] for gear in pair] for pair in GEARS]),
+        "external": np.array([1.0, -1.0]),
+        "segments": np.array([table.segments for table in tables]),
+        "edge": np.array([table.edge for table in tables]),
+        "shift": np.array([table.shift for table in tables]),
+        "present": np.array([table.present.sum(axis=1) for table in tables]),
+        "terms": max(terms_in_use(table) for table in tables),
+        "weight": np.array([table.weight for table in tables]),
+        **build_form_errors(scene),
+        **build_faults(scene, tables, phases),
+    }
+
+
+def _stiffness_laws(scene: Scene) -> tuple[StiffnessLaw, StiffnessLaw]:
+    mesh = scene.mesh
+    assert mesh.sun_planet_stiffness is not None and mesh.planet_ring_stiffness is not None
+    ratio = mesh.double_pair_ratio
+    along = math.cos(scene.gearset.pressure_angle) if mesh.motion == "pitch_arc" else 1.0
+    return (
+        given_stiffness(mesh.sun_planet_stiffness / along, ratio),
+        given_stiffness(mesh.planet_ring_stiffness / along, ratio),
+    )
+
+
+def _rows(planets: int, place: dict[str, int]) -> tuple[np.ndarray, np.ndarray]:
+    """Bodies of each mesh and the signs of their x in its transmission error."""
+    numbers = range(1, planets + 1)
+    sun = [[place["sun"], place[f"planet_{i}"], place["carrier"]] for i in numbers]
+    ring = [[place[f"planet_{i}"], place["ring"], place["carrier"]] for i in numbers]
+    signs = [[1.0, 1.0, -1.0]] * planets + [[-1.0, 1.0, -1.0]] * planets
+    return np.array(sun + ring), np.array(signs)
+
+
+def _damping_times(scene: Scene, stiffness: np.ndarray) -> np.ndarray:
+    """tau [s] of each kind of mesh where it does not follow the speed, else 0.
+
+    Natural frequencies are those of a mesh on its own two gears at single-pair stiffness.
+    """
+    damping, mass = scene.mesh.damping, rim_masses(scene)
+    effective = np.array([mass[a] * mass[b] / (mass[a] + mass[b]) for a, b in GEARS])
+    natural = np.sqrt(stiffness / effective)
+    if damping.law == "viscous":
+        return 2.0 * damping.damping_ratio / natural
+    if damping.law == "natural_frequency":
+        return damping.loss_factor * 2.0 * math.pi / natural
+    return np.zeros(2)
+
+
+def _damping_cycles(scene: Scene) -> float:
+    """tau times meshing frequency where the damping follows it, else 0."""
+    damping, teeth = scene.mesh.damping, scene.gearset.tooth_numbers
+    if not damping.follows_speed:
+        return 0.0
+    if damping.law == "meshing_frequency":
+        return damping.loss_factor
+    # (1e) takes Zs Zr/(Zs + Zr) cycles per turn of the input, whatever is held.
+    printed = teeth.sun * teeth.ring / (teeth.sun + teeth.ring)
+    ratios = {kind: ratio[0] for kind, ratio in rigid_ratios(scene).items()}
+    return damping.loss_factor * abs(float(mesh_cycles_per_turn(teeth, ratios))) / printed

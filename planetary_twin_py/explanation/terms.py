@@ -1,0 +1,132 @@
+"""The terms of a scene: what each models, by which law, and the scene without it."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any, NamedTuple
+
+from ..scene import Scene
+
+
+class Term(NamedTuple):
+    """A part of the model that can be left out."""
+
+    name: str
+    law: str
+    without: dict[str, Any]  # changes of the scene that leave it out
+
+
+class Limit(NamedTuple):
+    """Something no scene models, and what that means."""
+
+    name: str
+    meaning: str
+
+
+NOT_MODELLED = (
+    Limit("motion of axes", "gears and carrier turn on rigid axes: no bearing load or orbit"),
+    Limit("tilting, axial motion", "in `modal --model spatial` only; no face load distribution"),
+    Limit("bending of carrier, ring, shafts", "elastic are teeth and the couplings of machines"),
+    Limit("warming", "oil temperature is given and uniform; it does not follow the losses"),
+    Limit("growth of faults", "wear, spalls and cracks are as the scene says and stay so"),
+    Limit("memory of the oil film", "film and traction follow load and speed at once"),
+)
+
+
+def terms(scene: Scene) -> tuple[Term, ...]:
+    """The terms that are on in `scene`."""
+    found = (build(scene) for build in _TERMS)
+    return tuple(term for term in found if term is not None)
+
+
+def _friction(scene: Scene) -> Term | None:
+    oil = scene.lubrication
+    if not oil.friction:
+        return None
+    law = f"film {oil.film}, lambda ratio {oil.lambda_ratio}, Evans-Johnson and Greenwood-Tripp"
+    return Term("tooth friction", law, {"lubrication.friction": False})
+
+
+def _boundary(scene: Scene) -> Term | None:
+    if not scene.lubrication.friction:
+        return None
+    if scene.lubrication.lambda_ratio == "prescribed":
+        smooth: dict[str, Any] = {"lambda_ratio": 10.0}
+    else:
+        smooth = {"lubrication.composite_roughness": 1e-12}
+    return Term("asperities", "boundary friction at the lambda ratio", smooth)
+
+
+def _backlash(scene: Scene) -> Term | None:
+    backlash = scene.operating_point.backlash
+    if backlash == 0.0:
+        return None
+    law = f"{scene.mesh.backlash.replace('_', ' ')}, {1e6 * backlash:g} um"
+    return Term("backlash", law, {"backlash": 0.0})
+
+
+def _tooth_pairs(scene: Scene) -> Term | None:
+    mesh = scene.mesh
+    if mesh.stiffness != "given" or mesh.double_pair_ratio == 1.0:
+        return None
+    law = f"two pairs {mesh.double_pair_ratio:g} times as stiff as one"
+    return Term("alternation of tooth pairs", law, {"mesh.double_pair_ratio": 1.0})
+
+
+def _ramp(scene: Scene) -> Term | None:
+    ramp = scene.mesh.ramp
+    if ramp == 0.0:
+        return None
+    return Term("gradual entry of teeth", f"over {ramp:g} base pitches", {"mesh.ramp": 0.0})
+
+
+def _errors(scene: Scene) -> Term | None:
+    errors = (scene.mesh.sun_planet_error, scene.mesh.planet_ring_error)
+    if not any(any(error.amplitudes) for error in errors):
+        return None
+    without: dict[str, Any] = {f"mesh.{kind}_error": {} for kind in ("sun_planet", "planet_ring")}
+    return Term("static transmission error", "harmonics of the meshing frequency", without)
+
+
+def _runout(scene: Scene) -> Term | None:
+    runout = scene.mesh.runout
+    if runout.sun == runout.planet == runout.ring == 0.0:
+        return None
+    return Term("runout", "once per turn of each gear", {"mesh.runout": {}})
+
+
+def _damping(scene: Scene) -> Term | None:
+    damping = scene.mesh.damping
+    if damping.law == "viscous" and damping.damping_ratio == 0.0:
+        return None
+    law = f"{damping.law.replace('_', ' ')}, proportional to the stiffness"
+    return Term("mesh damping", law, {"mesh.damping": {"law": "viscous", "damping_ratio": 0.0}})
+
+
+def _faults(scene: Scene) -> Term | None:
+    if not scene.faults:
+        return None
+    law = ", ".join(f"{fault.kind} of {fault.gear}" for fault in scene.faults)
+    return Term("faulty teeth", law, {"faults": ()})
+
+
+def _ripple(scene: Scene) -> Term | None:
+    ripple, order = scene.operating_point.torque_ripple, scene.drive.speed_control.ripple_order
+    if ripple == 0.0:
+        return None
+    law = f"{ripple:g} N m, {order} cycles per turn"
+    return Term("torque ripple", law, {"torque_ripple": 0.0})
+
+
+_TERMS: tuple[Callable[[Scene], Term | None], ...] = (
+    _tooth_pairs,
+    _ramp,
+    _backlash,
+    _damping,
+    _errors,
+    _runout,
+    _faults,
+    _ripple,
+    _friction,
+    _boundary,
+)
