@@ -13,7 +13,6 @@ from collections.abc import Callable
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.optimize import brentq
 
 from ..gearset.involute import DEDENDUM, SpurGear
 
@@ -80,7 +79,7 @@ def _undercut(gear: SpurGear, cut: Fillet) -> float:
     within = np.flatnonzero(half < gear.half_thickness(radius))
     if not len(within):  # the involute loses less than the grid shows
         return gear.pressure_angle
-    return float(brentq(excess, grid[within[-1]], grid[within[-1] + 1]))
+    return _root(excess, grid[within[-1]], grid[within[-1] + 1])
 
 
 def _arc(gear: SpurGear) -> Fillet:
@@ -105,7 +104,7 @@ def _arc(gear: SpurGear) -> Fillet:
         )
     rounding = TIP_ROUNDING * gear.module
     if touch(rounding)[1] < 0.0:  # the two arcs of a gap would overlap: one round bottom instead
-        rounding = float(brentq(lambda r: touch(r)[1], 0.0, rounding))
+        rounding = _root(lambda r: touch(r)[1], 0.0, rounding)
     _, middle, normal = touch(rounding)
 
     def point(t: Floats) -> tuple[Floats, Floats]:
@@ -114,3 +113,10 @@ def _arc(gear: SpurGear) -> Fillet:
         return np.abs(at), math.pi / gear.teeth - np.angle(at)
 
     return point
+
+
+def _root(function: Callable[[float], float], low: float, high: float) -> float:
+    """Where `function` vanishes between `low` and `high`."""
+    from scipy.optimize import brentq  # takes half a second to load, and few gears need it
+
+    return float(brentq(function, low, high))

@@ -39,7 +39,7 @@ class Tooth:
     crack: Crack = NO_CRACK
 
     def __post_init__(self) -> None:
-        if (self.held > 1.0) != self.gear.internal or self.held in (0.0, 1.0):
+        if self.held <= 0.0 or self.held == 1.0 or (self.held > 1.0) != self.gear.internal:
             allowed = "above 1 (internal gear)" if self.gear.internal else "within 0 and 1"
             raise ValueError(f"held = {self.held:g} root radii: must be {allowed}")
 

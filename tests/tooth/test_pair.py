@@ -213,5 +213,6 @@ def test_interference_and_a_body_held_at_the_wrong_edge_are_refused_in_one_line(
     with pytest.raises(ValueError, match="teeth = 12: the mating tip reaches inside"):
         pair_of(sun_planet_pair, Teeth(12, 60, 132))
     gear = SpurGear(30, MODULE, ALPHA)
-    with pytest.raises(ValueError, match=r"held = 1.2 root radii: must be within 0 and 1"):
-        Tooth(gear, STEEL, 1.2)
+    for held in (-0.5, 0.0, 1.0, 1.2):
+        with pytest.raises(ValueError, match=rf"held = {held:g} root radii: must be within 0 and"):
+            Tooth(gear, STEEL, held)
