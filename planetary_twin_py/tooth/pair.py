@@ -102,12 +102,7 @@ class ToothPair:
         one (Xie, Hua, Han and Huang 2018): with compliances c_ij the stiffness is the sum of the
         elements of the inverse matrix. Both pairs share the approach of the gears.
         """
-        here, ahead = self.compliance(position), self.compliance(position + 1.0)
-        near, far = self.radii(position), self.radii(position + 1.0)
-        # The load points against the motion of the driving gear and along that of the driven one,
-        # and the other pair is ahead.
-        shared = self.first.body_coupling(near[0], far[0], 1)
-        shared = shared + self.second.body_coupling(far[1], near[1], 1)
+        here, ahead, shared = self._two_pairs(position)
         return face_width * (here + ahead - 2.0 * shared) / (here * ahead - shared**2)
 
     @property
@@ -119,9 +114,18 @@ class ToothPair:
         low, high = self._ends
         if high - low <= 1.0:
             return 1.0
-        position = np.linspace(low, high - 1.0, 33)
-        apart = self.stiffness(position, 1.0) + self.stiffness(position + 1.0, 1.0)
-        return float(np.mean(self.double_contact_stiffness(position, 1.0) / apart))
+        here, ahead, shared = self._two_pairs(np.linspace(low, high - 1.0, 33))
+        together = (here + ahead - 2.0 * shared) / (here * ahead - shared**2)
+        return float(np.mean(together / (1.0 / here + 1.0 / ahead)))
+
+    def _two_pairs(self, position: Floats) -> tuple[Floats, Floats, Floats]:
+        """Compliances of this pair, of the one ahead, and what a load on one moves the other."""
+        near, far = self.radii(position), self.radii(position + 1.0)
+        # The load points against the motion of the driving gear and along that of the driven one,
+        # and the other pair is ahead.
+        shared = self.first.body_coupling(near[0], far[0], 1)
+        shared = shared + self.second.body_coupling(far[1], near[1], 1)
+        return self.compliance(position), self.compliance(position + 1.0), shared
 
 
 def sun_planet_pair(
