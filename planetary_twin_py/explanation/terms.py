@@ -67,7 +67,8 @@ def _backlash(scene: Scene) -> Term | None:
 
 
 def _tooth_pairs(scene: Scene) -> Term | None:
-    mesh, constant = scene.mesh, {"mesh.double_pair_ratio": 1.0}
+    mesh = scene.mesh
+    constant: dict[str, Any] = {"mesh.double_pair_ratio": 1.0}
     if mesh.stiffness == "involute":
         law = "computed from the teeth, position by position"
         single = (law.single for law in stiffness_laws(scene))
