@@ -1,4 +1,4 @@
-"""Rolling resistance against the formula evaluated by hand, and what it takes from a running set."""
+"""Rolling resistance against the formula by hand, and what it takes from a running set."""
 
 import math
 
