@@ -5,7 +5,7 @@ BIN := $(VENV)/bin
 STAMPS := $(VENV)/stamps
 INSTALL := $(BIN)/uv pip install --quiet --python $(BIN)/python --no-deps --no-build-isolation
 INTERFACES := msgs_spec/package.xml msgs_spec/CMakeLists.txt $(wildcard msgs_spec/msg/* msgs_spec/srv/*)
-KERNELS := $(wildcard $(addprefix planetary_twin_py/,_*.py dynamics/*.py integrators/*.py lubrication/*.py mesh/*.py))
+KERNELS := $(wildcard $(addprefix planetary_twin_py/,_*.py dynamics/*.py integrators/*.py losses/*.py lubrication/*.py mesh/*.py))
 NODES := $(shell find ros_ws/src/planetary_twin -not -path '*/build*' -not -path '*.egg-info*' \
 	-not -name '*.pyc' -not -name __pycache__)
 

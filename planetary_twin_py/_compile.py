@@ -21,7 +21,14 @@ _FAST = {"reassoc", "nsz", "arcp", "contract"}
 
 
 # Where kernels are, and what they take constants from.
-_KERNELS = ("_*.py", "dynamics/*.py", "integrators/*.py", "lubrication/*.py", "mesh/*.py")
+_KERNELS = (
+    "_*.py",
+    "dynamics/*.py",
+    "integrators/*.py",
+    "losses/*.py",
+    "lubrication/*.py",
+    "mesh/*.py",
+)
 
 
 def _source_hash() -> str:

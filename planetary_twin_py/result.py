@@ -23,6 +23,10 @@ class Energy:
     """Taken by tooth friction."""
     damping: float
     """Taken by the damping of meshes and couplings."""
+    bearing: float
+    """Taken by bearings."""
+    churning: float
+    """Taken by churned oil."""
     stiffness_work: float
     """Put in by the meshes as their stiffness changes with the tooth pairs in contact."""
 
@@ -44,8 +48,13 @@ class Energy:
     @property
     def residual(self) -> float:
         """What does not add up: the error of the integration."""
-        lost = self.friction + self.damping - self.stiffness_work
+        lost = self.loss + self.damping - self.stiffness_work
         return self.input - self.output - self.kinetic - self.elastic - lost
+
+    @property
+    def loss(self) -> float:
+        """Taken by tooth friction, bearings and churning."""
+        return self.friction + self.bearing + self.churning
 
 
 @dataclass(frozen=True)
@@ -92,18 +101,34 @@ class Result:
     """Magnitude [N], (samples, meshes)."""
     power_loss: np.ndarray
     """Tooth friction [W], (samples, meshes)."""
+    mesh_power: np.ndarray
+    """Power that rolls through a mesh, seen from the carrier [W], (samples, meshes)."""
+    bearing_loss: np.ndarray
+    """All bearings [W], (samples,)."""
+    churning_loss: np.ndarray
+    """Churned oil [W], (samples,)."""
     energy: Energy
     stats: Stats
 
     @property
     def total_power_loss(self) -> np.ndarray:
-        """Tooth friction of all meshes [W], (samples,)."""
-        total: np.ndarray = self.power_loss.sum(axis=1)
+        """Tooth friction of all meshes, bearings and churning [W], (samples,)."""
+        total: np.ndarray = self.power_loss.sum(axis=1) + self.bearing_loss + self.churning_loss
         return total
 
     @property
+    def mesh_efficiency(self) -> tuple[float, float]:
+        """Of the sun meshes and of the ring meshes: 1 - tooth friction/power that rolls through."""
+        planets = len(self.meshes) // 2
+        sun, ring = (
+            1.0 - float(self.power_loss[:, meshes].sum() / self.mesh_power[:, meshes].sum())
+            for meshes in (slice(planets), slice(planets, None))
+        )
+        return sun, ring
+
+    @property
     def efficiency(self) -> float:
-        """1 - friction/put_in over the whole run; NaN if no machine drives."""
+        """1 - loss/put_in over the whole run; NaN if no machine drives."""
         if self.energy.put_in <= 0.0:
             return float("nan")
-        return 1.0 - self.energy.friction / self.energy.put_in
+        return 1.0 - self.energy.loss / self.energy.put_in

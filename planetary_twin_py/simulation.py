@@ -8,8 +8,17 @@ import time
 import numpy as np
 
 from .dynamics.bodies import body_names, mesh_names
-from .dynamics.observe import BOUNDARY, DTE, FILM, LAMBDA, MESH_FORCE, POWER_LOSS, VISCOUS
-from .dynamics.state import DAMPING, FRICTION, STIFFNESS_WORK, WORK
+from .dynamics.observe import (
+    BOUNDARY,
+    DTE,
+    FILM,
+    LAMBDA,
+    MESH_FORCE,
+    MESH_POWER,
+    POWER_LOSS,
+    VISCOUS,
+)
+from .dynamics.state import BEARING, CHURNING, DAMPING, FRICTION, STIFFNESS_WORK, WORK
 from .engine import Engine
 from .integrators.interpolant import Samples
 from .result import Energy, Result, Stats
@@ -79,6 +88,9 @@ def _result(
         boundary_friction=mesh[:, BOUNDARY],
         viscous_friction=mesh[:, VISCOUS],
         power_loss=mesh[:, POWER_LOSS],
+        mesh_power=mesh[:, MESH_POWER],
+        bearing_loss=samples.drag[:, 0],
+        churning_loss=samples.drag[:, 1],
         energy=_energy(engine, stored),
         stats=Stats(
             steps=int(count.steps),
@@ -100,5 +112,7 @@ def _energy(engine: Engine, stored: tuple[float, float]) -> Energy:
         elastic=now[1] - stored[1],
         friction=float(ledger[FRICTION]),
         damping=float(ledger[DAMPING]),
+        bearing=float(ledger[BEARING]),
+        churning=float(ledger[CHURNING]),
         stiffness_work=float(ledger[STIFFNESS_WORK]),
     )

@@ -10,7 +10,7 @@ import numpy as np
 
 from .dynamics.bodies import Ratios, body_names, mesh_names
 from .dynamics.observe import BOUNDARY, DTE, MESH_FORCE, VISCOUS
-from .dynamics.state import FRICTION, IMPULSE, WORK
+from .dynamics.state import BEARING, CHURNING, FRICTION, IMPULSE, WORK
 from .engine import Engine
 from .integrators.interpolant import Samples
 from .scene import TUNABLES, OperatingPoint, Scene, SceneError
@@ -143,7 +143,7 @@ class Twin:
             machine_speed=speed[train.coupling[: train.machines, 0]],
             machine_torque=rate[IMPULSE : IMPULSE + train.machines],
             machine_power=rate[WORK : WORK + train.machines],
-            power_loss=float(rate[FRICTION]),
+            power_loss=float(rate[FRICTION] + rate[BEARING] + rate[CHURNING]),
             stored_power=stored,
         )
 

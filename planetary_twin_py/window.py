@@ -60,7 +60,7 @@ class Window:
     machine_power: np.ndarray
     """From each into the train [W], (machines,)."""
     power_loss: float
-    """Tooth friction of all meshes [W]."""
+    """Tooth friction of all meshes, bearings and churning [W]."""
     stored_power: float
     """Rate at which kinetic and elastic energy grow [W]."""
 

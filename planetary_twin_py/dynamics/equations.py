@@ -12,10 +12,11 @@ import math
 import numpy as np
 
 from .._compile import kernel
-from .._records import BODIES, REAL, Record, layout
+from .._records import BODIES, MESHES, REAL, Record, layout
 from .bodies import MOTOR
 from .body_speed import body_speed
 from .cycle import cycle_shift
+from .drag import apply_drag
 from .mesh_force import press
 from .oil import OIL
 from .state import (
@@ -44,6 +45,7 @@ MODEL = layout(train=TRAIN, oil=OIL, load=LOAD)
 EVALUATION = layout(
     force=(REAL, (BODIES,)),  # [N]
     power=(REAL, (LEDGER,)),  # integrands of the energy ledger [W]
+    push=(REAL, (MESHES,)),  # of every mesh, 0 if open [N]
     pairs=TOOTH_PAIRS,
 )
 
@@ -87,10 +89,12 @@ def forces(
     for i in range(train.meshes):
         side = state.side[i]
         if side == OPEN:
+            out.push[i] = 0.0
             continue
         push, lost, work = press(model, state, moment, i, x, v, pairs)
         for j in range(3):
             force[train.body[i, j]] -= side * push * train.sign[i, j]
+        out.push[i] = push
         power[DAMPING] += lost
         power[STIFFNESS_WORK] += work
     if not train.friction:
@@ -103,6 +107,8 @@ def forces(
             power[FRICTION] = apply_friction(train, pairs, force)
         if model.oil.rolling:
             power[FRICTION] += apply_rolling(train, pairs, force)
+    if train.bearings + train.discs > 0:
+        apply_drag(model, state, v, out)
     _couplings(train, x, v, out)
     _machines(model, state, moment, x, v, delay, trim, out)
     force[train.bodies] = 0.0  # the ground

@@ -12,8 +12,8 @@ from .state import OPEN
 from .tooth_friction import evaluate, rolling_power
 
 # Rows of the answer of `observe`.
-DTE, MESH_FORCE, BOUNDARY, VISCOUS, FILM, LAMBDA, POWER_LOSS = range(7)
-QUANTITIES = 7
+DTE, MESH_FORCE, BOUNDARY, VISCOUS, FILM, LAMBDA, POWER_LOSS, MESH_POWER = range(8)
+QUANTITIES = 8
 
 
 @kernel
@@ -43,6 +43,7 @@ def observe(
         else:
             force = press(model, state, moment, i, x, v, pairs)[0]
             out[MESH_FORCE, i] = side * max(force, 0.0)
+            out[MESH_POWER, i] = max(force, 0.0) * train.base_pitch * abs(pairs.pace)
     evaluate(model, pairs)
     for p in range(pairs.count):
         i = pairs.mesh[p]

@@ -20,6 +20,8 @@ OIL = layout(
     contact_modulus=REAL,  # E* [Pa]
     face_width=REAL,  # L [m]
     viscosity=REAL,  # eta0 [Pa s]
+    density=REAL,  # [kg/m^3]
+    kinematic=REAL,  # eta0/density [m^2/s]
     roughness=REAL,  # sigma [m]
     prescribed=FLAG,  # lambda ratio: prescribed, or film/roughness
     printed_asperities=FLAG,
@@ -84,6 +86,8 @@ def build_oil(scene: Scene, point: OperatingPoint) -> Record:
         contact_modulus=modulus,
         face_width=scene.gearset.face_width,
         viscosity=viscosity,
+        density=data.oil_density,
+        kinematic=viscosity / data.oil_density,
         roughness=data.composite_roughness,
         prescribed=data.lambda_ratio == "prescribed",
         printed_asperities=data.asperities == "printed",

@@ -7,11 +7,11 @@ from .._records import AXES, BODIES, MACHINES, MESHES, REAL, WHOLE, layout
 DRIVE_SIDE, OPEN, COAST_SIDE = 1, 0, -1
 
 # Entries of `energy`, integrals since the start, and of the powers they grow by: work [J] and
-# angular impulse [N m s] that each machine has put in, then what tooth friction and damping have
-# taken and what the meshes have put in by changing their shape [J].
+# angular impulse [N m s] that each machine has put in, then what tooth friction, damping, bearings
+# and churning have taken and what the meshes have put in by changing their shape [J].
 WORK, IMPULSE = 0, MACHINES
-FRICTION, DAMPING, STIFFNESS_WORK = range(2 * MACHINES, 2 * MACHINES + 3)
-LEDGER = 2 * MACHINES + 3
+FRICTION, DAMPING, BEARING, CHURNING, STIFFNESS_WORK = range(2 * MACHINES, 2 * MACHINES + 5)
+LEDGER = 2 * MACHINES + 5
 
 # Everything that changes. The frame in which x is measured stands at `turns` + `fraction` turns
 # of the motors and turns with `speed`; the motors' own x and v are zero whenever a step begins.

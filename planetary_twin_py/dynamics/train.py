@@ -16,6 +16,7 @@ from ..gearset.geometry import base_pitch
 from ..gearset.kinematics import mesh_cycles_per_turn
 from ..scene import Scene
 from .bodies import Bodies, base_radii, build_bodies, machines, rigid_ratios
+from .drag import DRAG_LAYOUT, build_drag
 from .meshes import MESHES_LAYOUT, build_meshes
 
 # Constant data of the gearbox. `bodies` of them can turn; entry `bodies` is the ground.
@@ -39,6 +40,7 @@ TRAIN = layout(
     friction=FLAG,
     printed_torque=FLAG,  # friction torque P/w instead of -f dVs/dw
     **MESHES_LAYOUT,
+    **DRAG_LAYOUT,
 )
 
 
@@ -67,6 +69,7 @@ def build_train(scene: Scene) -> Record:
         **_cycles(scene),
         **_couplings(scene, bodies),
         **build_meshes(scene, bodies.place),
+        **build_drag(scene, bodies),
     )
 
 

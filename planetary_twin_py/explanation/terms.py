@@ -135,6 +135,21 @@ def _ripple(scene: Scene) -> Term | None:
     return Term("torque ripple", law, {"torque_ripple": 0.0})
 
 
+def _bearings(scene: Scene) -> Term | None:
+    kinds = ("planet", "sun", "ring", "carrier")
+    found = [kind for kind in kinds if getattr(scene.losses, f"{kind}_bearing") is not None]
+    if not found:
+        return None
+    without = {f"losses.{kind}_bearing": None for kind in found}
+    return Term("bearings", f"Palmgren, of {', '.join(found)}", without)
+
+
+def _churning(scene: Scene) -> Term | None:
+    if scene.losses.churning is None:
+        return None
+    return Term("churning", "discs in a housing, Daily and Nece", {"losses.churning": None})
+
+
 _TERMS: tuple[Callable[[Scene], Term | None], ...] = (
     _tooth_pairs,
     _ramp,
@@ -147,4 +162,6 @@ _TERMS: tuple[Callable[[Scene], Term | None], ...] = (
     _friction,
     _boundary,
     _rolling,
+    _bearings,
+    _churning,
 )

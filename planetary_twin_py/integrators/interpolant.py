@@ -12,7 +12,9 @@ from .._records import AXES, Record
 from ..dynamics.body_speed import body_speed
 from ..dynamics.contact_events import departure
 from ..dynamics.cycle import cycle_shift
-from ..dynamics.observe import QUANTITIES, observe
+from ..dynamics.drag import apply_drag
+from ..dynamics.observe import MESH_FORCE, QUANTITIES, observe
+from ..dynamics.state import BEARING, CHURNING
 
 SLACK = 0.01  # share of the local tolerance by which flanks may pull or pass each other
 BISECTIONS = 50  # down to the resolution of a double
@@ -88,6 +90,7 @@ class Samples(NamedTuple):
     turns: np.ndarray  # (room, AXES) whole turns of the motors
     angle: np.ndarray  # (room, bodies) [rad]
     speed: np.ndarray  # (room, bodies) [rad/s]
+    drag: np.ndarray  # (room, 2) power that bearings and churning take [W]
 
 
 def new_samples(train: Record, room: int) -> Samples:
@@ -98,6 +101,7 @@ def new_samples(train: Record, room: int) -> Samples:
         np.zeros((room, AXES)),
         np.zeros((room, bodies)),
         np.zeros((room, bodies)),
+        np.zeros((room, 2)),
     )
 
 
@@ -109,6 +113,13 @@ def sample(model: Record, march: Record, time: float, out: Samples, row: int) ->
     interpolate(model, march, delay)
     pairs = march.work.evaluation.pairs
     observe(model, begin, march.moment, march.dense_x, march.dense_v, delay, pairs, out.mesh[row])
+    if train.bearings + train.discs > 0:
+        work = march.work.evaluation
+        for i in range(train.meshes):
+            work.push[i] = abs(out.mesh[row, MESH_FORCE, i])
+        work.power[:] = 0.0
+        apply_drag(model, begin, march.dense_v, work)
+        out.drag[row, 0], out.drag[row, 1] = work.power[BEARING], work.power[CHURNING]
     out.turns[row] = begin.turns
     for j in range(train.bodies):
         out.angle[row, j] = march.dense_x[j] / train.radius[j]

@@ -12,6 +12,7 @@ from pydantic import Field, ValidationError, model_validator
 from .drive import Drive
 from .faults import MOST_FAULTS, Crack, Fault
 from .gearset import Gearset
+from .losses import Losses
 from .lubrication import Lubrication
 from .mesh import Mesh
 from .operating_point import TUNABLES, OperatingPoint, Tunable
@@ -29,6 +30,7 @@ class Scene(Section):
     lubrication: Lubrication
     drive: Drive
     operating_point: OperatingPoint
+    losses: Losses = Losses()
     supports: Supports | None = None
     faults: tuple[Fault, ...] = Field((), max_length=MOST_FAULTS, description="faulty teeth")
 

@@ -1,0 +1,31 @@
+"""Friction torque of a rolling bearing (Palmgren 1959; Harris, Rolling Bearing Analysis).
+
+Without load M0 = 1e-7 f0 (nu n)^(2/3) dm^3, or 160e-7 f0 dm^3 where nu n < 2000; by load
+M1 = f1 F dm/2. (N mm, mm, mm^2/s and rpm there; SI here.) f0 is 1.5 to 2 for deep-groove ball
+bearings in an oil bath, 2 to 3 for cylindrical rollers, 6 to 12 for needles; f1 some 2e-4 to 1e-3.
+"""
+
+from __future__ import annotations
+
+import math
+
+from .._compile import kernel
+
+SLOW = 2000.0  # [mm^2/s rpm] below it M0 no longer depends on viscosity and speed
+
+
+@kernel
+def bearing_torque(
+    idle: float, rubbing: float, kinematic_viscosity: float, speed: float, load: float
+) -> float:
+    """M0 + M1 [N m], never negative.
+
+    Args:
+        idle: f0 dm^3 [m^3].
+        rubbing: f1 dm/2 [m].
+        kinematic_viscosity: of the oil [m^2/s].
+        speed: of one ring against the other [rad/s], of either sign.
+        load: on the bearing [N].
+    """
+    product = 1e6 * kinematic_viscosity * abs(speed) * 30.0 / math.pi
+    return 0.1 * idle * max(product, SLOW) ** (2.0 / 3.0) + rubbing * load

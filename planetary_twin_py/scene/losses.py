@@ -1,0 +1,43 @@
+"""Losses outside the tooth contacts: bearings and oil that is churned."""
+
+from __future__ import annotations
+
+from typing import Self
+
+from pydantic import model_validator
+
+from .quantity import Section, quantity
+
+
+class Bearing(Section):
+    """Friction of a rolling bearing by Palmgren's two coefficients."""
+
+    mean_diameter: float = quantity("m", "pitch diameter dm", gt=0.0, le=10.0)
+    f0: float = quantity("", "of the friction without load", 2.0, ge=0.0, le=100.0)
+    f1: float = quantity("", "of the friction by load", 5e-4, ge=0.0, le=0.1)
+
+
+class Churning(Section):
+    """Members that turn as discs in a housing with oil and air."""
+
+    fill: float = quantity("", "share of oil in the housing, by volume", gt=0.0, le=1.0)
+    gap: float = quantity("m", "between a disc and the wall of the housing", gt=0.0, le=1.0)
+    sun: float | None = quantity("m", "radius of its disc; none: not churning", None, gt=0.0, le=10)
+    ring: float | None = quantity("m", "radius of its disc", None, gt=0.0, le=10.0)
+    carrier: float | None = quantity("m", "radius of its disc", None, gt=0.0, le=10.0)
+
+    @model_validator(mode="after")
+    def _something_churns(self) -> Self:
+        if self.sun is None and self.ring is None and self.carrier is None:
+            raise ValueError("sun, ring, carrier: give the radius of at least one of them")
+        return self
+
+
+class Losses(Section):
+    """What is not given does not resist."""
+
+    planet_bearing: Bearing | None = None
+    sun_bearing: Bearing | None = None
+    ring_bearing: Bearing | None = None
+    carrier_bearing: Bearing | None = None
+    churning: Churning | None = None

@@ -1,0 +1,58 @@
+"""Bearings and churning in a running gearbox: booked, dissipative, and felt by the load."""
+
+import math
+
+import numpy as np
+import pytest
+from power_flows import ALL_FLOWS, FLOWS, scene_of
+
+import planetary_twin_py as pt
+
+LOSSES = {
+    "planet_bearing": {"mean_diameter": "10 mm", "f0": 8.0, "f1": 1e-3},
+    "sun_bearing": {"mean_diameter": "25 mm"},
+    "ring_bearing": {"mean_diameter": "60 mm"},
+    "churning": {"fill": 0.3, "gap": "5 mm", "ring": "32 mm", "carrier": "25 mm"},
+}
+
+
+@ALL_FLOWS
+def test_balance_closes_with_bearings_and_churning_whatever_is_held(flow):
+    run = pt.simulate(scene_of(flow, losses=LOSSES), 0.05, tolerance=1e-5)
+    energy = run.energy
+    assert energy.bearing > 0.0 and energy.churning > 0.0
+    assert abs(energy.residual) < 1e-6 * energy.put_in
+    assert run.total_power_loss.mean() == pytest.approx(energy.loss / 0.05, rel=5e-3)
+    assert (run.bearing_loss >= 0.0).all() and (run.churning_loss >= 0.0).all()
+
+
+def test_planet_bearings_take_what_palmgren_says_at_the_pin_load():
+    """1500 rpm of the planets, 2 * 1750 N on each pin, nu 89.9 mm^2/s at 70 deg C."""
+    only = {"planet_bearing": LOSSES["planet_bearing"]}
+    run = pt.simulate(scene_of(FLOWS[0], losses=only), 0.1)
+    idle = 1e-7 * 8.0 * (89.888 * 1500.0) ** (2 / 3) * 10.0**3
+    rubbing = 1e-3 * 2 * 1750.0 * 5.0
+    expected = 3 * (idle + rubbing) * 1e-3 * 1500.0 * math.pi / 30
+    assert run.bearing_loss[run.time > 0.02].mean() == pytest.approx(expected, rel=0.01)
+
+
+def test_losses_lower_the_efficiency_by_their_share():
+    bare, lossy = (pt.simulate(scene_of(FLOWS[0], **c), 0.1) for c in ({}, {"losses": LOSSES}))
+    more = (lossy.energy.bearing + lossy.energy.churning) / lossy.energy.put_in
+    assert bare.efficiency - lossy.efficiency == pytest.approx(more, abs=2e-5)
+    assert lossy.mesh_efficiency == pytest.approx(bare.mesh_efficiency, abs=2e-5)
+
+
+def test_a_run_with_losses_begins_steady():
+    twin = pt.Twin(scene_of(FLOWS[0], losses=LOSSES))
+    speeds = [twin.advance(0.02).input_speed for _ in range(10)]
+    assert speeds[-1] == pytest.approx(pt.rpm(1000), rel=2e-3)
+    assert np.ptp(speeds) < 0.01 * pt.rpm(1000)
+
+
+def test_drag_brakes_in_both_directions_and_rests_at_rest():
+    for speed in (1000.0, -1000.0):
+        scene = scene_of(FLOWS[0], losses=LOSSES, input_speed=pt.rpm(speed), input_torque=0.0)
+        assert pt.simulate(scene, 0.02).energy.bearing > 0.0
+    still = pt.simulate(scene_of(FLOWS[0], losses=LOSSES, input_speed=0.0, input_torque=0.0), 0.02)
+    assert still.churning_loss.max() < 1e-12
