@@ -42,11 +42,12 @@ def blueprint(gearset: Gearset | None, picture: bool = False) -> rrb.Blueprint:
 
 
 def _gears(gearset: Gearset) -> rrb.Spatial3DView:
-    teeth, held = gearset.teeth, gearset.held
+    teeth = gearset.teeth
+    held = "differential" if gearset.held == "none" else f"{gearset.held} held"
     reach = MILLIMETRES * gearset.module * (0.5 * teeth.ring + 4.0)
     return rrb.Spatial3DView(
         origin="gears",
-        name=f"Gears: {teeth.sun}, {teeth.planet} and {teeth.ring} teeth, {held} held",
+        name=f"Gears: {teeth.sun}, {teeth.planet} and {teeth.ring} teeth, {held}",
         background=rrb.Background(color=(24, 27, 33)),
         line_grid=rrb.LineGrid3D(visible=False),
         eye_controls=rrb.EyeControls3D(

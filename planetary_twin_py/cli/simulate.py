@@ -1,0 +1,118 @@
+"""`planetary-twin simulate`: a whole run without ROS, as fast as it goes."""
+
+from __future__ import annotations
+
+import json
+import sys
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+from ._fail import fail
+from ._settings import settings
+
+if TYPE_CHECKING:
+    from ..result import Result
+
+
+def simulate(
+    scene: Annotated[str, typer.Argument(help="Packaged scene, or path of a YAML file.")] = "paper",
+    duration: Annotated[float, typer.Option(help="Simulated seconds.")] = 1.0,
+    sample_rate: Annotated[float, typer.Option(help="Samples per simulated second.")] = 50_000.0,
+    tolerance: Annotated[float, typer.Option(help="Relative local error of a step.")] = 1e-4,
+    set_: Annotated[
+        list[str] | None,
+        typer.Option("--set", metavar="NAME=VALUE", help="Change a field: mesh.ramp=0, or 3e-7 m."),
+    ] = None,
+    out: Annotated[Path | None, typer.Option(help="Write the samples: .npz or .csv.")] = None,
+    json_: Annotated[
+        str | None, typer.Option("--json", metavar="FILE", help="Write figures; - prints them.")
+    ] = None,
+) -> None:
+    """Simulate SCENE and print what it does.
+
+    Example: planetary-twin simulate paper --duration 0.5 --set lambda_ratio=1.5 --out run.npz
+    """
+    from rich.console import Console
+
+    from ..scene import load_scene
+    from ..simulation import simulate as run
+
+    console = Console(stderr=json_ == "-")
+    try:
+        if out is not None and out.suffix not in _WRITERS:
+            fail(f"--out = {str(out)!r}: must end in {' or '.join(_WRITERS)}")
+        loaded = load_scene(scene).replace(**settings(set_ or []))
+        with console.status(f"simulating {duration:g} s of {loaded.name}"):
+            result = run(loaded, duration, sample_rate, tolerance=tolerance)
+        if out is not None:
+            _WRITERS[out.suffix](result, out)
+    except (ValueError, OSError) as error:
+        fail(error)
+    figures = _figures(result)
+    for name, value in figures.items():
+        console.print(f"{name.replace('_', ' '):28} {value:.6g}")
+    if json_ is not None:
+        text = json.dumps(figures, indent=2) + "\n"
+        sys.stdout.write(text) if json_ == "-" else Path(json_).write_text(text, "utf-8")
+
+
+def _figures(result: Result) -> dict[str, float]:
+    energy = result.energy
+    return {
+        "efficiency": result.efficiency,
+        "mean_power_loss_W": float(result.total_power_loss.mean()),
+        "mean_dte_m": float(result.dte.mean()),
+        "dte_vibration_rms_m": float(result.dte.std(axis=0).mean()),
+        "mean_mesh_force_N": float(result.mesh_force.mean()),
+        "energy_residual": energy.residual / energy.put_in if energy.put_in > 0.0 else 0.0,
+        "real_time_factor": result.stats.real_time_factor,
+    }
+
+
+def _columns(result: Result) -> dict[str, Any]:
+    """Every series of a result by its name."""
+    columns: dict[str, Any] = {"time": result.time}
+    for names, quantities in (
+        (result.bodies, ("angle", "speed")),
+        (result.meshes, _MESH_QUANTITIES),
+    ):
+        for quantity in quantities:
+            values = getattr(result, quantity)
+            columns |= {f"{quantity}/{name}": values[:, k] for k, name in enumerate(names)}
+    return columns
+
+
+_MESH_QUANTITIES = (
+    "dte",
+    "mesh_force",
+    "film_thickness",
+    "lambda_ratio",
+    "boundary_friction",
+    "viscous_friction",
+    "power_loss",
+)
+
+
+def _write_npz(result: Result, path: Path) -> None:
+    import numpy as np
+
+    arrays = {name: getattr(result, name) for name in ("time", "angle", "speed", *_MESH_QUANTITIES)}
+    np.savez_compressed(path, bodies=result.bodies, meshes=result.meshes, **arrays)
+
+
+def _write_csv(result: Result, path: Path) -> None:
+    import numpy as np
+
+    columns = _columns(result)
+    np.savetxt(
+        path,
+        np.column_stack(list(columns.values())),
+        delimiter=",",
+        header=",".join(columns),
+        comments="",
+    )
+
+
+_WRITERS = {".npz": _write_npz, ".csv": _write_csv}

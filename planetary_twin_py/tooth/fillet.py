@@ -1,0 +1,122 @@
+"""Root fillets: what joins the involute flank to the root circle.
+
+Both are curves from the root circle (t = 0) to the flank (t = 1), as radius [m] and half angle
+[rad] of the tooth. An external tooth gets the trochoid that the basic rack of ISO 53 cuts; where
+the rack undercuts, the curve ends where it meets what is left of the involute. An internal tooth
+gets the circular arc that touches the flank and the root circle.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..gearset.involute import DEDENDUM, SpurGear
+
+TIP_ROUNDING = 0.38  # of the module: basic rack A of ISO 53
+
+Floats = NDArray[np.float64]
+Fillet = Callable[[Floats], tuple[Floats, Floats]]
+
+
+def fillet(gear: SpurGear) -> Fillet:
+    """The fillet of a gear: a function of t in [0, 1] that gives radius [m] and half angle [rad].
+
+    Raises:
+        ValueError: the pressure angle leaves no room between the teeth at the root circle.
+    """
+    return _arc(gear) if gear.internal else _trochoid(gear)
+
+
+def _trochoid(gear: SpurGear) -> Fillet:
+    """Envelope of the rounded tip of a rack tooth that rolls on the pitch circle.
+
+    The point with its normal at the angle psi to the pitch line is cut when that normal passes
+    through the pitch point; psi falls from 90 deg at the root circle to the pressure angle.
+    """
+    pitch, alpha = gear.pitch_radius, gear.pressure_angle
+    depth = DEDENDUM * gear.module
+    room = 0.25 * math.pi * gear.module - depth * math.tan(alpha)
+    if room <= 0.0:
+        raise ValueError(
+            f"pressure_angle = {math.degrees(alpha):g} deg: the rack tooth that cuts the gear is "
+            f"pointed above its tip; must be below {math.degrees(math.atan(math.pi / 5)):.4g} deg"
+        )
+    full = room * math.cos(alpha) / (1.0 - math.sin(alpha))  # both corners in one round tip
+    rounding = min(TIP_ROUNDING * gear.module, full)
+    centre = depth - rounding
+    offset = 0.25 * math.pi * gear.module - centre * math.tan(alpha) - rounding / math.cos(alpha)
+
+    def cut(psi: Floats) -> tuple[Floats, Floats]:
+        across = centre / np.tan(psi) + rounding * np.cos(psi)
+        along = pitch - centre - rounding * np.sin(psi)
+        rolled = (centre / np.tan(psi) - offset) / pitch
+        half = math.pi / gear.teeth - (np.arctan2(across, along) - rolled)
+        return np.hypot(across, along), half
+
+    last = _undercut(gear, cut) if _undercuts(gear, centre, rounding) else alpha
+    return lambda t: cut(0.5 * math.pi + (last - 0.5 * math.pi) * t)
+
+
+def _undercuts(gear: SpurGear, centre: float, rounding: float) -> bool:
+    """The straight flank of the rack reaches past the start of the involute."""
+    reach = centre + rounding * math.sin(gear.pressure_angle)
+    return reach > gear.pitch_radius * math.sin(gear.pressure_angle) ** 2
+
+
+def _undercut(gear: SpurGear, cut: Fillet) -> float:
+    """psi where the trochoid meets the involute outside the base circle."""
+
+    def excess(psi: float) -> float:
+        radius, half = cut(np.array(psi))
+        return float(half - gear.half_thickness(radius))
+
+    grid = np.linspace(0.5 * math.pi, gear.pressure_angle, 400)
+    radius, half = cut(grid)
+    within = np.flatnonzero(half < gear.half_thickness(radius))
+    if not len(within):  # the involute loses less than the grid shows
+        return gear.pressure_angle
+    return _root(excess, grid[within[-1]], grid[within[-1] + 1])
+
+
+def _arc(gear: SpurGear) -> Fillet:
+    """Circle that touches the involute flank and the root circle of an internal gear.
+
+    Its centre lies on the tangent of the base circle through the point where it touches the
+    flank, `rounding` short of that point.
+    """
+    base, root = gear.base_radius, gear.root_radius
+
+    def touch(rounding: float) -> tuple[float, float, float]:
+        """String length to the flank; directions of centre and flank normal from the gap [rad]."""
+        string = rounding + math.sqrt((root - rounding) ** 2 - base**2)
+        tooth = float(gear.half_thickness(np.array(math.hypot(base, string))))
+        foot = math.pi / gear.teeth - tooth - math.atan2(string, base)
+        return string, foot + math.atan2(string - rounding, base), foot + 0.5 * math.pi
+
+    if touch(0.0)[1] <= 0.0:
+        raise ValueError(
+            f"pressure_angle = {math.degrees(gear.pressure_angle):g} deg: the flanks of a gear "
+            f"with {gear.teeth} internal teeth meet before its root circle"
+        )
+    rounding = TIP_ROUNDING * gear.module
+    if touch(rounding)[1] < 0.0:  # the two arcs of a gap would overlap: one round bottom instead
+        rounding = _root(lambda r: touch(r)[1], 0.0, rounding)
+    _, middle, normal = touch(rounding)
+
+    def point(t: Floats) -> tuple[Floats, Floats]:
+        towards = middle + (normal - middle) * t
+        at = (root - rounding) * np.exp(1j * middle) + rounding * np.exp(1j * towards)
+        return np.abs(at), math.pi / gear.teeth - np.angle(at)
+
+    return point
+
+
+def _root(function: Callable[[float], float], low: float, high: float) -> float:
+    """Where `function` vanishes between `low` and `high`."""
+    from scipy.optimize import brentq  # takes half a second to load, and few gears need it
+
+    return float(brentq(function, low, high))

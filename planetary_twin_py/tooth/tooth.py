@@ -1,0 +1,82 @@
+"""Compliance of one tooth on its gear body."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..gearset.involute import SpurGear
+from .beam import beam_compliance
+from .crack import NO_CRACK, Crack
+from .foundation import GearBody
+from .material import Material
+from .profile import ToothProfile
+
+Floats = NDArray[np.float64]
+
+HUB = 0.5  # [-] radius at which an external gear is held, of its root radius
+RIM = 1.2  # [-] and that at which an internal gear is held
+
+
+@dataclass(frozen=True)
+class Tooth:
+    """A tooth of `gear`, with or without a `crack`, on a body held rigidly at one edge.
+
+    `held` is the radius of that edge in root radii (h = 1/held of Sainsot et al. 2004): that of
+    the shaft or bearing inside an external gear, of the housing around an internal one.
+
+    Raises:
+        ValueError: the held edge is on the wrong side of the root circle.
+    """
+
+    gear: SpurGear
+    material: Material
+    held: float
+    crack: Crack = NO_CRACK
+
+    def __post_init__(self) -> None:
+        if self.held <= 0.0 or self.held == 1.0 or (self.held > 1.0) != self.gear.internal:
+            allowed = "above 1 (internal gear)" if self.gear.internal else "within 0 and 1"
+            raise ValueError(f"held = {self.held:g} root radii: must be {allowed}")
+
+    @cached_property
+    def profile(self) -> ToothProfile:
+        """Shape of the tooth."""
+        return ToothProfile(self.gear)
+
+    def beam(self, radius: Floats) -> Floats:
+        """Bending, shear and compression: displacement times face width over load [m^2/N], (m,).
+
+        The unit force is normal to the flank at `radius` [m].
+        """
+        profile = self.profile
+        thickness = self.crack.thickness(profile)
+        return beam_compliance(thickness, profile.knots, profile.load(radius), self.material)
+
+    def body(self, radius: Floats) -> Floats:
+        """Foundation: displacement along a unit force, times face width [m^2/N], (m,)."""
+        return self.body_coupling(radius, radius, 0)
+
+    def body_coupling(self, radius: Floats, loaded: Floats, teeth: int) -> Floats:
+        """What a load at the radius `loaded` [m] of a tooth moves another one, `teeth` further on.
+
+        Displacement at `radius` [m] along that tooth's own line of action, times face width over
+        load [m^2/N], (m,).
+        """
+        pitch = 2.0 * math.pi / self.gear.teeth
+        body = GearBody(self.held, self.profile.root_half_angle, self.material.poisson_ratio)
+        matrix = body.compliance(teeth * pitch)
+        here, there = self._on_root(radius), self._on_root(loaded)
+        return np.einsum("jm,jk,km->m", here, matrix, there) / self.material.youngs_modulus
+
+    def _on_root(self, radius: Floats) -> Floats:
+        """Moment [root radii], force across and force onto the root of unit loads, (3, m)."""
+        crossing, angle = self.profile.load(radius)
+        half = self.profile.root_half_angle
+        middle = math.sin(half) / half - math.cos(half)  # of the arc, beyond its chord
+        arm = crossing / self.gear.root_radius - (-middle if self.gear.internal else middle)
+        return np.array([arm * np.cos(angle), np.cos(angle), np.sin(angle)])
