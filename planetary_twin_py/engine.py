@@ -12,7 +12,8 @@ from ._records import Record, new_record
 from .dynamics.energy import elastic, kinetic
 from .dynamics.equations import MODEL
 from .dynamics.oil import build_oil
-from .dynamics.start import build_load, mesh_loads, start_state
+from .dynamics.start import build_load, start_state
+from .dynamics.static_load import mesh_force
 from .dynamics.train import build_train
 from .integrators.interpolant import Samples, new_samples, sample
 from .integrators.march import advance, begin_step, cut
@@ -64,7 +65,7 @@ class Engine:
         """Put an operating point into the model, and scale the tolerances to its deflection."""
         self.model.load = build_load(self.scene, point, self.train)
         strongest = abs(point.input_torque) + point.torque_ripple
-        force = max(abs(mesh_loads(self.scene, self.train, strongest)[0]), LIGHTEST_MESH_LOAD)
+        force = max(abs(mesh_force(self.scene, strongest)), LIGHTEST_MESH_LOAD)
         stiffness = float(self.train.stiffness.min())
         lightest = float(self.train.mass[: self.train.bodies].min())
         deflection = force / stiffness + 0.5 * point.backlash

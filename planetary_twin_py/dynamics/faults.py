@@ -16,6 +16,7 @@ from ..scene import Scene
 from ..scene.faults import MOST_FAULTS, SPALL_EDGE, Crack, Fault, Spall, Wear
 from .cycle import counted_cycle
 from .state import DRIVE_SIDE
+from .stiffness_laws import crack_factor
 
 FAULTS = MOST_FAULTS
 NOWHERE = -1
@@ -49,12 +50,13 @@ def build_faults(
         for i in range(2 * scene.gearset.planets):
             pairs[f, i] = _pairs(scene, fault, i, phases)
         for kind, table in enumerate(tables):
-            factors[f, kind] = along(table, _factor(fault))
+            if kind in _kinds(fault):
+                factors[f, kind] = along(table, _factor(scene, fault, kind))
     return {
         "faults": len(scene.faults),
         "fault_teeth": np.array([teeth[fault.gear] for fault in scene.faults], dtype=int),
         "fault_pair": pairs,
-        "fault_gap": np.array([getattr(fault, "depth", 0.0) for fault in scene.faults]),
+        "fault_gap": np.array([f.depth if isinstance(f, Wear) else 0.0 for f in scene.faults]),
         "fault_factor": factors,
     }
 
@@ -86,12 +88,12 @@ def _pairs(scene: Scene, fault: Fault, i: int, phases: np.ndarray) -> tuple[int,
     return (drive, NOWHERE) if fault.flank == "drive" else (NOWHERE, coast)
 
 
-def _factor(fault: Fault) -> Along:
+def _factor(scene: Scene, fault: Fault, kind: int) -> Along:
     """Factor on the stiffness of the pair at its positions on the path."""
     if isinstance(fault, Wear):
         return np.ones_like
     if isinstance(fault, Crack):
-        return lambda s: np.full_like(s, 1.0 - fault.stiffness_loss)
+        return crack_factor(scene, fault, kind)
     corners = [fault.begin, fault.begin + SPALL_EDGE, fault.end - SPALL_EDGE, fault.end]
     return lambda s: 1.0 - fault.stiffness_loss * np.interp(s, corners, [0.0, 1.0, 1.0, 0.0])
 

@@ -15,14 +15,12 @@ from .._records import MESHES, REAL, WHOLE
 from ..gearset.geometry import base_pitch, pitch_radius, planet_ring_path, sun_planet_path
 from ..gearset.kinematics import mesh_cycles_per_turn
 from ..gearset.phasing import mesh_phases
-from ..mesh.stiffness import StiffnessLaw, given_stiffness
 from ..mesh.tooth_pairs import PAIRS, SEGMENTS, TERMS, pair_table, terms_in_use
 from ..scene import Scene
 from .bodies import rigid_ratios, rim_masses
 from .faults import FAULTS_LAYOUT, build_faults, fault_kinks
 from .form_errors import FORM_ERRORS_LAYOUT, build_form_errors
-
-GEARS = (("sun", "planet"), ("planet", "ring"))  # of each kind: first and second
+from .stiffness_laws import GEARS, stiffness_laws
 
 MESHES_LAYOUT: dict[str, Any] = {
     "meshes": WHOLE,
@@ -58,12 +56,13 @@ def build_meshes(scene: Scene, place: dict[str, int]) -> dict[str, object]:
     """
     gearset, damping = scene.gearset, scene.mesh.damping
     teeth, angle = gearset.tooth_numbers, gearset.pressure_angle
-    laws = _stiffness_laws(scene)
+    laws = stiffness_laws(scene)
     tables = [
         pair_table(
             path(teeth, angle, gearset.addendum),
             scene.mesh.ramp,
             laws[kind].strength,
+            laws[kind].sharing,
             fault_kinks(scene, kind),
         )
         for kind, path in enumerate((sun_planet_path, planet_ring_path))
@@ -99,17 +98,6 @@ def build_meshes(scene: Scene, place: dict[str, int]) -> dict[str, object]:
         **build_form_errors(scene),
         **build_faults(scene, tables, phases),
     }
-
-
-def _stiffness_laws(scene: Scene) -> tuple[StiffnessLaw, StiffnessLaw]:
-    mesh = scene.mesh
-    assert mesh.sun_planet_stiffness is not None and mesh.planet_ring_stiffness is not None
-    ratio = mesh.double_pair_ratio
-    along = math.cos(scene.gearset.pressure_angle) if mesh.motion == "pitch_arc" else 1.0
-    return (
-        given_stiffness(mesh.sun_planet_stiffness / along, ratio),
-        given_stiffness(mesh.planet_ring_stiffness / along, ratio),
-    )
 
 
 def _rows(planets: int, place: dict[str, int]) -> tuple[np.ndarray, np.ndarray]:

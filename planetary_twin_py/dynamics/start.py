@@ -13,13 +13,14 @@ import numpy as np
 
 from .._records import AXES, MACHINES, Record, new_record
 from ..scene import OperatingPoint, Scene
-from .bodies import LOAD_MACHINE, MOTOR, SECOND_MOTOR, base_radii, machines
+from .bodies import LOAD_MACHINE, MOTOR, SECOND_MOTOR
 from .cycle import find_segment, mesh_cycle
 from .equations import EVALUATION, forces
 from .form_errors import form_error
 from .mesh_force import mesh_stiffness
 from .moment import MOMENT, frame_cycle_rate, set_moment
 from .state import COAST_SIDE, DRIVE_SIDE, LOAD, STATE
+from .static_load import mesh_force, static_torques
 
 CYCLE_POINTS = 64  # positions within the mesh cycle over which friction is averaged
 SETTLING_PASSES = 3  # the first winds up the couplings, the others find the tooth pairs there
@@ -65,26 +66,6 @@ def _play(scene: Scene, point: OperatingPoint) -> tuple[float, float]:
     return half, half
 
 
-def static_torques(scene: Scene) -> np.ndarray:
-    """Torque of every machine per torque of the first motor, without loss.
-
-    Those on sun, ring and carrier are as their teeth: Ts : Tr : Tc = Zs : Zr : -(Zs + Zr).
-    """
-    teeth = scene.gearset.tooth_numbers
-    parts = {"sun": teeth.sun, "ring": teeth.ring, "carrier": -(teeth.sun + teeth.ring)}
-    members = [parts[machine.member] for machine in machines(scene).values()]
-    return np.array(members) / members[MOTOR]
-
-
-def mesh_loads(scene: Scene, train: Record, torque: float) -> np.ndarray:
-    """Mean mesh forces (meshes,) [N] that carry an input torque [N m] without loss."""
-    teeth, member = scene.gearset.tooth_numbers, scene.drive.input.member
-    parts = {"sun": teeth.sun, "ring": teeth.ring, "carrier": -(teeth.sun + teeth.ring)}
-    sun_torque = torque * teeth.sun / parts[member]
-    force = sun_torque / (base_radii(scene)["sun"] * scene.gearset.planets)
-    return np.full(train.meshes, force)
-
-
 def start_state(scene: Scene, model: Record) -> Record:
     """The state in which a run begins, at time zero and motor angle zero."""
     train, load, axes = model.train, model.load, int(model.train.axes)
@@ -93,8 +74,8 @@ def start_state(scene: Scene, model: Record) -> Record:
     if scene.drive.speed_control.start_speed is not None:
         state.speed[0] = scene.drive.speed_control.start_speed
     state.set_speed[:] = state.speed
-    mean = mesh_loads(scene, train, load.torque[MOTOR])
-    state.side[: train.meshes] = DRIVE_SIDE if mean[0] >= 0.0 else COAST_SIDE
+    mean = mesh_force(scene, float(load.torque[MOTOR]))
+    state.side[: train.meshes] = DRIVE_SIDE if mean >= 0.0 else COAST_SIDE
     drag = np.zeros(axes)
     for point in range(CYCLE_POINTS):
         state.fraction[0] = point / (CYCLE_POINTS * abs(train.cycles[0]))
@@ -122,7 +103,7 @@ def _drag(model: Record, state: Record, moment: Record) -> np.ndarray:
     return -(train.ratio.T @ torque)[: int(train.axes)]
 
 
-def _settle(model: Record, state: Record, moment: Record, mean: np.ndarray) -> None:
+def _settle(model: Record, state: Record, moment: Record, mean: float) -> None:
     """Choose x so that every mesh and coupling carries its mean load at the present motor angle.
 
     The couplings wind up by a good part of a mesh cycle, which moves the tooth pairs, whose
@@ -145,7 +126,7 @@ def _place_pairs(model: Record, state: Record, moment: Record) -> None:
     set_moment(model, state, moment)
 
 
-def _balance(model: Record, state: Record, moment: Record, mean: np.ndarray) -> None:
+def _balance(model: Record, state: Record, moment: Record, mean: float) -> None:
     """Choose x for the tooth pairs that are in contact.
 
     Least squares, because more meshes than bodies ask for a place: all of them get theirs only
@@ -160,7 +141,7 @@ def _balance(model: Record, state: Record, moment: Record, mean: np.ndarray) -> 
         row = np.zeros(bodies)
         np.add.at(row, train.body[i], train.sign[i])
         rows.append(row)
-        targets.append(state.side[i] * load.offset + error + mean[i] / k)
+        targets.append(state.side[i] * load.offset + error + mean / k)
         weights.append(k)
     for c, (machine, member) in enumerate(train.coupling[: train.machines]):
         row = np.zeros(bodies)

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Any, NamedTuple
 
+from ..dynamics.stiffness_laws import stiffness_laws
 from ..scene import Scene
 
 
@@ -67,10 +68,17 @@ def _backlash(scene: Scene) -> Term | None:
 
 def _tooth_pairs(scene: Scene) -> Term | None:
     mesh = scene.mesh
-    if mesh.stiffness != "given" or mesh.double_pair_ratio == 1.0:
+    constant: dict[str, Any] = {"mesh.double_pair_ratio": 1.0}
+    if mesh.stiffness == "involute":
+        law = "computed from the teeth, position by position"
+        single = (law.single for law in stiffness_laws(scene))
+        names = ("mesh.sun_planet_stiffness", "mesh.planet_ring_stiffness")
+        constant |= {"mesh.stiffness": "given", **dict(zip(names, single, strict=True))}
+    elif mesh.double_pair_ratio == 1.0:
         return None
-    law = f"two pairs {mesh.double_pair_ratio:g} times as stiff as one"
-    return Term("alternation of tooth pairs", law, {"mesh.double_pair_ratio": 1.0})
+    else:
+        law = f"two pairs {mesh.double_pair_ratio:g} times as stiff as one"
+    return Term("alternation of tooth pairs", law, constant)
 
 
 def _ramp(scene: Scene) -> Term | None:

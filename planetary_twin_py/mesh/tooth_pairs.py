@@ -8,7 +8,9 @@ The mesh stiffness is base + gain * (sum of the weights), shared in the ratio of
 - given stiffness k of one pair, every further pair adds (r - 1) k: full strength 1, and
   base = (2 - r) k, gain = (r - 1) k (r = 1.75 is the slope of ISO 6336-1, c_gamma over the contact
   ratio; a ramp of zero is the single/double alternation of Salagianni et al. 2017, Fig. 4);
-- stiffness computed for every position of a pair: that is its strength, base = 0, gain = 1.
+- stiffness computed for every position of a pair: its strength is in proportion to that,
+  base = 0, gain the stiffness at the pitch point. Two pairs on one gear body are less stiff than
+  the sum of both by the factor `sharing`, which goes into their weights.
 """
 
 from __future__ import annotations
@@ -52,7 +54,11 @@ def one(s: np.ndarray) -> np.ndarray:
 
 
 def pair_table(
-    path: PathOfContact, ramp: float, strength: Along = one, kinks: Sequence[float] = ()
+    path: PathOfContact,
+    ramp: float,
+    strength: Along = one,
+    sharing: float = 1.0,
+    kinks: Sequence[float] = (),
 ) -> PairTable:
     """Tabulate the tooth pairs of a mesh with a ramp of `ramp` base pitches.
 
@@ -60,6 +66,7 @@ def pair_table(
         path: where pairs are in contact.
         ramp: base pitches over which a pair takes up and gives up its load.
         strength: full weight of a pair at its positions [base pitches].
+        sharing: factor on the weights of two pairs that are there at once.
         kinks: further positions at which something along the path is not smooth.
 
     Raises:
@@ -86,14 +93,24 @@ def pair_table(
         shifts = [n for n in range(-PAIRS, PAIRS + 1) if -path.approach < middle + n < path.recess]
         table.shift[j, : len(shifts)] = shifts
         table.present[j, : len(shifts)] = True
-    table.weight[:, :TOTAL] = along(table, lambda s: _ramp(path, ramp, s) * strength(s))
+    table.weight[:, :TOTAL] = along(
+        table,
+        lambda s: _ramp(path, ramp, s) * strength(s) * _shared(path, ramp, sharing, s),
+    )
     table.weight[:, TOTAL] = table.weight[:, :TOTAL].sum(axis=1)
     return table
 
 
+def _shared(path: PathOfContact, ramp: float, sharing: float, s: np.ndarray) -> np.ndarray:
+    """Factor on the weight of a pair at `s` for what the others on its gear body do to it."""
+    others = [n for n in range(-PAIRS, PAIRS + 1) if n != 0]
+    count = sum(np.clip(_ramp(path, ramp, s + n), 0.0, 1.0) for n in others)
+    return 1.0 + (sharing - 1.0) * count
+
+
 def _ramp(path: PathOfContact, ramp: float, s: np.ndarray) -> np.ndarray:
     if ramp == 0.0:
-        return np.ones_like(s)
+        return np.where((-path.approach <= s) & (s <= path.recess), 1.0, 0.0)
     return np.minimum(1.0, np.minimum(s + path.approach, path.recess - s) / ramp)
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from typing import Annotated, Literal, Self
 
 from pydantic import Discriminator, Field, Tag, model_validator
@@ -27,9 +28,21 @@ class Crack(ToothFault):
     """A crack at the root, which softens the tooth on both flanks in every mesh."""
 
     kind: Literal["crack"]
-    stiffness_loss: float = quantity(
-        "", "share of the stiffness a pair with this tooth has lost", gt=0.0, le=0.9
+    stiffness_loss: float | None = quantity(
+        "", "share of the stiffness a pair with this tooth has lost", None, gt=0.0, le=0.9
     )
+    depth: float | None = quantity(
+        "m", "length of the crack, from which its loss is computed", None, gt=0.0, le=0.1
+    )
+    angle: float = quantity(
+        "rad", "of the crack to the centre line of the tooth", math.radians(70.0), ge=0.5, le=1.58
+    )
+
+    @model_validator(mode="after")
+    def _one_measure(self) -> Self:
+        if (self.stiffness_loss is None) == (self.depth is None):
+            raise ValueError("stiffness_loss, depth: give one of them for a crack")
+        return self
 
 
 class FlankFault(ToothFault):

@@ -62,11 +62,28 @@ class Runout(Section):
     ring: float = quantity("m", "eccentricity of the ring", 0.0, ge=0.0, le=1e-2)
 
 
+class ToothCompliance(Section):
+    """How the stiffness of a pair of teeth is computed from their geometry.
+
+    Contact "weber_banaschek": local approach at the load of the scene's operating point.
+    "yang_sun": the constant of much of the literature, which leaves most of that out.
+    """
+
+    contact: Literal["weber_banaschek", "yang_sun"] = "weber_banaschek"
+    hub: float = quantity(
+        "", "radius at which sun and planets are held, over their root radius", 0.5, ge=0.1, le=0.95
+    )
+    rim: float = quantity(
+        "", "radius at which the ring is held, over its root radius", 1.2, ge=1.02, le=5.0
+    )
+
+
 class Mesh(Section):
     """Stiffness, damping, backlash and errors along the line of action.
 
     Stiffness "given": by the numbers below. With `double_pair_ratio` 1 it is constant, with `ramp`
-    0 it alternates at once. "involute": computed from the teeth for every position of a pair.
+    0 it alternates at once. "involute": computed from the teeth for every position of a pair,
+    two pairs standing on one gear body.
 
     Backlash "dead_zone": F = k (DTE - B/2), B the backlash. "regulatory_factor": F = k DTE
     beyond B and none within, the printed form of Salagianni et al. 2017, (2)-(5), which jumps.
@@ -91,6 +108,7 @@ class Mesh(Section):
     )
     backlash: Literal["dead_zone", "regulatory_factor"] = "dead_zone"
     motion: Literal["line_of_action", "pitch_arc"] = "line_of_action"
+    tooth: ToothCompliance = ToothCompliance()
     damping: MeshDamping = MeshDamping()
     sun_planet_error: TransmissionError = TransmissionError()
     planet_ring_error: TransmissionError = TransmissionError()

@@ -10,7 +10,7 @@ import yaml
 from pydantic import Field, ValidationError, model_validator
 
 from .drive import Drive
-from .faults import MOST_FAULTS, Fault
+from .faults import MOST_FAULTS, Crack, Fault
 from .gearset import Gearset
 from .lubrication import Lubrication
 from .mesh import Mesh
@@ -61,6 +61,10 @@ class Scene(Section):
                 if getattr(fault, name) > last:
                     value = getattr(fault, name)
                     raise ValueError(f"faults.{n}.{name} = {value}: must be at most {last}")
+            if isinstance(fault, Crack) and fault.depth and self.mesh.stiffness != "involute":
+                raise ValueError(
+                    f"faults.{n}.depth: needs mesh.stiffness = involute; or give stiffness_loss"
+                )
         return self
 
     @property

@@ -78,6 +78,11 @@ def test_residual_falls_with_the_tolerance():
         {"faults": [{"kind": "crack", "gear": "planet", "planet": 2, "stiffness_loss": 0.5}]},
         {"faults": [{"kind": "spall", "gear": "ring", "tooth": 1, "stiffness_loss": 0.4}]},
         {"faults": [{"kind": "wear", "gear": "sun", "tooth": 1, "depth": "2 um"}]},
+        {"mesh.stiffness": "involute"},
+        {
+            "mesh.stiffness": "involute",
+            "faults": [{"kind": "crack", "gear": "sun", "depth": "0.5 mm"}],
+        },
         {"mesh.backlash": "regulatory_factor"},
         {"mesh.damping.law": "natural_frequency"},
     ],

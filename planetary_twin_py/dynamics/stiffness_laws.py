@@ -1,0 +1,79 @@
+"""The stiffness laws of a scene's two kinds of mesh: given, or computed from the teeth."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+
+import numpy as np
+
+from ..mesh.stiffness import StiffnessLaw, given_stiffness, tooth_stiffness
+from ..mesh.tooth_pairs import Along
+from ..scene import Scene
+from ..scene.faults import Crack
+from ..tooth.contact import ContactLaw, weber_banaschek, yang_sun
+from ..tooth.crack import Crack as RootCrack
+from ..tooth.material import Material
+from ..tooth.pair import ToothPair, planet_ring_pair, sun_planet_pair
+from .static_load import mesh_force
+
+GEARS = (("sun", "planet"), ("planet", "ring"))  # of each kind of mesh: first and second
+LIGHTEST_LINE_LOAD = 1e3  # [N/m] below it contact compliance is that of this load
+
+
+def stiffness_laws(scene: Scene) -> tuple[StiffnessLaw, StiffnessLaw]:
+    """Those of sun-planet and planet-ring meshes.
+
+    Raises:
+        ValueError: there are no such teeth (see `tooth.pair`).
+    """
+    mesh = scene.mesh
+    if mesh.stiffness == "involute":
+        first, second = (_tooth_law(scene, pair) for pair in tooth_pairs(scene))
+        return first, second
+    along = math.cos(scene.gearset.pressure_angle) if mesh.motion == "pitch_arc" else 1.0
+    ratio = mesh.double_pair_ratio
+    assert mesh.sun_planet_stiffness is not None and mesh.planet_ring_stiffness is not None
+    return (
+        given_stiffness(mesh.sun_planet_stiffness / along, ratio),
+        given_stiffness(mesh.planet_ring_stiffness / along, ratio),
+    )
+
+
+def tooth_pairs(scene: Scene) -> tuple[ToothPair, ToothPair]:
+    """Healthy pairs of sun and planet, and of planet and ring."""
+    gearset, oil, how = scene.gearset, scene.lubrication, scene.mesh.tooth
+    sizes = (gearset.tooth_numbers, gearset.module, gearset.pressure_angle, gearset.addendum)
+    material, contact = Material(oil.youngs_modulus, oil.poisson_ratio), _contact(scene)
+    sun_planet = sun_planet_pair(*sizes, material, contact)
+    planet_ring = planet_ring_pair(*sizes, material, contact)
+    sun, planet = (replace(tooth, held=how.hub) for tooth in (sun_planet.first, sun_planet.second))
+    ring = replace(planet_ring.second, held=how.rim)
+    return (
+        replace(sun_planet, first=sun, second=planet),
+        replace(planet_ring, first=planet, second=ring),
+    )
+
+
+def crack_factor(scene: Scene, crack: Crack, kind: int) -> Along:
+    """Stiffness of a pair with a cracked tooth over that of a healthy one, by position."""
+    left = 1.0 - (crack.stiffness_loss or 0.0)
+    if crack.depth is None:
+        return lambda s: np.full_like(s, left)
+    healthy = tooth_pairs(scene)[kind]
+    side = "first" if GEARS[kind][0] == crack.gear else "second"
+    root_crack = RootCrack(crack.depth, crack.angle)
+    cracked = replace(healthy, **{side: replace(getattr(healthy, side), crack=root_crack)})
+    return lambda s: healthy.compliance(s) / cracked.compliance(s)
+
+
+def _tooth_law(scene: Scene, pair: ToothPair) -> StiffnessLaw:
+    width = scene.gearset.face_width
+    return tooth_stiffness(lambda s: pair.stiffness(s, width), pair.shared_body_factor)
+
+
+def _contact(scene: Scene) -> ContactLaw:
+    if scene.mesh.tooth.contact == "yang_sun":
+        return yang_sun
+    force = abs(mesh_force(scene, scene.operating_point.input_torque))
+    return weber_banaschek(max(force / scene.gearset.face_width, LIGHTEST_LINE_LOAD))
