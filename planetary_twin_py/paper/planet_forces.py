@@ -1,0 +1,90 @@
+"""Figure 9: forces and torque on a planet against speed and lambda ratio."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from matplotlib.figure import Figure
+
+from ..gearset.geometry import pitch_radius
+from .entry import Claim, Entry
+from .evidence import Evidence
+from .judge import percent, rises
+from .style import panels
+from .study import Study
+
+WHY = (
+    "the input torque is given, so the mean mesh forces follow from statics whatever speed and "
+    "lambda are; friction moves them by less than a hundredth"
+)
+
+
+def planet_forces(evidence: Evidence) -> Entry:
+    """Figure 9."""
+    ours, printed = (_forces(study) for study in (evidence.study, evidence.printed_study))
+    gearset = evidence.scene.gearset
+    sine, cosine = math.sin(gearset.pressure_angle), math.cos(gearset.pressure_angle)
+    arm = pitch_radius(gearset.teeth.planet, gearset.module) * cosine
+    mean, largest = ours["mean"].mean(), ours["largest"].mean(axis=(0, 1))
+    speeds = evidence.study.grid.speeds
+    peaks = ", ".join(
+        f"{force:.0f} N at {speed:g} rpm" for force, speed in zip(largest, speeds, strict=True)
+    )
+    return Entry(
+        number="Figure 9",
+        title="forces and torque on a planet against speed and lambda",
+        claims=(
+            _claim("speed", ours, printed, 2),
+            _claim("lambda", ours, printed, 1),
+        ),
+        remarks=f"The sun pushes every planet with {mean:.0f} N in the mean: {mean * cosine:.0f} N "
+        f"tangential, {mean * sine:.0f} N radial, a torque of {mean * arm:.2f} N m about its pin. "
+        f"All four are the mesh force times a constant, so one plot shows them. The largest force "
+        f"of the cycle does change with speed, as the meshing frequency moves among the natural "
+        f"frequencies: {peaks}.",
+        picture=_draw(evidence.study, ours),
+        figures={"mean_force": ours["mean"].mean(axis=0), "largest_force": largest},
+    )
+
+
+def _forces(study: Study) -> dict[str, np.ndarray]:
+    return {
+        "mean": study.over_grid(lambda o: o.sun.force),
+        "largest": study.over_grid(lambda o: o.sun.largest_force),
+    }
+
+
+def _claim(
+    name: str, ours: dict[str, np.ndarray], printed: dict[str, np.ndarray], axis: int
+) -> Claim:
+    return Claim(
+        says=f"the forces grow with {name}",
+        ours=_changes(ours, axis),
+        printed=_changes(printed, axis),
+        holds=all(rises(force, axis) for force in ours.values()),
+        printed_holds=all(rises(force, axis) for force in printed.values()),
+        why=WHY,
+    )
+
+
+def _changes(forces: dict[str, np.ndarray], axis: int) -> str:
+    return ", ".join(f"{name} {percent(force, axis):+.2f} %" for name, force in forces.items())
+
+
+def _draw(study: Study, forces: dict[str, np.ndarray]) -> Figure:
+    figure, (against_speed, against_lambda) = panels(2, 2.8)
+    speeds, ratios = study.grid.speeds, study.grid.lambda_ratios
+    for name, force in forces.items():
+        against_speed.plot(speeds, 1e-3 * force[0, 0], "o-", label=f"{name} over a cycle")
+        against_lambda.plot(ratios, 1e-3 * force[0, :, 0], "o-")
+    against_speed.set_title(f"lambda {ratios[0]:g}")
+    against_speed.set_xlabel("input speed [rpm]")
+    against_speed.set_xticks(speeds)
+    against_speed.set_ylabel("force of the sun on a planet [kN]")
+    against_lambda.set_title(f"{speeds[0]:g} rpm")
+    against_lambda.set_xlabel("lambda ratio")
+    for axes in (against_speed, against_lambda):
+        axes.set_ylim(0, None)
+    against_speed.legend(loc="lower left")
+    return figure
