@@ -45,7 +45,7 @@ class Engine:
         self.scene = scene
         self.tolerance = tolerance
         self.train = build_train(scene)
-        self.model: Record = new_record(MODEL, train=self.train, oil=build_oil(scene))
+        self.model: Record = new_record(MODEL, train=self.train)
         self.march: Record = new_record(MARCH)
         self.march.control.step = self.march.control.next_step = FIRST_STEP
         self.march.control.longest = LONGEST_STEP
@@ -63,6 +63,7 @@ class Engine:
 
     def _load(self, point: OperatingPoint) -> None:
         """Put an operating point into the model, and scale the tolerances to its deflection."""
+        self.model.oil = build_oil(self.scene, point)
         self.model.load = build_load(self.scene, point, self.train)
         strongest = abs(point.input_torque) + point.torque_ripple
         force = max(abs(mesh_force(self.scene, strongest)), LIGHTEST_MESH_LOAD)

@@ -172,6 +172,7 @@ def write_recording(
                     "backlash": backlash,
                     "lambda_ratio": lam,
                     "input_speed": rpm * math.pi / 30,
+                    "oil_temperature": 343.15,
                     "second_input_speed": 0.0,
                     "input_torque": torque,
                     "torque_ripple": ripple,

@@ -28,7 +28,13 @@ from .state import (
     STIFFNESS_WORK,
     WORK,
 )
-from .tooth_friction import TOOTH_PAIRS, apply_friction, apply_printed_friction, evaluate
+from .tooth_friction import (
+    TOOTH_PAIRS,
+    apply_friction,
+    apply_printed_friction,
+    apply_rolling,
+    evaluate,
+)
 from .train import TRAIN
 
 # All that the equations of motion read.
@@ -95,6 +101,8 @@ def forces(
             power[FRICTION] = apply_printed_friction(train, state, v, pairs, force)
         else:
             power[FRICTION] = apply_friction(train, pairs, force)
+        if model.oil.rolling:
+            power[FRICTION] += apply_rolling(train, pairs, force)
     _couplings(train, x, v, out)
     _machines(model, state, moment, x, v, delay, trim, out)
     force[train.bodies] = 0.0  # the ground

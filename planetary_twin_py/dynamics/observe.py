@@ -9,7 +9,7 @@ from .._records import Record
 from .equations import begin_pairs
 from .mesh_force import mesh_motion, press
 from .state import OPEN
-from .tooth_friction import evaluate
+from .tooth_friction import evaluate, rolling_power
 
 # Rows of the answer of `observe`.
 DTE, MESH_FORCE, BOUNDARY, VISCOUS, FILM, LAMBDA, POWER_LOSS = range(7)
@@ -51,4 +51,4 @@ def observe(
         if train.friction:
             out[BOUNDARY, i] += pairs.boundary[p]
             out[VISCOUS, i] += pairs.viscous[p]
-            out[POWER_LOSS, i] += pairs.friction[p] * pairs.sliding[p]
+            out[POWER_LOSS, i] += pairs.friction[p] * pairs.sliding[p] + rolling_power(pairs, p)

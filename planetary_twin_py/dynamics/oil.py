@@ -9,7 +9,8 @@ from ..lubrication.boundary import Asperities
 from ..lubrication.film import FILM_LAWS, FilmLaw
 from ..lubrication.hertz import contact_modulus
 from ..lubrication.traction import Traction
-from ..scene import Scene
+from ..lubrication.viscosity import viscosity_at
+from ..scene import OperatingPoint, Scene
 
 # Laws and constants of the tooth contacts.
 OIL = layout(
@@ -21,14 +22,25 @@ OIL = layout(
     viscosity=REAL,  # eta0 [Pa s]
     roughness=REAL,  # sigma [m]
     prescribed=FLAG,  # lambda ratio: prescribed, or film/roughness
+    printed_asperities=FLAG,
+    sharing=FLAG,  # boundary friction: by load sharing, or of Greenwood and Tripp's asperities
+    boundary_coefficient=REAL,  # [-], of the former
+    rolling=FLAG,  # whether rolling resists
     sliding_threshold=REAL,  # [-]
 )
 
 
-def build_oil(scene: Scene) -> Record:
-    """Collect the constants of the laws a scene chooses."""
+def build_oil(scene: Scene, point: OperatingPoint) -> Record:
+    """Collect the constants of the laws a scene chooses, at the temperature of the oil."""
     data = scene.lubrication
     modulus = contact_modulus(data.youngs_modulus, data.poisson_ratio)
+    viscosity = viscosity_at(
+        point.oil_temperature,
+        (data.reference_temperature, data.viscosity),
+        data.viscosity_slope,
+        data.oil_density,
+    )
+    printed_traction = data.traction == "printed"
     roughness_squared = math.pi * data.roughness_parameter**2
     return new_record(
         OIL,
@@ -41,7 +53,7 @@ def build_oil(scene: Scene) -> Record:
                 / 15.0
                 * roughness_squared
                 * math.sqrt(data.asperity_slope)
-                * modulus
+                * (2.0 * modulus if data.modulus == "printed" else modulus)
             ),
             shear_stress=data.shear_stress,
             pressure_coefficient=data.pressure_coefficient,
@@ -50,8 +62,12 @@ def build_oil(scene: Scene) -> Record:
             shear_stress=data.shear_stress,
             pressure_viscosity=data.pressure_viscosity,
             conductivity_group=(
-                2.0 * data.oil_conductivity * data.viscosity / data.temperature_viscosity
+                2.0
+                * data.oil_conductivity
+                * viscosity
+                / (1.0 if printed_traction else data.temperature_viscosity)
             ),
+            least=-math.inf if printed_traction else 0.0,
             film_heating=(
                 4.0
                 / math.pi
@@ -67,8 +83,12 @@ def build_oil(scene: Scene) -> Record:
         ),
         contact_modulus=modulus,
         face_width=scene.gearset.face_width,
-        viscosity=data.viscosity,
+        viscosity=viscosity,
         roughness=data.composite_roughness,
         prescribed=data.lambda_ratio == "prescribed",
+        printed_asperities=data.asperities == "printed",
+        sharing=data.boundary == "load_sharing",
+        boundary_coefficient=data.boundary_coefficient,
+        rolling=data.rolling == "goksem_hargreaves",
         sliding_threshold=data.sliding_threshold,
     )

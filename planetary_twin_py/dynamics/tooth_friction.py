@@ -9,11 +9,11 @@ from __future__ import annotations
 
 import numpy as np
 
-from .._compile import kernel
+from .._compile import kernel, law
 from .._records import FLAG, MESHES, REAL, WHOLE, Record, layout
 from ..mesh.tooth_pairs import PAIRS
 from .body_speed import body_speed
-from .tooth_contact import tooth_contact
+from .tooth_contact import choices, tooth_contact
 
 SLOWEST_TURN = 1e-3  # [rad/s] below which the printed torque fades out
 REGISTER = 8  # doubles the compiler works on at a time
@@ -40,21 +40,36 @@ TOOTH_PAIRS = layout(
     lambda_ratio=(REAL, (LANES,)),  # [-]
     sliding=(REAL, (LANES,)),  # [m/s]
     slope=(REAL, (LANES,)),  # of friction over sliding [N s/m]
+    rolling=(REAL, (LANES,)),  # rolling resistance, signed [N]
 )
 
 
 @kernel
 def evaluate(model: Record, pairs: Record) -> None:
-    """Film and friction of all pairs; whole registers, so that lanes beyond `count` are idle."""
+    """Film and friction of all pairs."""
+    laws = choices(model.oil)
+    if not (laws[1] or laws[2] or laws[3]):
+        # Constants take the laws not chosen out of the loop, which saves a quarter of its time.
+        _evaluate(model, (laws[0], False, False, False), pairs)
+    else:
+        _evaluate(model, laws, pairs)
+
+
+@law
+def _evaluate(model: Record, laws: tuple[bool, bool, bool, bool], pairs: Record) -> None:
+    """Whole registers of pairs, so that lanes beyond `count` are idle."""
     for p in range(-(-pairs.count // REGISTER) * REGISTER):
-        signed, boundary, viscous, film, ratio, sliding, slope = tooth_contact(
+        signed, boundary, viscous, film, ratio, sliding, slope, rolling = tooth_contact(
             model.oil,
-            pairs.rho1[p],
-            pairs.rho2[p],
-            pairs.external[p],
-            pairs.speed1[p],
-            pairs.speed2[p],
-            pairs.load[p],
+            laws,
+            (
+                pairs.rho1[p],
+                pairs.rho2[p],
+                pairs.external[p],
+                pairs.speed1[p],
+                pairs.speed2[p],
+                pairs.load[p],
+            ),
             model.load.lambda_ratio,
         )
         pairs.friction[p] = signed
@@ -64,6 +79,7 @@ def evaluate(model: Record, pairs: Record) -> None:
         pairs.lambda_ratio[p] = ratio
         pairs.sliding[p] = sliding
         pairs.slope[p] = slope
+        pairs.rolling[p] = rolling
 
 
 @kernel
@@ -78,6 +94,27 @@ def apply_friction(train: Record, pairs: Record, force: np.ndarray) -> float:
         force[second] -= f * rho2 / train.radius[second]
         force[carrier] += f * (rho1 + rho2) / train.radius[carrier]
         power += f * pairs.sliding[p]
+    return power
+
+
+@law
+def rolling_power(pairs: Record, p: int) -> float:
+    """Power that rolling resistance takes from a tooth pair, F_R (u1 + u2) [W]."""
+    u1, u2 = pairs.rho1[p] * pairs.speed1[p], pairs.external[p] * pairs.rho2[p] * pairs.speed2[p]
+    return pairs.rolling[p] * (u1 - u2)
+
+
+@kernel
+def apply_rolling(train: Record, pairs: Record, force: np.ndarray) -> float:
+    """Add the generalised forces -F_R d(u1 + u2)/dw/r of all pairs; return their power [W]."""
+    power = 0.0
+    for p in range(pairs.count):
+        i = pairs.mesh[p]
+        f, rho1, rho2 = pairs.rolling[p], pairs.rho1[p], -pairs.external[p] * pairs.rho2[p]
+        force[train.body[i, 0]] -= f * rho1 / train.radius[train.body[i, 0]]
+        force[train.body[i, 1]] -= f * rho2 / train.radius[train.body[i, 1]]
+        force[train.body[i, 2]] += f * (rho1 + rho2) / train.radius[train.body[i, 2]]
+        power += rolling_power(pairs, p)
     return power
 
 

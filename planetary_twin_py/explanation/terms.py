@@ -44,7 +44,8 @@ def _friction(scene: Scene) -> Term | None:
     oil = scene.lubrication
     if not oil.friction:
         return None
-    law = f"film {oil.film}, lambda ratio {oil.lambda_ratio}, Evans-Johnson and Greenwood-Tripp"
+    law = f"film {oil.film}, lambda ratio {oil.lambda_ratio}, {oil.traction}, {oil.boundary}"
+    law = law.replace("_", " ")
     return Term("tooth friction", law, {"lubrication.friction": False})
 
 
@@ -56,6 +57,12 @@ def _boundary(scene: Scene) -> Term | None:
     else:
         smooth = {"lubrication.composite_roughness": 1e-12}
     return Term("asperities", "boundary friction at the lambda ratio", smooth)
+
+
+def _rolling(scene: Scene) -> Term | None:
+    if not scene.lubrication.friction or scene.lubrication.rolling == "none":
+        return None
+    return Term("rolling resistance", "Goksem and Hargreaves", {"lubrication.rolling": "none"})
 
 
 def _backlash(scene: Scene) -> Term | None:
@@ -137,4 +144,5 @@ _TERMS: tuple[Callable[[Scene], Term | None], ...] = (
     _ripple,
     _friction,
     _boundary,
+    _rolling,
 )

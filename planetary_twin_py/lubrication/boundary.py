@@ -11,6 +11,7 @@ from typing import NamedTuple
 
 from .._compile import law
 from .asperities import contact_area_function, contact_load_function
+from .printed_asperities import printed_area_function, printed_load_function
 
 
 class Asperities(NamedTuple):
@@ -23,8 +24,14 @@ class Asperities(NamedTuple):
 
 
 @law
-def boundary_shear(asperities: Asperities, lambda_ratio: float) -> float:
-    """Boundary friction per apparent area, f_b/A [Pa]."""
-    area = asperities.area_factor * contact_area_function(lambda_ratio)
-    pressure = asperities.pressure_factor * contact_load_function(lambda_ratio)
+def boundary_shear(asperities: Asperities, printed: bool, lambda_ratio: float) -> float:
+    """Boundary friction per apparent area, f_b/A [Pa]; with `printed` asperity functions or not."""
+    if printed:
+        area = printed_area_function(lambda_ratio)
+        pressure = printed_load_function(lambda_ratio)
+    else:
+        area = contact_area_function(lambda_ratio)
+        pressure = contact_load_function(lambda_ratio)
+    area *= asperities.area_factor
+    pressure *= asperities.pressure_factor
     return asperities.shear_stress * area + asperities.pressure_coefficient * pressure

@@ -1,7 +1,8 @@
 """Viscous friction of a thermal elastohydrodynamic film (Evans and Johnson 1986).
 
 Salagianni et al. 2017, eqs. (12), (13). The root of (12) needs a temperature coefficient of
-viscosity beta_T [1/K] to be dimensionless; `conductivity_group` = 2 K eta0/beta_T carries it.
+viscosity beta_T [1/K] to be dimensionless; `conductivity_group` = 2 K eta0/beta_T carries it. The
+printed form is the same with beta_T = 1/K, and falls below zero under a light load.
 """
 
 from __future__ import annotations
@@ -19,6 +20,7 @@ class Traction(NamedTuple):
     shear_stress: float  # [Pa] tau0, Eyring stress
     pressure_viscosity: float  # [1/Pa] alpha
     conductivity_group: float  # [Pa^2 m^2] 2 K eta0/beta_T of the lubricant
+    least: float  # [N] friction is never below: 0, or minus infinity for the printed form
     film_heating: float  # [(m s/Pa)^0.5] 4/pi K/sqrt(E' K' rho' c') of (13)
 
 
@@ -26,7 +28,7 @@ class Traction(NamedTuple):
 def viscous_friction(
     traction: Traction, load: float, area: float, radius: float, film: float, speed: float
 ) -> float:
-    """Friction f_v [N] on the traction plateau, never negative.
+    """Friction f_v [N] on the traction plateau, not below `traction.least`.
 
     Args:
         load: normal load on the tooth pair [N].
@@ -42,7 +44,7 @@ def viscous_friction(
     friction = traction.shear_stress * (
         0.87 * traction.pressure_viscosity * load + 0.87 * area * log(argument)
     )
-    return max(friction, 0.0)
+    return max(friction, traction.least)
 
 
 @law

@@ -10,7 +10,11 @@ from .quantity import Section, quantity
 
 
 class Lubrication(Section):
-    """Oil, surfaces, and the choice of laws for film, lambda ratio and traction."""
+    """Oil, surfaces, and the choice of laws for film, lambda ratio and friction.
+
+    Printed forms are those of Salagianni et al. 2017: asperity functions of the appendix,
+    traction (12) without thermal coefficient and without a floor, one modulus E' in (11) to (15).
+    """
 
     friction: bool = Field(True, description="tooth friction on or off")
     friction_torque: Literal["sliding", "printed"] = Field(
@@ -19,7 +23,27 @@ class Lubrication(Section):
     )
     film: Literal["dowson_higginson", "dowson_toyoda", "salagianni"] = "dowson_higginson"
     lambda_ratio: Literal["prescribed", "computed"] = "computed"
-    viscosity: float = quantity("Pa s", "at atmospheric pressure", gt=0.0, le=10.0)
+    asperities: Literal["exact", "printed"] = "exact"
+    boundary: Literal["greenwood_tripp", "load_sharing"] = "greenwood_tripp"
+    traction: Literal["evans_johnson", "printed"] = "evans_johnson"
+    modulus: Literal["by_equation", "printed"] = Field(
+        "by_equation", description="by_equation: E* in (11), 2 E* in (13) and (15)"
+    )
+    rolling: Literal["none", "goksem_hargreaves"] = "none"
+    viscosity: float = quantity(
+        "Pa s", "at atmospheric pressure and the reference temperature", ge=1e-3, le=10.0
+    )
+    reference_temperature: float = quantity(
+        "K", "at which the oil has that viscosity", 343.15, ge=233.15, le=433.15
+    )
+    viscosity_slope: float = quantity(
+        "",
+        "B of Walther's equation (ASTM D341); default: VG 460, 460 and 30.5 mm^2/s at 40, 100 C",
+        3.2975,
+        ge=0.0,
+        le=6.0,
+    )
+    oil_density: float = quantity("kg/m^3", "of the oil", 890.0, ge=500.0, le=2000.0)
     pressure_viscosity: float = quantity("1/Pa", "pressure coefficient", gt=0.0, le=1e-6)
     temperature_viscosity: float = quantity("1/K", "thermal coefficient", 0.04, gt=0.0, le=1.0)
     shear_stress: float = quantity("Pa", "Eyring stress", gt=0.0, le=1e9)
@@ -32,6 +56,9 @@ class Lubrication(Section):
     roughness_parameter: float = quantity("", "xi beta sigma", 0.055, gt=0.0, le=1.0)
     asperity_slope: float = quantity("", "sigma/beta", 0.001, gt=0.0, le=1.0)
     pressure_coefficient: float = quantity("", "eps of the boundary film", 0.17, ge=0.0, le=1.0)
+    boundary_coefficient: float = quantity(
+        "", "friction coefficient without a film, for load sharing", 0.11, ge=0.0, le=1.0
+    )
     composite_roughness: float = quantity("m", "sigma of both flanks", 2e-7, gt=0.0, le=1e-4)
     sliding_threshold: float = quantity(
         "",

@@ -24,6 +24,9 @@ class OperatingPoint(Section):
         ge=0.0,
         le=10.0,
     )
+    oil_temperature: float = quantity(
+        "K", "temperature of the oil, on which its viscosity depends", 343.15, ge=233.15, le=433.15
+    )
     input_speed: float = quantity(
         "rad/s",
         "speed set-point of the motor, reached at the drive's slew rate",

@@ -62,6 +62,7 @@ TRAIN = {
 OPERATING_POINT = {
     "backlash": Quantity("Backlash", "µm", 1e6),
     "lambda_ratio": Quantity("Prescribed lambda ratio", "-"),
+    "oil_temperature": Quantity("Oil temperature", "K"),
     "input_speed": Quantity("Speed set-point", "rpm", RPM),
     "second_input_speed": Quantity("Second speed set-point", "rpm", RPM),
     "input_torque": Quantity("Input torque", "N m"),

@@ -3,6 +3,7 @@
 import math
 from typing import NamedTuple
 
+from planetary_twin_py.dynamics.oil import build_oil
 from planetary_twin_py.lubrication.film import FILM_LAWS, film_thickness
 
 CASES = [(mesh, rpm) for mesh in ("sp", "pr") for rpm in (1000, 2000, 3000)]
@@ -41,3 +42,7 @@ def film(law, mesh, rpm, load=LOAD):
         PRESSURE_VISCOSITY * MODULUS,
         load / (MODULUS * point.radius * FACE_WIDTH),
     )
+
+
+def oil_of(scene):
+    return build_oil(scene, scene.operating_point)

@@ -7,6 +7,10 @@ import pytest
 from scipy.integrate import quad
 
 from planetary_twin_py.lubrication.asperities import contact_area_function, contact_load_function
+from planetary_twin_py.lubrication.printed_asperities import (
+    printed_area_function,
+    printed_load_function,
+)
 
 BOTH = pytest.mark.parametrize(
     "function, n", [(contact_area_function, 2.0), (contact_load_function, 2.5)]
@@ -28,3 +32,15 @@ def test_fit_is_positive_and_never_rises(function, n):
     assert values.min() > 0.0
     assert np.diff(values).max() <= 0.0
     assert np.diff(values[:1200]).max() < 0.0
+
+
+def test_printed_polynomials_are_those_of_the_appendix_with_their_defects():
+    ratios = (0.0, 1.0, 1.25, 1.5, 1.75, 2.0, 3.0, 3.01)
+    area = [printed_area_function(x) for x in ratios]
+    load = [printed_load_function(x) for x in ratios]
+    assert area == pytest.approx(
+        [0.5, 0.075, 0.04124, 0.020187, 0.006486, -0.004, -0.067, 0.0], abs=1e-6
+    )
+    assert load == pytest.approx(
+        [0.617, 0.08, 0.043328, 0.023188, 0.01407, 0.013, 0.092, 0.0], abs=1e-6
+    )

@@ -3,20 +3,19 @@
 import math
 
 import pytest
-from lubrication.pitch_point import CASES, LOAD, MODULUS, VISCOSITY, film, pitch_point
+from lubrication.pitch_point import CASES, LOAD, MODULUS, VISCOSITY, film, oil_of, pitch_point
 
-from planetary_twin_py.dynamics.oil import build_oil
 from planetary_twin_py.lubrication.traction import sliding_sense, viscous_friction
 from planetary_twin_py.scene import load_scene
 
-TRACTION = build_oil(load_scene("paper")).traction
+TRACTION = oil_of(load_scene("paper")).traction
 
 
-def friction(mesh, rpm, load=LOAD):
+def friction(mesh, rpm, load=LOAD, traction=TRACTION):
     point = pitch_point(mesh, rpm)
     area = point.area * math.sqrt(load / LOAD)
     h = film("salagianni", mesh, rpm, load)
-    return viscous_friction(TRACTION, load, area, point.radius, h, point.speed)
+    return viscous_friction(traction, load, area, point.radius, h, point.speed)
 
 
 def test_coefficients_at_the_pitch_points():
@@ -45,3 +44,26 @@ def test_sense_of_sliding_is_an_odd_tanh_of_the_slide_to_roll_ratio():
         expected = math.tanh(ratio / 0.015)
         assert sliding_sense(ratio * 0.5, 0.5, 0.015) == pytest.approx(expected, abs=1e-11)
         assert sliding_sense(-ratio * 0.5, 0.5, 0.015) == pytest.approx(-expected, abs=1e-11)
+
+
+PRINTED = load_scene("paper").replace(**{"lubrication.traction": "printed"})
+
+
+@pytest.mark.parametrize(
+    "conductivity, expected",
+    [
+        (2000.0, [0.03708, 0.03683, 0.03668, 0.03287, 0.03248, 0.03225]),
+        (0.137, [0.0366, 0.0359, 0.0353, 0.0321, 0.0309, 0.0300]),
+    ],
+)
+def test_printed_coefficients_with_the_printed_and_with_a_real_conductivity(conductivity, expected):
+    scene = PRINTED.replace(**{"lubrication.oil_conductivity": conductivity})
+    traction = oil_of(scene).traction
+    found = [friction(mesh, rpm, traction=traction) / LOAD for mesh, rpm in CASES]
+    assert found == pytest.approx(expected, abs=6e-5)
+
+
+def test_printed_form_has_no_floor():
+    traction = oil_of(PRINTED.replace(**{"lubrication.oil_conductivity": 2000.0})).traction
+    assert friction("sp", 1000, LOAD * 0.50 / 63, traction) < 0.0
+    assert friction("sp", 1000, LOAD * 0.58 / 63, traction) > 0.0

@@ -1,0 +1,38 @@
+"""Rolling resistance against the formula by hand, and what it takes from a running set."""
+
+import math
+
+import pytest
+
+import planetary_twin_py as pt
+from planetary_twin_py.lubrication.rolling import rolling_resistance
+
+ROLLING = {"lubrication.rolling": "goksem_hargreaves"}
+
+
+def test_force_at_the_pitch_point():
+    """U 9.26e-11, G 4754, W 2.376e-4, R L/alpha 1664 N: 0.427 N on each flank."""
+    modulus, radius, length, alpha = 226.37e9, 1.747e-3, 0.02, 2.1e-8
+    force = rolling_resistance(
+        radius * length / alpha,
+        0.08 * 0.4573 / (modulus * radius),
+        alpha * modulus,
+        1878.8 / (modulus * radius * length),
+    )
+    assert force == pytest.approx(0.427, abs=0.003)
+    faster = rolling_resistance(1.0, 2e-11, 5e3, 1e-4) / rolling_resistance(1.0, 1e-11, 5e3, 1e-4)
+    assert faster == pytest.approx(2**0.658)
+
+
+@pytest.mark.parametrize("speed", [1000.0, -1000.0])
+def test_rolling_takes_power_in_both_directions_and_the_balance_closes(speed):
+    scene = pt.load_scene("paper").replace(
+        input_speed=pt.rpm(speed), input_torque=math.copysign(63.0, speed)
+    )
+    without = pt.simulate(scene, 0.05, tolerance=1e-5)
+    with_ = pt.simulate(scene.replace(**ROLLING), 0.05, tolerance=1e-5)
+    more = with_.energy.friction - without.energy.friction
+    # Six meshes of 1.5 pairs, some 0.4 N on both flanks at 0.46 m/s each.
+    assert 6 * 1.2 * 0.3 * 0.9 * 0.05 < more < 6 * 2.0 * 0.9 * 1.0 * 0.05
+    assert with_.total_power_loss.mean() == pytest.approx(with_.energy.friction / 0.05, rel=5e-3)
+    assert abs(with_.energy.residual) < 1e-6 * with_.energy.put_in

@@ -1,0 +1,61 @@
+"""The Stribeck curve: friction of one tooth contact from no film to a thick one."""
+
+import numpy as np
+import pytest
+from lubrication.pitch_point import LOAD, oil_of, pitch_point
+
+from planetary_twin_py.dynamics.tooth_contact import choices, tooth_contact
+from planetary_twin_py.lubrication.load_sharing import film_share
+from planetary_twin_py.scene import load_scene
+
+SLIDING = 0.2  # slide-to-roll ratio
+MIXED = load_scene("paper").replace(
+    **{
+        "lubrication.boundary": "load_sharing",
+        "lubrication.lambda_ratio": "computed",
+        "lubrication.film": "dowson_toyoda",
+        "lubrication.rolling": "goksem_hargreaves",
+    }
+)
+
+
+def coefficients(scene, speeds, load=LOAD):
+    """Friction coefficient, rolling resistance included, and lambda ratio at mean speeds [m/s]."""
+    oil, radius = oil_of(scene), pitch_point("sp", 1000).radius
+    rho = 2.0 * radius
+    found = []
+    for speed in speeds:
+        w1, w2 = speed * (1 + SLIDING / 2) / rho, -speed * (1 - SLIDING / 2) / rho
+        values = tooth_contact(oil, choices(oil), (rho, rho, 1.0, w1, w2, load), 1.0)
+        taken = values[0] * values[5] + values[7] * 2.0 * speed
+        found.append((taken / (load * values[5]), values[4]))
+    return np.array(found).T
+
+
+def test_boundary_mixed_and_full_film_follow_one_another():
+    speeds = np.logspace(-3, 4, 141)
+    mu, ratio = coefficients(MIXED, speeds)
+    assert np.all(np.diff(ratio) > 0.0)
+    assert mu[0] == pytest.approx(0.1, abs=0.015)  # boundary lubrication
+    lowest = int(np.argmin(mu))
+    assert ratio[lowest] > (1 / 0.82) ** (1 / 0.28)  # the film carries all
+    assert mu[lowest] < 0.5 * mu[0]
+    assert np.all(np.diff(mu[: lowest + 1]) < 0.0)
+    assert np.all(np.diff(mu[lowest:]) > 0.0)  # the film's own resistance
+    assert mu[-1] > 2.0 * mu[lowest]
+
+
+def test_printed_model_has_no_boundary_regime():
+    """Asperities carry 3 % of the load at lambda = 0: friction stays below that of the film."""
+    printed = load_scene("paper").replace(**{"lubrication.lambda_ratio": "computed"})
+    mu, ratio = coefficients(printed, np.logspace(-3, 0, 31))
+    assert ratio[0] < 0.1
+    assert mu.max() < 0.06
+
+
+SHARES = [(0.0, 0.0), (1.0, 0.82), (2.0, 0.82 * 2**0.28), (2.1, 1.0)]
+
+
+@pytest.mark.parametrize("ratio, share", SHARES)
+def test_share_of_the_film(ratio, share):
+    assert film_share(ratio) == pytest.approx(share, abs=1e-3)
