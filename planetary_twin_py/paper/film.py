@@ -82,5 +82,5 @@ def _draw(evidence: Evidence, ours: Sequence[np.ndarray], laws: dict[str, list[l
         place.set_xticks(speeds)
         place.set_ylim(0, None)
     axes[0].set_ylabel("film thickness [um]")
-    axes[0].legend(loc="upper left")
+    axes[1].legend(loc="lower right")
     return figure

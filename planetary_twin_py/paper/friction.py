@@ -144,6 +144,9 @@ def _fall(friction: Sequence[np.ndarray]) -> str:
     )
 
 
+_TICKS = (0.1, 0.2, 0.5, 1.0, 2.0)  # [N]
+
+
 def _draw_boundary(
     ours: Sequence[np.ndarray], printed: Sequence[np.ndarray], ratios: Sequence[float]
 ) -> Figure:
@@ -157,7 +160,10 @@ def _draw_boundary(
             place.plot(ratios, force.mean(axis=(0, 2)), "o-", color=colour, label=label)
         place.set_title(f"{'ab'[kind]}) {KINDS[kind]}")
         place.set_xlabel("lambda ratio")
+        place.set_xticks(ratios)
         place.set_yscale("log")
+        place.set_yticks(_TICKS, [f"{tick:g}" for tick in _TICKS])
+        place.minorticks_off()
     axes[0].set_ylabel("boundary friction [N]")
     axes[0].legend()
     return figure

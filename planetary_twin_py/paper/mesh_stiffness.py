@@ -83,7 +83,7 @@ def _draw(curves: dict[str, list[np.ndarray]]) -> Figure:
             place.plot(_CYCLE, 1e-8 * stiffness[kind], label=label)
         place.set_title(name)
         place.set_xlabel("mesh cycles since a pair was at the pitch point")
-        place.set_ylim(0, None)
+        place.set_ylim(0, 6)
     axes[0].set_ylabel("mesh stiffness [1e8 N/m]")
-    axes[1].legend(loc="lower right")
+    axes[0].legend(loc="lower center", ncols=2)
     return figure

@@ -11,7 +11,7 @@ from ..gearset.geometry import pitch_radius
 from .entry import Claim, Entry
 from .evidence import Evidence
 from .judge import percent, rises
-from .style import panels
+from .style import CYCLE, panels
 from .study import Study
 
 WHY = (
@@ -26,6 +26,7 @@ def planet_forces(evidence: Evidence) -> Entry:
     gearset = evidence.scene.gearset
     sine, cosine = math.sin(gearset.pressure_angle), math.cos(gearset.pressure_angle)
     arm = pitch_radius(gearset.teeth.planet, gearset.module) * cosine
+    parts = {"tangential": cosine, "radial": sine, "total": 1.0, "torque": arm}
     mean, largest = ours["mean"].mean(), ours["largest"].mean(axis=(0, 1))
     speeds = evidence.study.grid.speeds
     peaks = ", ".join(
@@ -40,10 +41,10 @@ def planet_forces(evidence: Evidence) -> Entry:
         ),
         remarks=f"The sun pushes every planet with {mean:.0f} N in the mean: {mean * cosine:.0f} N "
         f"tangential, {mean * sine:.0f} N radial, a torque of {mean * arm:.2f} N m about its pin. "
-        f"All four are the mesh force times a constant, so one plot shows them. The largest force "
-        f"of the cycle does change with speed, as the meshing frequency moves among the natural "
+        f"All four are the mesh force times a constant, so they share one shape; dashed is the largest of a cycle. This largest force "
+        f"does change with speed, as the meshing frequency moves among the natural "
         f"frequencies: {peaks}.",
-        picture=_draw(evidence.study, ours),
+        picture=_draw(evidence.study, ours, parts),
         figures={"mean_force": ours["mean"].mean(axis=0), "largest_force": largest},
     )
 
@@ -72,19 +73,26 @@ def _changes(forces: dict[str, np.ndarray], axis: int) -> str:
     return ", ".join(f"{name} {percent(force, axis):+.2f} %" for name, force in forces.items())
 
 
-def _draw(study: Study, forces: dict[str, np.ndarray]) -> Figure:
-    figure, (against_speed, against_lambda) = panels(2, 2.8)
+def _draw(study: Study, forces: dict[str, np.ndarray], parts: dict[str, float]) -> Figure:
+    """Parts of the force solid in the mean and dashed at their largest; the torque by itself."""
+    figure, (speed, ratio, torque) = panels(3, 3.0)
     speeds, ratios = study.grid.speeds, study.grid.lambda_ratios
-    for name, force in forces.items():
-        against_speed.plot(speeds, 1e-3 * force[0, 0], "o-", label=f"{name} over a cycle")
-        against_lambda.plot(ratios, 1e-3 * force[0, :, 0], "o-")
-    against_speed.set_title(f"lambda {ratios[0]:g}")
-    against_speed.set_xlabel("input speed [rpm]")
-    against_speed.set_xticks(speeds)
-    against_speed.set_ylabel("force of the sun on a planet [kN]")
-    against_lambda.set_title(f"{speeds[0]:g} rpm")
-    against_lambda.set_xlabel("lambda ratio")
-    for axes in (against_speed, against_lambda):
+    mean, largest = forces["mean"], forces["largest"]
+    for colour, (name, factor) in zip(CYCLE, parts.items(), strict=False):
+        axes = torque if name == "torque" else speed
+        axes.plot(speeds, factor * mean[0, 0], "o-", color=colour, label=name)
+        axes.plot(speeds, factor * largest[0, 0], "o--", color=colour, lw=1)
+        if name != "torque":
+            ratio.plot(ratios, factor * mean[0, :, 0], "o-", color=colour)
+            ratio.plot(ratios, factor * largest[0, :, 0], "o--", color=colour, lw=1)
+    for axes in (speed, torque):
+        axes.set_xlabel("input speed [rpm]")
+        axes.set_xticks(speeds)
+    ratio.set_xlabel("lambda ratio")
+    speed.set_ylabel("force of the sun [N]")
+    torque.set_ylabel("torque [N m]")
+    for axes, title in zip((speed, ratio, torque), ("force", "force", "torque"), strict=True):
         axes.set_ylim(0, None)
-    against_speed.legend(loc="lower left")
+        axes.set_title(title)
+    figure.legend(loc="outside lower center", ncols=4)
     return figure

@@ -17,6 +17,7 @@ def power_loss(evidence: Evidence) -> Entry:
     ours, printed = (_ratio(study) for study in (evidence.study, evidence.printed_study))
     efficiency, ledger = 1.0 - ours, evidence.printed_study.over_grid(lambda o: o.ledger_efficiency)
     own = evidence.study.over_grid(lambda o: o.ledger_efficiency)
+    gain = float(((ledger - 1.0) / printed).mean())
     residual = max(
         abs(outcome.residual)
         for study in (evidence.study, evidence.printed_study)
@@ -33,7 +34,7 @@ def power_loss(evidence: Evidence) -> Entry:
         f"all teeth over the input power. The efficiency is {efficiency.min():.2%} to "
         f"{efficiency.max():.2%}, by the energy ledger {own.min():.2%} to {own.max():.2%}. With "
         f"the printed friction torque P/w and its signs the ledger shows {ledger.min():.2%} to "
-        f"{ledger.max():.2%}: friction puts in twice what sliding should take out. The ledger "
+        f"{ledger.max():.2%}: friction puts in {gain:.2f} times what sliding should take out. The ledger "
         f"closes to {residual:.1e} of the work put in.",
         picture=_draw(evidence.study, ours, printed),
         figures={

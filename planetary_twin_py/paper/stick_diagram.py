@@ -147,7 +147,8 @@ def _front(axes: Axes, scene: Scene) -> None:
         axes.plot([x], [y], "o", color=GREY)
         axes.annotate(
             f"planet {i}\n{math.degrees(angle):g}°",
-            (x, y), xytext=(0, 9), textcoords="offset points", ha="center", color=ORANGE,
+            
+            (x, y), xytext=(0, -8), textcoords="offset points", ha="center", va="top", color=ORANGE,
         )  # fmt: skip
     axes.plot([0], [0], "o", color="black")
     axes.annotate("sun", (0, -0.65 * sun), ha="center", color=BLUE)
