@@ -46,7 +46,7 @@ EQUATIONS = (
         "mesh.damping.law: printed_meshing_frequency",
     ),
     Equation(
-        ("2", "3"), "dynamic transmission error", "mesh/motion.py",
+        ("2", "3"), "dynamic transmission error", "dynamics/train.py",
         "along the line of action, from base radii", "along the pitch arcs",
         "mesh.motion: pitch_arc",
     ),
@@ -117,23 +117,27 @@ EQUATIONS = (
         "lubrication.friction_torque: printed",
     ),
     Equation(
-        ("21", "22"), "DTE with the carrier held", "mesh/motion.py",
+        ("21", "22"), "DTE with the carrier held", "dynamics/train.py",
         "sums of base-circle motions, carrier included", "along the pitch arcs",
         "mesh.motion: pitch_arc",
     ),
-    *(
-        Equation(
-            numbers, law, "modal/spatial.py", default, printed,
-        )
-        for numbers, law, default, printed in (
-            (("20 of section 9", "21 of section 9"), "six coordinates and masses of a body",
-             "as printed", "the numbers (20) to (22) are used twice"),
-            (("22 of section 9", "23", "24"), "equations of the three pairs",
-             "stiffness times displacement", "cannot run: stiffness times acceleration"),
-            (("25", "26"), "stiffness matrices of the meshes",
-             "outer product of the row of each mesh", "cannot run: (26) has the sun's stiffness"),
-            (("27", "28"), "stiffness matrices of the planets' bearings",
-             "outer products, symmetric", "cannot run: (27) repeats terms in the wrong places"),
-        )
+    Equation(
+        ("29", "30", "31", "32"), "torsional equations of the pairs and of the set",
+        "paper/eigenproblem.py",
+        "a spring on the DTE of every mesh; J/r_b^2, so that no cosine is lost",
+        "j for j/r^2; runs for comparison",
+    ),
+    Equation(
+        ("33", "34"), "masses and coordinates", "dynamics/bodies.py",
+        "J/r^2 as in (37), u = r theta", "J/r^2 of Table 4, half of (37)",
+        "gearset.equivalent_mass: {sun: 0.136, planet: 0.05, ring: 0.389, carrier: 0.75}",
+    ),
+    Equation(
+        ("35", "36"), "stiffness matrix and eigenproblem", "paper/eigenproblem.py",
+        "carrier coupled to every mesh", "no coupling of the carrier; runs for comparison",
+    ),
+    Equation(
+        ("37", "38"), "matrices in numbers", "paper/eigenproblem.py",
+        "from the scene", "literally; runs for comparison",
     ),
 )  # fmt: skip
