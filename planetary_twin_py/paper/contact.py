@@ -185,5 +185,3 @@ def _draw_spring(axes: Axes, mesh: Spring) -> None:
     )  # fmt: skip
     axes.set_xlim(-1.5, 11.5)
     axes.set_ylim(-3.2, 3.0)
-
-

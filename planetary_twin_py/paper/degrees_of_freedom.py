@@ -58,7 +58,9 @@ def _draw(scene: Scene) -> Figure:
     _spring(axes[1], np.array([0.0, ring]), math.pi - angle)
     _body(axes[2], np.zeros(2), sun + planet, GREY, "carrier")
     for direction in (0.0, 0.5 * math.pi):
-        _spring(axes[2], arm + 3.0 * np.array([math.cos(direction), math.sin(direction)]), direction)
+        _spring(
+            axes[2], arm + 3.0 * np.array([math.cos(direction), math.sin(direction)]), direction
+        )
     for place in axes:
         place.set_xlim(-31, 31)
         place.set_ylim(-31, 31)

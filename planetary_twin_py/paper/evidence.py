@@ -27,6 +27,4 @@ def gather(
 ) -> Evidence:
     """Run both studies; `progress` as in `run_studies`."""
     studies = run_studies((DEFAULT, PRINTED), grid, jobs, progress)
-    return Evidence(
-        load_scene(DEFAULT), load_scene(PRINTED), studies[DEFAULT], studies[PRINTED]
-    )
+    return Evidence(load_scene(DEFAULT), load_scene(PRINTED), studies[DEFAULT], studies[PRINTED])

@@ -70,7 +70,9 @@ def _growth(films: Sequence[np.ndarray]) -> str:
     )
 
 
-def _draw(evidence: Evidence, ours: Sequence[np.ndarray], laws: dict[str, list[list[float]]]) -> Figure:
+def _draw(
+    evidence: Evidence, ours: Sequence[np.ndarray], laws: dict[str, list[list[float]]]
+) -> Figure:
     figure, axes = panels(2, 2.8)
     speeds = evidence.study.grid.speeds
     for kind, place in enumerate(axes):

@@ -103,7 +103,7 @@ def against_stiffness(evidence: Evidence) -> Entry:
             ),
         ),
         remarks="Only the second eigenfrequency varies there, as the root of Ksp: the sun alone "
-        "moves on a soft mesh. Which curve is the paper's \"planet 1\" or \"ring\" is not in its "
+        'moves on a soft mesh. Which curve is the paper\'s "planet 1" or "ring" is not in its '
         "text. The ring's mesh keeps 2e8 N/m.",
         picture=_draw_frequencies(evidence.scene),
         figures={"crossing_printed": crossing, "crossing": ours},

@@ -166,5 +166,3 @@ def _least_ring_inertia(inner: float, width: float) -> float:
     """j/r^2 [kg] of a steel annulus of Table 4's mass around the pitch circle."""
     outer_squared = inner**2 + MASSES["ring"] / (math.pi * STEEL * width)
     return 0.5 * MASSES["ring"] * (1.0 + outer_squared / inner**2)
-
-

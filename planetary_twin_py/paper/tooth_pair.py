@@ -128,9 +128,7 @@ def _draw(sun: np.ndarray, planet: np.ndarray, scene: Scene) -> Figure:
     return figure
 
 
-def _teeth(
-    axes: Axes, sun: np.ndarray, planet: np.ndarray, scene: Scene, reach: float
-) -> None:
+def _teeth(axes: Axes, sun: np.ndarray, planet: np.ndarray, scene: Scene, reach: float) -> None:
     """Both outlines around the pitch point and the two lines of action, in mm."""
     for outline, colour in ((sun, BLUE), (planet, ORANGE)):
         closed = 1e3 * np.vstack((outline, outline[:1]))
