@@ -11,6 +11,8 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
+    from .modal.modes import NaturalModes
+    from .modal.natural import natural_modes
     from .result import Energy, Result, Stats
     from .scene import (
         TUNABLES,
@@ -28,6 +30,8 @@ if TYPE_CHECKING:
     from .window import Waveform, Window
 
 _HOME = {
+    "modal.modes": ("NaturalModes",),
+    "modal.natural": ("natural_modes",),
     "result": ("Energy", "Result", "Stats"),
     "scene": (
         "TUNABLES", "OperatingPoint", "Scene", "SceneError", "Tunable", "load_scene",
@@ -44,6 +48,7 @@ __all__ = [
     "TUNABLES",
     "Change",
     "Energy",
+    "NaturalModes",
     "OperatingPoint",
     "Result",
     "Scene",
@@ -54,6 +59,7 @@ __all__ = [
     "Waveform",
     "Window",
     "load_scene",
+    "natural_modes",
     "packaged_scenes",
     "parse_scene",
     "rpm",

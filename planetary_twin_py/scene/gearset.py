@@ -32,11 +32,18 @@ class EquivalentMasses(Section):
 
 
 class Gearset(Section):
-    """Geometry and inertia of a simple planetary gearset of standard spur gears."""
+    """Geometry and inertia of a simple planetary gearset of standard gears.
+
+    Module and pressure angle are those of the transverse plane. The helix angle counts in natural
+    modes in space; else helical gears run as spur gears do whose stiffness varies less.
+    """
 
     teeth: ToothNumbers
     module: float = quantity("m", "module", gt=0.0, le=1.0)
     pressure_angle: float = quantity("rad", "pressure angle", ge=0.15, le=0.6)
+    helix_angle: float = quantity(
+        "rad", "on the pitch circle, positive for a right-hand sun", 0.0, ge=-0.8, le=0.8
+    )
     addendum: float = quantity("", "addendum in modules", 1.0, gt=0.0, le=1.5)
     face_width: float = quantity("m", "face width", gt=0.0, le=5.0)
     planet_angles: tuple[float, ...] = quantity(

@@ -16,6 +16,7 @@ from .lubrication import Lubrication
 from .mesh import Mesh
 from .operating_point import TUNABLES, OperatingPoint, Tunable
 from .quantity import SceneError, Section, explain
+from .supports import Supports
 
 
 class Scene(Section):
@@ -28,6 +29,7 @@ class Scene(Section):
     lubrication: Lubrication
     drive: Drive
     operating_point: OperatingPoint
+    supports: Supports | None = None
     faults: tuple[Fault, ...] = Field((), max_length=MOST_FAULTS, description="faulty teeth")
 
     @model_validator(mode="after")

@@ -1,0 +1,1 @@
+"""Natural modes of the gearset, from models that are lists of springs."""

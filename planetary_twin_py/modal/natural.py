@@ -1,0 +1,140 @@
+"""Natural modes of a scene, by the model that is asked for."""
+
+from __future__ import annotations
+
+import math
+
+from ..dynamics.stiffness_laws import stiffness_laws
+from ..gearset.geometry import pitch_radius
+from ..scene import Scene, SceneError
+from ..scene.supports import Support, Supports
+from .modes import NaturalModes, modes_of
+from .planar import PlanarBody, PlanarSet, planar_model
+from .printed import PrintedSet, printed_model
+from .spatial import SpatialBody, SpatialSet, spatial_model
+from .springs import SpringModel
+from .torsional import torsional_model
+
+MODELS = ("torsional", "machines", "printed", "planar", "spatial")
+
+
+def natural_modes(scene: Scene, model: str = "torsional") -> NaturalModes:
+    """Natural frequencies, mode shapes and kinds of modes of a scene at rest.
+
+    One tooth pair is in every mesh, nothing damps.
+
+    Args:
+        scene: what to analyse.
+        model: "torsional", the gears and carrier of the twin; "machines", the same with motor and
+            load; "printed", eqs. (32)-(38) of Salagianni et al. 2017; "planar", Lin and Parker
+            1999; "spatial", all six motions of every body. The last two need `scene.supports`.
+
+    Raises:
+        ValueError: there is no such model, or the scene lacks what it needs.
+    """
+    return modes_of(spring_model(scene, model))
+
+
+def spring_model(scene: Scene, model: str = "torsional") -> SpringModel:
+    """Masses and springs of a scene, see `natural_modes`."""
+    if model not in MODELS:
+        raise ValueError(f"model = {model!r}: must be one of {', '.join(MODELS)}")
+    if model in ("torsional", "machines"):
+        return torsional_model(scene, model == "machines")
+    if model == "printed":
+        return printed_model(_printed_set(scene))
+    if model == "planar":
+        built = planar_model(_planar_set(scene))
+    else:
+        built = spatial_model(_spatial_set(scene))
+    return built.holding(f"{scene.gearset.held}.u")
+
+
+def _printed_set(scene: Scene) -> PrintedSet:
+    mass, gearset = scene.gearset.equivalent_mass, scene.gearset
+    sun_planet, planet_ring = (law.single for law in stiffness_laws(scene))
+    return PrintedSet(
+        mass.sun,
+        mass.planet,
+        mass.ring,
+        mass.carrier,
+        sun_planet,
+        planet_ring,
+        planets=gearset.planets,
+    )
+
+
+def _supports(scene: Scene) -> Supports:
+    if scene.supports is None:
+        raise SceneError("supports: missing; models in which axes move need masses and bearings")
+    return scene.supports
+
+
+def _rim_masses(scene: Scene) -> dict[str, float]:
+    """J/r^2 [kg] with base radii; with that of the planet centres for the bare carrier."""
+    mass, slant = scene.gearset.equivalent_mass, math.cos(scene.gearset.pressure_angle) ** -2
+    return {
+        "sun": mass.sun * slant,
+        "planet": mass.planet * slant,
+        "ring": mass.ring * slant,
+        "carrier": mass.carrier,
+    }
+
+
+def _planar_set(scene: Scene) -> PlanarSet:
+    supports, rim, gearset = _supports(scene), _rim_masses(scene), scene.gearset
+    sun_planet, planet_ring = (law.single for law in stiffness_laws(scene))
+
+    def body(name: str) -> PlanarBody:
+        support: Support = getattr(supports, name)
+        return PlanarBody(support.mass, rim[name], support.bearing, support.torsion)
+
+    return PlanarSet(
+        body("sun"),
+        body("ring"),
+        body("carrier"),
+        body("planet"),
+        gearset.planet_angles,
+        sun_planet,
+        planet_ring,
+        gearset.pressure_angle,
+        gearset.pressure_angle,
+    )
+
+
+def _spatial_set(scene: Scene) -> SpatialSet:
+    supports, rim, gearset = _supports(scene), _rim_masses(scene), scene.gearset
+    sun_planet, planet_ring = (law.single for law in stiffness_laws(scene))
+    teeth, cosine = gearset.teeth, math.cos(gearset.pressure_angle)
+    radius = {
+        "sun": pitch_radius(teeth.sun, gearset.module) * cosine,
+        "planet": pitch_radius(teeth.planet, gearset.module) * cosine,
+        "ring": pitch_radius(teeth.ring, gearset.module) * cosine,
+        "carrier": pitch_radius(teeth.sun + teeth.planet, gearset.module),
+    }
+
+    def body(name: str) -> SpatialBody:
+        support: Support = getattr(supports, name)
+        tilt = 0.5 * rim[name] if support.tilt_mass is None else support.tilt_mass
+        return SpatialBody(
+            support.mass,
+            rim[name],
+            tilt,
+            radius[name],
+            support.bearing,
+            support.axial,
+            support.tilting,
+            support.torsion,
+        )
+
+    return SpatialSet(
+        body("sun"),
+        body("ring"),
+        body("carrier"),
+        body("planet"),
+        gearset.planet_angles,
+        sun_planet,
+        planet_ring,
+        gearset.pressure_angle,
+        math.atan(math.tan(gearset.helix_angle) * cosine),
+    )

@@ -1,0 +1,93 @@
+"""The two-dimensional model of Lin and Parker 1999 (J. Vib. Acoust. 121, 316), 3 (N + 3) motions.
+
+Sun, ring and carrier move by x, y and u = r theta in the frame of the carrier; a planet by xi along
+its radius, eta across it, and u. No gyroscopic terms, as in (36) of Salagianni et al. 2017.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from .springs import Rows, Spring, SpringModel
+
+
+@dataclass(frozen=True)
+class PlanarBody:
+    """A body: mass [kg], J/r^2 [kg], stiffness of its bearing and of a torsional support [N/m].
+
+    The bearing of a planet is on the carrier. `radius` r is that of the base circle, of the planet
+    centres for the carrier.
+    """
+
+    mass: float
+    rim_mass: float
+    bearing: float
+    torsion: float = 0.0
+
+
+@dataclass(frozen=True)
+class PlanarSet:
+    """A planetary gearset in its plane.
+
+    Angles [rad]: of the planets, and transverse pressure angles at the sun and at the ring;
+    stiffnesses of one mesh along the line of action [N/m].
+    """
+
+    sun: PlanarBody
+    ring: PlanarBody
+    carrier: PlanarBody
+    planet: PlanarBody
+    planet_angles: tuple[float, ...]
+    sun_planet: float
+    planet_ring: float
+    sun_angle: float
+    ring_angle: float
+
+    @property
+    def planets(self) -> tuple[str, ...]:
+        """Names of the planets."""
+        return tuple(f"planet_{i + 1}" for i in range(len(self.planet_angles)))
+
+
+def planar_model(data: PlanarSet) -> SpringModel:
+    """The springs of Lin and Parker's matrices."""
+    central = ("sun", "ring", "carrier")
+    coordinates = tuple(f"{body}.{m}" for body in central for m in ("x", "y", "u"))
+    coordinates += tuple(f"{body}.{m}" for body in data.planets for m in ("xi", "eta", "u"))
+    row, springs = Rows(coordinates), []
+    for body in central:
+        values: PlanarBody = getattr(data, body)
+        for motion, k in (("x", values.bearing), ("y", values.bearing), ("u", values.torsion)):
+            springs.append(Spring(f"{body}_support", k, row({f"{body}.{motion}": 1.0})))
+    for planet, psi in zip(data.planets, data.planet_angles, strict=True):
+        springs += _meshes(data, row, planet, psi)
+        springs += _bearing(data, row, planet, psi)
+    masses = []
+    for body in (*central, *data.planets):
+        values = getattr(data, body) if body in central else data.planet
+        masses += [values.mass, values.mass, values.rim_mass]
+    return SpringModel(coordinates, np.array(masses), tuple(springs))
+
+
+def _meshes(data: PlanarSet, row: Rows, planet: str, psi: float) -> list[Spring]:
+    a, b = data.sun_angle, data.ring_angle
+    at_sun = {"sun.x": -math.sin(psi - a), "sun.y": math.cos(psi - a), "sun.u": 1.0}
+    at_sun |= {f"{planet}.xi": -math.sin(a), f"{planet}.eta": -math.cos(a), f"{planet}.u": 1.0}
+    at_ring = {"ring.x": -math.sin(psi + b), "ring.y": math.cos(psi + b), "ring.u": 1.0}
+    at_ring |= {f"{planet}.xi": math.sin(b), f"{planet}.eta": -math.cos(b), f"{planet}.u": -1.0}
+    return [
+        Spring("sun_planet", data.sun_planet, row(at_sun)),
+        Spring("planet_ring", data.planet_ring, row(at_ring)),
+    ]
+
+
+def _bearing(data: PlanarSet, row: Rows, planet: str, psi: float) -> list[Spring]:
+    """Along and across the radius, between the carrier's pin and the planet."""
+    along = {"carrier.x": math.cos(psi), "carrier.y": math.sin(psi), f"{planet}.xi": -1.0}
+    across = {"carrier.x": -math.sin(psi), "carrier.y": math.cos(psi), "carrier.u": 1.0}
+    across |= {f"{planet}.eta": -1.0}
+    k = data.planet.bearing
+    return [Spring("planet_bearing", k, row(along)), Spring("planet_bearing", k, row(across))]

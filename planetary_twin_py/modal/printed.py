@@ -1,0 +1,54 @@
+"""The torsional eigenproblem as Salagianni et al. 2017 print it, eqs. (29)-(38).
+
+Sun, planets, ring and a carrier that nothing couples to the gears: (35) drops the coupling, so
+the carrier is a mode of its own. Stiffness is not projected on the line of action.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import NamedTuple
+
+import numpy as np
+
+from .springs import Rows, Spring, SpringModel
+
+
+class PrintedSet(NamedTuple):
+    """Inertias J/r^2 [kg] and stiffnesses [N/m] of (33) and (35)."""
+
+    sun: float
+    planet: float
+    ring: float
+    carrier: float
+    sun_planet: float = 2e8
+    planet_ring: float = 2e8
+    carrier_support: float = 8.04e8  # sum of k_c11i in (38), which no table explains
+    planets: int = 3
+
+
+EQUATION_37 = PrintedSet(0.272, 0.1, 0.759, 1.5)
+# Inertias from which Table 5 follows, cut to whole Hz: it was not computed from (37).
+FITTED_TO_TABLE_5 = PrintedSet(0.2718, 0.0999, 0.727, 1.498)
+
+
+def printed_model(data: PrintedSet) -> SpringModel:
+    """(33) and (35) with the numbers of `data`; bodies in the order of (34)."""
+    planets = [f"planet_{i + 1}.u" for i in range(data.planets)]
+    coordinates = ("sun.u", *planets, "ring.u", "carrier.u")
+    row = Rows(coordinates)
+    springs = [Spring("carrier_support", data.carrier_support, row({"carrier.u": 1.0}))]
+    for planet in planets:
+        springs.append(Spring("sun_planet", data.sun_planet, row({"sun.u": 1.0, planet: -1.0})))
+        springs.append(Spring("planet_ring", data.planet_ring, row({planet: 1.0, "ring.u": -1.0})))
+    mass = np.array([data.sun, *[data.planet] * data.planets, data.ring, data.carrier])
+    return SpringModel(coordinates, mass, tuple(springs))
+
+
+def stiffness_sweep(data: PrintedSet, sun_planet: Sequence[float]) -> np.ndarray:
+    """Natural frequencies [Hz] for each sun-planet stiffness, (values, modes): their Fig. 13."""
+    from .modes import modes_of
+
+    return np.array(
+        [modes_of(printed_model(data._replace(sun_planet=k))).frequencies for k in sun_planet]
+    )
