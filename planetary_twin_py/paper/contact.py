@@ -111,9 +111,11 @@ def contact_model(evidence: Evidence) -> Entry:
     scenes = (evidence.scene, evidence.printed)
     springs = tuple(spring(scene) for scene in scenes)
     found = [_recovered(scene, mesh) for scene, mesh in zip(scenes, springs, strict=True)]
-    levels = [agrees(k, (mesh.single, mesh.double), 0.01) for k, mesh in zip(found, springs)]
+    pairs = zip(found, springs, strict=True)
+    levels = [agrees(k, (mesh.single, mesh.double), 0.01) for k, mesh in pairs]
     texts = [f"{k[0]:.4g} and {k[1]:.4g} N/m" for k in found]
     speed = 30.0 / np.pi * evidence.scene.operating_point.input_speed
+    damping = [mesh.damping_time * mesh.single for mesh in springs]
     return Entry(
         number="Figure 5",
         title="gear pair contact model",
@@ -132,8 +134,8 @@ def contact_model(evidence: Evidence) -> Entry:
         remarks="One pair has "
         f"{springs[0].single:g} N/m, two have {springs[0].double:g} N/m; (2) and (3) measure along "
         "the pitch arcs, which makes the printed spring 1/cos(phi) stiffer. At "
-        f"{speed:.0f} rpm a single pair damps with {springs[0].damping_time * springs[0].single:.0f} "
-        f"N s/m, as printed with {springs[1].damping_time * springs[1].single:.0f} N s/m.",
+        f"{speed:.0f} rpm a single pair damps with {damping[0]:.0f} "
+        f"N s/m, as printed with {damping[1]:.0f} N s/m.",
         picture=_draw_model(springs[0], springs[1]),
         figures={"stiffness_of_a_run": found},
     )
@@ -160,9 +162,9 @@ def _draw_model(ours: Spring, printed: Spring) -> Figure:
 
 def _draw_spring(axes: Axes, mesh: Spring) -> None:
     """Wheel 1, gap, spring beside damper, wheel 2."""
-    for x, name in ((0.0, "wheel 1"), (10.0, "wheel 2")):
-        axes.plot([x, x], [-1.8, 1.8], color="black", lw=5, solid_capstyle="butt")
-        axes.annotate(name, (x, 2.1), ha="center")
+    for end, name in ((0.0, "wheel 1"), (10.0, "wheel 2")):
+        axes.plot([end, end], [-1.8, 1.8], color="black", lw=5, solid_capstyle="butt")
+        axes.annotate(name, (end, 2.1), ha="center")
     axes.plot([0.2, 1.6], [0, 0], color=BLUE, lw=1.5)
     axes.plot([1.6, 1.6], [-0.7, 0.7], color=BLUE, lw=1.5)
     axes.plot([2.6, 2.6], [-1.1, 1.1], color=BLUE, lw=1.5)

@@ -122,10 +122,33 @@ EQUATIONS = (
         "mesh.motion: pitch_arc",
     ),
     Equation(
-        ("29", "30", "31", "32"), "torsional equations of the pairs and of the set",
-        "paper/eigenproblem.py",
-        "a spring on the DTE of every mesh; J/r_b^2, so that no cosine is lost",
-        "j for j/r^2; runs for comparison",
+        ("20, section 9", "21, section 9"), "six coordinates and masses of a body",
+        "modal/spatial.py", "as printed", "the numbers (20) to (22) are used twice",
+    ),
+    Equation(
+        ("22, section 9", "23", "24"), "equations of the three pairs", "modal/spatial.py",
+        "a row for every spring, multiplied by the displacement",
+        "cannot run: stiffness times acceleration",
+    ),
+    Equation(
+        ("25", "26"), "stiffness of a mesh", "modal/printed_spatial.py",
+        "outer product of the row of the mesh (`modal/spatial.py`)",
+        "entry (1,5) has the wrong sign, which shows with a helix only; (26) names the sun's "
+        "stiffness; kept as matrices for comparison",
+    ),
+    Equation(
+        ("27", "28"), "stiffness of a planet's bearing", "modal/printed_spatial.py",
+        "a row for every spring (`modal/spatial.py`)",
+        "the last row of (27) has k_zz for k_xx: moving carrier and planet together would be "
+        "resisted; kept as matrices for comparison",
+    ),
+    Equation(
+        ("29", "30", "31"), "torsional equations of the three pairs", "modal/torsional.py",
+        "a spring on the DTE of every mesh", "j for j/r^2, carrier apart; runs as model `printed`",
+    ),
+    Equation(
+        ("32", "36"), "equations of the set and eigenproblem", "modal/modes.py",
+        "as printed", "(36) lacks \"= 0\"",
     ),
     Equation(
         ("33", "34"), "masses and coordinates", "dynamics/bodies.py",
@@ -133,11 +156,9 @@ EQUATIONS = (
         "gearset.equivalent_mass: {sun: 0.136, planet: 0.05, ring: 0.389, carrier: 0.75}",
     ),
     Equation(
-        ("35", "36"), "stiffness matrix and eigenproblem", "paper/eigenproblem.py",
-        "carrier coupled to every mesh", "no coupling of the carrier; runs for comparison",
-    ),
-    Equation(
-        ("37", "38"), "matrices in numbers", "paper/eigenproblem.py",
-        "from the scene", "literally; runs for comparison",
+        ("35", "37", "38"), "matrices of the set", "modal/printed.py",
+        "from the scene, along the lines of action (`modal/torsional.py`)",
+        "literally, no coupling of the carrier: `planetary_twin_py.natural_modes(scene, "
+        "\"printed\")`",
     ),
 )  # fmt: skip

@@ -8,15 +8,17 @@ import numpy as np
 from matplotlib.figure import Figure
 from scipy.optimize import brentq
 
+from ..modal.modes import NaturalModes, clusters, modes_of
+from ..modal.natural import natural_modes
+from ..modal.printed import EQUATION_37, FITTED_TO_TABLE_5, PrintedSet, printed_model
 from ..scene import Scene
-from .eigenproblem import BODIES, MESH_STIFFNESS, Modes, printed_modes, twin_modes
 from .entry import Claim, Entry
 from .evidence import Evidence
 from .judge import agrees, rises
 from .style import BLUE, CYCLE, GREY, ORANGE, panels
 
 TABLE_5 = (0, 3687, 5956, 10070, 10070, 11948)  # [Hz]
-UNROUNDED = (0.2718, 0.0999, 0.727, 1.498)  # [kg] masses that give Table 5
+MESH_STIFFNESS = 2e8  # [N/m] Table 4
 WITHIN = 0.01  # of a frequency, which counts as the paper's
 PRINTED_RANGE = (1.5e3, 1.5e4)  # [N/m] section 9.1
 CAPTION_STIFFNESS = (1.4e3, 1.5e4)  # [N/m] Figure 14
@@ -25,13 +27,21 @@ MESHING_FREQUENCY = 350.0  # [Hz] section 9.1
 SAME_SHAPE = 0.9  # modal assurance criterion of shapes that have not changed
 
 
+def printed_modes(
+    sun_planet_stiffness: float = MESH_STIFFNESS, data: PrintedSet = EQUATION_37
+) -> NaturalModes:
+    """Modes of (37) and (38) with another stiffness of the sun's meshes [N/m]."""
+    return modes_of(printed_model(data._replace(sun_planet=sun_planet_stiffness)))
+
+
 def natural_frequencies(evidence: Evidence) -> Entry:
     """Table 5."""
-    twin = twin_modes(evidence.scene).frequencies
+    twin = natural_modes(evidence.scene).frequencies
     literal = printed_modes().frequencies
-    unrounded = printed_modes(masses=UNROUNDED).frequencies
+    unrounded = printed_modes(data=FITTED_TO_TABLE_5).frequencies
     held = np.append(twin, np.nan)[: len(TABLE_5)]
-    carrier = (8.04e8 / 1.5) ** 0.5 / (2.0 * np.pi)
+    support = EQUATION_37.carrier_support
+    carrier = (support / EQUATION_37.carrier) ** 0.5 / (2.0 * np.pi)
     return Entry(
         number="Table 5",
         title="natural frequencies",
@@ -44,14 +54,14 @@ def natural_frequencies(evidence: Evidence) -> Entry:
                 printed_holds=agrees(literal[1:], TABLE_5[1:], WITHIN),
                 kind="number",
                 why="(38) has the stiffness along the line of action act on the pitch circles, "
-                f"and {carrier:.0f} Hz is a carrier on a spring of its own, 8.04e8 N/m, "
+                f"and {carrier:.0f} Hz is a carrier on a spring of its own, {support:g} N/m, "
                 "which a held carrier does not have",
             ),
             Claim(
                 says="the same numbers to the last digit",
                 ours="-",
                 holds=False,
-                printed=f"with masses {'/'.join(f'{m:g}' for m in UNROUNDED)} kg: "
+                printed=f"with masses {'/'.join(f'{m:g}' for m in FITTED_TO_TABLE_5[:4])} kg: "
                 f"{_list(np.floor(unrounded))} Hz, cut to whole numbers",
                 printed_holds=bool((np.floor(unrounded) == TABLE_5).all()),
                 kind="number",
@@ -110,8 +120,8 @@ def against_stiffness(evidence: Evidence) -> Entry:
     )
 
 
-def _twin_at(scene: Scene, stiffness: float) -> Modes:
-    return twin_modes(scene.replace(**{"mesh.sun_planet_stiffness": stiffness}))
+def _twin_at(scene: Scene, stiffness: float) -> NaturalModes:
+    return natural_modes(scene.replace(**{"mesh.sun_planet_stiffness": stiffness}))
 
 
 def _stiffness_at(frequency: float, mode: Callable[[float], float]) -> float:
@@ -197,35 +207,34 @@ def mode_shapes(evidence: Evidence) -> Entry:
     )
 
 
-def _likeness(first: Modes, second: Modes) -> float:
-    """Least of the best agreements of the shapes of one with the span of those of another.
+def _likeness(first: NaturalModes, second: NaturalModes) -> float:
+    """Least of the best agreements of the shapes of one set with those of another.
 
-    Shapes of nearly one frequency in `second` count together, since any mixture of them is a
-    shape; both sets are in coordinates of unit mass.
+    Shapes of one frequency in `second` count together, since any mixture of them is a shape.
     """
-    root = np.sqrt(np.diag([0.272, 0.1, 0.1, 0.1, 0.759, 1.5]))
-    a, b = root @ first.shapes, root @ second.shapes
-    overlap = (a.T @ b) ** 2
-    groups = np.round(second.frequencies / 5.0).astype(int)
-    together = np.array([overlap[:, groups == group].sum(axis=1) for group in np.unique(groups)])
-    return float(together.max(axis=0).min())
+    mass = printed_model(EQUATION_37).mass
+    overlap = (first.shapes.T @ (mass[:, None] * second.shapes)) ** 2
+    together = [overlap[:, same].sum(axis=1) for same in clusters(second.frequencies)]
+    return float(np.max(together, axis=0).min())
 
 
 def _draw_shapes() -> Figure:
     figure, axes = panels(2, 3.0)
     for place, stiffness in zip(axes, CAPTION_STIFFNESS, strict=True):
         modes = printed_modes(stiffness)
-        for colour, mode in zip(CYCLE, (1, len(BODIES) - 1), strict=False):
+        names = [name.removesuffix(".u").replace("_", "\n") for name in modes.coordinates]
+        for colour, mode in zip(CYCLE, (1, len(names) - 1), strict=False):
             shape = modes.shapes[:, mode] / np.abs(modes.shapes[:, mode]).max()
             shape *= np.sign(shape[np.abs(shape).argmax()])
             offset = -0.18 if mode == 1 else 0.18
             place.bar(
-                np.arange(len(BODIES)) + offset, shape, 0.34, color=colour,
+                np.arange(len(names)) + offset, shape, 0.34, color=colour,
                 label=f"{modes.frequencies[mode]:.1f} Hz",
             )  # fmt: skip
         place.axhline(0, color="black", lw=0.7)
-        place.set_xticks(range(len(BODIES)), [name.replace(" ", "\n") for name in BODIES])
+        place.set_xticks(range(len(names)), names)
         place.set_title(f"(37), (38) with Ksp = {stiffness:g} N/m")
-        place.legend(loc="lower right")
+        place.set_ylim(-0.5, 1.35)
+        place.legend(loc="upper right", ncols=2)
     axes[0].set_ylabel("motion r θ, largest 1")
     return figure

@@ -11,8 +11,8 @@ from .entry import Claim, Entry
 from .evidence import Evidence
 from .judge import falls, percent, rises
 from .pitch_point import KINDS, RING, SUN, at_pitch_point
-from .style import CYCLE, panels
 from .study import Study
+from .style import CYCLE, panels
 
 LEAST_EFFECT = 0.5  # relative change of friction per relative change of DTE that is "notable"
 

@@ -11,8 +11,8 @@ from ..gearset.geometry import pitch_radius
 from .entry import Claim, Entry
 from .evidence import Evidence
 from .judge import percent, rises
-from .style import CYCLE, panels
 from .study import Study
+from .style import CYCLE, panels
 
 WHY = (
     "the input torque is given, so the mean mesh forces follow from statics whatever speed and "
@@ -41,8 +41,8 @@ def planet_forces(evidence: Evidence) -> Entry:
         ),
         remarks=f"The sun pushes every planet with {mean:.0f} N in the mean: {mean * cosine:.0f} N "
         f"tangential, {mean * sine:.0f} N radial, a torque of {mean * arm:.2f} N m about its pin. "
-        f"All four are the mesh force times a constant, so they share one shape; dashed is the largest of a cycle. This largest force "
-        f"does change with speed, as the meshing frequency moves among the natural "
+        f"All four are the mesh force times a constant, so they share one shape. The largest of a "
+        "cycle (dashed) does change with speed, as the meshing frequency moves among the natural "
         f"frequencies: {peaks}.",
         picture=_draw(evidence.study, ours, parts),
         figures={"mean_force": ours["mean"].mean(axis=0), "largest_force": largest},

@@ -8,8 +8,8 @@ from matplotlib.figure import Figure
 from .entry import Claim, Entry
 from .evidence import Evidence
 from .judge import falls, percent
-from .style import CYCLE, panels
 from .study import Study
+from .style import CYCLE, panels
 
 
 def power_loss(evidence: Evidence) -> Entry:
@@ -34,8 +34,8 @@ def power_loss(evidence: Evidence) -> Entry:
         f"all teeth over the input power. The efficiency is {efficiency.min():.2%} to "
         f"{efficiency.max():.2%}, by the energy ledger {own.min():.2%} to {own.max():.2%}. With "
         f"the printed friction torque P/w and its signs the ledger shows {ledger.min():.2%} to "
-        f"{ledger.max():.2%}: friction puts in {gain:.2f} times what sliding should take out. The ledger "
-        f"closes to {residual:.1e} of the work put in.",
+        f"{ledger.max():.2%}: friction puts in {gain:.2f} times what sliding should take "
+        f"out. The ledger closes to {residual:.1e} of the work put in.",
         picture=_draw(evidence.study, ours, printed),
         figures={
             "loss_ratio": ours,

@@ -145,17 +145,15 @@ def _front(axes: Axes, scene: Scene) -> None:
         axes.plot([0, x], [0, y], color=GREY, lw=3, solid_capstyle="round", zorder=0)
         axes.add_patch(Circle((x, y), planet, fill=False, color=ORANGE, lw=2))
         axes.plot([x], [y], "o", color=GREY)
-        axes.annotate(
-            f"planet {i}\n{math.degrees(angle):g}°",
-            
-            (x, y), xytext=(0, -8), textcoords="offset points", ha="center", va="top", color=ORANGE,
-        )  # fmt: skip
+        far = 1.3 * ring / (sun + planet) * np.array([x, y]) * (0.9 if i == 1 else 1.0)
+        label = f"planet {i}\n{math.degrees(angle):g}°"
+        axes.annotate(label, tuple(far), ha="center", va="center", color=ORANGE, fontsize=8.5)
     axes.plot([0], [0], "o", color="black")
     axes.annotate("sun", (0, -0.65 * sun), ha="center", color=BLUE)
     axes.annotate("carrier", (0, 0), xytext=(8, 8), textcoords="offset points", color=GREY)
     axes.annotate("ring", (0, -0.92 * ring), ha="center", color=GREEN)
-    axes.set_xlim(-1.1 * ring, 1.1 * ring)
-    axes.set_ylim(-1.1 * ring, 1.1 * ring)
+    axes.set_xlim(-1.4 * ring, 1.4 * ring)
+    axes.set_ylim(-1.05 * ring, 1.3 * ring)
     axes.set_title("pitch circles, to scale", loc="center")
 
 

@@ -6,6 +6,7 @@ from contextlib import AbstractContextManager
 from typing import Any
 
 import matplotlib
+from cycler import cycler
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
@@ -17,14 +18,14 @@ CYCLE = (BLUE, ORANGE, GREEN, PINK, AMBER, SKY)
 WIDTH = 8.0  # [in]
 DOTS_PER_INCH = 100
 
-_STYLE: dict[str, Any] = {
+_STYLE: Any = {
     "font.size": 9.5,
     "axes.spines.top": False,
     "axes.spines.right": False,
     "axes.linewidth": 0.7,
     "axes.titlesize": 10,
     "axes.titlelocation": "left",
-    "axes.prop_cycle": matplotlib.cycler(color=CYCLE),
+    "axes.prop_cycle": cycler(color=CYCLE),
     "lines.linewidth": 1.5,
     "lines.markersize": 4.5,
     "legend.frameon": False,

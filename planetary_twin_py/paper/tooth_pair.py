@@ -8,6 +8,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from ..gearset.geometry import base_pitch
 from ..gearset.involute import SpurGear
 from ..gearset.mount import Mate, mount_angle
 from ..scene import Scene
@@ -59,9 +60,9 @@ def _outlines(scene: Scene, backlash: float) -> tuple[np.ndarray, np.ndarray]:
     sun_angle = -0.5 * math.pi / teeth.sun  # its leading flank at the pitch point
     angle = mount_angle(teeth.planet, math.pi, Mate(teeth.sun, sun_angle, 0.0))
     thinning = backlash / second.base_radius
-    sun = _cartesian(first.outline(POINTS), sun_angle) - [first.pitch_radius, 0.0]
+    sun = _cartesian(first.outline(POINTS), sun_angle) - np.array([first.pitch_radius, 0.0])
     thinned = _thinned(second, 0.5 * thinning)
-    planet = _cartesian(thinned, angle + 0.5 * thinning) + [second.pitch_radius, 0.0]
+    planet = _cartesian(thinned, angle + 0.5 * thinning) + np.array([second.pitch_radius, 0.0])
     return sun, planet
 
 
@@ -117,14 +118,14 @@ def _draw(sun: np.ndarray, planet: np.ndarray, scene: Scene) -> Figure:
     for axes, reach in ((wide, 6.0), (near, 1.6)):
         _teeth(drawing(axes), sun, planet, scene, reach)
     wide.set_title("sun (left) and planet", loc="center")
-    near.set_title("at the pitch point", loc="center")
-    end = 1.35 * _line(scene, DRIVE)
-    near.annotate("driving flanks\ntouch", end, xytext=(-1.5, 1.2), color=GREY, fontsize=8.5)
-    start = 0.95 * _line(scene, COAST)
-    near.annotate(
-        f"gap B, {ENLARGED:g} times\ntoo large", start, xytext=(0.15, -1.5), color=GREY,
-        fontsize=8.5,
-    )  # fmt: skip
+    near.set_title(f"at the pitch point, gap enlarged {ENLARGED:g} times", loc="center")
+    away = 500.0 * base_pitch(scene.gearset.module, scene.gearset.pressure_angle)  # half of one
+    for text, point, place in (
+        ("contact", (0.0, 0.0), (-1.55, 0.3)),
+        ("gap B", tuple(away * _line(scene, COAST)), (-1.55, -1.0)),
+    ):
+        arrow = {"arrowstyle": "->", "color": "black", "lw": 0.8}
+        near.annotate(text, point, place, arrowprops=arrow)
     return figure
 
 
