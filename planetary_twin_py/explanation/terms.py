@@ -81,6 +81,8 @@ def _tooth_pairs(scene: Scene) -> Term | None:
         single = (law.single for law in stiffness_laws(scene))
         names = ("mesh.sun_planet_stiffness", "mesh.planet_ring_stiffness")
         constant |= {"mesh.stiffness": "given", **dict(zip(names, single, strict=True))}
+        # The depth of a crack tells nothing without the tooth it is in.
+        constant["faults"] = [f for f in scene.faults if not (f.kind == "crack" and f.depth)]
     elif mesh.double_pair_ratio == 1.0:
         return None
     else:

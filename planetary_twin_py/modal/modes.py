@@ -7,6 +7,7 @@ sun, ring and carrier stand still; "rotational", where they turn (and move along
 
 from __future__ import annotations
 
+from itertools import pairwise
 from typing import NamedTuple
 
 import numpy as np
@@ -49,7 +50,7 @@ def clusters(frequencies: np.ndarray) -> list[slice]:
     """Stretches of modes that share one frequency."""
     gaps = np.diff(frequencies) > SAME * np.maximum(frequencies[1:], 1e-300)
     edges = [0, *(np.flatnonzero(gaps) + 1), len(frequencies)]
-    return [slice(a, b) for a, b in zip(edges[:-1], edges[1:], strict=True)]
+    return [slice(a, b) for a, b in pairwise(edges)]
 
 
 def _kinds(coordinates: tuple[str, ...], vectors: np.ndarray, frequency: float) -> list[str]:
@@ -57,8 +58,9 @@ def _kinds(coordinates: tuple[str, ...], vectors: np.ndarray, frequency: float) 
     count = vectors.shape[1]
     if frequency == 0.0:
         return ["rigid"] * count
-    turning = _energy(coordinates, vectors, lambda motion: motion in ALONG)
-    moving = _energy(coordinates, vectors, lambda motion: motion not in ALONG)
+    names = [name.split(".") for name in coordinates]
+    turning = _gram(vectors, [body in CENTRAL and motion in ALONG for body, motion in names])
+    moving = _gram(vectors, [body in CENTRAL and motion not in ALONG for body, motion in names])
     # Directions in which the central members move at all; the others are planet modes.
     moved = int(np.sum(np.linalg.eigvalsh(turning + moving) > STILL))
     if moved == 0:
@@ -72,9 +74,7 @@ def _kinds(coordinates: tuple[str, ...], vectors: np.ndarray, frequency: float) 
     return ["planet"] * (count - moved) + [kind] * moved
 
 
-def _energy(coordinates: tuple[str, ...], vectors: np.ndarray, wanted: object) -> np.ndarray:
-    """Gram matrix of the part of the modes in the wanted motions of central members."""
-    names = [name.split(".") for name in coordinates]
-    rows = [body in CENTRAL and wanted(motion) for body, motion in names]  # type: ignore[operator]
-    part = vectors[np.array(rows, dtype=bool)]
+def _gram(vectors: np.ndarray, wanted: list[bool]) -> np.ndarray:
+    """Products of the modes with one another over the wanted coordinates."""
+    part = vectors[np.array(wanted, dtype=bool)]
     return part.T @ part

@@ -60,8 +60,11 @@ def planar_model(data: PlanarSet) -> SpringModel:
     row, springs = Rows(coordinates), []
     for body in central:
         values: PlanarBody = getattr(data, body)
-        for motion, k in (("x", values.bearing), ("y", values.bearing), ("u", values.torsion)):
-            springs.append(Spring(f"{body}_support", k, row({f"{body}.{motion}": 1.0})))
+        springs += [
+            Spring(f"{body}_bearing", values.bearing, row({f"{body}.x": 1.0})),
+            Spring(f"{body}_bearing", values.bearing, row({f"{body}.y": 1.0})),
+            Spring(f"{body}_torsion", values.torsion, row({f"{body}.u": 1.0})),
+        ]
     for planet, psi in zip(data.planets, data.planet_angles, strict=True):
         springs += _meshes(data, row, planet, psi)
         springs += _bearing(data, row, planet, psi)

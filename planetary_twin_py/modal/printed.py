@@ -11,6 +11,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from .modes import modes_of
 from .springs import Rows, Spring, SpringModel
 
 
@@ -47,7 +48,6 @@ def printed_model(data: PrintedSet) -> SpringModel:
 
 def stiffness_sweep(data: PrintedSet, sun_planet: Sequence[float]) -> np.ndarray:
     """Natural frequencies [Hz] for each sun-planet stiffness, (values, modes): their Fig. 13."""
-    from .modes import modes_of
 
     return np.array(
         [modes_of(printed_model(data._replace(sun_planet=k))).frequencies for k in sun_planet]

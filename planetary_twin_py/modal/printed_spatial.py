@@ -1,9 +1,9 @@
 """The stiffness blocks of Salagianni et al. 2017, eqs. (25)-(28), entry by entry as printed.
 
-Coordinates x, y, z, w_x, w_y, u. What is wrong: entry (1,5) of (25) and (26) has the other sign than
-the product of its row and column that all other entries are, so a helical mesh is no spring; the
-last row of (27) couples the turning carrier to y by k_zz where (28) has k_xx, so moving carrier and
-planet together is resisted. With a helix of zero the first does not show.
+Coordinates x, y, z, w_x, w_y, u. What is wrong: entry (1,5) of (25) and (26) has the other sign
+than the product of its row and column that all other entries are, so a helical mesh is no spring;
+the last row of (27) couples the turning carrier to y by k_zz where (28) has k_xx, so moving carrier
+and planet together is resisted. With a helix of zero the first does not show.
 """
 
 from __future__ import annotations

@@ -24,9 +24,9 @@ CENTRAL = ("sun", "ring", "carrier")
 class SpatialBody:
     """A body of mass `mass` [kg], base radius `radius` [m], and its springs to where it is held.
 
-    `rim_mass` is J/r^2, `tilt_mass` I/r^2 with the diametral inertia [kg]. Stiffnesses of the bearing
-    across and along the axis, against tilting (moment/angle/r^2) and against turning [N/m]; those of
-    a planet act between it and the carrier.
+    `rim_mass` is J/r^2, `tilt_mass` I/r^2 with the diametral inertia [kg]. Stiffnesses of the
+    bearing across and along the axis, against tilting (moment/angle/r^2) and against turning [N/m];
+    those of a planet act between it and the carrier.
     """
 
     mass: float
@@ -44,7 +44,8 @@ class SpatialSet:
     """A planetary gearset in space.
 
     Angles [rad]: of the planets, of pressure in the transverse plane, and the helix on the base
-    circle, positive for a right-hand sun. Stiffness of a mesh is along its transverse line of action.
+    circle, positive for a right-hand sun. Stiffness of a mesh is along its transverse line of
+    action.
     """
 
     sun: SpatialBody
@@ -80,11 +81,10 @@ def _body(data: SpatialSet, name: str) -> SpatialBody:
 
 
 def _supports(body: SpatialBody, name: str, row: Rows) -> list[Spring]:
-    across, along, tilting = body.bearing, body.axial, body.tilting
-    stiffness = (across, across, along, tilting, tilting, body.torsion)
+    kinds = ("bearing", "bearing", "axial", "tilting", "tilting", "torsion")
     return [
-        Spring(f"{name}_support", k, row({f"{name}.{motion}": 1.0}))
-        for motion, k in zip(MOTIONS, stiffness, strict=True)
+        Spring(f"{name}_{kind}", getattr(body, kind), row({f"{name}.{motion}": 1.0}))
+        for motion, kind in zip(MOTIONS, kinds, strict=True)
     ]
 
 
@@ -121,12 +121,12 @@ def _pin(data: SpatialSet, row: Rows, planet: str, psi: float) -> list[Spring]:
     """Bearing of a planet on its pin: three directions, and tilting with the carrier."""
     arm = data.carrier.radius * np.array([math.cos(psi), math.sin(psi), 0.0])
     body, springs = data.planet, []
-    for direction, k in zip(np.eye(3), (body.bearing, body.bearing, body.axial), strict=True):
+    for direction, kind in zip(np.eye(3), ("bearing", "bearing", "axial"), strict=True):
         carried = _velocity(data, "carrier", direction, arm)
         parts = _relative(_velocity(data, planet, direction, np.zeros(3)), carried)
-        springs.append(Spring("planet_bearing", k, row(parts)))
+        springs.append(Spring(f"planet_{kind}", getattr(body, kind), row(parts)))
     share = body.radius / data.carrier.radius
     for motion in ("wx", "wy"):
         parts = {f"{planet}.{motion}": 1.0, f"carrier.{motion}": -share}
-        springs.append(Spring("planet_bearing", body.tilting, row(parts)))
+        springs.append(Spring("planet_tilting", body.tilting, row(parts)))
     return springs

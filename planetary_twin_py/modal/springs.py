@@ -1,7 +1,7 @@
 """A linear model as masses and springs.
 
-Every spring is a row: it is stretched by row @ q and stores k (row @ q)^2/2, so the stiffness matrix
-is the sum of k row row^T. A mesh, a bearing and a support differ in nothing but their row.
+Every spring is a row: it is stretched by row @ q and stores k (row @ q)^2/2, so the stiffness
+matrix is the sum of k row row^T. A mesh, a bearing and a support differ in nothing but their row.
 """
 
 from __future__ import annotations

@@ -45,7 +45,7 @@ def node():
     yield node
     node.destroy_node()
     rclpy.shutdown()
-    process.terminate()
+    process.kill()  # it has nothing to save, and rclpy's own way out can hang at exit
     process.wait(timeout=10)
 
 

@@ -1,0 +1,32 @@
+"""Resonant speeds: a harmonic of the meshing frequency on a natural frequency."""
+
+import math
+
+import pytest
+from power_flows import FLOWS, scene_of
+
+import planetary_twin_py as pt
+from planetary_twin_py.modal.campbell import mesh_frequency_per_speed, resonances
+
+
+@pytest.mark.parametrize("flow, hertz", [(FLOWS[0], 500), (FLOWS[2], 350), (FLOWS[4], 500)])
+def test_meshing_frequency_at_1000_rpm(flow, hertz):
+    assert mesh_frequency_per_speed(scene_of(flow)) * pt.rpm(1000) == pytest.approx(hertz)
+
+
+def test_first_mode_is_met_at_eleven_thousand_rpm_and_at_fractions_of_it():
+    scene = pt.load_scene("paper")
+    modes = pt.natural_modes(scene)
+    found = resonances(scene, modes, pt.rpm(12_000), harmonics=3)
+    speeds = {r.harmonic: r.speed * 30 / math.pi for r in found if r.mode == 1}
+    first = modes.frequencies[1] / 30 * 60
+    assert speeds == pytest.approx({1: first, 2: first / 2, 3: first / 3})
+    assert [r.speed for r in found] == sorted(r.speed for r in found)
+    for resonance in found:
+        per_second = 30 * resonance.speed / (2 * math.pi)
+        assert resonance.harmonic * per_second == pytest.approx(resonance.frequency)
+
+
+def test_nothing_is_listed_beyond_the_highest_speed():
+    scene = pt.load_scene("paper")
+    assert resonances(scene, pt.natural_modes(scene), pt.rpm(1000)) == ()

@@ -1,0 +1,73 @@
+"""Torsional modes of the bare gearset against closed forms and other people's numbers."""
+
+import math
+
+import numpy as np
+import pytest
+from power_flows import DIFFERENTIALS, FLOWS, flow_name, scene_of
+
+import planetary_twin_py as pt
+from planetary_twin_py.modal.modes import modes_of
+from planetary_twin_py.modal.natural import spring_model
+
+CASES = [
+    (FLOWS[0], [0, 5500.36, 9375.70, 9375.70, 11112.99]),
+    (FLOWS[2], [0, 5620.95, 9375.70, 9375.70, 10928.67]),
+    (FLOWS[4], [0, 4724.50, 9375.70, 9375.70, 9879.57]),
+    (DIFFERENTIALS[0], [0, 0, 6664.08, 9375.70, 9375.70, 11135.22]),
+]
+
+
+@pytest.mark.parametrize(
+    "flow, expected", CASES, ids=lambda v: flow_name(v) if isinstance(v, tuple) else ""
+)
+def test_frequencies_and_kinds_whatever_is_held(flow, expected):
+    modes = pt.natural_modes(scene_of(flow))
+    assert modes.frequencies == pytest.approx(expected, abs=0.01)
+    assert modes.kinds.count("rigid") == expected.count(0)
+    assert modes.kinds.count("planet") == 2
+    assert set(modes.kinds) == {"rigid", "planet", "rotational"}
+
+
+@pytest.mark.parametrize("planets", [2, 4, 5, 7])
+def test_planet_modes_depend_on_planet_and_meshes_only(planets):
+    step = 2 * math.pi / 100
+    angles = tuple(step * round(100 * k / planets) for k in range(planets))
+    scene = scene_of(
+        FLOWS[0], **{"gearset.planet_angles": angles, "mesh.planet_ring_stiffness": 3e8}
+    )
+    modes = pt.natural_modes(scene)
+    mass = 0.1 / math.cos(math.radians(21.34)) ** 2
+    expected = math.sqrt((2e8 + 3e8) / mass) / (2 * math.pi)
+    found = modes.frequencies[[kind == "planet" for kind in modes.kinds]]
+    assert found == pytest.approx([expected] * (planets - 1))
+
+
+def test_shapes_are_mass_normalised_and_satisfy_the_eigenproblem():
+    model = spring_model(pt.load_scene("paper"))
+    modes = modes_of(model)
+    assert modes.shapes.T @ (model.mass[:, None] * modes.shapes) == pytest.approx(
+        np.eye(5), abs=1e-9
+    )
+    squares = (2 * math.pi * modes.frequencies) ** 2
+    weighted = model.mass[:, None] * modes.shapes
+    residual = model.stiffness @ modes.shapes - weighted * squares
+    assert np.abs(residual).max() < 1e-6 * np.abs(model.stiffness @ modes.shapes).max()
+    assert modes.coordinates == model.coordinates
+
+
+def test_machines_add_soft_modes_below_those_of_the_gearset():
+    scene = pt.load_scene("paper")
+    bare, driven = pt.natural_modes(scene), pt.natural_modes(scene, "machines")
+    assert len(driven.frequencies) == len(bare.frequencies) + 2
+    assert driven.frequencies[3:] == pytest.approx(bare.frequencies[1:], rel=5e-3)
+    # The motor against the rest on both couplings: sqrt(k/J) of 500 N m/rad and 5e-3 kg m^2.
+    assert 20.0 < driven.frequencies[1] < 60.0
+
+
+def test_an_unknown_model_and_a_scene_without_supports_end_in_one_line():
+    scene = pt.load_scene("paper")
+    with pytest.raises(ValueError, match="model = 'flat': must be one of torsional"):
+        pt.natural_modes(scene, "flat")
+    with pytest.raises(pt.SceneError, match="supports: missing"):
+        pt.natural_modes(scene, "planar")
