@@ -27,6 +27,8 @@ def paper(
     jobs: Annotated[int, typer.Option(min=1, max=64, help="Processes.")] = 2,
 ) -> None:
     """Recompute every table and figure of the paper, and write them beside what it states."""
+    if out.suffix != ".md":
+        fail(f"--out = {str(out)!r}: must end in .md")
     try:
         import matplotlib  # noqa: F401
     except ImportError:
@@ -39,6 +41,10 @@ def paper(
     from ..paper.report import BUILDERS, entries
     from ..paper.study import Grid
 
+    try:
+        out.parent.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        fail(f"--out = {str(out)!r}: {error.strerror}")
     console = Console(stderr=json_ == "-")
     with Progress(console=console, transient=True) as progress:
         evidence = gather(
@@ -64,5 +70,5 @@ def _table(entries: list[Entry]) -> Table:
 
     table = Table("", "what", "verdict", box=None, header_style="bold", pad_edge=False)
     for entry in entries:
-        table.add_row(entry.number, entry.title, f"{entry.verdict} {entry.reason}".strip())
+        table.add_row(entry.number, entry.title, str(entry.verdict).removesuffix(", because"))
     return table

@@ -69,11 +69,13 @@ class Entry:
     @property
     def reason(self) -> str:
         """Why what does not come out does not, and what comes out in the printed form only."""
-        missed = [claim.why for claim in self.claims if not claim.reached]
-        printed = [claim for claim in self.claims if claim.reached and not claim.holds]
-        if printed:
-            missed += [claim.why for claim in printed]
-        return "; ".join(dict.fromkeys(why for why in missed if why))
+        missed = [claim.why for claim in self.claims if not claim.reached and claim.why]
+        printed = [
+            f"as printed only: {claim.why}"
+            for claim in self.claims
+            if claim.reached and not claim.holds and claim.why
+        ]
+        return "; ".join(dict.fromkeys(missed + printed))
 
     @property
     def slug(self) -> str:

@@ -6,7 +6,9 @@ from collections.abc import Sequence
 
 import numpy as np
 from matplotlib.figure import Figure
+from scipy.optimize import brentq
 
+from ..lubrication.printed_asperities import printed_area_function, printed_load_function
 from .entry import Claim, Entry
 from .evidence import Evidence
 from .judge import falls, percent, rises
@@ -95,6 +97,9 @@ def _draw_viscous(ours: Curves, printed: Curves) -> Figure:
     return figure
 
 
+_RATIOS = np.linspace(1.0, 2.5, 301)  # lambda ratios
+
+
 def boundary_friction(evidence: Evidence) -> Entry:
     """Figure 8."""
     ours, printed = (_over_grid(study) for study in (evidence.study, evidence.printed_study))
@@ -106,6 +111,8 @@ def boundary_friction(evidence: Evidence) -> Entry:
         for scene in (evidence.scene, evidence.printed)
     }
     texts = {name: ", ".join(f"{force:.3f}" for force in f) for name, f in at_pitch.items()}
+    negative = brentq(printed_area_function, 1.5, 2.5)
+    rising = float(_RATIOS[np.argmin([printed_load_function(x) for x in _RATIOS])])
     share = ours[SUN].max() / evidence.study.over_grid(lambda o: o.sun.viscous).max()
     return Entry(
         number="Figure 8",
@@ -121,8 +128,9 @@ def boundary_friction(evidence: Evidence) -> Entry:
             ),
         ),
         remarks=f"At the pitch point of the sun-planet mesh, one pair: {texts['paper']} N, as "
-        f"printed {texts['paper_printed']} N. The printed F_2 is negative from lambda 1.90 and the "
-        f"printed F_5/2 rises from 1.91, both within the studied range. Asperities carry so little "
+        f"printed {texts['paper_printed']} N. The printed F_2 is negative from lambda "
+        f"{negative:.2f} and the printed F_5/2 rises from {rising:.2f}, both within the studied "
+        f"range. Asperities carry so little "
         f"that boundary friction is at most {share:.1%} of the viscous.",
         picture=_draw_boundary(ours, printed, evidence.study.grid.lambda_ratios),
         figures={"at_pitch_point": at_pitch},

@@ -32,8 +32,9 @@ local nonlinearities*, Proc. IMechE Part K 231 (2017) 504-518.
   counts as reached if either form gives it; where only the printed form does, the reason says why
   ours differs.
 - The study runs the dynamic model at $points points: backlash $backlashes um, lambda
-  $lambdas, $speeds rpm, at 63 N m, and at $torques N m for Figure 7; each for both scenes,
-  $duration s long, of which the part after $settled s counts, tolerance $tolerance.
+  $lambdas, $speeds rpm, at 63 N m, and for Figure 7
+  at $torques N m. Each is run for both scenes over $duration s, of which the
+  part after $settled s counts, at tolerance $tolerance.
 
 ## Verdicts
 

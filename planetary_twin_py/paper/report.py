@@ -23,7 +23,6 @@ from .entry import Entry
 from .evidence import Evidence
 
 BUILDERS: tuple[Callable[[Evidence], Entry], ...] = (
-    stick_diagram.assembly,
     stick_diagram.bodies,
     tables.geometry,
     tables.oil,
@@ -43,6 +42,7 @@ BUILDERS: tuple[Callable[[Evidence], Entry], ...] = (
     degrees_of_freedom.degrees_of_freedom,
     frequencies.against_stiffness,
     frequencies.mode_shapes,
+    stick_diagram.assembly,
 )
 
 

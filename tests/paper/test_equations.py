@@ -1,6 +1,7 @@
 """Every equation, table and figure has its place, and every place that is named exists."""
 
 import re
+from operator import attrgetter
 from pathlib import Path
 
 import pytest
@@ -34,10 +35,9 @@ def test_files_named_exist(equation):
 @pytest.mark.parametrize("equation, choice", CHOICES, ids=lambda x: getattr(x, "label", None))
 def test_choices_named_are_fields_of_a_scene_and_on_in_paper_printed(equation, choice):
     ((name, value),) = yaml.safe_load(choice).items()
-    section, field = name.split(".")
     chosen = pt.load_scene("paper").replace(**{name: value})
-    printed = pt.load_scene("paper_printed")
-    assert getattr(getattr(chosen, section), field) == getattr(getattr(printed, section), field)
+    field = attrgetter(name)
+    assert field(chosen) == field(pt.load_scene("paper_printed"))
 
 
 def test_page_has_every_table_and_figure_with_a_verdict():

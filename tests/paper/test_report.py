@@ -83,7 +83,7 @@ def test_film_grows_with_speed_to_the_power_seven_tenths(found, evidence):
 
 def test_efficiency_is_in_the_band_of_the_literature(found):
     efficiency = 1.0 - found["Figure 11"].figures["loss_ratio"]
-    assert 0.982 < efficiency.min() and efficiency.max() < 0.9895
+    assert efficiency.min().round(3) >= 0.982 and efficiency.max().round(3) <= 0.989
     assert efficiency[0, 0, 0] == pytest.approx(0.9883, abs=5e-4)  # 63 N m, 1000 rpm, lambda 1
 
 
@@ -120,7 +120,7 @@ def test_page_and_figures_are_the_same_on_a_second_run_with_more_processes(
     assert again.outcomes == evidence.study.outcomes
     for folder in ("first", "second"):
         (tmp_path / folder).mkdir()
-        write_page(list(found.values()), evidence, tmp_path / folder / "paper.md")
+        write_page(entries(evidence), evidence, tmp_path / folder / "paper.md")
     first, second = (
         {p.name: p.read_bytes() for p in (tmp_path / folder).rglob("*") if p.is_file()}
         for folder in ("first", "second")
