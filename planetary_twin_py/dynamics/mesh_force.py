@@ -73,7 +73,7 @@ def total_weight(train: Record, kind: int, segment: int, u: float) -> tuple[floa
 def mesh_stiffness(train: Record, kind: int, segment: int, cycle: float) -> float:
     """Stiffness [N/m] of a mesh without faults at a fraction of its cycle."""
     total = total_weight(train, kind, segment, cycle - train.edge[kind, segment])[0]
-    return train.base[kind] + train.gain[kind] * total
+    return train.stiffness_base[kind] + train.stiffness_gain[kind] * total
 
 
 @kernel
@@ -153,10 +153,10 @@ def press(
         cramp = (u, squeeze, closing, total, growth)
         force, lost, work = press_faulty(model, moment, i, segment, begin, cramp, pairs)
     else:
-        k = train.base[kind] + train.gain[kind] * total
+        k = train.stiffness_base[kind] + train.stiffness_gain[kind] * total
         force = k * (squeeze + tau * closing)
         lost = tau * k * closing * closing
-        work = 0.5 * train.gain[kind] * growth
+        work = 0.5 * train.stiffness_gain[kind] * growth
         work *= squeeze * squeeze - model.load.inner_squared
         for n in range(begin, pairs.count):
             pairs.load[n] = max(pairs.share[n] * force, 0.0)
@@ -171,9 +171,9 @@ def push_drift(model: Record, state: Record, moment: Record, i: int, pace: float
     d, rate, e_rate = deflection(train, moment, i, state.x, state.v, 0.0, pace)
     total, growth = total_weight(train, kind, state.segment[i], u)
     push = side * d - model.load.offset + tau * side * rate
-    drift = train.gain[kind] * growth * side * pace * push
+    drift = train.stiffness_gain[kind] * growth * side * pace * push
     if train.lines[kind] > 0:
-        k = train.base[kind] + train.gain[kind] * total
+        k = train.stiffness_base[kind] + train.stiffness_gain[kind] * total
         bend = form_error_bend(train, i, moment.line_angle, pace)
         drift -= k * side * (e_rate + tau * bend)
     return drift
@@ -196,8 +196,8 @@ def press_faulty(
     """
     u, squeeze, closing, total, growth = cramp
     train, kind = model.train, model.train.kind[i]
-    stiffness = train.base[kind] + train.gain[kind] * total
-    stiffness_growth = -train.base[kind] * growth / total
+    stiffness = train.stiffness_base[kind] + train.stiffness_gain[kind] * total
+    stiffness_growth = -train.stiffness_base[kind] * growth / total
     force = lost = work = 0.0
     for n in range(begin, pairs.count):
         factor, slope, gap = fault_effect(train, moment, i, segment, n - begin, u)
@@ -227,7 +227,10 @@ def stored_energy(model: Record, state: Record, moment: Record, i: int) -> float
     place_mesh(train, state, moment, i)
     u = moment.start[i] - train.edge[kind, segment]
     d = deflection(train, moment, i, state.x, state.v, 0.0, 0.0)[0]
-    per_weight = train.base[kind] / total_weight(train, kind, segment, u)[0] + train.gain[kind]
+    per_weight = (
+        train.stiffness_base[kind] / total_weight(train, kind, segment, u)[0]
+        + train.stiffness_gain[kind]
+    )
     energy = 0.0
     for p in range(train.present[kind, segment]):
         weight = polynomial(train.weight, kind, segment, p, u, train.terms)[0]

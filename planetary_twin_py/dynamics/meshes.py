@@ -29,8 +29,8 @@ MESHES_LAYOUT: dict[str, Any] = {
     "kind": (WHOLE, (MESHES,)),
     "phase": (REAL, (MESHES,)),  # delay in mesh cycles; whole cycles count teeth
     "stiffness": (REAL, (2,)),  # of one tooth pair, about [N/m]
-    "base": (REAL, (2,)),  # of the law of stiffness, see `tooth_pairs` [N/m]
-    "gain": (REAL, (2,)),
+    "stiffness_base": (REAL, (2,)),  # of the law of stiffness, see `tooth_pairs` [N/m]
+    "stiffness_gain": (REAL, (2,)),
     "damping_time": (REAL, (2,)),  # tau of c = tau k [s]; 0: by the meshing frequency
     "damping_cycles": REAL,  # tau times meshing frequency [-]
     "lowest_frequency": REAL,  # [Hz]
@@ -81,8 +81,8 @@ def build_meshes(scene: Scene, place: dict[str, int]) -> dict[str, object]:
         "kind": np.repeat([0, 1], gearset.planets),
         "phase": phases,
         "stiffness": stiffness,
-        "base": np.array([law.base for law in laws]),
-        "gain": np.array([law.gain for law in laws]),
+        "stiffness_base": np.array([law.base for law in laws]),
+        "stiffness_gain": np.array([law.gain for law in laws]),
         "damping_time": _damping_times(scene, stiffness),
         "damping_cycles": _damping_cycles(scene),
         "lowest_frequency": damping.lowest_frequency,
