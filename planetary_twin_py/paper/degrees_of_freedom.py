@@ -102,8 +102,8 @@ def _body(axes: Axes, y: float, radius: float, colour: str, name: str) -> None:
     axes.annotate("", (arc[0, -1], y + arc[1, -1]), (arc[0, -4], y + arc[1, -4]), arrowprops=arrow)
     axes.annotate("u", (-1.12 * radius - 0.6, y), color=colour, ha="right", fontsize=8)
     inside = radius > 15.0
-    place = (0.0, y - 0.8 * radius) if inside else (radius + 1.0, y + 0.5 * radius)
-    axes.annotate(name, place, ha="center" if inside else "left", color=colour)
+    place = (0.0, y - 0.8 * radius) if inside else (radius + 1.0, y - 0.2 * radius)
+    axes.annotate(name, place, ha="center" if inside else "left", color=colour, fontsize=8.5)
 
 
 def _spring(axes: Axes, foot: tuple[float, float], angle: float) -> None:
