@@ -47,7 +47,7 @@ BUILDERS: tuple[Callable[[Evidence], Entry], ...] = (
 
 
 def entries(evidence: Evidence, progress: Callable[[str], None] = lambda _: None) -> list[Entry]:
-    """Every table and figure; `progress` is told how many are done, by the number of the last."""
+    """Every table and figure; `progress` is told the number of each that is done."""
     found = []
     with style.applied():
         for build in BUILDERS:

@@ -122,7 +122,7 @@ def _points(scene: str, grid: Grid) -> tuple[Point, ...]:
     return tuple(study + [first._replace(torque=torque) for torque in grid.torques])
 
 
-def simulate_point(point: Point, duration: float = DURATION) -> Result:
+def simulate_point(point: Point) -> Result:
     """The run of one point."""
     scene = load_scene(point.scene).replace(
         backlash=point.backlash,
@@ -130,7 +130,7 @@ def simulate_point(point: Point, duration: float = DURATION) -> Result:
         input_speed=rpm(point.speed),
         input_torque=point.torque,
     )
-    return simulate(scene, duration, tolerance=TOLERANCE)
+    return simulate(scene, DURATION, tolerance=TOLERANCE)
 
 
 def run(point: Point) -> Outcome:
