@@ -17,9 +17,9 @@ from .bodies import LOAD_MACHINE, MOTOR, SECOND_MOTOR
 from .cycle import find_segment, mesh_cycle
 from .equations import EVALUATION, forces
 from .form_errors import form_error
-from .mesh_force import mesh_stiffness
+from .mesh_force import deflection, mesh_stiffness
 from .moment import MOMENT, frame_cycle_rate, set_moment
-from .state import COAST_SIDE, DRIVE_SIDE, LOAD, STATE
+from .state import COAST_SIDE, DRIVE_SIDE, LOAD, OPEN, STATE
 from .static_load import mesh_force, static_torques
 
 CYCLE_POINTS = 64  # positions within the mesh cycle over which friction is averaged
@@ -83,6 +83,7 @@ def start_state(scene: Scene, model: Record) -> Record:
         drag += _drag(model, state, moment) / CYCLE_POINTS
     state.fraction[0] = 0.0
     _settle(model, state, moment, mean)
+    _choose_sides(model, state, moment)
     # In steady running the machines give what friction takes along each rigid motion.
     bodies = train.coupling[: train.machines, 0]
     effect = train.ratio[bodies, :axes].T @ load.trim_gain[: train.machines, :axes]
@@ -120,10 +121,22 @@ def _place_pairs(model: Record, state: Record, moment: Record) -> None:
     train = model.train
     for i in range(train.meshes):
         side = int(state.side[i])
+        if side == OPEN:
+            continue
         direction = math.copysign(1.0, side * frame_cycle_rate(train, state))
         cycle = mesh_cycle(train, state, i, side)
         state.segment[i] = find_segment(train, train.kind[i], cycle, direction)
     set_moment(model, state, moment)
+
+
+def _choose_sides(model: Record, state: Record, moment: Record) -> None:
+    """Let every mesh touch where its flanks are: errors of form beyond its deflection part them."""
+    train, half = model.train, float(model.load.half_backlash)
+    for i in range(train.meshes):
+        d = deflection(train, moment, i, state.x, state.v, 0.0, 0.0)[0]
+        if state.side[i] * d < half:
+            state.side[i] = OPEN if abs(d) <= half else -state.side[i]
+    _place_pairs(model, state, moment)
 
 
 def _balance(model: Record, state: Record, moment: Record, mean: float) -> None:
