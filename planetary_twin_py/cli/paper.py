@@ -1,0 +1,74 @@
+"""`planetary-twin paper`: every table and figure of the paper beside ours."""
+
+from __future__ import annotations
+
+import json
+import sys
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from ._fail import fail
+
+if TYPE_CHECKING:
+    from rich.table import Table
+
+    from ..paper.entry import Entry
+
+
+def paper(
+    out: Annotated[
+        Path, typer.Option(help="The page; its pictures go into a folder of its name.")
+    ] = Path("docs/paper.md"),
+    json_: Annotated[
+        str | None, typer.Option("--json", metavar="FILE", help="Write figures; - prints them.")
+    ] = None,
+    jobs: Annotated[int, typer.Option(min=1, max=64, help="Processes.")] = 2,
+) -> None:
+    """Recompute every table and figure of the paper, and write them beside what it states."""
+    if out.suffix != ".md":
+        fail(f"--out = {str(out)!r}: must end in .md")
+    try:
+        import matplotlib  # noqa: F401
+    except ImportError:
+        fail("the plots are not installed: pip install 'planetary_twin_py[plots]'")
+    from rich.console import Console
+    from rich.progress import Progress
+
+    from ..paper.evidence import gather
+    from ..paper.page import figures, write_page
+    from ..paper.report import BUILDERS, entries
+    from ..paper.study import Grid
+
+    try:
+        out.parent.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        fail(f"--out = {str(out)!r}: {error.strerror}")
+    console = Console(stderr=json_ == "-")
+    with Progress(console=console, transient=True) as progress:
+        evidence = gather(
+            Grid(),
+            jobs,
+            lambda runs, count: progress.track(runs, count, description="running the study"),
+        )
+        task = progress.add_task("tables and figures", total=len(BUILDERS))
+        found = entries(evidence, lambda _: progress.advance(task))
+        try:
+            write_page(found, evidence, out)
+        except OSError as error:
+            fail(f"--out = {str(out)!r}: {error.strerror}")
+    console.print(_table(found))
+    console.print(f"{out}")
+    if json_ is not None:
+        text = json.dumps(figures(found, evidence), indent=2) + "\n"
+        sys.stdout.write(text) if json_ == "-" else Path(json_).write_text(text, "utf-8")
+
+
+def _table(entries: list[Entry]) -> Table:
+    from rich.table import Table
+
+    table = Table("", "what", "verdict", box=None, header_style="bold", pad_edge=False)
+    for entry in entries:
+        table.add_row(entry.number, entry.title, str(entry.verdict).removesuffix(", because"))
+    return table

@@ -1,0 +1,30 @@
+"""What every entry is computed from: the two scenes and their studies."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable
+from typing import Any, NamedTuple
+
+from ..scene import Scene, load_scene
+from .study import Grid, Study, run_studies
+
+DEFAULT, PRINTED = "paper", "paper_printed"
+
+
+class Evidence(NamedTuple):
+    """Both scenes, each with the runs of its study."""
+
+    scene: Scene
+    printed: Scene
+    study: Study
+    printed_study: Study
+
+
+def gather(
+    grid: Grid,
+    jobs: int,
+    progress: Callable[[Iterable[Any], int], Iterable[Any]] = lambda runs, _: runs,
+) -> Evidence:
+    """Run both studies; `progress` as in `run_studies`."""
+    studies = run_studies((DEFAULT, PRINTED), grid, jobs, progress)
+    return Evidence(load_scene(DEFAULT), load_scene(PRINTED), studies[DEFAULT], studies[PRINTED])

@@ -1,0 +1,100 @@
+"""Figure 9: forces and torque on a planet against speed and lambda ratio."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from matplotlib.figure import Figure
+
+from ..gearset.geometry import pitch_radius
+from .entry import Claim, Entry
+from .evidence import Evidence
+from .judge import percent, rises
+from .study import Study
+from .style import CYCLE, panels
+
+
+def planet_forces(evidence: Evidence) -> Entry:
+    """Figure 9."""
+    ours, printed = (_forces(study) for study in (evidence.study, evidence.printed_study))
+    gearset = evidence.scene.gearset
+    sine, cosine = math.sin(gearset.pressure_angle), math.cos(gearset.pressure_angle)
+    arm = pitch_radius(gearset.teeth.planet, gearset.module) * cosine
+    parts = {"tangential": cosine, "radial": sine, "total": 1.0, "torque": arm}
+    mean, largest = ours["mean"].mean(), ours["largest"].mean(axis=(0, 1))
+    speeds = evidence.study.grid.speeds
+    spread = 100.0 * float(np.ptp(ours["mean"])) / mean
+    growth, printed_growth = (percent(forces["largest"], 2) for forces in (ours, printed))
+    why = (
+        "the input torque is given, so the mean forces follow from statics: over the whole study "
+        f"they differ by {spread:.2f} %; only the largest of a cycle changes with speed, by "
+        f"{growth:+.1f} %, as printed by {printed_growth:+.1f} %"
+    )
+    peaks = ", ".join(
+        f"{force:.0f} N at {speed:g} rpm" for force, speed in zip(largest, speeds, strict=True)
+    )
+    return Entry(
+        number="Figure 9",
+        title="forces and torque on a planet against speed and lambda",
+        claims=(
+            _claim("speed", ours, printed, 2, why),
+            _claim("lambda", ours, printed, 1, why),
+        ),
+        remarks=f"The sun pushes every planet with {mean:.0f} N in the mean: {mean * cosine:.0f} N "
+        f"tangential, {mean * sine:.0f} N radial, a torque of {mean * arm:.2f} N m about its pin. "
+        f"All four are the mesh force times a constant, so they share one shape. The largest of a "
+        "cycle (dashed) does change with speed, as the meshing frequency moves among the natural "
+        f"frequencies: {peaks}.",
+        picture=_draw(evidence.study, ours, parts),
+        figures={"mean_force": ours["mean"].mean(axis=0), "largest_force": largest},
+    )
+
+
+def _forces(study: Study) -> dict[str, np.ndarray]:
+    return {
+        "mean": study.over_grid(lambda o: o.sun.force),
+        "largest": study.over_grid(lambda o: o.sun.largest_force),
+    }
+
+
+def _claim(
+    name: str, ours: dict[str, np.ndarray], printed: dict[str, np.ndarray], axis: int, why: str
+) -> Claim:
+    return Claim(
+        says=f"the forces grow with {name}",
+        ours=_changes(ours, axis),
+        printed=_changes(printed, axis),
+        holds=all(rises(force, axis) for force in ours.values()),
+        printed_holds=all(rises(force, axis) for force in printed.values()),
+        why=why,
+    )
+
+
+def _changes(forces: dict[str, np.ndarray], axis: int) -> str:
+    return ", ".join(f"{name} {percent(force, axis):+.2f} %" for name, force in forces.items())
+
+
+def _draw(study: Study, forces: dict[str, np.ndarray], parts: dict[str, float]) -> Figure:
+    """Parts of the force solid in the mean and dashed at their largest; the torque by itself."""
+    figure, (speed, ratio, torque) = panels(3, 3.0)
+    speeds, ratios = study.grid.speeds, study.grid.lambda_ratios
+    mean, largest = forces["mean"], forces["largest"]
+    for colour, (name, factor) in zip(CYCLE, parts.items(), strict=False):
+        axes = torque if name == "torque" else speed
+        axes.plot(speeds, factor * mean[0, 0], "o-", color=colour, label=name)
+        axes.plot(speeds, factor * largest[0, 0], "o--", color=colour, lw=1)
+        if name != "torque":
+            ratio.plot(ratios, factor * mean[0, :, 0], "o-", color=colour)
+            ratio.plot(ratios, factor * largest[0, :, 0], "o--", color=colour, lw=1)
+    for axes in (speed, torque):
+        axes.set_xlabel("input speed [rpm]")
+        axes.set_xticks(speeds)
+    ratio.set_xlabel("lambda ratio")
+    speed.set_ylabel("force of the sun [N]")
+    torque.set_ylabel("torque [N m]")
+    for axes, title in zip((speed, ratio, torque), ("force", "force", "torque"), strict=True):
+        axes.set_ylim(0, None)
+        axes.set_title(title)
+    figure.legend(loc="outside lower center", ncols=4)
+    return figure

@@ -1,0 +1,163 @@
+"""The runs of the dynamic model that the tables and figures rest on.
+
+The paper's study varies backlash, lambda ratio and speed (its section 7); its Fig. 7 needs the load
+varied as well. Every point is a run of its own from steady running, of which the settled part
+counts.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterable, Sequence
+from concurrent.futures import ProcessPoolExecutor
+from multiprocessing import get_context
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from ..result import Result
+from ..scene import load_scene
+from ..simulation import simulate
+from ..units import rpm
+
+DURATION = 0.12  # [s]
+SETTLED = 0.04  # [s] from here on means are taken: whole mesh cycles at every speed of the study
+TOLERANCE = 1e-4
+REFERENCE_TORQUE = 63.0  # [N m] section 8.3
+
+
+class Grid(NamedTuple):
+    """Values the study combines."""
+
+    backlashes: tuple[float, ...] = (2.0e-7, 2.5e-7, 3.0e-7, 3.5e-7)  # [m]
+    lambda_ratios: tuple[float, ...] = (1.0, 1.25, 1.5, 1.75, 2.0)
+    speeds: tuple[float, ...] = (1000.0, 2000.0, 3000.0)  # [rpm]
+    torques: tuple[float, ...] = (42.0, 52.5, 63.0, 73.5, 84.0)  # [N m] for Fig. 7
+
+    @property
+    def shape(self) -> tuple[int, int, int]:
+        """Of the study B x lambda x speed."""
+        return len(self.backlashes), len(self.lambda_ratios), len(self.speeds)
+
+
+class Point(NamedTuple):
+    """One run."""
+
+    scene: str
+    backlash: float  # [m]
+    lambda_ratio: float
+    speed: float  # [rpm]
+    torque: float  # [N m]
+
+
+class MeshMeans(NamedTuple):
+    """Means of the meshes of one kind, over planets and settled time."""
+
+    dte: float  # [m]
+    force: float  # [N]
+    largest_force: float  # over the cycle [N]
+    film: float  # [m]
+    boundary: float  # [N]
+    viscous: float  # [N]
+    power_loss: float  # of one mesh [W]
+
+
+class Outcome(NamedTuple):
+    """What one run gives."""
+
+    sun: MeshMeans
+    ring: MeshMeans
+    input_power: float  # [W]
+    sliding_loss: float  # f Vs of all meshes [W]
+    ledger_efficiency: float  # by the energy ledger, over the whole run
+    residual: float  # of the ledger, over the work put in
+
+
+class Study(NamedTuple):
+    """All runs of one scene."""
+
+    grid: Grid
+    points: tuple[Point, ...]  # the grid in the order of its axes, then the torques
+    outcomes: tuple[Outcome, ...]
+
+    def over_grid(self, quantity: Callable[[Outcome], float]) -> np.ndarray:
+        """`quantity` of every point, shape (backlashes, lambda ratios, speeds)."""
+        count = math.prod(self.grid.shape)
+        return np.array([quantity(o) for o in self.outcomes[:count]]).reshape(self.grid.shape)
+
+    def over_torques(self, quantity: Callable[[Outcome], float]) -> np.ndarray:
+        """`quantity` at the torques of the grid, first backlash, lambda ratio and speed."""
+        return np.array([quantity(o) for o in self.outcomes[math.prod(self.grid.shape) :]])
+
+
+def run_studies(
+    scenes: Sequence[str],
+    grid: Grid,
+    jobs: int,
+    progress: Callable[[Iterable[Any], int], Iterable[Any]] = lambda runs, _: runs,
+) -> dict[str, Study]:
+    """Run the study of every scene with `jobs` processes; `progress` wraps the runs as they end."""
+    points = {scene: _points(scene, grid) for scene in scenes}
+    every = [point for scene in scenes for point in points[scene]]
+    if jobs == 1:
+        outcomes = list(progress(map(run, every), len(every)))
+    else:
+        with ProcessPoolExecutor(jobs, get_context("spawn")) as pool:
+            outcomes = list(progress(pool.map(run, every, chunksize=4), len(every)))
+    studies, first = {}, 0
+    for scene, own in points.items():
+        studies[scene] = Study(grid, own, tuple(outcomes[first : first + len(own)]))
+        first += len(own)
+    return studies
+
+
+def _points(scene: str, grid: Grid) -> tuple[Point, ...]:
+    study = [
+        Point(scene, backlash, ratio, speed, REFERENCE_TORQUE)
+        for backlash in grid.backlashes
+        for ratio in grid.lambda_ratios
+        for speed in grid.speeds
+    ]
+    first = study[0]
+    return tuple(study + [first._replace(torque=torque) for torque in grid.torques])
+
+
+def simulate_point(point: Point) -> Result:
+    """The run of one point."""
+    scene = load_scene(point.scene).replace(
+        backlash=point.backlash,
+        lambda_ratio=point.lambda_ratio,
+        input_speed=rpm(point.speed),
+        input_torque=point.torque,
+    )
+    return simulate(scene, DURATION, tolerance=TOLERANCE)
+
+
+def run(point: Point) -> Outcome:
+    """Simulate one point, and take the means of its settled part."""
+    result = simulate_point(point)
+    settled = result.time > SETTLED
+    planets = len(result.meshes) // 2
+    return Outcome(
+        _means(result, settled, slice(0, planets)),
+        _means(result, settled, slice(planets, None)),
+        input_power=abs(point.torque * rpm(point.speed)),
+        sliding_loss=float(result.total_power_loss[settled].mean()),
+        ledger_efficiency=result.efficiency,
+        residual=result.energy.residual / result.energy.put_in,
+    )
+
+
+def _means(result: Result, settled: np.ndarray, meshes: slice) -> MeshMeans:
+    def mean(samples: np.ndarray) -> float:
+        return float(samples[settled, meshes].mean())
+
+    return MeshMeans(
+        dte=mean(result.dte),
+        force=mean(result.mesh_force),
+        largest_force=float(result.mesh_force[settled, meshes].max()),
+        film=mean(result.film_thickness),
+        boundary=mean(result.boundary_friction),
+        viscous=mean(result.viscous_friction),
+        power_loss=mean(result.power_loss),
+    )

@@ -1,0 +1,59 @@
+"""How the plots look: colours that the colour-blind can tell apart, thin axes, no frames."""
+
+from __future__ import annotations
+
+from contextlib import AbstractContextManager
+from typing import Any
+
+import matplotlib
+from cycler import cycler
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+# Okabe and Ito 2008.
+BLUE, ORANGE, GREEN, PINK = "#0072B2", "#D55E00", "#009E73", "#CC79A7"
+SKY, AMBER, GREY = "#56B4E9", "#E69F00", "#8C8C8C"
+CYCLE = (BLUE, ORANGE, GREEN, PINK, AMBER, SKY)
+
+WIDTH = 8.0  # [in]
+DOTS_PER_INCH = 100
+
+_STYLE: Any = {
+    "font.size": 9.5,
+    "axes.spines.top": False,
+    "axes.spines.right": False,
+    "axes.linewidth": 0.7,
+    "axes.titlesize": 10,
+    "axes.titlelocation": "left",
+    "axes.prop_cycle": cycler(color=CYCLE),
+    "lines.linewidth": 1.5,
+    "lines.markersize": 4.5,
+    "legend.frameon": False,
+    "legend.fontsize": 8.5,
+    "xtick.direction": "out",
+    "savefig.dpi": DOTS_PER_INCH,
+}
+
+
+def applied() -> AbstractContextManager[None]:
+    """Within it, figures are made in this style."""
+    return matplotlib.rc_context(_STYLE)
+
+
+def panels(count: int = 1, height: float = 2.9) -> tuple[Figure, list[Axes]]:
+    """A figure of `height` [in] with `count` axes side by side."""
+    figure = Figure(figsize=(WIDTH, height), layout="constrained")
+    axes = figure.subplots(1, count, squeeze=False)
+    return figure, list(axes[0])
+
+
+def drawing(axes: Axes) -> Axes:
+    """Axes for a drawing to scale: no frame, no ticks."""
+    axes.set_aspect("equal")
+    axes.set_axis_off()
+    return axes
+
+
+def save(figure: Figure, path: str) -> None:
+    """Write a PNG that depends on nothing but its content."""
+    figure.savefig(path, metadata={"Software": None})

@@ -1,0 +1,131 @@
+"""The report on a reduced grid, against numbers that others have published or computed."""
+
+import numpy as np
+import pytest
+
+import planetary_twin_py as pt
+from planetary_twin_py.paper.evidence import gather
+from planetary_twin_py.paper.page import figures, write_page
+from planetary_twin_py.paper.report import entries
+from planetary_twin_py.paper.study import Grid, run_studies
+
+pytestmark = pytest.mark.slow
+
+GRID = Grid(
+    backlashes=(2e-7, 3.5e-7),
+    lambda_ratios=(1.0, 1.5, 2.0),
+    speeds=(1000.0, 2000.0, 3000.0),
+    torques=(52.5, 63.0, 73.5),
+)
+
+
+@pytest.fixture(scope="module")
+def evidence():
+    return gather(GRID, 1)
+
+
+@pytest.fixture(scope="module")
+def found(evidence):
+    return {entry.number: entry for entry in entries(evidence)}
+
+
+VERDICTS = {
+    "Table 1": "reproduced",
+    "Table 2": "reproduced",
+    "Table 3": "reproduced",  # conductivity in the printed form only
+    "Table 4": "cannot be, because",
+    "Table 5": "reproduced",  # by the printed matrices
+    "Figure 1": "reproduced",
+    "Figure 2": "reproduced",
+    "Figure 3": "trend reproduced",
+    "Figure 4": "trend reproduced",
+    "Figure 5": "reproduced",
+    "Figure 6": "trend reproduced",
+    "Figure 7": "trend reproduced",
+    "Figure 8": "trend reproduced",
+    "Figure 9": "cannot be, because",
+    "Figure 10": "trend reproduced",
+    "Figure 11": "trend reproduced",
+    "Figure 12": "reproduced",
+    "Figure 13": "trend reproduced",
+    "Figure 14": "cannot be, because",
+    "Sections 2, 9": "cannot be, because",
+}
+
+
+def test_verdicts(found):
+    assert {number: str(entry.verdict) for number, entry in found.items()} == VERDICTS
+
+
+def test_what_is_not_reached_is_explained(found):
+    for entry in found.values():
+        if not all(claim.reached for claim in entry.claims):
+            assert entry.reason
+
+
+def test_boundary_friction_at_the_pitch_point(found):
+    at_pitch = found["Figure 8"].figures["at_pitch_point"]
+    assert at_pitch["paper"] == pytest.approx([1.217, 0.345, 0.082], abs=6e-4)
+    # Twice the modulus of (11) doubles what the asperities carry, tau0 A_a stays as it is.
+    exact = pt.load_scene("paper").replace(**{"lubrication.asperities": "printed"})
+    assert exact.lubrication.modulus == "by_equation"
+    assert at_pitch["paper_printed"][0] == pytest.approx(2 * 1.208, rel=0.01)
+
+
+def test_film_grows_with_speed_to_the_power_seven_tenths(found, evidence):
+    sun, ring = found["Figure 10"].figures["at_pitch_point"]["salagianni"]
+    assert sun == pytest.approx([0.160e-6, 0.260e-6, 0.345e-6], abs=6e-10)
+    assert np.array(sun) / sun[0] == pytest.approx([1.0, 1.62450, 2.15766], rel=1e-5)
+    assert ring[0] / sun[0] == pytest.approx((7 / 3) ** 0.43, rel=1e-6)
+    film = evidence.study.over_grid(lambda o: o.sun.film)
+    assert film[..., 1] / film[..., 0] == pytest.approx(np.full((2, 3), 2**0.7), rel=3e-3)
+
+
+def test_efficiency_is_in_the_band_of_the_literature(found):
+    efficiency = 1.0 - found["Figure 11"].figures["loss_ratio"]
+    assert efficiency.min().round(3) >= 0.982 and efficiency.max().round(3) <= 0.989
+    assert efficiency[0, 0, 0] == pytest.approx(0.9883, abs=5e-4)  # 63 N m, 1000 rpm, lambda 1
+
+
+def test_printed_friction_torque_puts_in_twice_what_sliding_takes(found):
+    values = found["Figure 11"].figures
+    gain = values["ledger_efficiency_printed"] - 1.0
+    assert gain.min() > 0.0
+    assert gain / values["loss_ratio_printed"] == pytest.approx(np.full(gain.shape, 2.0), rel=0.01)
+
+
+def test_mean_force_on_a_planet_is_that_of_statics(found):
+    assert found["Figure 9"].figures["mean_force"] == pytest.approx(
+        np.full((3, 3), 1878.8), rel=0.006
+    )
+
+
+def test_frequencies_and_crossings(found):
+    table, sweep, modes = (found[n].figures for n in ("Table 5", "Figure 13", "Figure 14"))
+    assert table["literal"][1:] == pytest.approx([3684.70, 5905.24, 10065.84, 10065.84, 11931.01])
+    assert table["twin"] == pytest.approx([0, 5500.36, 9375.70, 9375.70, 11112.99], abs=0.01)
+    assert sweep["crossing_printed"] == pytest.approx(3.49e5, rel=2e-3)
+    assert modes["stiffness_at_8643_hz"] == pytest.approx(2.0e7, rel=0.05)
+
+
+def test_contact_ratios_and_jumps(found):
+    assert found["Table 2"].figures["contact_ratios"] == pytest.approx([1.5554, 1.8092], abs=5e-5)
+    assert found["Figure 3"].figures["printed_jumps"] == pytest.approx([40.0, 70.0])
+
+
+def test_page_and_figures_are_the_same_on_a_second_run_with_more_processes(
+    found, evidence, tmp_path
+):
+    again = run_studies(("paper",), GRID, 2)["paper"]
+    assert again.outcomes == evidence.study.outcomes
+    for folder in ("first", "second"):
+        (tmp_path / folder).mkdir()
+        write_page(entries(evidence), evidence, tmp_path / folder / "paper.md")
+    first, second = (
+        {p.name: p.read_bytes() for p in (tmp_path / folder).rglob("*") if p.is_file()}
+        for folder in ("first", "second")
+    )
+    assert first == second and len(first) == 15
+    data = figures(list(found.values()), evidence)
+    assert len(data["entries"]) == len(VERDICTS)
+    assert len(data["studies"]["paper"]) == 2 * 3 * 3 + 3
