@@ -16,3 +16,11 @@ def fail(message: object) -> NoReturn:
 def remark(message: str) -> None:
     """Print a line that the user should know but that ends nothing."""
     typer.secho(f"planetary-twin: {message}", fg="yellow", err=True)
+
+
+def need_plots() -> None:
+    """End the command where the extra for plots is not installed."""
+    try:
+        import matplotlib  # noqa: F401
+    except ImportError:
+        fail("the plots are not installed: pip install 'planetary_twin_py[plots]'")

@@ -9,7 +9,7 @@ from typing import Annotated
 
 import typer
 
-from ._fail import fail
+from ._fail import fail, need_plots
 from ._settings import settings
 
 
@@ -21,14 +21,19 @@ def modal(
     set_: Annotated[
         list[str] | None, typer.Option("--set", metavar="NAME=VALUE", help="Change a field.")
     ] = None,
+    campbell: Annotated[
+        Path | None, typer.Option(metavar="FILE.png", help="Draw the Campbell diagram.")
+    ] = None,
     json_: Annotated[
         str | None, typer.Option("--json", metavar="FILE", help="Write figures; - prints them.")
     ] = None,
 ) -> None:
     """List the natural modes of SCENE, how stiffnesses move them, and resonant speeds.
 
-    Example: planetary-twin modal wind_turbine_stage --model planar
+    Example: planetary-twin modal wind_turbine_stage --model planar --campbell campbell.png
     """
+    if campbell is not None:
+        need_plots()
     from rich.console import Console
     from rich.table import Table
 
@@ -62,6 +67,14 @@ def modal(
             f"{resonance.speed * 30 / 3.141592653589793:10.1f} rpm: harmonic {resonance.harmonic} "
             f"of the meshing meets mode {resonance.mode + 1} at {resonance.frequency:.1f} Hz"
         )
+    if campbell is not None:
+        from ..plots.campbell import campbell_diagram
+        from ..plots.style import save
+
+        try:
+            save(campbell_diagram(loaded, modes, found, loaded.drive.speed_limit), str(campbell))
+        except (OSError, ValueError) as error:
+            fail(f"--campbell = {str(campbell)!r}: {error}")
     if json_ is not None:
         figures = {
             "frequencies_hz": modes.frequencies.tolist(),

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from ._fail import fail
+from ._fail import fail, need_plots
 
 if TYPE_CHECKING:
     from rich.table import Table
@@ -29,10 +29,7 @@ def paper(
     """Recompute every table and figure of the paper, and write them beside what it states."""
     if out.suffix != ".md":
         fail(f"--out = {str(out)!r}: must end in .md")
-    try:
-        import matplotlib  # noqa: F401
-    except ImportError:
-        fail("the plots are not installed: pip install 'planetary_twin_py[plots]'")
+    need_plots()
     from rich.console import Console
     from rich.progress import Progress
 

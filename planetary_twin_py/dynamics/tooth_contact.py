@@ -11,7 +11,7 @@ from ..lubrication.load_sharing import film_share
 from ..lubrication.rolling import rolling_resistance
 from ..lubrication.traction import sliding_sense, viscous_friction
 
-LIGHTEST_LOAD = 1e-6  # [N] keeps logarithms finite; friction vanishes with the load
+LIGHTEST_LOAD = 1e-6  # [N] keeps logarithms finite
 
 
 @law
@@ -48,6 +48,8 @@ def tooth_contact(
     sliding = u1 - u2
     speed = max(abs(0.5 * (u1 + u2)), SLOWEST_SPEED)
     radius = rho1 * rho2 / (rho2 + external * rho1)
+    # Friction vanishes with the load: a jump where flanks meet would have them chatter.
+    fade = load / (load + LIGHTEST_LOAD)
     load = max(load, LIGHTEST_LOAD)
     modulus = 2.0 * oil.contact_modulus
     speed_group = oil.viscosity * speed / (modulus * radius)
@@ -64,11 +66,13 @@ def tooth_contact(
         viscous *= share
     else:
         boundary = boundary_shear(oil.asperities, printed, ratio) * area
-    full = boundary + viscous
+    full = (boundary + viscous) * fade
     slope = full * (1.0 - sense * sense) / (oil.sliding_threshold * speed)
     rolling = 0.0
     if resists:
         size = radius * oil.face_width / oil.traction.pressure_viscosity
         rolling = rolling_resistance(size, speed_group, material_group, load_group)
-        rolling *= sliding_sense(u1 + u2, SLOWEST_SPEED, 1.0)
+        # The formula is one of loaded films, and would act with no load at all.
+        rolling /= 1.0 + rolling / load
+        rolling *= fade * sliding_sense(u1 + u2, SLOWEST_SPEED, 1.0)
     return full * sense, boundary, viscous, film, ratio, sliding, slope, rolling

@@ -10,12 +10,12 @@ from matplotlib.figure import Figure
 
 from ..dynamics.start import build_load
 from ..dynamics.train import build_train
+from ..plots.style import BLUE, GREY, ORANGE, drawing, panels
 from ..scene import Scene
 from ..simulation import simulate
 from .entry import Claim, Entry
 from .evidence import Evidence
 from .judge import agrees
-from .style import BLUE, GREY, ORANGE, drawing, panels
 
 SAMPLE_RATE = 200_000.0  # [Hz] fine enough to differentiate what it samples
 RUN = 0.02  # [s]

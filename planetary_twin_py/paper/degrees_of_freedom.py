@@ -12,11 +12,11 @@ from matplotlib.patches import Circle
 from ..gearset.geometry import pitch_radius
 from ..modal.natural import natural_modes, spring_model
 from ..modal.printed import EQUATION_37, printed_model
+from ..plots.style import BLUE, GREEN, GREY, ORANGE, PINK, drawing, panels
 from ..scene import Scene
 from ..scene.supports import Support, Supports
 from .entry import Claim, Entry
 from .evidence import Evidence
-from .style import BLUE, GREEN, GREY, ORANGE, PINK, drawing, panels
 from .tables import MASSES
 
 BEARING = 2e8  # [N/m] any: the number of coordinates does not depend on it

@@ -7,13 +7,13 @@ from collections.abc import Sequence
 import numpy as np
 from matplotlib.figure import Figure
 
+from ..plots.style import panels
 from ..scene import Scene
 from ..units import rpm
 from .entry import Claim, Entry
 from .evidence import Evidence
 from .judge import rises
 from .pitch_point import KINDS, RING, SUN, at_pitch_point
-from .style import panels
 
 LAWS = {
     "salagianni": "(15)",

@@ -11,11 +11,11 @@ from scipy.optimize import brentq
 from ..modal.modes import NaturalModes, clusters, modes_of
 from ..modal.natural import natural_modes, spring_model
 from ..modal.printed import EQUATION_37, FITTED_TO_TABLE_5, PrintedSet, printed_model
+from ..plots.style import BLUE, CYCLE, GREY, ORANGE, panels
 from ..scene import Scene
 from .entry import Claim, Entry
 from .evidence import Evidence
 from .judge import agrees, rises
-from .style import BLUE, CYCLE, GREY, ORANGE, panels
 
 TABLE_5 = (0, 3687, 5956, 10070, 10070, 11948)  # [Hz]
 MESH_STIFFNESS = 2e8  # [N/m] Table 4

@@ -9,12 +9,12 @@ from matplotlib.figure import Figure
 from scipy.optimize import brentq
 
 from ..lubrication.printed_asperities import printed_area_function, printed_load_function
+from ..plots.style import CYCLE, panels
 from .entry import Claim, Entry
 from .evidence import Evidence
 from .judge import falls, percent, rises
 from .pitch_point import KINDS, RING, SUN, at_pitch_point
 from .study import Study
-from .style import CYCLE, panels
 
 LEAST_EFFECT = 0.5  # relative change of friction per relative change of DTE that is "notable"
 

@@ -11,12 +11,12 @@ from ..dynamics.cycle import find_segment
 from ..dynamics.mesh_force import mesh_stiffness
 from ..dynamics.train import build_train
 from ..gearset.geometry import planet_ring_path, sun_planet_path
+from ..plots.style import panels
 from ..scene import Scene
 from .entry import Claim, Entry
 from .evidence import Evidence
 from .judge import agrees
 from .pitch_point import KINDS, RING, SUN
-from .style import panels
 
 SAMPLES = 2000  # of one cycle
 LAWS: dict[str, dict[str, Any]] = {

@@ -9,11 +9,11 @@ from typing import Any
 
 import numpy as np
 
+from ..plots.style import applied, save
 from .entry import Claim, Entry
 from .equations import EQUATIONS, Equation
 from .evidence import Evidence
 from .study import DURATION, SETTLED, TOLERANCE, Study
-from .style import applied, save
 
 _PAGE = Template("""# The paper, side by side
 

@@ -8,11 +8,11 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from ..gearset.geometry import pitch_radius
+from ..plots.style import CYCLE, panels
 from .entry import Claim, Entry
 from .evidence import Evidence
 from .judge import percent, rises
 from .study import Study
-from .style import CYCLE, panels
 
 
 def planet_forces(evidence: Evidence) -> Entry:

@@ -5,11 +5,11 @@ from __future__ import annotations
 import numpy as np
 from matplotlib.figure import Figure
 
+from ..plots.style import CYCLE, panels
 from .entry import Claim, Entry
 from .evidence import Evidence
 from .judge import falls, percent
 from .study import Study
-from .style import CYCLE, panels
 
 
 def power_loss(evidence: Evidence) -> Entry:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
+from ..plots import style
 from . import (
     contact,
     degrees_of_freedom,
@@ -15,7 +16,6 @@ from . import (
     power_loss,
     stick_diagram,
     stribeck,
-    style,
     tables,
     tooth_pair,
 )

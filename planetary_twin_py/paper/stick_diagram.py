@@ -13,10 +13,10 @@ from ..dynamics.bodies import body_names
 from ..dynamics.train import build_train
 from ..gearset.geometry import pitch_radius
 from ..gearset.phasing import check_assembly
+from ..plots.style import BLUE, GREEN, GREY, ORANGE, PINK, drawing, panels
 from ..scene import Scene, load_scene
 from .entry import Claim, Entry
 from .evidence import Evidence
-from .style import BLUE, GREEN, GREY, ORANGE, PINK, drawing, panels
 
 PRINTED_ANGLES = (90.0, -30.0, 210.0)  # [deg] section 9
 

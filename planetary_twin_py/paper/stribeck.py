@@ -9,12 +9,12 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from ..gearset.geometry import pitch_radius
+from ..plots.style import GREY, panels
 from ..scene import Scene
 from .entry import Claim, Entry
 from .evidence import Evidence
 from .judge import falls, rises
 from .pitch_point import contact, static_load
-from .style import GREY, panels
 
 SLIDE_TO_ROLL = 0.2
 SPEEDS = np.logspace(-3.0, 2.0, 101)  # mean surface speed [m/s]

@@ -11,11 +11,11 @@ from matplotlib.figure import Figure
 from ..gearset.geometry import base_pitch
 from ..gearset.involute import SpurGear
 from ..gearset.mount import Mate, mount_angle
+from ..plots.style import BLUE, GREY, ORANGE, drawing, panels
 from ..scene import Scene
 from .entry import Claim, Entry
 from .evidence import Evidence
 from .judge import agrees
-from .style import BLUE, GREY, ORANGE, drawing, panels
 
 ENLARGED = 1000.0  # the drawn backlash over the true one
 POINTS = 60  # on each flank

@@ -30,9 +30,17 @@ def test_table_lists_modes_and_resonant_speeds():
     assert "harmonic 2 of the meshing meets mode 2" in shown
 
 
+def test_campbell_diagram_is_drawn(tmp_path):
+    png = tmp_path / "campbell.png"
+    assert invoke("wind_turbine_stage", "--model", "planar", "--campbell", str(png)).exit_code == 0
+    assert png.read_bytes().startswith(b"\x89PNG")
+
+
 @pytest.mark.parametrize(
     "arguments, word",
     [
+        (("paper", "--campbell", "/nowhere/campbell.png"), "/nowhere/campbell.png"),
+        (("paper", "--campbell", "campbell.doc"), "campbell.doc"),
         (("nowhere",), "nowhere"),
         (("paper", "--model", "flat"), "flat"),
         (("paper", "--model", "planar"), "supports"),

@@ -36,3 +36,20 @@ def test_rolling_takes_power_in_both_directions_and_the_balance_closes(speed):
     assert 6 * 1.2 * 0.3 * 0.9 * 0.05 < more < 6 * 2.0 * 0.9 * 1.0 * 0.05
     assert with_.total_power_loss.mean() == pytest.approx(with_.energy.friction / 0.05, rel=5e-3)
     assert abs(with_.energy.residual) < 1e-6 * with_.energy.put_in
+
+
+def test_resistance_vanishes_with_the_load_so_that_meeting_flanks_do_not_chatter():
+    """In cold oil it would exceed a light mesh force, part the flanks, and vanish with them."""
+    scene = pt.load_scene("paper").replace(
+        **ROLLING,
+        **{
+            "oil_temperature": 253.0,
+            "input_torque": 0.3,
+            "input_speed": 50.0,
+            "mesh.damping.law": "printed_meshing_frequency",
+            "mesh.sun_planet_error": {"amplitudes": ["2 um", "0.5 um"]},
+        },
+    )
+    run = pt.simulate(scene, 0.02, tolerance=1e-5)
+    assert 0 < run.stats.flank_events < 1000  # some 10 to a mesh and mesh cycle
+    assert abs(run.energy.residual) < 1e-4 * sum(abs(work) for work in run.energy.machines)

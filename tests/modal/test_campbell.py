@@ -7,6 +7,7 @@ from power_flows import FLOWS, scene_of
 
 import planetary_twin_py as pt
 from planetary_twin_py.modal.campbell import mesh_frequency_per_speed, resonances
+from planetary_twin_py.plots.campbell import campbell_diagram
 
 
 @pytest.mark.parametrize("flow, hertz", [(FLOWS[0], 500), (FLOWS[2], 350), (FLOWS[4], 500)])
@@ -30,3 +31,16 @@ def test_first_mode_is_met_at_eleven_thousand_rpm_and_at_fractions_of_it():
 def test_nothing_is_listed_beyond_the_highest_speed():
     scene = pt.load_scene("paper")
     assert resonances(scene, pt.natural_modes(scene), pt.rpm(1000)) == ()
+
+
+def test_every_resonance_is_marked_where_a_harmonic_crosses_a_natural_frequency():
+    scene = pt.load_scene("paper")
+    modes, highest = pt.natural_modes(scene), pt.rpm(20_000)
+    found = resonances(scene, modes, highest)
+    (axes,) = campbell_diagram(scene, modes, found, highest).axes
+    *rays, marks = axes.lines
+    assert len(rays) == 5 and len(marks.get_xdata()) == len(found) > 0
+    for resonance, x, y in zip(found, marks.get_xdata(), marks.get_ydata(), strict=True):
+        (x0, x1), (y0, y1) = rays[resonance.harmonic - 1].get_data()
+        assert y == pytest.approx(y0 + (y1 - y0) * (x - x0) / (x1 - x0))
+        assert y == pytest.approx(modes.frequencies[resonance.mode])

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from contextlib import AbstractContextManager
 from typing import Any
 
@@ -45,6 +46,11 @@ def panels(count: int = 1, height: float = 2.9) -> tuple[Figure, list[Axes]]:
     figure = Figure(figsize=(WIDTH, height), layout="constrained")
     axes = figure.subplots(1, count, squeeze=False)
     return figure, list(axes[0])
+
+
+def colour_of(names: Sequence[str], name: str) -> str:
+    """The colour of one of several names."""
+    return CYCLE[names.index(name) % len(CYCLE)]
 
 
 def drawing(axes: Axes) -> Axes:

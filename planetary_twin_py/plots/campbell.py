@@ -1,0 +1,61 @@
+"""Campbell diagram: natural frequencies, the harmonics of the meshing, and where they meet."""
+
+from __future__ import annotations
+
+import numpy as np
+from matplotlib.figure import Figure
+
+from ..modal.campbell import HARMONICS, Resonance, mesh_frequency_per_speed
+from ..modal.modes import NaturalModes
+from ..scene import Scene
+from .style import GREY, applied, colour_of, panels
+
+RPM = 30.0 / np.pi  # per rad/s
+MARGIN = 1.1  # of the highest frequency shown over the highest natural frequency
+
+
+def campbell_diagram(
+    scene: Scene,
+    modes: NaturalModes,
+    found: tuple[Resonance, ...],
+    highest_speed: float,
+    harmonics: int = HARMONICS,
+) -> Figure:
+    """Frequencies against the speed of the first motor, up to `highest_speed` [rad/s].
+
+    Modes of one kind share a colour; `found` (see `resonances`) are the marked crossings.
+    """
+    with applied():
+        figure, (axes,) = panels(height=4.5)
+        top = MARGIN * float(modes.frequencies.max())
+        kinds = sorted({kind for kind, f in zip(modes.kinds, modes.frequencies, strict=True) if f})
+        for kind in kinds:
+            frequencies = modes.frequencies[[k == kind for k in modes.kinds]]
+            axes.hlines(
+                frequencies, 0.0, highest_speed * RPM, label=kind, color=colour_of(kinds, kind)
+            )
+        for h in range(1, harmonics + 1):
+            end = h * mesh_frequency_per_speed(scene) * highest_speed
+            axes.plot([0.0, highest_speed * RPM], [0.0, end], color=GREY, lw=0.8)
+            share = min(1.0, top / end)  # where the line leaves the picture
+            place = (share * highest_speed * RPM, share * end)
+            axes.annotate(
+                f"{h}", place, (2, 2), textcoords="offset points", color=GREY, clip_on=False
+            )
+        axes.plot(
+            [r.speed * RPM for r in found],
+            [r.frequency for r in found],
+            "o",
+            color="black",
+            label="met by a harmonic of the meshing",
+            zorder=3,
+        )
+        axes.set(
+            xlim=(0.0, highest_speed * RPM),
+            ylim=(0.0, top),
+            xlabel="speed of the first motor [rpm]",
+            ylabel="frequency [Hz]",
+            title=f"{scene.name}: natural frequencies and harmonics of the meshing\n",
+        )
+        figure.legend(loc="outside lower center", ncols=len(kinds) + 1)
+    return figure
