@@ -49,6 +49,9 @@ class Engine:
         self.march: Record = new_record(MARCH)
         self.march.control.step = self.march.control.next_step = FIRST_STEP
         self.march.control.longest = LONGEST_STEP
+        import os
+        self.march.control.prefer_modal = bool(int(os.environ.get("MODAL", "0")))
+        self.march.control.sweeps = int(os.environ.get("SWEEPS", "2"))
         self._load(scene.operating_point)
         self.march.begin = self.march.end = start_state(scene, self.model)
         self._compile()

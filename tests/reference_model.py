@@ -152,7 +152,8 @@ class Reference:
         sense = np.tanh(sliding / speed / oil.sliding_threshold)
         return (boundary + np.maximum(viscous, 0.0)) * sense
 
-    def rate(self, time, y, side, tau):
+    def rate(self, time, y, side):
+        tau = self.damping_time(y[2 * self.bodies - 2])
         angle, speed, trim = y[: self.bodies], y[self.bodies : -1], y[-1]
         d, rate, k, s, weight = self.stretch(angle, speed, side)
         force = np.where(side == OPEN, 0.0, k * (side * d - self.half + tau * side * rate))
@@ -173,15 +174,16 @@ class Reference:
         torque[self.held] = 0.0
         return np.concatenate([speed, torque / self.inertia, [lag]])
 
-    def margin(self, y, i, side, tau):
+    def margin(self, y, i, side):
         """Falls through zero where the contact of mesh i changes [m]."""
         d, rate = self.rows[i] @ y[: self.bodies], self.rows[i] @ y[self.bodies : -1]
+        tau = self.damping_time(y[2 * self.bodies - 2])
         push = d + np.broadcast_to(tau, self.phase.shape)[i] * rate
         if side[i] != OPEN:
             return side[i] * push - self.half
         return self.half - max(min(d, push), min(-d, -push))
 
-    def _events(self, y, side, tau):
+    def _events(self, y, side):
         """Contact changes of all meshes, then the next corner of the weights of closed ones."""
         cycle = self.cycle(y, side)
         forward = self.cycle(y + 1e-6 * np.append(self.ratio, np.zeros(self.bodies + 1)), side)
@@ -190,7 +192,7 @@ class Reference:
         ends = [-self.approach, ramp - self.approach, self.recess - ramp, self.recess]
         events = []
         for i in range(len(side)):
-            events.append(lambda t, y, i=i: self.margin(y, i, side, tau))
+            events.append(lambda t, y, i=i: self.margin(y, i, side))
             events[-1].direction = -1
         for i in np.flatnonzero(side):
             ahead = (np.hstack(ends)[i] - cycle[i]) * (1 if forward[i] else -1)
@@ -206,10 +208,9 @@ class Reference:
         side, begin, result = np.array(side), 0.0, np.zeros((len(times), len(side)))
         flank_events = 0
         while begin < times[-1]:
-            tau = self.damping_time(y[2 * self.bodies - 2])
             run = solve_ivp(
-                self.rate, (begin, times[-1]), y, "DOP853", dense_output=True, args=(side, tau),
-                events=self._with_arguments(self._events(y, side, tau)), rtol=1e-10, atol=1e-13,
+                self.rate, (begin, times[-1]), y, "DOP853", dense_output=True, args=(side,),
+                events=self._with_arguments(self._events(y, side)), rtol=1e-10, atol=1e-13,
             )  # fmt: skip
             assert run.success, run.message
             inside = (times > begin) & (times <= run.t[-1])

@@ -14,6 +14,7 @@ from .._compile import kernel
 from .._records import Record
 from .cycle import find_segment, mesh_cycle
 from .mesh_force import deflection, stored_energy
+from .moment import damping_time
 from .state import COAST_SIDE, DAMPING, DRIVE_SIDE, OPEN, STIFFNESS_WORK
 
 
@@ -43,7 +44,8 @@ def departure(
     advance, pace, slack = stand
     side, half = state.side[i], model.load.half_backlash
     d, rate, _ = deflection(model.train, moment, i, x, v, advance, pace)
-    push = d + model.load.release * moment.tau[model.train.kind[i]] * rate
+    tau = damping_time(model.train, moment, v, model.train.kind[i])
+    push = d + model.load.release * tau * rate
     if side != OPEN:
         return side * push - half + slack
     return slack - max(min(d, push), min(-d, -push)) + half

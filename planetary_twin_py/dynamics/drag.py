@@ -69,7 +69,7 @@ def _sense(speed: float) -> float:
 
 @kernel
 def apply_drag(model: Record, state: Record, v: np.ndarray, out: Record) -> None:
-    """Add the drag of bearings and discs to out.force; book it in out.power.
+    """Add the drag of bearings and discs to out.rubbing; book it in out.power.
 
     Reads the pushes of the meshes from `out.push`.
     """
@@ -88,8 +88,8 @@ def apply_drag(model: Record, state: Record, v: np.ndarray, out: Record) -> None
         torque = bearing_torque(
             train.bearing_idle[b], train.bearing_rubbing[b], oil.kinematic, speed, load
         ) * _sense(speed)
-        out.force[inner] -= torque / train.radius[inner]
-        out.force[outer] += torque / train.radius[outer]
+        out.rubbing[inner] -= torque / train.radius[inner]
+        out.rubbing[outer] += torque / train.radius[outer]
         out.power[BEARING] += torque * speed
     for n in range(train.discs):
         body, radius = train.disc_body[n], train.disc_radius[n]
@@ -97,5 +97,5 @@ def apply_drag(model: Record, state: Record, v: np.ndarray, out: Record) -> None
         density = train.disc_fill * oil.density
         torque = disc_torque(radius, train.disc_gap / radius, density, oil.kinematic, speed)
         torque *= _sense(speed)
-        out.force[body] -= torque / train.radius[body]
+        out.rubbing[body] -= torque / train.radius[body]
         out.power[CHURNING] += torque * speed

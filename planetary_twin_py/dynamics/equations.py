@@ -12,12 +12,13 @@ import math
 import numpy as np
 
 from .._compile import kernel
-from .._records import BODIES, MESHES, REAL, Record, layout
+from .._records import BODIES, MESHES, REAL, WHOLE, Record, layout
 from .bodies import MOTOR
 from .body_speed import body_speed
 from .cycle import cycle_shift
 from .drag import apply_drag
 from .mesh_force import press
+from .moment import damping_time
 from .oil import OIL
 from .state import (
     DAMPING,
@@ -44,26 +45,13 @@ MODEL = layout(train=TRAIN, oil=OIL, load=LOAD)
 # What one evaluation of the equations writes.
 EVALUATION = layout(
     force=(REAL, (BODIES,)),  # [N]
+    rubbing=(REAL, (BODIES,)),  # friction and drag alone [N]
     power=(REAL, (LEDGER,)),  # integrands of the energy ledger [W]
     push=(REAL, (MESHES,)),  # of every mesh, 0 if open [N]
+    first_pair=WHOLE,  # its tooth pairs in a TOOTH_PAIRS
+    end_pair=WHOLE,
     pairs=TOOTH_PAIRS,
 )
-
-
-@kernel
-def begin_pairs(
-    train: Record,
-    state: Record,
-    moment: Record,
-    x: np.ndarray,
-    v: np.ndarray,
-    delay: float,
-    pairs: Record,
-) -> None:
-    """Empty `pairs`; note where the meshes stand `delay` seconds after the start of a step."""
-    pairs.count = 0
-    pairs.advance = moment.cycle_rate * delay + cycle_shift(train, x) - cycle_shift(train, state.x)
-    pairs.pace = moment.cycle_rate + cycle_shift(train, v)
 
 
 @kernel
@@ -81,11 +69,59 @@ def forces(
 
     `state` gives the sides in contact, the segments and x at the start.
     """
-    train, force, power, pairs = model.train, out.force, out.power, out.pairs
+    train = model.train
+    begin_pairs(train, train.friction, out.pairs)
+    squeeze(model, state, moment, x, v, delay, out, out.pairs)
+    if train.friction:
+        evaluate(model, out.pairs)
+    rub(model, state, v, out, out.pairs)
+    drive(model, state, moment, x, v, delay, trim, out)
+
+
+@kernel
+def begin_pairs(train: Record, wanted: bool, pairs: Record) -> None:
+    """Empty `pairs`; faulty meshes need them in any case."""
+    pairs.count = 0
+    pairs.wanted = wanted or train.faults > 0
+
+
+@kernel
+def place_pairs(
+    train: Record,
+    state: Record,
+    moment: Record,
+    x: np.ndarray,
+    v: np.ndarray,
+    delay: float,
+    pairs: Record,
+) -> None:
+    """Note where the meshes stand `delay` seconds after the start of a step."""
+    pairs.advance = moment.cycle_rate * delay + cycle_shift(train, x) - cycle_shift(train, state.x)
+    pairs.pace = moment.cycle_rate + cycle_shift(train, v)
+    for kind in range(2):
+        pairs.tau[kind] = damping_time(train, moment, v, kind)
+
+
+@kernel
+def squeeze(
+    model: Record,
+    state: Record,
+    moment: Record,
+    x: np.ndarray,
+    v: np.ndarray,
+    delay: float,
+    out: Record,
+    pairs: Record,
+) -> None:
+    """Forces of the meshes; their tooth pairs are appended to `pairs` if those are wanted.
+
+    The first part of `forces`: the pairs of several instants can be evaluated side by side.
+    """
+    train, force, power = model.train, out.force, out.power
     force[:] = 0.0
     power[:] = 0.0
-    begin_pairs(train, state, moment, x, v, delay, pairs)
-    pairs.wanted = train.friction or train.faults > 0
+    place_pairs(train, state, moment, x, v, delay, pairs)
+    out.first_pair = pairs.count
     for i in range(train.meshes):
         side = state.side[i]
         if side == OPEN:
@@ -97,21 +133,41 @@ def forces(
         out.push[i] = push
         power[DAMPING] += lost
         power[STIFFNESS_WORK] += work
-    if not train.friction:
-        pairs.count = 0
-    elif pairs.count > 0:
-        evaluate(model, pairs)
-        if train.printed_torque:
-            power[FRICTION] = apply_printed_friction(train, state, v, pairs, force)
-        else:
-            power[FRICTION] = apply_friction(train, pairs, force)
-        if model.oil.rolling:
-            power[FRICTION] += apply_rolling(train, pairs, force)
+    out.end_pair = pairs.count
+
+
+@kernel
+def rub(model: Record, state: Record, v: np.ndarray, out: Record, pairs: Record) -> None:
+    """Add friction and drag to the forces of the meshes."""
+    train, force, power = model.train, out.rubbing, out.power
+    force[:] = 0.0
+    span = (out.first_pair, out.end_pair if train.friction else out.first_pair)
+    if train.printed_torque:
+        power[FRICTION] = apply_printed_friction(train, state, v, pairs, span, force)
+    else:
+        power[FRICTION] = apply_friction(train, pairs, span, force)
+    if model.oil.rolling:
+        power[FRICTION] += apply_rolling(train, pairs, span, force)
     if train.bearings + train.discs > 0:
         apply_drag(model, state, v, out)
-    _couplings(train, x, v, out)
+    out.force[:] += force
+
+
+@kernel
+def drive(
+    model: Record,
+    state: Record,
+    moment: Record,
+    x: np.ndarray,
+    v: np.ndarray,
+    delay: float,
+    trim: np.ndarray,
+    out: Record,
+) -> None:
+    """Add the couplings and the machines."""
+    _couplings(model.train, x, v, out)
     _machines(model, state, moment, x, v, delay, trim, out)
-    force[train.bodies] = 0.0  # the ground
+    out.force[model.train.bodies] = 0.0  # the ground
 
 
 @kernel

@@ -139,7 +139,7 @@ def press(
     Returns:
         Force [N], power lost to damping [W], power that its changing shape puts in [W].
     """
-    train, tau = model.train, moment.tau[model.train.kind[i]]
+    train, tau = model.train, pairs.tau[model.train.kind[i]]
     side, kind, segment = state.side[i], train.kind[i], state.segment[i]
     d, rate, e_rate = deflection(train, moment, i, x, v, pairs.advance, pairs.pace)
     squeeze, closing = side * d - model.load.offset, side * rate
@@ -207,7 +207,7 @@ def press_faulty(
         q = squeeze - gap
         if gap > 0.0 and q < 0.0:
             k = dk = 0.0
-        load = k * (q + moment.tau[kind] * closing)
+        load = k * (q + pairs.tau[kind] * closing)
         if gap > 0.0:
             load = max(load, 0.0)
         force += load

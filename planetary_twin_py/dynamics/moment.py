@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import math
 
-from .._compile import kernel
+import numpy as np
+
+from .._compile import kernel, law
 from .._records import AXES, MESHES, REAL, SMALL, Record, layout
 from ..mesh.tooth_pairs import PAIRS
 from .cycle import mesh_cycle, nearest_to_segment
@@ -14,7 +16,7 @@ from .state import OPEN
 
 MOMENT = layout(
     start=(REAL, (MESHES,)),  # fraction of the mesh cycle at the start of the step
-    tau=(REAL, (2,)),  # damping time of each kind of mesh [s]
+    tau=(REAL, (2,)),  # damping time of each kind of mesh at the start [s]
     cycle_rate=REAL,  # mesh cycles per second of the frame, signed
     slew=(REAL, (AXES,)),  # of the speed set-points [rad/s^2]
     line_angle=(REAL, (MESHES, LINES)),  # of the errors of form at the start [rad]
@@ -24,12 +26,14 @@ MOMENT = layout(
 
 @kernel
 def set_moment(model: Record, state: Record, moment: Record) -> None:
-    """Fill `moment` but for the damping, for a step that begins at `state`."""
+    """Fill `moment` for a step that begins at `state`."""
     train = model.train
     moment.cycle_rate = frame_cycle_rate(train, state)
     for a in range(train.axes):
         gap = model.load.target_speed[a] - state.set_speed[a]
         moment.slew[a] = math.copysign(model.load.slew_rate, gap) if gap != 0.0 else 0.0
+    for kind in range(2):
+        moment.tau[kind] = damping_time(train, moment, state.v, kind)
     for i in range(train.meshes):
         place_mesh(train, state, moment, i)
 
@@ -57,8 +61,11 @@ def frame_cycle_rate(train: Record, state: Record) -> float:
     return rate / (2.0 * math.pi)
 
 
-@kernel
-def damping_time(train: Record, kind: int, cycle_rate: float) -> float:
-    """tau [s] of c = tau k at mesh cycles per second."""
-    frequency = max(abs(cycle_rate), train.lowest_frequency)
-    return train.damping_time[kind] + train.damping_cycles / frequency
+@law
+def damping_time(train: Record, moment: Record, v: np.ndarray, kind: int) -> float:
+    """tau [s] of c = tau k, which may follow the speeds of the motors."""
+    rate = moment.cycle_rate
+    for a in range(AXES):
+        motor = train.coupling[2 * a, 0]
+        rate += train.cycles[a] * v[motor] / (2.0 * math.pi * train.radius[motor])
+    return train.damping_time[kind] + train.damping_cycles / max(abs(rate), train.lowest_frequency)

@@ -6,7 +6,7 @@ import numpy as np
 
 from .._compile import kernel
 from .._records import Record
-from .equations import begin_pairs
+from .equations import place_pairs
 from .mesh_force import mesh_motion, press
 from .state import OPEN
 from .tooth_friction import evaluate, rolling_power
@@ -33,7 +33,8 @@ def observe(
     """
     train = model.train
     out[:] = 0.0
-    begin_pairs(train, state, moment, x, v, delay, pairs)
+    pairs.count = 0
+    place_pairs(train, state, moment, x, v, delay, pairs)
     pairs.wanted = True
     for i in range(train.meshes):
         side = state.side[i]

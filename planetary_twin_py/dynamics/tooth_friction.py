@@ -17,12 +17,14 @@ from .tooth_contact import choices, tooth_contact
 
 SLOWEST_TURN = 1e-3  # [rad/s] below which the printed torque fades out
 REGISTER = 8  # doubles the compiler works on at a time
-LANES = -(-MESHES * PAIRS // REGISTER) * REGISTER  # room for all tooth pairs
+INSTANTS = 3
+LANES = -(-INSTANTS * MESHES * PAIRS // REGISTER) * REGISTER  # room for all tooth pairs
 
 TOOTH_PAIRS = layout(
     count=WHOLE,  # how many there are
     advance=REAL,  # mesh cycles since the start of the step
     pace=REAL,  # mesh cycles per second
+    tau=(REAL, (2,)),  # damping time of each kind of mesh [s]
     wanted=FLAG,  # whether the columns below are to be filled
     mesh=(WHOLE, (LANES,)),
     share=(REAL, (LANES,)),  # of the mesh force [-]
@@ -83,10 +85,12 @@ def _evaluate(model: Record, laws: tuple[bool, bool, bool, bool], pairs: Record)
 
 
 @kernel
-def apply_friction(train: Record, pairs: Record, force: np.ndarray) -> float:
-    """Add the generalised forces -f dVs/dw/r of all pairs; return the power they take [W]."""
+def apply_friction(
+    train: Record, pairs: Record, span: tuple[int, int], force: np.ndarray
+) -> float:
+    """Add the generalised forces -f dVs/dw/r of the pairs in `span`; return their power [W]."""
     power = 0.0
-    for p in range(pairs.count):
+    for p in range(span[0], span[1]):
         i = pairs.mesh[p]
         first, second, carrier = train.body[i, 0], train.body[i, 1], train.body[i, 2]
         f, rho1, rho2 = pairs.friction[p], pairs.rho1[p], pairs.external[p] * pairs.rho2[p]
@@ -105,10 +109,12 @@ def rolling_power(pairs: Record, p: int) -> float:
 
 
 @kernel
-def apply_rolling(train: Record, pairs: Record, force: np.ndarray) -> float:
-    """Add the generalised forces -F_R d(u1 + u2)/dw/r of all pairs; return their power [W]."""
+def apply_rolling(
+    train: Record, pairs: Record, span: tuple[int, int], force: np.ndarray
+) -> float:
+    """Add the generalised forces -F_R d(u1 + u2)/dw/r of the pairs in `span`; return their power [W]."""
     power = 0.0
-    for p in range(pairs.count):
+    for p in range(span[0], span[1]):
         i = pairs.mesh[p]
         f, rho1, rho2 = pairs.rolling[p], pairs.rho1[p], -pairs.external[p] * pairs.rho2[p]
         force[train.body[i, 0]] -= f * rho1 / train.radius[train.body[i, 0]]
@@ -120,7 +126,12 @@ def apply_rolling(train: Record, pairs: Record, force: np.ndarray) -> float:
 
 @kernel
 def apply_printed_friction(
-    train: Record, state: Record, v: np.ndarray, pairs: Record, force: np.ndarray
+    train: Record,
+    state: Record,
+    v: np.ndarray,
+    pairs: Record,
+    span: tuple[int, int],
+    force: np.ndarray,
 ) -> float:
     """Friction torque as Salagianni et al. 2017 print it; return the power it takes [W].
 
@@ -128,7 +139,7 @@ def apply_printed_friction(
     and so puts in twice what is lost. Divided by (w^2 + w0^2)/w, as 0/0 would stand at rest.
     """
     power = 0.0
-    for p in range(pairs.count):
+    for p in range(span[0], span[1]):
         lost = pairs.friction[p] * pairs.sliding[p]
         for gear in range(2):
             body = train.body[pairs.mesh[p], gear]

@@ -16,6 +16,8 @@ from ..dynamics.drag import apply_drag
 from ..dynamics.observe import MESH_FORCE, QUANTITIES, observe
 from ..dynamics.state import BEARING, CHURNING
 
+from .collocation import flanks_stay, propagate
+
 SLACK = 0.01  # share of the local tolerance by which flanks may pull or pass each other
 BISECTIONS = 50  # down to the resolution of a double
 
@@ -23,6 +25,9 @@ BISECTIONS = 50  # down to the resolution of a double
 @kernel
 def interpolate(model: Record, march: Record, delay: float) -> None:
     """x and v within the last step: quintic and quartic Hermite interpolants."""
+    if march.control.modal:
+        propagate(model, march, delay, march.dense_x, march.dense_v)
+        return
     h = march.control.step
     t = delay / h
     u = t * t * t
@@ -69,10 +74,22 @@ def first_flank_event(model: Record, march: Record) -> tuple[int, float]:
     """Mesh whose contact changes first within the step, and when; (-1, step) if none does."""
     h = march.control.step
     first, when = -1, h
+    if march.control.modal and flanks_stay(model, march):
+        return -1, h
     for i in range(model.train.meshes):
-        if departure_at(model, march, i, when) >= 0.0:
+        low, high = 0.0, 0.0
+        if march.control.modal:
+            points = 8
+            for n in range(1, points + 1):
+                t = when * n / points
+                if departure_at(model, march, i, t) < 0.0:
+                    high = t
+                    break
+                low = t
+        elif departure_at(model, march, i, when) < 0.0:
+            high = when
+        if high == 0.0:
             continue
-        low, high = 0.0, when
         for _ in range(BISECTIONS):
             middle = 0.5 * (low + high)
             if departure_at(model, march, i, middle) >= 0.0:

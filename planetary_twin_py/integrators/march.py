@@ -14,16 +14,18 @@ from .._compile import kernel
 from .._records import Record
 from ..dynamics.contact_events import change_contact, change_segment
 from ..dynamics.cycle import cycle_shift, mesh_cycle, nearest_to_segment
-from ..dynamics.equations import forces
+from ..dynamics.equations import begin_pairs, drive, forces, squeeze
 from ..dynamics.mesh_force import mesh_motion
-from ..dynamics.moment import damping_time, set_moment
+from ..dynamics.moment import set_moment
 from ..dynamics.state import OPEN
 from ..dynamics.tooth_friction import copy_friction
+from .collocation import LAST, enter, integrate_powers, iterate, propagate, trim_at
 from .interpolant import Samples, at_event, first_flank_event, sample
 from .progress import copy_state
 from .rosenbrock import ORDER, step
 
 SHORTEST_STEP = 1e-13  # [s] below it two events count as one
+STRETCH = 1.2  # by which a planned step is stretched to end on an event
 EDGE = 1e-9  # [-] mesh cycles within which a tooth pair counts as having entered or left
 NEAREST, FARTHEST = 0.1, 0.9  # by which a step is shortened at a time to meet a flank event
 SAFETY, SHRINK, GROW = 0.8, 0.25, 2.0
@@ -53,25 +55,30 @@ def _turn(state: Record, a: int, turns: float) -> None:
 
 
 @kernel
-def _time_to_event(model: Record, march: Record) -> float:
-    """Time [s] to the next tooth pair event or change of the set-point's slope."""
+def _next_event(model: Record, march: Record) -> tuple[float, int]:
+    """Time [s] to the next tooth pair event or change of the set-point's slope, and the mesh."""
     train, state, moment = model.train, march.begin, march.moment
     pace = moment.cycle_rate + cycle_shift(train, state.v)
-    nearest = math.inf
+    nearest, mesh = math.inf, -1
     for i in range(train.meshes):
         if state.side[i] == OPEN:
             continue
         rate = state.side[i] * pace
         kind, segment = train.kind[i], state.segment[i]
         if rate > 0.0:
-            nearest = min(nearest, (train.edge[kind, segment + 1] - moment.start[i]) / rate)
+            time = (train.edge[kind, segment + 1] - moment.start[i]) / rate
         elif rate < 0.0:
-            nearest = min(nearest, (train.edge[kind, segment] - moment.start[i]) / rate)
+            time = (train.edge[kind, segment] - moment.start[i]) / rate
+        else:
+            continue
+        if time < nearest:
+            nearest, mesh = time, i
     for a in range(train.axes):
         if moment.slew[a] != 0.0:
             gap = model.load.target_speed[a] - state.set_speed[a]
-            nearest = min(nearest, gap / moment.slew[a])
-    return max(nearest, SHORTEST_STEP)
+            if gap / moment.slew[a] < nearest:
+                nearest, mesh = gap / moment.slew[a], -1
+    return max(nearest, SHORTEST_STEP), mesh
 
 
 @kernel
@@ -157,9 +164,13 @@ def begin_step(model: Record, march: Record) -> None:
     copy_state(march.end, begin)
     _rebase(model.train, begin)
     set_moment(model, begin, moment)
-    if march.control.changed:
-        for kind in range(2):
-            moment.tau[kind] = damping_time(model.train, kind, moment.cycle_rate)
+    if march.control.prefer_modal:
+        begin_pairs(model.train, False, march.first.pairs)
+        squeeze(model, begin, moment, begin.x, begin.v, 0.0, march.first, march.first.pairs)
+        march.first.rubbing[:] = march.run.evaluation[LAST].rubbing
+        march.first.force[:] += march.first.rubbing
+        drive(model, begin, moment, begin.x, begin.v, 0.0, begin.trim, march.first)
+    elif march.control.changed:
         forces(model, begin, moment, begin.x, begin.v, 0.0, begin.trim, march.first)
         march.control.evaluations += 1
         march.control.changed = False
@@ -170,10 +181,82 @@ def begin_step(model: Record, march: Record) -> None:
 
 
 @kernel
+def _cut_modal(model: Record, march: Record, h: float) -> None:
+    """End the step of collocation at h, on its own solution."""
+    begin, end = march.begin, march.end
+    end.side[:] = begin.side
+    end.segment[:] = begin.segment
+    propagate(model, march, h, end.x, end.v)
+    trim_at(model, march, h, end.x, end.trim)
+    integrate_powers(march, h)
+    end.time = begin.time + h
+    for a in range(model.train.axes):
+        end.set_speed[a] = begin.set_speed[a] + march.moment.slew[a] * h
+        end.turns[a], end.fraction[a] = begin.turns[a], begin.fraction[a]
+        end.speed[a] = begin.speed[a]
+        _turn(end, a, begin.speed[a] * h / (2.0 * math.pi))
+    march.control.step = h
+    march.control.changed = True
+
+
+@kernel
+def _modal_step(model: Record, march: Record, longest: float) -> None:
+    control, train, run = march.control, model.train, march.run
+    enter(model, march)
+    event, mesh = _next_event(model, march)
+    fresh = control.changed
+    known, modes = run.known, run.modes
+    planned = control.next_step
+    if fresh and known.step[modes] > 0.0:
+        planned = known.step[modes]
+    h = min(min(planned, control.longest), longest)
+    if event <= STRETCH * h:
+        h = event
+    elif event < 2.0 * h:
+        h = 0.5 * event
+    h = min(h, longest)
+    while True:
+        error = iterate(model, march, h)
+        if error <= 1.0 or h <= SHORTEST_STEP:
+            break
+        control.rejected += 1
+        h *= max(SHRINK, SAFETY * error ** (-1.0 / 3.0))
+    factor = SAFETY * error ** (-1.0 / 3.0) if error > 0.0 else GROW
+    control.next_step = h * min(GROW, max(SHRINK, factor))
+    if fresh and (h < event or factor < 1.0):
+        known.step[modes] = control.next_step
+    elif fresh:
+        known.step[modes] = max(known.step[modes], control.next_step)
+    control.changed = False
+    control.modal = True
+    at = h
+    if mesh >= 0 and h == event:
+        for _ in range(3):
+            propagate(model, march, at, march.end.x, march.end.v)
+            begin, end, moment = march.begin, march.end, march.moment
+            advance_ = moment.cycle_rate * at + cycle_shift(train, end.x) - cycle_shift(train, begin.x)
+            pace = moment.cycle_rate + cycle_shift(train, end.v)
+            side = begin.side[mesh]
+            kind, segment = train.kind[mesh], begin.segment[mesh]
+            edge = train.edge[kind, segment + (1 if side * pace > 0.0 else 0)]
+            gap = (edge - moment.start[mesh] - side * advance_) / (side * pace)
+            at += gap
+            if abs(gap) < 1e-13:
+                break
+    _cut_modal(model, march, at)
+    if at == h and mesh < 0 or h != event:
+        control.changed = False
+    accept(model, march, _end_on_flank_event(model, march, at))
+
+
+@kernel
 def one_step(model: Record, march: Record, longest: float) -> None:
     """One accepted step of at most `longest` seconds from `begin`, ending on the first event."""
     control = march.control
-    event = _time_to_event(model, march)
+    if control.prefer_modal:
+        _modal_step(model, march, longest)
+        return
+    event = _next_event(model, march)[0]
     h = min(min(control.next_step, control.longest), longest)
     if event < 2.0 * h:  # two equal steps rather than a long and a tiny one
         h = event if event <= h else 0.5 * event
@@ -216,7 +299,11 @@ def _end_on_flank_event(model: Record, march: Record, h: float) -> int:
             return mesh
         target = mesh
         h = max(min(max(when, NEAREST * h), FARTHEST * h), SHORTEST_STEP)
-        _try(model, march, h)
+        if march.control.modal:
+            h = max(when, SHORTEST_STEP)
+            _cut_modal(model, march, h)
+        else:
+            _try(model, march, h)
 
 
 @kernel

@@ -7,6 +7,7 @@ from .._records import BODIES, FLAG, REAL, WHOLE, Record, layout
 from ..dynamics.equations import EVALUATION
 from ..dynamics.moment import MOMENT
 from ..dynamics.state import STATE
+from .collocation import PROPAGATION
 from .rosenbrock import WORKSPACE
 
 # Step control and counters.
@@ -16,6 +17,9 @@ CONTROL = layout(
     next_step=REAL,  # [s]
     step=REAL,  # the last one taken [s]
     longest=REAL,  # [s]
+    modal=FLAG,  # the last step was one of collocation
+    prefer_modal=FLAG,
+    sweeps=WHOLE,
     changed=FLAG,  # contacts or loads are no longer those of the last evaluation
     steps=WHOLE,
     rejected=WHOLE,
@@ -36,6 +40,7 @@ MARCH = layout(
     dense_v=(REAL, (BODIES,)),
     control=CONTROL,
     work=WORKSPACE,
+    run=PROPAGATION,
 )
 
 

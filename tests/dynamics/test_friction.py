@@ -17,7 +17,6 @@ from planetary_twin_py.engine import Engine
 def random_moment(engine, random):
     """Bodies anywhere, moving at random, meshes on the side this takes them to."""
     train, state, moment = engine.train, engine.march.begin, new_record(MOMENT)
-    moment.tau[:] = 1e-6
     bodies = int(train.bodies)
     x, v = np.zeros_like(state.x), np.zeros_like(state.v)
     x[:bodies] = random.normal(0.0, 1e-5, bodies)
