@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from .._compile import kernel
+from .._compile import kernel, law
 from .._records import Record
 from .cycle import find_segment, mesh_cycle
 from .mesh_force import deflection, stored_energy
@@ -42,10 +42,16 @@ def departure(
         stand: mesh cycles since the start of the step, their pace [1/s], slack [m].
     """
     advance, pace, slack = stand
-    side, half = state.side[i], model.load.half_backlash
     d, rate, _ = deflection(model.train, moment, i, x, v, advance, pace)
     tau = damping_time(model.train, moment, v, model.train.kind[i])
-    push = d + model.load.release * tau * rate
+    return play_left(model.load, state.side[i], d, tau * rate, slack)
+
+
+@law
+def play_left(load: Record, side: int, d: float, damped: float, slack: float) -> float:
+    """The same for a mesh on `side`, from its deflection d and tau times its rate [m]."""
+    half = load.half_backlash
+    push = d + load.release * damped
     if side != OPEN:
         return side * push - half + slack
     return slack - max(min(d, push), min(-d, -push)) + half

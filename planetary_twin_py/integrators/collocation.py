@@ -16,8 +16,8 @@ import math
 import numpy as np
 
 from .._compile import kernel, law
-from .._records import AXES, BODIES, REAL, WHOLE, Record, layout
-from ..dynamics.contact_events import departure
+from .._records import AXES, BODIES, MESHES, REAL, SMALL, WHOLE, Record, layout
+from ..dynamics.contact_events import departure, play_left
 from ..dynamics.cycle import cycle_shift
 from ..dynamics.equations import EVALUATION, begin_pairs, drive, rub, squeeze
 from ..dynamics.state import LEDGER, OPEN
@@ -32,6 +32,7 @@ ABSCISSA = radau(NODES)
 LAST = NODES - 1
 # Coefficients of the powers of t/h from values at the nodes.
 WIDEST = float(np.diff(np.append(0.0, ABSCISSA)).max())  # gap between two
+SCANNED = 8  # times at which a suspect mesh is looked at
 MOST_SWEEPS = 6
 SHARE = 0.3  # of the tolerance that a sweep not made may leave
 COEFFICIENT = np.linalg.inv(np.vander(ABSCISSA, increasing=True))
@@ -39,6 +40,8 @@ COEFFICIENT = np.linalg.inv(np.vander(ABSCISSA, increasing=True))
 # One of the nodes.
 NODE = layout(
     delay=REAL,  # [s]
+    advance=REAL,  # mesh cycles since the start
+    pace=REAL,  # mesh cycles per second
     x=(REAL, (BODIES,)),
     v=(REAL, (BODIES,)),
     trim=(REAL, (AXES,)),
@@ -62,6 +65,11 @@ PROPAGATION = layout(
     sine=(REAL, (NODES, BODIES)),
     node_q=(REAL, (NODES, BODIES)),
     node_p=(REAL, (NODES, BODIES)),
+    wave_q=(REAL, (NODES, BODIES)),  # free motion at the nodes
+    wave_p=(REAL, (NODES, BODIES)),
+    suspect=(SMALL, (MESHES,)),  # may change its contact within the step
+    scan_q=(REAL, (SCANNED, BODIES)),
+    scan_p=(REAL, (SCANNED, BODIES)),
     now_q=(REAL, (BODIES,)),
     now_p=(REAL, (BODIES,)),
     power=(REAL, (NODES, LEDGER)),
@@ -247,6 +255,9 @@ def _visit(model: Record, march: Record, n: int, node: Record) -> None:
         run.node_q[n, m], run.node_p[n, m] = run.now_q[m], run.now_p[m]
     _place(train, run, node.x, node.v)
     trim_at(model, march, node.delay, node.x, node.trim)
+    shift = cycle_shift(train, node.x) - cycle_shift(train, march.begin.x)
+    node.advance = march.moment.cycle_rate * node.delay + shift
+    node.pace = march.moment.cycle_rate + cycle_shift(train, node.v)
 
 
 @kernel
@@ -344,38 +355,97 @@ def _tail(model: Record, march: Record) -> float:
 
 
 @kernel
-def flanks_stay(model: Record, march: Record) -> bool:
-    """Whether no mesh can change its contact within the step.
+def suspect_flanks(model: Record, march: Record) -> bool:
+    """Mark the meshes that may change their contact within the step; whether there are any.
 
     What a mesh has left before it changes is a polynomial, known at the nodes, and free waves,
     which are bounded by their amplitudes.
     """
     train, begin, moment, run = model.train, march.begin, march.moment, march.run
-    known, modes = run.known, run.modes
+    known, modes, found = run.known, run.modes, False
+    for n in range(NODES):
+        for m in range(train.bodies):
+            run.wave_q[n, m] = run.wave_p[n, m] = 0.0
+            if run.slow[m] == 0:
+                u, w, c, s = run.free[0, m], run.free[1, m], run.cosine[n, m], run.sine[n, m]
+                run.wave_q[n, m] = c * u + s * w
+                run.wave_p[n, m] = (c - run.damping[m] * s) * w - run.square[m] * s * u
     for i in range(train.meshes):
         side, tau = begin.side[i], model.load.release * moment.tau[train.kind[i]]
-        waves = 0.0
+        waves, least = 0.0, math.inf
         for m in range(train.bodies):
             if run.slow[m] == 0:
                 waves += abs(known.motion[modes, i, m]) * _amplitude(run, m, tau)
         for n in range(NODES):
-            node = run.node[n]
-            advance = moment.cycle_rate * node.delay
-            advance += cycle_shift(train, node.x) - cycle_shift(train, begin.x)
-            pace = moment.cycle_rate + cycle_shift(train, node.v)
-            left = departure(model, begin, moment, i, node.x, node.v, (advance, pace, 0.0))
-            wave = 0.0
+            node, wave = run.node[n], 0.0
             for m in range(train.bodies):
-                if run.slow[m] == 0:
-                    cosine, sine, c, s = run.cosine[n, m], run.sine[n, m], run.damping[m], run.square[m]
-                    u, w = run.free[0, m], run.free[1, m]
-                    value = cosine * u + sine * w
-                    rate = (cosine - c * sine) * w - s * sine * u
-                    wave += known.motion[modes, i, m] * (value + tau * rate)
-            left -= side * wave if side != OPEN else abs(wave)
-            if left < waves:
-                return False
-    return True
+                wave += known.motion[modes, i, m] * (run.wave_q[n, m] + tau * run.wave_p[n, m])
+            stand = (node.advance, node.pace, 0.0)
+            left = departure(model, begin, moment, i, node.x, node.v, stand)
+            least = min(least, left - (side * wave if side != OPEN else abs(wave)))
+        run.suspect[i] = least < waves
+        found |= least < waves
+    return found
+
+
+@kernel
+def scan(model: Record, march: Record, end: float) -> None:
+    """Modes at even times up to `end` [s]; free motions are carried on from one to the next."""
+    run, step = march.run, end / SCANNED
+    for m in range(model.train.bodies):
+        cosine = sine = 0.0
+        u, w = run.free[0, m], run.free[1, m]
+        if run.slow[m] == 0:
+            cosine, sine = wave(run.square[m], run.damping[m], step)
+        for k in range(SCANNED):
+            t = (k + 1) * step / run.step
+            value = slope = 0.0
+            terms = SERIES if run.slow[m] == 1 else NODES
+            for n in range(terms - 1, -1, -1):
+                slope = slope * t + value
+                value = value * t + run.particular[n, m]
+            slope /= run.step
+            if run.slow[m] == 0:
+                u, w = (
+                    cosine * u + sine * w,
+                    (cosine - run.damping[m] * sine) * w - run.square[m] * sine * u,
+                )
+                value += u
+                slope += w
+            run.scan_q[k, m], run.scan_p[k, m] = value, slope
+
+
+@kernel
+def first_scanned(model: Record, march: Record, i: int, slack: float) -> int:
+    """Number of the first of the scanned times at which mesh i has changed, or SCANNED."""
+    train, run = model.train, march.run
+    tau = march.moment.tau[train.kind[i]]
+    for k in range(SCANNED):
+        d = rate = 0.0
+        for m in range(train.bodies):
+            motion = run.known.motion[run.modes, i, m]
+            d += motion * run.scan_q[k, m]
+            rate += motion * run.scan_p[k, m]
+        if play_left(model.load, march.begin.side[i], d, tau * rate, slack) < 0.0:
+            return k
+    return SCANNED
+
+
+@kernel
+def play_at(model: Record, march: Record, i: int, delay: float, slack: float) -> float:
+    """`departure` of mesh i at any time within the step, where no error of form moves its flanks."""
+    train, run, moment = model.train, march.run, march.moment
+    d = rate = 0.0
+    for m in range(train.bodies):
+        motion = run.known.motion[run.modes, i, m]
+        cosine = sine = 0.0
+        if run.slow[m] == 0:
+            cosine, sine = wave(run.square[m], run.damping[m], delay)
+        q, p = _modal_state(run, m, delay / run.step, cosine, sine)
+        d += motion * q
+        rate += motion * p
+    tau = moment.tau[train.kind[i]]
+    return play_left(model.load, march.begin.side[i], d, tau * rate, slack)
 
 
 @law

@@ -200,6 +200,18 @@ def _cut_modal(model: Record, march: Record, h: float) -> None:
 
 
 @kernel
+def _time_to_edge(model: Record, march: Record, i: int) -> float:
+    """Time [s] by which mesh i is short of the edge of its segment at the end of the step."""
+    train, begin, end, moment = model.train, march.begin, march.end, march.moment
+    advance = moment.cycle_rate * march.control.step
+    advance += cycle_shift(train, end.x) - cycle_shift(train, begin.x)
+    rate = begin.side[i] * (moment.cycle_rate + cycle_shift(train, end.v))
+    edge = begin.segment[i] + (1 if rate > 0.0 else 0)
+    left = train.edge[train.kind[i], edge] - moment.start[i] - begin.side[i] * advance
+    return left / rate
+
+
+@kernel
 def _modal_step(model: Record, march: Record, longest: float) -> None:
     control, train, run = march.control, model.train, march.run
     enter(model, march)
@@ -232,18 +244,13 @@ def _modal_step(model: Record, march: Record, longest: float) -> None:
     at = h
     if mesh >= 0 and h == event:
         for _ in range(3):
-            propagate(model, march, at, march.end.x, march.end.v)
-            begin, end, moment = march.begin, march.end, march.moment
-            advance_ = moment.cycle_rate * at + cycle_shift(train, end.x) - cycle_shift(train, begin.x)
-            pace = moment.cycle_rate + cycle_shift(train, end.v)
-            side = begin.side[mesh]
-            kind, segment = train.kind[mesh], begin.segment[mesh]
-            edge = train.edge[kind, segment + (1 if side * pace > 0.0 else 0)]
-            gap = (edge - moment.start[mesh] - side * advance_) / (side * pace)
-            at += gap
-            if abs(gap) < 1e-13:
+            _cut_modal(model, march, at)
+            gap = _time_to_edge(model, march, mesh)
+            if abs(gap) < EDGE / 30.0 * 1e-3:
                 break
-    _cut_modal(model, march, at)
+            at += gap
+    else:
+        _cut_modal(model, march, at)
     if at == h and mesh < 0 or h != event:
         control.changed = False
     accept(model, march, _end_on_flank_event(model, march, at))
