@@ -17,9 +17,10 @@ from .dynamics.static_load import mesh_force
 from .dynamics.train import build_train
 from .integrators.interpolant import Samples, new_samples, sample
 from .integrators.march import advance, begin_step, cut
-from .integrators.progress import MARCH
+from .integrators.progress import AUTO, COLLOCATION, MARCH, ROSENBROCK
 from .scene import OperatingPoint, Scene
 
+METHODS = {"auto": AUTO, "collocation": COLLOCATION, "rosenbrock": ROSENBROCK}
 LONGEST_STEP = 1e-3  # [s]
 FIRST_STEP = 1e-6  # [s]
 TOLERANCES = (1e-8, 0.1)  # allowed range
@@ -32,12 +33,13 @@ class Engine:
     Args:
         scene: what to simulate.
         tolerance: local error of a step, relative to the static deflection of the meshes.
+        method: one of METHODS; "auto" makes steps by collocation wherever that is fit.
 
     Raises:
         ValueError: the tolerance is out of range, or the scene cannot be built.
     """
 
-    def __init__(self, scene: Scene, tolerance: float) -> None:
+    def __init__(self, scene: Scene, tolerance: float, method: str = "auto") -> None:
         if not TOLERANCES[0] <= tolerance <= TOLERANCES[1]:
             raise ValueError(
                 f"tolerance = {tolerance!r}: must be within {TOLERANCES[0]:g} and {TOLERANCES[1]:g}"
@@ -47,11 +49,10 @@ class Engine:
         self.train = build_train(scene)
         self.model: Record = new_record(MODEL, train=self.train)
         self.march: Record = new_record(MARCH)
-        self.march.control.step = self.march.control.next_step = FIRST_STEP
-        self.march.control.longest = LONGEST_STEP
-        import os
-        self.march.control.prefer_modal = bool(int(os.environ.get("MODAL", "0")))
-        self.march.control.sweeps = int(os.environ.get("SWEEPS", "2"))
+        control = self.march.control
+        control.step = control.next_step = control.next_stiff = FIRST_STEP
+        control.longest = LONGEST_STEP
+        control.method = METHODS[method]
         self._load(scene.operating_point)
         self.march.begin = self.march.end = start_state(scene, self.model)
         self._compile()

@@ -62,6 +62,8 @@ class Stats:
     """What a run took."""
 
     steps: int
+    stiff_steps: int
+    """Of them by Rosenbrock's method."""
     rejected_steps: int
     evaluations: int
     """Of the equations of motion."""

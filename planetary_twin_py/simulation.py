@@ -19,12 +19,11 @@ from .dynamics.observe import (
     VISCOUS,
 )
 from .dynamics.state import BEARING, CHURNING, DAMPING, FRICTION, STIFFNESS_WORK, WORK
-from .engine import Engine
+from .engine import METHODS, Engine
 from .integrators.interpolant import Samples
 from .result import Energy, Result, Stats
 from .scene import Scene
 
-METHODS = ("auto", "rosenbrock")
 MOST_SAMPLES = 20_000_000
 
 
@@ -41,7 +40,7 @@ def simulate(
         scene: what to simulate.
         duration: simulated time [s].
         sample_rate: of the result [Hz]; samples lie at whole multiples of its period.
-        method: "rosenbrock", or "auto" to leave the choice.
+        method: "collocation", "rosenbrock", or "auto": the first wherever it is fit.
         tolerance: relative local error of a step.
 
     Raises:
@@ -54,7 +53,7 @@ def simulate(
             f"duration = {duration!r} s at sample_rate = {sample_rate!r} Hz: must give between 1 "
             f"and {MOST_SAMPLES} samples"
         )
-    engine = Engine(scene, tolerance)
+    engine = Engine(scene, tolerance, method)
     stored = engine.stored()
     room = math.floor(duration * sample_rate + 1e-6)
     begin = time.perf_counter()
@@ -94,6 +93,7 @@ def _result(
         energy=_energy(engine, stored),
         stats=Stats(
             steps=int(count.steps),
+            stiff_steps=int(count.stiff_steps),
             rejected_steps=int(count.rejected),
             evaluations=int(count.evaluations),
             pair_events=int(count.pair_events),

@@ -85,9 +85,7 @@ def _evaluate(model: Record, laws: tuple[bool, bool, bool, bool], pairs: Record)
 
 
 @kernel
-def apply_friction(
-    train: Record, pairs: Record, span: tuple[int, int], force: np.ndarray
-) -> float:
+def apply_friction(train: Record, pairs: Record, span: tuple[int, int], force: np.ndarray) -> float:
     """Add the generalised forces -f dVs/dw/r of the pairs in `span`; return their power [W]."""
     power = 0.0
     for p in range(span[0], span[1]):
@@ -109,10 +107,8 @@ def rolling_power(pairs: Record, p: int) -> float:
 
 
 @kernel
-def apply_rolling(
-    train: Record, pairs: Record, span: tuple[int, int], force: np.ndarray
-) -> float:
-    """Add the generalised forces -F_R d(u1 + u2)/dw/r of the pairs in `span`; return their power [W]."""
+def apply_rolling(train: Record, pairs: Record, span: tuple[int, int], force: np.ndarray) -> float:
+    """Add the generalised forces -F_R d(u1 + u2)/dw/r of pairs in `span`; return their power [W]."""
     power = 0.0
     for p in range(span[0], span[1]):
         i = pairs.mesh[p]

@@ -13,7 +13,7 @@ import math
 import numpy as np
 
 from .._compile import kernel
-from .._records import BODIES, MACHINES, MESHES, REAL, SMALL, WHOLE, Record, layout
+from .._records import BODIES, MESHES, REAL, SMALL, WHOLE, Record, layout
 from ..dynamics.mesh_force import mesh_stiffness
 from ..dynamics.state import OPEN
 from ..mesh.tooth_pairs import SEGMENTS

@@ -1,9 +1,12 @@
-"""Drive a one-step method from event to event and sample what lies between.
+"""Drive the one-step methods from event to event and sample what lies between.
 
 Events are tooth pairs entering or leaving, flanks meeting or parting, and the speed set-point
 reaching its target. Steps end on them, so the equations are smooth within every step. The window
 a caller asks for never clips a step: samples come from the step's interpolant, and the state at
 the end of the window is that of the last step begun. So the path does not depend on the windows.
+
+Steps are made by collocation. Near standstill friction is too stiff for its sweeps to come to
+rest; Rosenbrock's method then takes over for a while.
 """
 
 from __future__ import annotations
@@ -19,16 +22,22 @@ from ..dynamics.mesh_force import mesh_motion
 from ..dynamics.moment import set_moment
 from ..dynamics.state import OPEN
 from ..dynamics.tooth_friction import copy_friction
-from .collocation import LAST, enter, integrate_powers, iterate, propagate, trim_at
-from .interpolant import Samples, at_event, first_flank_event, sample
-from .progress import copy_state
+from .collocation import collocate
+from .flanks import at_event, first_flank_event
+from .interpolant import Samples, sample
+from .progress import COLLOCATION, ROSENBROCK, copy_state
+from .propagation import LAST, enter, integrate_powers, propagate, trim_at
 from .rosenbrock import ORDER, step
 
 SHORTEST_STEP = 1e-13  # [s] below it two events count as one
-STRETCH = 1.2  # by which a planned step is stretched to end on an event
 EDGE = 1e-9  # [-] mesh cycles within which a tooth pair counts as having entered or left
+ON_EDGE = 1e-13  # [s] to which a step of collocation ends on the edge of a tooth pair
 NEAREST, FARTHEST = 0.1, 0.9  # by which a step is shortened at a time to meet a flank event
 SAFETY, SHRINK, GROW = 0.8, 0.25, 2.0
+STRETCH = 1.2  # by which a planned step is stretched to end on an event
+DETOUR = 20  # steps of Rosenbrock's method before collocation is tried again
+COLLOCATION_ORDER = 3  # of its error in the step
+ROUNDING = 1e-15  # [m/s] errors of a speed below it are none
 
 
 @kernel
@@ -82,6 +91,129 @@ def _next_event(model: Record, march: Record) -> tuple[float, int]:
 
 
 @kernel
+def begin_step(model: Record, march: Record) -> None:
+    """Start a new step where the last one ended."""
+    copy_state(march.end, march.begin)
+    _rebase(model.train, march.begin)
+    set_moment(model, march.begin, march.moment)
+
+
+@kernel
+def one_step(model: Record, march: Record, longest: float) -> None:
+    """One accepted step of at most `longest` seconds from `begin`, ending on the first event."""
+    control = march.control
+    event, mesh = _next_event(model, march)
+    if control.method != ROSENBROCK and (control.detour == 0 or control.method == COLLOCATION):
+        if _collocated_step(model, march, min(longest, control.longest), event, mesh):
+            return
+        control.detour = DETOUR
+        control.changed = True
+    _stiff_step(model, march, min(longest, control.longest), event)
+
+
+@kernel
+def _planned(event: float, h: float, stretch: float) -> float:
+    """A step of about h that does not leave a tiny one before the event."""
+    if event <= stretch * h:
+        return event
+    return 0.5 * event if event < 2.0 * h else h
+
+
+@kernel
+def _collocated_step(model: Record, march: Record, longest: float, event: float, mesh: int) -> bool:
+    """A step by collocation, at whose end `mesh` may come to an edge; False where it fails."""
+    control, run = march.control, march.run
+    _hold_friction(model, march)
+    enter(model, march)
+    # Meshing returns to the same contacts: the step that did then, will do.
+    known, modes, fresh = run.known, run.modes, control.changed
+    h = known.step[modes] if fresh and known.step[modes] > 0.0 else control.next_step
+    h = min(_planned(event, min(h, longest), STRETCH), longest)
+    while True:
+        error, settled = collocate(model, march, h)
+        if error <= 1.0 or (h <= SHORTEST_STEP and error < math.inf):
+            break
+        if h <= SHORTEST_STEP or (not settled and _detour_pays(control, h)):
+            return False
+        control.rejected += 1
+        h = max(h * max(SHRINK, SAFETY * error ** (-1.0 / COLLOCATION_ORDER)), SHORTEST_STEP)
+    factor = SAFETY * error ** (-1.0 / COLLOCATION_ORDER) if error > 0.0 else GROW
+    control.next_step = h * min(GROW, max(SHRINK, factor))
+    if fresh:
+        known.step[modes] = control.next_step
+    control.collocated = True
+    control.changed = False
+    end_within(model, march, h)
+    if mesh >= 0 and h == event:
+        _meet_edge(model, march, mesh, h)
+    march.last.power[:] = run.power[LAST]
+    accept(model, march, _end_on_flank_event(model, march, h))
+    return True
+
+
+@kernel
+def _detour_pays(control: Record, h: float) -> bool:
+    """Whether Rosenbrock's method is to try a step that collocation would have to shorten."""
+    return control.method != COLLOCATION and SHRINK * h < control.next_stiff
+
+
+@kernel
+def _hold_friction(model: Record, march: Record) -> None:
+    """Forces at the start of a step, but with the friction of the end of the last."""
+    begin, moment, first = march.begin, march.moment, march.first
+    begin_pairs(model.train, False, first.pairs)
+    squeeze(model, begin, moment, begin.x, begin.v, 0.0, first, first.pairs)
+    first.rubbing[:] = march.run.evaluation[LAST].rubbing
+    first.force[:] += first.rubbing
+    drive(model, begin, moment, begin.x, begin.v, 0.0, begin.trim, first)
+
+
+@kernel
+def end_within(model: Record, march: Record, h: float) -> None:
+    """Let the step of collocation end after h seconds, on its own motion."""
+    begin, end, moment = march.begin, march.end, march.moment
+    copy_state(begin, end)
+    propagate(model, march, h, end.x, end.v)
+    trim_at(model, march, h, end.x, end.trim)
+    integrate_powers(march, h)
+    _pass_time(model, march, h)
+
+
+@kernel
+def _pass_time(model: Record, march: Record, h: float) -> None:
+    """Let clock, set-points and frame of `end` run on for h seconds."""
+    begin, end = march.begin, march.end
+    end.time = begin.time + h
+    for a in range(model.train.axes):
+        end.set_speed[a] = begin.set_speed[a] + march.moment.slew[a] * h
+        _turn(end, a, begin.speed[a] * h / (2.0 * math.pi))
+    march.control.step = h
+
+
+@kernel
+def _meet_edge(model: Record, march: Record, mesh: int, h: float) -> None:
+    """Move the end of the step to where `mesh` comes to the edge of its segment (Newton)."""
+    for _ in range(3):
+        gap = _time_to_edge(model, march, mesh)
+        if abs(gap) < ON_EDGE:
+            return
+        h += gap
+        end_within(model, march, h)
+
+
+@kernel
+def _time_to_edge(model: Record, march: Record, i: int) -> float:
+    """Time [s] by which mesh i is short of the edge of its segment at the end of the step."""
+    train, begin, end, moment = model.train, march.begin, march.end, march.moment
+    advance = moment.cycle_rate * march.control.step
+    advance += cycle_shift(train, end.x) - cycle_shift(train, begin.x)
+    rate = begin.side[i] * (moment.cycle_rate + cycle_shift(train, end.v))
+    edge = begin.segment[i] + (1 if rate > 0.0 else 0)
+    left = train.edge[train.kind[i], edge] - moment.start[i] - begin.side[i] * advance
+    return left / rate
+
+
+@kernel
 def _error_norm(model: Record, march: Record) -> float:
     """Largest local error of a mesh or of the speed of a body, relative to its tolerance.
 
@@ -93,7 +225,8 @@ def _error_norm(model: Record, march: Record) -> float:
         tau = march.moment.tau[model.train.kind[i]]
         error = abs(mesh_motion(model.train, i, work.error_x))
         # Damping turns an error of the rate into one of the force, k tau times as large.
-        error = max(error, tau * abs(mesh_motion(model.train, i, work.error_v)))
+        slip = max(abs(mesh_motion(model.train, i, work.error_v)) - ROUNDING, 0.0)
+        error = max(error, tau * slip)
         largest = max(largest, error / control.tolerance_x)
     for j in range(model.train.bodies):
         largest = max(largest, abs(work.error_v[j]) / control.tolerance_v)
@@ -107,14 +240,72 @@ def _try(model: Record, march: Record, h: float) -> None:
     begin, end = march.begin, march.end
     copy_state(begin, end)
     step(model, begin, march.moment, h, march.first, end, march.work)
-    end.time = begin.time + h
-    for a in range(model.train.axes):
-        end.set_speed[a] = begin.set_speed[a] + march.moment.slew[a] * h
-        _turn(end, a, begin.speed[a] * h / (2.0 * math.pi))
+    _pass_time(model, march, h)
     end.energy[:] = begin.energy + march.work.energy
-    march.control.step = h
     forces(model, begin, march.moment, end.x, end.v, h, end.trim, march.last)
     march.control.evaluations += 4
+
+
+@kernel
+def _stiff_step(model: Record, march: Record, longest: float, event: float) -> None:
+    """A step by Rosenbrock's method."""
+    control, begin = march.control, march.begin
+    if control.changed or control.collocated:
+        forces(model, begin, march.moment, begin.x, begin.v, 0.0, begin.trim, march.first)
+        control.evaluations += 1
+        control.changed = False
+    else:  # forces do not depend on the frame in which x is measured
+        march.first.force[:] = march.last.force
+        march.first.power[:] = march.last.power
+        copy_friction(march.last.pairs, march.first.pairs)
+    control.collocated = False
+    h = min(_planned(event, min(control.next_stiff, longest), 1.0), longest)
+    h, factor = _controlled(model, march, h)
+    candidate = h * min(GROW, max(SHRINK, factor))
+    # A step cut short by an event says little about the steps to come.
+    control.next_stiff = max(candidate, control.next_stiff) if factor >= 1.0 else candidate
+    control.detour = max(control.detour - 1, 0)
+    control.stiff_steps += 1
+    march.run.evaluation[LAST].rubbing[:] = march.last.rubbing
+    accept(model, march, _end_on_flank_event(model, march, h))
+
+
+@kernel
+def _controlled(model: Record, march: Record, h: float) -> tuple[float, float]:
+    """Try steps from h downwards until the error is allowed; the step, and how it may change."""
+    while True:
+        _try(model, march, h)
+        error = _error_norm(model, march)
+        factor = SAFETY * error ** (-1.0 / ORDER) if error > 0.0 else GROW
+        if error <= 1.0 or (h <= SHORTEST_STEP and error < math.inf):
+            return h, factor
+        if h <= SHORTEST_STEP:
+            raise ArithmeticError("no finite state can be reached, however short the step")
+        march.control.rejected += 1
+        h = max(h * max(SHRINK, factor), SHORTEST_STEP)
+
+
+@kernel
+def _end_on_flank_event(model: Record, march: Record, h: float) -> int:
+    """Shorten the step until it ends where a mesh changes its contact; that mesh, or -1.
+
+    The interpolant of a long stiff step may put the event anywhere, so each shorter step is
+    looked at afresh; one that turns out to end before the event is as good as any. The motion of
+    a step of collocation stays what it is.
+    """
+    target = -1
+    while True:
+        mesh, when = first_flank_event(model, march)
+        if mesh < 0 and target >= 0 and at_event(model, march, target):
+            return target
+        if mesh < 0 or h <= SHORTEST_STEP or at_event(model, march, mesh):
+            return mesh
+        target = mesh
+        if march.control.collocated:
+            end_within(model, march, when)
+            return mesh
+        h = max(min(max(when, NEAREST * h), FARTHEST * h), SHORTEST_STEP)
+        _try(model, march, h)
 
 
 @kernel
@@ -158,162 +349,6 @@ def accept(model: Record, march: Record, mesh: int) -> None:
 
 
 @kernel
-def begin_step(model: Record, march: Record) -> None:
-    """Start a new step where the last one ended."""
-    begin, moment = march.begin, march.moment
-    copy_state(march.end, begin)
-    _rebase(model.train, begin)
-    set_moment(model, begin, moment)
-    if march.control.prefer_modal:
-        begin_pairs(model.train, False, march.first.pairs)
-        squeeze(model, begin, moment, begin.x, begin.v, 0.0, march.first, march.first.pairs)
-        march.first.rubbing[:] = march.run.evaluation[LAST].rubbing
-        march.first.force[:] += march.first.rubbing
-        drive(model, begin, moment, begin.x, begin.v, 0.0, begin.trim, march.first)
-    elif march.control.changed:
-        forces(model, begin, moment, begin.x, begin.v, 0.0, begin.trim, march.first)
-        march.control.evaluations += 1
-        march.control.changed = False
-    else:  # forces do not depend on the frame in which x is measured
-        march.first.force[:] = march.last.force
-        march.first.power[:] = march.last.power
-        copy_friction(march.last.pairs, march.first.pairs)
-
-
-@kernel
-def _cut_modal(model: Record, march: Record, h: float) -> None:
-    """End the step of collocation at h, on its own solution."""
-    begin, end = march.begin, march.end
-    end.side[:] = begin.side
-    end.segment[:] = begin.segment
-    propagate(model, march, h, end.x, end.v)
-    trim_at(model, march, h, end.x, end.trim)
-    integrate_powers(march, h)
-    end.time = begin.time + h
-    for a in range(model.train.axes):
-        end.set_speed[a] = begin.set_speed[a] + march.moment.slew[a] * h
-        end.turns[a], end.fraction[a] = begin.turns[a], begin.fraction[a]
-        end.speed[a] = begin.speed[a]
-        _turn(end, a, begin.speed[a] * h / (2.0 * math.pi))
-    march.control.step = h
-    march.control.changed = True
-
-
-@kernel
-def _time_to_edge(model: Record, march: Record, i: int) -> float:
-    """Time [s] by which mesh i is short of the edge of its segment at the end of the step."""
-    train, begin, end, moment = model.train, march.begin, march.end, march.moment
-    advance = moment.cycle_rate * march.control.step
-    advance += cycle_shift(train, end.x) - cycle_shift(train, begin.x)
-    rate = begin.side[i] * (moment.cycle_rate + cycle_shift(train, end.v))
-    edge = begin.segment[i] + (1 if rate > 0.0 else 0)
-    left = train.edge[train.kind[i], edge] - moment.start[i] - begin.side[i] * advance
-    return left / rate
-
-
-@kernel
-def _modal_step(model: Record, march: Record, longest: float) -> None:
-    control, train, run = march.control, model.train, march.run
-    enter(model, march)
-    event, mesh = _next_event(model, march)
-    fresh = control.changed
-    known, modes = run.known, run.modes
-    planned = control.next_step
-    if fresh and known.step[modes] > 0.0:
-        planned = known.step[modes]
-    h = min(min(planned, control.longest), longest)
-    if event <= STRETCH * h:
-        h = event
-    elif event < 2.0 * h:
-        h = 0.5 * event
-    h = min(h, longest)
-    while True:
-        error = iterate(model, march, h)
-        if error <= 1.0 or h <= SHORTEST_STEP:
-            break
-        control.rejected += 1
-        h *= max(SHRINK, SAFETY * error ** (-1.0 / 3.0))
-    factor = SAFETY * error ** (-1.0 / 3.0) if error > 0.0 else GROW
-    control.next_step = h * min(GROW, max(SHRINK, factor))
-    if fresh and (h < event or factor < 1.0):
-        known.step[modes] = control.next_step
-    elif fresh:
-        known.step[modes] = max(known.step[modes], control.next_step)
-    control.changed = False
-    control.modal = True
-    at = h
-    if mesh >= 0 and h == event:
-        for _ in range(3):
-            _cut_modal(model, march, at)
-            gap = _time_to_edge(model, march, mesh)
-            if abs(gap) < EDGE / 30.0 * 1e-3:
-                break
-            at += gap
-    else:
-        _cut_modal(model, march, at)
-    if at == h and mesh < 0 or h != event:
-        control.changed = False
-    accept(model, march, _end_on_flank_event(model, march, at))
-
-
-@kernel
-def one_step(model: Record, march: Record, longest: float) -> None:
-    """One accepted step of at most `longest` seconds from `begin`, ending on the first event."""
-    control = march.control
-    if control.prefer_modal:
-        _modal_step(model, march, longest)
-        return
-    event = _next_event(model, march)[0]
-    h = min(min(control.next_step, control.longest), longest)
-    if event < 2.0 * h:  # two equal steps rather than a long and a tiny one
-        h = event if event <= h else 0.5 * event
-    h = min(h, longest)
-    h, factor = _controlled(model, march, h)
-    candidate = h * min(GROW, max(SHRINK, factor))
-    # A step cut short by an event says little about the steps to come.
-    control.next_step = max(candidate, control.next_step) if factor >= 1.0 else candidate
-    accept(model, march, _end_on_flank_event(model, march, h))
-
-
-@kernel
-def _controlled(model: Record, march: Record, h: float) -> tuple[float, float]:
-    """Try steps from h downwards until the error is allowed; the step, and how it may change."""
-    while True:
-        _try(model, march, h)
-        error = _error_norm(model, march)
-        factor = SAFETY * error ** (-1.0 / ORDER) if error > 0.0 else GROW
-        if error <= 1.0 or (h <= SHORTEST_STEP and error < math.inf):
-            return h, factor
-        if h <= SHORTEST_STEP:
-            raise ArithmeticError("no finite state can be reached, however short the step")
-        march.control.rejected += 1
-        h = max(h * max(SHRINK, factor), SHORTEST_STEP)
-
-
-@kernel
-def _end_on_flank_event(model: Record, march: Record, h: float) -> int:
-    """Shorten the step until it ends where a mesh changes its contact; that mesh, or -1.
-
-    The interpolant of a long stiff step may put the event anywhere, so each shorter step is
-    looked at afresh; one that turns out to end before the event is as good as any.
-    """
-    target = -1
-    while True:
-        mesh, when = first_flank_event(model, march)
-        if mesh < 0 and target >= 0 and at_event(model, march, target):
-            return target
-        if mesh < 0 or h <= SHORTEST_STEP or at_event(model, march, mesh):
-            return mesh
-        target = mesh
-        h = max(min(max(when, NEAREST * h), FARTHEST * h), SHORTEST_STEP)
-        if march.control.modal:
-            h = max(when, SHORTEST_STEP)
-            _cut_modal(model, march, h)
-        else:
-            _try(model, march, h)
-
-
-@kernel
 def advance(
     model: Record, march: Record, until: float, first_sample: int, sample_rate: float, out: Samples
 ) -> None:
@@ -340,10 +375,13 @@ def cut(model: Record, march: Record, time: float) -> None:
     """
     if time < march.end.time:
         length = time - march.begin.time
-        if length > SHORTEST_STEP:
-            one_step(model, march, length)
-        else:
+        if length <= SHORTEST_STEP:
             copy_state(march.begin, march.end)
+        elif march.control.collocated:
+            end_within(model, march, length)
+        else:
+            march.control.changed = True
+            _stiff_step(model, march, length, math.inf)
         while time - march.end.time > SHORTEST_STEP:  # an event came before
             begin_step(model, march)
             one_step(model, march, time - march.end.time)

@@ -33,7 +33,9 @@ def wave(square: float, damping: float, t: float) -> tuple[float, float]:
         rate = math.sqrt(split)
         phase = rate * t
         decay = math.exp(-half * t)
-        sine = math.sin(phase) / rate if phase > NEARLY_CRITICAL else t * (1.0 - phase * phase / 6.0)
+        sine = (
+            math.sin(phase) / rate if phase > NEARLY_CRITICAL else t * (1.0 - phase * phase / 6.0)
+        )
         return decay * (math.cos(phase) + half * sine), decay * sine
     rate = math.sqrt(-split)
     slow, fast = math.exp(-square / (half + rate) * t), math.exp(-(half + rate) * t)

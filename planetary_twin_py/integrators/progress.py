@@ -7,8 +7,10 @@ from .._records import BODIES, FLAG, REAL, WHOLE, Record, layout
 from ..dynamics.equations import EVALUATION
 from ..dynamics.moment import MOMENT
 from ..dynamics.state import STATE
-from .collocation import PROPAGATION
+from .propagation import PROPAGATION
 from .rosenbrock import WORKSPACE
+
+AUTO, COLLOCATION, ROSENBROCK = 0, 1, 2
 
 # Step control and counters.
 CONTROL = layout(
@@ -17,11 +19,13 @@ CONTROL = layout(
     next_step=REAL,  # [s]
     step=REAL,  # the last one taken [s]
     longest=REAL,  # [s]
-    modal=FLAG,  # the last step was one of collocation
-    prefer_modal=FLAG,
-    sweeps=WHOLE,
+    method=WHOLE,  # AUTO, COLLOCATION or ROSENBROCK
+    collocated=FLAG,  # how the last step was made
+    detour=WHOLE,  # steps still to be made by the other method
+    next_stiff=REAL,  # next step of that [s]
     changed=FLAG,  # contacts or loads are no longer those of the last evaluation
     steps=WHOLE,
+    stiff_steps=WHOLE,  # of them by Rosenbrock's method
     rejected=WHOLE,
     evaluations=WHOLE,
     pair_events=WHOLE,
