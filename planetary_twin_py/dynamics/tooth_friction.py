@@ -108,7 +108,7 @@ def rolling_power(pairs: Record, p: int) -> float:
 
 @kernel
 def apply_rolling(train: Record, pairs: Record, span: tuple[int, int], force: np.ndarray) -> float:
-    """Add the generalised forces -F_R d(u1 + u2)/dw/r of pairs in `span`; return their power [W]."""
+    """Add the generalised forces -F_R d(u1 + u2)/dw/r of pairs in `span`; return the power [W]."""
     power = 0.0
     for p in range(span[0], span[1]):
         i = pairs.mesh[p]

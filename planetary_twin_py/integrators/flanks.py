@@ -52,12 +52,9 @@ def first_flank_event(model: Record, march: Record) -> tuple[int, float]:
             if march.run.suspect[i] == 1:
                 place = _first_scanned(model, march, i, end)
                 low, high = place * end / SCANNED, (place + 1) * end / SCANNED
-                if (
-                    place < SCANNED
-                    and low < when
-                    and departure_at(model, march, i, min(high, when)) < 0.0
-                ):
-                    first, when = i, _close_in(model, march, i, low, min(high, when))
+                high = min(high, when)
+                if low < high and departure_at(model, march, i, high) < 0.0:
+                    first, when = i, _close_in(model, march, i, low, high)
     return first, when
 
 
@@ -169,7 +166,7 @@ def _first_scanned(model: Record, march: Record, i: int, end: float) -> int:
 
 @kernel
 def _play_at(model: Record, march: Record, i: int, delay: float, slack: float) -> float:
-    """`departure` of mesh i at any time within the step, where no error of form moves its flanks."""
+    """`departure` of mesh i within the step, where no error of form moves its flanks."""
     train, run, moment = model.train, march.run, march.moment
     d = rate = 0.0
     for m in range(train.bodies):

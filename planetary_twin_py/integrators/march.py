@@ -171,7 +171,7 @@ def _hold_friction(model: Record, march: Record) -> None:
 @kernel
 def end_within(model: Record, march: Record, h: float) -> None:
     """Let the step of collocation end after h seconds, on its own motion."""
-    begin, end, moment = march.begin, march.end, march.moment
+    begin, end = march.begin, march.end
     copy_state(begin, end)
     propagate(model, march, h, end.x, end.v)
     trim_at(model, march, h, end.x, end.trim)
