@@ -82,7 +82,7 @@ def _settle_friction(model: Record, march: Record) -> tuple[float, bool]:
             pull = change / before
             run.known.pull[run.modes, 1] = pull / run.step
         if not tail <= 1.0 or change * pull <= SHARE:
-            return (tail if math.isfinite(change) else math.inf), True
+            return (tail if math.isfinite(tail + change) else math.inf), True
         if sweep > 0 and not pull <= WEAKEST_PULL:
             break
     return math.inf, False
@@ -149,7 +149,7 @@ def _move_on(model: Record, march: Record) -> float:
 def _difference(model: Record, march: Record) -> float:
     """Largest motion of a mesh between the last sweep and the one before, over its tolerance."""
     train, last, end = model.train, march.run.node[LAST], march.end
-    largest = 0.0
+    largest = total = 0.0  # NaN would get lost in a maximum
     for i in range(train.meshes):
         d = rate = 0.0
         for a in range(3):
@@ -157,7 +157,8 @@ def _difference(model: Record, march: Record) -> float:
             d += train.sign[i, a] * (end.x[j] - last.x[j])
             rate += train.sign[i, a] * (end.v[j] - last.v[j])
         largest = max(largest, abs(d), march.moment.tau[train.kind[i]] * abs(rate))
-    return largest / march.control.tolerance_x
+        total += d + rate
+    return largest / march.control.tolerance_x if math.isfinite(total) else math.inf
 
 
 @kernel

@@ -32,6 +32,7 @@ from .rosenbrock import ORDER, step
 SHORTEST_STEP = 1e-13  # [s] below it two events count as one
 EDGE = 1e-9  # [-] mesh cycles within which a tooth pair counts as having entered or left
 ON_EDGE = 1e-13  # [s] to which a step of collocation ends on the edge of a tooth pair
+WITHIN = 0.1  # of the step, by which its end is moved for that at most
 NEAREST, FARTHEST = 0.1, 0.9  # by which a step is shortened at a time to meet a flank event
 SAFETY, SHRINK, GROW = 0.8, 0.25, 2.0
 STRETCH = 1.2  # by which a planned step is stretched to end on an event
@@ -175,7 +176,7 @@ def end_within(model: Record, march: Record, h: float) -> None:
     copy_state(begin, end)
     propagate(model, march, h, end.x, end.v)
     trim_at(model, march, h, end.x, end.trim)
-    integrate_powers(march, h)
+    integrate_powers(march, model.train.bodies, h)
     _pass_time(model, march, h)
 
 
@@ -192,10 +193,13 @@ def _pass_time(model: Record, march: Record, h: float) -> None:
 
 @kernel
 def _meet_edge(model: Record, march: Record, mesh: int, h: float) -> None:
-    """Move the end of the step to where `mesh` comes to the edge of its segment (Newton)."""
+    """Move the end of the step to where `mesh` comes to the edge of its segment (Newton).
+
+    Where the pace has changed too much for that, the next steps come to the edge.
+    """
     for _ in range(3):
         gap = _time_to_edge(model, march, mesh)
-        if abs(gap) < ON_EDGE:
+        if abs(gap) < ON_EDGE or not abs(gap) < WITHIN * h:
             return
         h += gap
         end_within(model, march, h)
