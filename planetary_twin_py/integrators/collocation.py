@@ -28,7 +28,7 @@ from .propagation import (
 MOST_SWEEPS = 6
 SHARE = 0.3  # of the tolerance that a sweep not made may leave
 WEAKEST_PULL = 0.5  # of a sweep, beyond which a shorter step or another method is called for
-TAIL = 0.05  # share of the highest power of the polynomial that counts as its error
+TAIL = 0.2  # share of the highest power of the polynomial that counts as its error
 SETTLING = 40.0  # such a share moves a mode by 1/40 of what it would move it at rest
 
 
@@ -167,11 +167,15 @@ def _tail(model: Record, march: Record) -> float:
     train, run, largest = model.train, march.run, 0.0
     h, n = run.step, run.modes
     for m in range(train.bodies):
-        tail = 0.0
+        tail = below = 0.0
         for k in range(NODES):
             tail += COEFFICIENT[LAST, k] * run.rest[k, m]
+            below += COEFFICIENT[LAST - 1, k] * run.rest[k, m]
         static = 1.0 / max(run.square[m], SETTLING / (h * h))
-        run.now_q[m] = abs(tail) * TAIL * static
+        ratio = abs(tail) / (abs(tail) + abs(below) + 1e-300)
+        if run.slow[m] == 0:  # steps within the memory of the mode, whose errors add up at random
+            static *= math.sqrt(1.0 + 2.0 / (run.damping[m] * h + 1e-6))
+        run.now_q[m] = abs(tail) * ratio * TAIL * static
     for i in range(train.meshes):
         total = 0.0
         for m in range(train.bodies):

@@ -38,6 +38,7 @@ SAFETY, SHRINK, GROW = 0.8, 0.25, 2.0
 STRETCH = 1.2  # by which a planned step is stretched to end on an event
 DETOUR = 20  # steps of Rosenbrock's method before collocation is tried again
 COLLOCATION_ORDER = 3  # of its error in the step
+STIFF = 3.0  # by which errors of Rosenbrock's method count more
 ROUNDING = 1e-15  # [m/s] errors of a speed below it are none
 
 
@@ -279,7 +280,7 @@ def _controlled(model: Record, march: Record, h: float) -> tuple[float, float]:
     """Try steps from h downwards until the error is allowed; the step, and how it may change."""
     while True:
         _try(model, march, h)
-        error = _error_norm(model, march)
+        error = STIFF * _error_norm(model, march)
         factor = SAFETY * error ** (-1.0 / ORDER) if error > 0.0 else GROW
         if error <= 1.0 or (h <= SHORTEST_STEP and error < math.inf):
             return h, factor

@@ -65,7 +65,8 @@ def test_balance_closes_for_steps_of_the_stiffness_and_for_every_direction(chang
 
 
 def test_residual_falls_with_the_tolerance():
-    residuals = [imbalance(scene_of(FLOWS[0]), tol) for tol in (1e-2, 1e-3, 1e-4, 1e-5, 1e-6)]
+    residuals = [imbalance(scene_of(FLOWS[0]), tol) for tol in (1e-2, 1e-4, 1e-6)]
+    assert residuals[0] < 1e-4
     assert all(b < 0.5 * a for a, b in pairwise(residuals))
     assert residuals[-1] < 1e-7
 

@@ -91,11 +91,11 @@ def test_a_worn_flank_shows_on_its_own_side_only():
     _, drive = disturbances(wear | {"flank": "drive"})
     _, coast = disturbances(wear | {"flank": "coast"})
     assert np.abs(drive).max() > 5e-7
-    assert np.abs(coast).max() < 1e-14
+    assert np.abs(coast).max() < 1e-9  # what the steps of two runs leave
     backwards = CALM.replace(input_torque=-6.3)
     _, drive = disturbances(wear | {"flank": "drive"}, backwards)
     _, coast = disturbances(wear | {"flank": "coast"}, backwards)
-    assert np.abs(drive).max() < 1e-14
+    assert np.abs(drive).max() < 1e-9
     assert np.abs(coast).max() > 5e-7
 
 

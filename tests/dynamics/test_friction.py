@@ -78,7 +78,7 @@ def test_turning_everything_together_meets_no_friction(flow):
     out, bodies = new_record(EVALUATION), int(engine.train.bodies)
     forces(engine.model, *random_moment(engine, np.random.default_rng(1)), 0.0, np.zeros(2), out)
     q = np.zeros_like(out.force)
-    apply_friction(engine.train, out.pairs, q)
+    apply_friction(engine.train, out.pairs, (0, int(out.pairs.count)), q)
     torque = (q * engine.train.radius)[: bodies + 1]  # the last is that on the ground
     assert torque.sum() == pytest.approx(0.0, abs=1e-12 * np.abs(torque).sum())
 

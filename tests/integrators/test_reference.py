@@ -55,15 +55,16 @@ def errors(scene, begin, duration, tolerances):
     ids=str,
 )
 def test_steady_running_converges_to_the_reference(flow, changes):
+    """To three times the tolerance; what hardly decays adds up to ten at the tightest."""
     found, _ = errors(scene_of(flow, **changes), 0.0, 2.5e-3, [5e-3, 1e-4, 1e-6])
-    assert found[0] < 2e-2
-    assert found[1] < 0.1 * found[0]
-    assert found[2] < min(0.1 * found[1], 1e-5)
+    assert found[0] < 1.5e-2
+    assert found[1] < 3e-4
+    assert found[2] < 1e-5
 
 
 def test_rattling_converges_to_the_reference():
-    found, flank_events = errors(scene_of(FLOWS[0], **RATTLE), 0.02, 4e-3, [5e-3, 1e-4, 1e-6])
+    """Impacts carry a difference on tenfold."""
+    tolerances = [5e-3, 1e-4, 1e-6]
+    found, flank_events = errors(scene_of(FLOWS[0], **RATTLE), 0.02, 4e-3, tolerances)
     assert flank_events >= 5
-    assert found[0] < 5e-2
-    assert found[1] < 0.2 * found[0]
-    assert found[2] < min(0.2 * found[1], 1e-4)
+    assert (np.array(found) < 10.0 * np.array(tolerances)).all()
