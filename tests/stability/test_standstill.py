@@ -1,0 +1,64 @@
+"""Standing still, and starting from there."""
+
+import numpy as np
+import pytest
+from stability.sound import (
+    LAWS,
+    PAPER,
+    PLAIN,
+    UNIFORM,
+    sound_run,
+    static_force,
+    static_torsion,
+    stiffnesses,
+)
+
+import planetary_twin_py as pt
+
+STANDING = pytest.mark.parametrize("law", LAWS)
+
+
+@STANDING
+@pytest.mark.parametrize("torque", [63.0, -63.0, 1e-3])
+def test_standing_under_torque_the_teeth_are_bent_as_statics_say(law, torque):
+    """DTE = F/k + b/2 towards the flank that carries."""
+    scene = UNIFORM.replace(input_speed=0.0, input_torque=torque, **{"mesh.damping.law": law})
+    run = sound_run(scene, 0.05)
+    force = static_force(scene)
+    assert run.mesh_force[-1] == pytest.approx(force, rel=1e-6)
+    expected = force / stiffnesses(scene) + np.copysign(0.5 * scene.operating_point.backlash, force)
+    assert run.dte[-1] == pytest.approx(expected, rel=1e-6)
+    assert np.abs(run.speed).max() < 1e-6
+
+
+def test_standing_still_friction_carries_no_torque_and_takes_no_power():
+    """Whatever stiffness the meshes have, the sum of their forces is the torque of the motor."""
+    run = sound_run(PAPER.replace(input_speed=0.0), 0.1)
+    assert run.mesh_force[-1, :3].sum() == pytest.approx(3.0 * static_force(PAPER), rel=1e-4)
+    assert run.power_loss[-1].sum() < 1e-9
+
+
+@STANDING
+@pytest.mark.parametrize("direction", [1.0, -1.0])
+def test_starting_from_standstill_the_sun_turns_as_the_set_point_tells(law, direction):
+    """angle = slew t^2/2; the shaft, which winds up anew, makes the difference."""
+    slew = 500.0
+    scene = PLAIN.replace(
+        input_speed=direction * pt.rpm(1000),
+        **{"drive.speed_control.start_speed": 0.0, "mesh.damping.law": law},
+    )
+    run = sound_run(scene, 0.1)
+    torsion = static_torsion(scene)
+    gone = run.angle[:, 0] - run.angle[0, 0]
+    assert gone == pytest.approx(direction * 0.5 * slew * run.time**2, abs=0.2 * torsion)
+
+
+@pytest.mark.parametrize("direction", [1.0, -1.0])
+def test_starting_with_friction_takes_power_from_the_first_moment_on(direction):
+    scene = PAPER.replace(
+        input_speed=direction * pt.rpm(1000), **{"drive.speed_control.start_speed": 0.0}
+    )
+    run = sound_run(scene, 0.1, tolerance=1e-5)
+    loss = run.power_loss.sum(axis=1)
+    assert run.energy.friction == pytest.approx(loss.mean() * run.time[-1], rel=1e-2)
+    assert 0.0 < loss[:20].mean() < 0.1 * loss[-200:].mean()
