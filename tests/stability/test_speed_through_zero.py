@@ -2,7 +2,16 @@
 
 import numpy as np
 import pytest
-from stability.sound import LAWS, PAPER, PLAIN, base_radius, sound_run, static_force, static_torsion
+from stability.sound import (
+    LAWS,
+    PAPER,
+    PLAIN,
+    base_radius,
+    behind_the_sun,
+    sound_run,
+    static_force,
+    static_torsion,
+)
 
 SLEW, SPEED = 500.0, 20.0  # [rad/s^2], [rad/s]
 CROSSING = SPEED / SLEW
@@ -30,14 +39,6 @@ def test_the_way_back_mirrors_the_way_there(direction, law):
     swing = run.angle[:, 0] - parabola
     assert np.ptp(swing) < 0.2 * static_torsion(scene)
     assert np.sign(run.speed[[0, -1], 0]).tolist() == [-direction, direction]
-
-
-def behind_the_sun(scene):
-    """Inertia that the sun's teeth accelerate, as the sun feels it [kg m^2]."""
-    mass, teeth, drive = scene.gearset.equivalent_mass, scene.gearset.teeth, scene.drive
-    pitch = 0.5 * scene.gearset.module * teeth.sun
-    rims = (scene.gearset.planets * mass.planet + mass.ring) * pitch**2
-    return rims + drive.output.inertia * (teeth.sun / teeth.ring) ** 2
 
 
 @BOTH_WAYS

@@ -7,6 +7,8 @@ from stability.sound import (
     PAPER,
     PLAIN,
     UNIFORM,
+    base_radius,
+    behind_the_sun,
     sound_run,
     static_force,
     static_torsion,
@@ -62,3 +64,25 @@ def test_starting_with_friction_takes_power_from_the_first_moment_on(direction):
     loss = run.power_loss.sum(axis=1)
     assert run.energy.friction == pytest.approx(loss.mean() * run.time[-1], rel=1e-2)
     assert 0.0 < loss[:20].mean() < 0.1 * loss[-200:].mean()
+
+
+@pytest.mark.xfail(strict=True, reason="tau is that of the last change of a tooth pair")
+def test_damping_without_bound_at_standstill_lets_go_as_the_gears_begin_to_turn():
+    """q' = (F/k - q)/tau, tau = c/f_m, f_m = Zs slew t/(2 pi): q nears F/k as exp(-t^2)."""
+    slew, loss_factor = 500.0, 0.009
+    stiff = {f"drive.{side}.coupling_stiffness": 1e6 for side in ("input", "output")}
+    damped = {"drive.input.coupling_damping": 30.0, "drive.output.coupling_damping": 300.0}
+    law = {"mesh.damping.law": "meshing_frequency", "mesh.damping.loss_factor": loss_factor}
+    scene = PLAIN.replace(
+        **stiff, **damped, **law,
+        **{"mesh.damping.lowest_frequency": 1e-6, "drive.speed_control.start_speed": 0.0},
+    )  # fmt: skip
+    run = sound_run(scene, 0.01)
+    teeth, arm = scene.gearset.teeth.sun, base_radius(scene, scene.gearset.teeth.sun)
+    more = slew * behind_the_sun(scene) / (scene.gearset.planets * arm)
+    left = np.exp(-teeth * slew * run.time**2 / (4.0 * np.pi * loss_factor))
+    expected = (
+        0.5 * scene.operating_point.backlash
+        + (static_force(scene) + more * (1.0 - left)) / stiffnesses(scene)[0]
+    )
+    assert run.dte[:, 0] == pytest.approx(expected, abs=0.1 * more / stiffnesses(scene)[0])
