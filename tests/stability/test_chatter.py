@@ -6,7 +6,7 @@ from stability.sound import PAPER, assert_closed, assert_finite
 
 import planetary_twin_py as pt
 
-SPAN = 0.03  # [s]
+SPAN = 0.02  # [s]
 # Two pairs in contact, 1.75 times as stiff as one.
 FASTEST = max(pt.natural_modes(PAPER).frequencies) * np.sqrt(PAPER.mesh.double_pair_ratio)
 LOADS = {
@@ -38,7 +38,7 @@ def chatters(load, **changes):
 
 @pytest.mark.parametrize("load", LOADS)
 @pytest.mark.parametrize("backlash", [0.0, 2e-7, 1e-5])
-@pytest.mark.parametrize("damping", [0.0, 0.05, 2.0])
+@pytest.mark.parametrize("damping", [0.0, 2.0])
 def test_impacts_between_both_flanks_are_no_more_than_the_modes_can_make(load, backlash, damping):
     chatters(
         load,
@@ -49,13 +49,12 @@ def test_impacts_between_both_flanks_are_no_more_than_the_modes_can_make(load, b
 
 @pytest.mark.parametrize("load", LOADS)
 @pytest.mark.parametrize("law", ["meshing_frequency", "printed_meshing_frequency"])
-@pytest.mark.parametrize("rolling", ["none", "goksem_hargreaves"])
-def test_the_same_with_friction_that_acts_where_flanks_touch(load, law, rolling):
+def test_the_same_with_friction_that_acts_where_flanks_touch(load, law):
     chatters(
         load,
         **{
             "mesh.damping.law": law,
-            "lubrication.rolling": rolling,
+            "lubrication.rolling": "goksem_hargreaves",
             "lubrication.boundary": "load_sharing",
         },
     )

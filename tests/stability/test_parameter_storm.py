@@ -17,7 +17,7 @@ CALM = {
 }
 WILD = {name: (t.minimum, t.maximum) for name, t in PAPER.tunables.items()}
 del WILD["second_input_speed"]  # of a differential
-WINDOWS = [1.7e-9, 1e-6, 1e-4, 1e-3]
+WINDOWS = [1.7e-9, 1e-4, 1e-3]
 
 
 def storm(random, ranges):
@@ -48,7 +48,7 @@ def test_a_storm_of_changes_is_weathered(ranges, length):
     assert all(a.time <= b.time for a, b in zip(twin.log, twin.log[1:], strict=False))
 
 
-@pytest.mark.parametrize("damping", [0.0, 0.05, 2.0])
+@pytest.mark.parametrize("damping", [0.0, 2.0])
 def test_no_energy_comes_out_of_a_storm_that_did_not_go_in(damping):
     """One stiffness, so that all that is neither stored nor given back is damped."""
     scene = PLAIN.replace(**{"mesh.damping.damping_ratio": damping})

@@ -29,7 +29,7 @@ def ramp(scene, direction, law):
 
 
 @BOTH_WAYS
-@EVERY_LAW
+@pytest.mark.parametrize("law", ["viscous", "printed_meshing_frequency"])
 def test_the_way_back_mirrors_the_way_there(direction, law):
     """Under a constant slew the angle is a parabola about the instant of standstill."""
     scene = ramp(PAPER.replace(**{"lubrication.friction": False}), direction, law)

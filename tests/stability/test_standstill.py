@@ -3,7 +3,6 @@
 import numpy as np
 import pytest
 from stability.sound import (
-    LAWS,
     PAPER,
     PLAIN,
     UNIFORM,
@@ -17,10 +16,10 @@ from stability.sound import (
 
 import planetary_twin_py as pt
 
-STANDING = pytest.mark.parametrize("law", LAWS)
+EITHER_LAW = pytest.mark.parametrize("law", ["viscous", "printed_meshing_frequency"])
 
 
-@STANDING
+@EITHER_LAW
 @pytest.mark.parametrize("torque", [63.0, -63.0, 1e-3])
 def test_standing_under_torque_the_teeth_are_bent_as_statics_say(law, torque):
     """DTE = F/k + b/2 towards the flank that carries."""
@@ -40,7 +39,7 @@ def test_standing_still_friction_carries_no_torque_and_takes_no_power():
     assert run.power_loss[-1].sum() < 1e-9
 
 
-@STANDING
+@EITHER_LAW
 @pytest.mark.parametrize("direction", [1.0, -1.0])
 def test_starting_from_standstill_the_sun_turns_as_the_set_point_tells(law, direction):
     """angle = slew t^2/2; the shaft, which winds up anew, makes the difference."""
@@ -64,6 +63,21 @@ def test_starting_with_friction_takes_power_from_the_first_moment_on(direction):
     loss = run.power_loss.sum(axis=1)
     assert run.energy.friction == pytest.approx(loss.mean() * run.time[-1], rel=1e-2)
     assert 0.0 < loss[:20].mean() < 0.1 * loss[-200:].mean()
+
+
+@pytest.mark.xfail(strict=True, reason="friction of jammed teeth chatters with the step")
+def test_teeth_jammed_by_an_error_of_form_come_to_rest_at_the_live_tolerance():
+    """What friction takes on the way is that of a tight tolerance."""
+    scene = PAPER.replace(
+        input_speed=0.0,
+        **{
+            "mesh.damping.law": "natural_frequency",
+            "mesh.sun_planet_error": {"amplitudes": [1e-4]},
+            "drive.speed_control.bandwidth": 100.0,
+        },
+    )
+    live, tight = (pt.simulate(scene, 0.02, 20_000.0, tolerance=t) for t in (5e-3, 1e-6))
+    assert live.energy.friction == pytest.approx(tight.energy.friction, rel=0.5)
 
 
 @pytest.mark.xfail(strict=True, reason="tau is that of the last change of a tooth pair")

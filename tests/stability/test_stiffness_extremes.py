@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from stability.sound import LAWS, PAPER, PLAIN, base_radius, sound_run, static_force, stiffnesses
+from stability.sound import PAPER, PLAIN, base_radius, sound_run, static_force, stiffnesses
 
 import planetary_twin_py as pt
 
@@ -21,7 +21,7 @@ def with_stiffness(scene, pair):
 
 
 @PAIRS
-@pytest.mark.parametrize("law", LAWS)
+@pytest.mark.parametrize("law", ["viscous", "printed_meshing_frequency"])
 def test_at_rest_the_transmission_error_is_force_over_stiffness(pair, law):
     scene = with_stiffness(PLAIN, pair).replace(
         input_speed=0.0, input_torque=SLIGHT, **{"mesh.damping.law": law}
@@ -55,7 +55,7 @@ def test_running_what_the_meshes_do_not_carry_accelerates_the_sun(pair, law):
     assert np.trapezoid(carried, run.time) + gained == pytest.approx(torque * elapsed, rel=1e-2)
 
 
-@pytest.mark.parametrize("stiffness", [1e10, 1e11, 1e12, 1e13])
+@pytest.mark.parametrize("stiffness", [1e10, 1e13])
 def test_stiff_teeth_turn_as_rigid_ones(stiffness):
     """Without a shaft to swing on, the ring turns as Willis says and flanks just touch."""
     scene = with_stiffness(PLAIN, (stiffness, stiffness)).replace(**RIGID_SHAFTS)

@@ -26,7 +26,7 @@ def seen(twin, window, until):
     return np.vstack(parts), end.angle
 
 
-@EVERY_REGIME
+@pytest.mark.parametrize("name", ["steady", "rattle", "creep", "through zero"])
 def test_windows_of_1_7_and_1000_milliseconds_pass_the_same_states(name):
     scene = PAPER.replace(**REGIMES[name])
     runs = [seen(pt.Twin(scene, 2e4), window, 1.001) for window in (1.001, 1e-3, 7e-3)]
@@ -62,6 +62,7 @@ def test_windows_of_a_nanosecond_pass_the_same_states_and_tell_speeds():
     assert np.array_equal(twin.advance(1e-2).waveform.dte, other.advance(1e-2).waveform.dte)
 
 
+@pytest.mark.filterwarnings("ignore:invalid value")
 @pytest.mark.xfail(strict=True, reason="time is rounded to 1e-12 s, below which it does not pass")
 def test_a_window_shorter_than_the_clock_resolves_passes_time_or_is_refused():
     twin = pt.Twin(PAPER)
