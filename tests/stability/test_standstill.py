@@ -1,0 +1,117 @@
+"""Standing still, and starting from there."""
+
+import numpy as np
+import pytest
+from stability.sound import (
+    PAPER,
+    PLAIN,
+    UNIFORM,
+    base_radius,
+    behind_the_sun,
+    sound_run,
+    static_force,
+    static_torsion,
+    stiffnesses,
+)
+
+import planetary_twin_py as pt
+
+EITHER_LAW = pytest.mark.parametrize("law", ["viscous", "printed_meshing_frequency"])
+
+
+@EITHER_LAW
+@pytest.mark.parametrize("torque", [63.0, -63.0, 1e-3])
+def test_standing_under_torque_the_teeth_are_bent_as_statics_say(law, torque):
+    """DTE = F/k + b/2 towards the flank that carries."""
+    scene = UNIFORM.replace(input_speed=0.0, input_torque=torque, **{"mesh.damping.law": law})
+    run = sound_run(scene, 0.05)
+    force = static_force(scene)
+    assert run.mesh_force[-1] == pytest.approx(force, rel=1e-6)
+    expected = force / stiffnesses(scene) + np.copysign(0.5 * scene.operating_point.backlash, force)
+    assert run.dte[-1] == pytest.approx(expected, rel=1e-6)
+    assert np.abs(run.speed).max() < 1e-6
+
+
+def test_standing_still_friction_carries_no_torque_and_takes_no_power():
+    """Whatever stiffness the meshes have, the sum of their forces is the torque of the motor."""
+    run = sound_run(PAPER.replace(input_speed=0.0), 0.1)
+    assert run.mesh_force[-1, :3].sum() == pytest.approx(3.0 * static_force(PAPER), rel=1e-4)
+    assert run.power_loss[-1].sum() < 1e-9
+
+
+@EITHER_LAW
+@pytest.mark.parametrize("direction", [1.0, -1.0])
+def test_starting_from_standstill_the_sun_turns_as_the_set_point_tells(law, direction):
+    """angle = slew t^2/2; the shaft, which winds up anew, makes the difference."""
+    slew = 500.0
+    scene = PLAIN.replace(
+        input_speed=direction * pt.rpm(1000),
+        **{"drive.speed_control.start_speed": 0.0, "mesh.damping.law": law},
+    )
+    run = sound_run(scene, 0.1)
+    torsion = static_torsion(scene)
+    gone = run.angle[:, 0] - run.angle[0, 0]
+    assert gone == pytest.approx(direction * 0.5 * slew * run.time**2, abs=0.2 * torsion)
+
+
+@pytest.mark.parametrize("direction", [1.0, -1.0])
+def test_starting_with_friction_takes_power_from_the_first_moment_on(direction):
+    scene = PAPER.replace(
+        input_speed=direction * pt.rpm(1000), **{"drive.speed_control.start_speed": 0.0}
+    )
+    run = sound_run(scene, 0.1, tolerance=1e-5)
+    loss = run.power_loss.sum(axis=1)
+    assert run.energy.friction == pytest.approx(loss.mean() * run.time[-1], rel=1e-2)
+    assert 0.0 < loss[:20].mean() < 0.1 * loss[-200:].mean()
+
+
+@pytest.mark.xfail(strict=True, reason="friction of jammed teeth chatters with the step")
+def test_teeth_jammed_by_an_error_of_form_come_to_rest_at_the_live_tolerance():
+    """What friction takes on the way is that of a tight tolerance."""
+    scene = PAPER.replace(
+        input_speed=0.0,
+        **{
+            "mesh.damping.law": "natural_frequency",
+            "mesh.sun_planet_error": {"amplitudes": [1e-4]},
+            "drive.speed_control.bandwidth": 100.0,
+        },
+    )
+    live, tight = (pt.simulate(scene, 0.02, 20_000.0, tolerance=t) for t in (5e-3, 1e-6))
+    assert live.energy.friction == pytest.approx(tight.energy.friction, rel=0.5)
+
+
+@pytest.mark.xfail(strict=True, reason="tau is that of the last change of a tooth pair")
+def test_damping_without_bound_at_standstill_lets_go_as_the_gears_begin_to_turn():
+    """q' = (F/k - q)/tau, tau = c/f_m, f_m = Zs slew t/(2 pi): q nears F/k as exp(-t^2)."""
+    slew, loss_factor = 500.0, 0.009
+    stiff = {f"drive.{side}.coupling_stiffness": 1e6 for side in ("input", "output")}
+    damped = {"drive.input.coupling_damping": 30.0, "drive.output.coupling_damping": 300.0}
+    law = {"mesh.damping.law": "meshing_frequency", "mesh.damping.loss_factor": loss_factor}
+    scene = PLAIN.replace(
+        **stiff, **damped, **law,
+        **{"mesh.damping.lowest_frequency": 1e-6, "drive.speed_control.start_speed": 0.0},
+    )  # fmt: skip
+    run = sound_run(scene, 0.01)
+    teeth, arm = scene.gearset.teeth.sun, base_radius(scene, scene.gearset.teeth.sun)
+    more = slew * behind_the_sun(scene) / (scene.gearset.planets * arm)
+    left = np.exp(-teeth * slew * run.time**2 / (4.0 * np.pi * loss_factor))
+    expected = (
+        0.5 * scene.operating_point.backlash
+        + (static_force(scene) + more * (1.0 - left)) / stiffnesses(scene)[0]
+    )
+    assert run.dte[:, 0] == pytest.approx(expected, abs=0.1 * more / stiffnesses(scene)[0])
+
+
+@pytest.mark.xfail(strict=True, reason="tau times the error of a speed falls below its rounding")
+def test_damping_without_bound_at_standstill_does_not_stall_a_start_under_a_light_load():
+    """tau is 1885 s at 1e-6 rad/s: 5e-13 m allow an error of 3e-16 m/s."""
+    scene = PAPER.replace(
+        input_torque=0.01,
+        backlash=0.0,
+        **{
+            "mesh.damping.lowest_frequency": 1e-6,
+            "drive.speed_control.start_speed": 1e-6,
+            "drive.speed_control.slew_rate": 1e6,
+        },
+    )
+    assert pt.simulate(scene, 3.16e-5, 1e6, tolerance=1e-4).stats.steps < 10_000

@@ -1,0 +1,91 @@
+"""Windows look at a run; however long they are, they do not change it."""
+
+import numpy as np
+import pytest
+from stability.sound import PAPER
+
+import planetary_twin_py as pt
+
+REGIMES = {
+    "steady": {},
+    "rattle": {"input_torque": 0.3, "torque_ripple": 3.0},
+    "creep": {"input_speed": 1e-6},
+    "through zero": {"drive.speed_control.start_speed": -20.0, "input_speed": 300.0},
+    "undamped": {"mesh.damping.law": "viscous", "mesh.damping.damping_ratio": 0.0},
+}
+EVERY_REGIME = pytest.mark.parametrize("name", REGIMES)
+
+
+def seen(twin, window, until):
+    """Every sample from now on, and where the twin stands at the end."""
+    parts, end = [], {}
+    for _ in range(round((until - twin.time) / window)):
+        end = twin.advance(window)
+        wave = end.waveform
+        parts.append(np.hstack([wave.dte, wave.mesh_force, wave.friction]))
+    return np.vstack(parts), end.angle
+
+
+@pytest.mark.parametrize("name", ["steady", "rattle", "creep", "through zero"])
+def test_windows_of_1_7_and_1000_milliseconds_pass_the_same_states(name):
+    scene = PAPER.replace(**REGIMES[name])
+    runs = [seen(pt.Twin(scene, 2e4), window, 1.001) for window in (1.001, 1e-3, 7e-3)]
+    for samples, angle in runs[1:]:
+        assert np.array_equal(samples, runs[0][0])
+        assert np.array_equal(angle, runs[0][1])
+
+
+@EVERY_REGIME
+def test_what_is_set_at_an_instant_acts_alike_whatever_windows_lie_between(name):
+    changes = [{"lambda_ratio": 2.0}, {"backlash": 4e-7}, {"input_torque": 20.0}, {}]
+
+    def run(window):
+        twin = pt.Twin(PAPER.replace(**REGIMES[name]), 2e4)
+        parts = []
+        for n, change in enumerate(changes, 1):
+            parts.append(seen(twin, window, 7e-3 * n)[0])
+            twin.set(**change)
+        return np.vstack(parts)
+
+    whole = run(7e-3)
+    for window in (1e-3, 1e-4, 3.5e-3):
+        assert np.array_equal(run(window), whole)
+
+
+def test_windows_of_a_nanosecond_pass_the_same_states_and_tell_speeds():
+    twin, other = pt.Twin(PAPER), pt.Twin(PAPER)
+    windows = [twin.advance(1e-9) for _ in range(2000)]
+    assert twin.time == pytest.approx(2e-6, rel=1e-9)
+    speeds = np.array([window.input_speed for window in windows])
+    assert speeds == pytest.approx(pt.rpm(1000), rel=1e-3)
+    assert len(other.advance(2e-6).waveform.time) == 0
+    assert np.array_equal(twin.advance(1e-2).waveform.dte, other.advance(1e-2).waveform.dte)
+
+
+@pytest.mark.filterwarnings("ignore:invalid value")
+@pytest.mark.xfail(strict=True, reason="time is rounded to 1e-12 s, below which it does not pass")
+def test_a_window_shorter_than_the_clock_resolves_passes_time_or_is_refused():
+    twin = pt.Twin(PAPER)
+    try:
+        window = twin.advance(4e-13)
+    except ValueError:
+        return
+    assert window.end > window.start
+    assert np.isfinite(window.mean_speed).all()
+
+
+@pytest.mark.parametrize("speed", [0.0, 1.0, -1e-6])
+def test_the_longest_window_is_as_good_as_a_short_one(speed):
+    scene = PAPER.replace(input_speed=speed, **{"lubrication.friction": False})
+    window = pt.Twin(scene, 1.0).advance(60.0)
+    assert len(window.waveform.time) == 60
+    assert np.isfinite(window.waveform.mesh_force).all()
+    assert window.input_speed == pytest.approx(speed, rel=1e-3, abs=1e-9)
+
+
+@pytest.mark.parametrize("duration", [3600.0, 60.000001, 0.0, -1e-9, np.inf, np.nan])
+def test_a_window_that_cannot_be_is_refused_in_one_line_and_no_time_passes(duration):
+    twin = pt.Twin(PAPER)
+    with pytest.raises(ValueError, match=r"^duration = .*at most 60$"):
+        twin.advance(duration)
+    assert twin.time == 0.0
