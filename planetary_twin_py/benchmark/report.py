@@ -27,7 +27,7 @@ read ratios. Kernels are compiled and cached before; scene, arrays and start tak
 - Reference: SciPy's DOP853 from event to event, relative tolerance $relative. It shares the
   equations with the integrator, but no step, step control, interpolant or event location.
   `tests/reference_model.py` is a second one that shares no code with the model at all.
-
+$peers
 The method is ROS34PW2, a linearly implicit Runge-Kutta method of order 3, from event to event
 (`integrators/`). `tolerance` bounds the local error of a step relative to the static deflection of
 the meshes; in these cases the DTE error comes out at $least to $most times the tolerance.
@@ -37,6 +37,11 @@ $table
 The cases: the scene `paper` with
 $cases
 """)
+
+_PEERS = f"""- Methods other than `{METHOD}` are off-the-shelf solvers and fixed steps, see
+  `benchmark/peers/`. They take the same equations as one compiled function of time and state, and
+  are not told of events. Their time leaves out working losses out of the states.
+"""
 
 
 def _cells(row: Row) -> tuple[str, ...]:
@@ -77,6 +82,7 @@ def as_markdown(rows: Sequence[Row]) -> str:
         rate=f"{SAMPLE_RATE / 1e3:g}",
         rounds=ROUNDS,
         relative=f"{RELATIVE:g}",
+        peers="" if len(own) == len(rows) else _PEERS,
         table="\n".join("| " + " | ".join(cells) + " |" for cells in lines),
         cases="\n".join(f"- {case.name}: {case.changes or 'as it is'}" for case in CASES),
     )

@@ -29,6 +29,7 @@ def need_plots() -> None:
 def need_peers() -> None:
     """End the command where the extra for the solvers to compare with is not installed."""
     try:
+        import CyRK  # noqa: F401
         import sksundae  # noqa: F401
     except ImportError:
         fail("the peers are not installed: pip install 'planetary_twin_py[bench]'")

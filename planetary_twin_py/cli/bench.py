@@ -29,6 +29,7 @@ def bench(
     from rich.console import Console
 
     from ..benchmark.cases import CASES
+    from ..benchmark.peers.problem import Problem
     from ..benchmark.peers.work_precision import peer_rows
     from ..benchmark.report import as_markdown, as_table
     from ..benchmark.table import measure, nothing
@@ -38,6 +39,9 @@ def bench(
         beside = peer_rows(status.update) if peers else nothing
         rows = measure(CASES, progress=status.update, beside=beside)
     console.print(as_table(rows))
+    if peers:
+        call = Problem(CASES[0].scene()).seconds_per_call()
+        console.print(f"right-hand side of the peers: {call * 1e9:.0f} ns a call ({CASES[0].name})")
     if markdown is not None:
         markdown.write_text(as_markdown(rows), "utf-8")
     if json_ is not None:

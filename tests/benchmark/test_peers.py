@@ -9,7 +9,7 @@ from typer.testing import CliRunner
 
 from planetary_twin_py._records import new_record
 from planetary_twin_py.benchmark.cases import Case
-from planetary_twin_py.benchmark.peers import work_precision
+from planetary_twin_py.benchmark.peers import cvode, cvode_compiled, cyrk, work_precision
 from planetary_twin_py.benchmark.peers.equations import rate
 from planetary_twin_py.benchmark.peers.problem import Problem
 from planetary_twin_py.benchmark.peers.solver import SolverError
@@ -26,8 +26,11 @@ from planetary_twin_py.scene import load_scene, packaged_scenes
 
 SMOOTH = Case("smooth", {"lubrication.friction": False}, 0.002, 1)
 SHORT = Case("short", {}, 0.002, 1)
-BRINGS_CVODE = find_spec("sksundae") is not None
-INSTALLED = [name for name in SOLVERS if BRINGS_CVODE or not name.startswith("cvode")]
+MISSING = [
+    *([] if find_spec("sksundae") else [*cvode.SOLVERS, *cvode_compiled.SOLVERS]),
+    *([] if find_spec("CyRK") else cyrk.SOLVERS),
+]
+INSTALLED = [name for name in SOLVERS if name not in MISSING]
 SCENES = {
     "rattle": ("paper", {"input_torque": 0.3, "torque_ripple": 3.0}),
     "backwards with runout": ("paper", {"input_speed": -60.0, "mesh.runout.sun": 2e-6}),
@@ -124,8 +127,9 @@ def test_a_step_beyond_the_limit_of_stability_is_reported():
         run("semi_implicit_euler", SHORT.scene(), 0.02, SAMPLE_RATE, 1e-2, 60.0)
 
 
-def test_without_the_package_of_the_peers_the_command_ends_in_one_line(monkeypatch):
-    monkeypatch.setitem(sys.modules, "sksundae", None)
+@pytest.mark.parametrize("package", ["sksundae", "CyRK"])
+def test_without_a_package_of_the_peers_the_command_ends_in_one_line(monkeypatch, package):
+    monkeypatch.setitem(sys.modules, package, None)
     answer = CliRunner().invoke(build_app(), ["bench", "--peers"])
     assert answer.exit_code == 2
     assert answer.output.splitlines() == [

@@ -109,6 +109,13 @@ def rate(problem: np.ndarray, t: float, y: np.ndarray, dy: np.ndarray) -> None:
 
 
 @kernel
+def repeat(problem: np.ndarray, step: float, y: np.ndarray, dy: np.ndarray, count: int) -> None:
+    """Call `derivative` at `count` times, `step` seconds apart."""
+    for k in range(count):
+        derivative(problem[0], k * step, y, dy)
+
+
+@kernel
 def show(problem: np.ndarray, times: np.ndarray, states: np.ndarray, out: np.ndarray) -> float:
     """Fill out[k, i] with the transmission error [m] of mesh i in state k; mean power loss [W]."""
     own, lost = problem[0], 0.0

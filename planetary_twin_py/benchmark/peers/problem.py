@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import time
 from collections.abc import Callable
 
 import numpy as np
@@ -15,7 +16,9 @@ from ...dynamics.static_load import mesh_force
 from ...dynamics.train import build_train
 from ...engine import LIGHTEST_MESH_LOAD
 from ...scene import Scene
-from .equations import PROBLEM, rate, show
+from .equations import PROBLEM, rate, repeat, show
+
+CALLS = 100_000  # of the right-hand side, to time it
 
 
 class Problem:
@@ -58,6 +61,14 @@ class Problem:
             return dy
 
         return slope
+
+    def seconds_per_call(self) -> float:
+        """What the right-hand side takes, called from compiled code, over one mesh cycle [s]."""
+        y, dy = np.zeros(self.size), np.zeros(self.size)
+        repeat(self.record, 0.0, y, dy, 1)  # compiles
+        begin = time.process_time()
+        repeat(self.record, self.mesh_period / CALLS, y, dy, CALLS)
+        return (time.process_time() - begin) / CALLS
 
     def observe(self, times: np.ndarray, states: np.ndarray) -> tuple[np.ndarray, float]:
         """Transmission errors (samples, meshes) [m] and mean power loss [W] of states at times."""

@@ -8,7 +8,7 @@ from typing import NamedTuple
 import numpy as np
 
 from ...scene import Scene
-from . import cvode, cvode_compiled, fixed_step, scipy_solvers
+from . import cvode, cvode_compiled, cyrk, fixed_step, scipy_solvers
 from .problem import Problem, sample_times
 from .solver import Deadline, Solver
 
@@ -16,6 +16,7 @@ SOLVERS: dict[str, Solver] = {
     **scipy_solvers.SOLVERS,
     **cvode.SOLVERS,
     **cvode_compiled.SOLVERS,
+    **cyrk.SOLVERS,
     **fixed_step.SOLVERS,
 }
 

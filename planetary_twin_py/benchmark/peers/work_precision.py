@@ -14,7 +14,7 @@ from .solver import SolverError, TooSlow
 from .solvers import SOLVERS, Run, run
 
 LIMIT = 15.0  # [s] for one of the runs of a row
-ROUND = 2.0  # [s] that a timed run takes, about, where the case is long enough
+ROUND = 0.5  # [s] that a timed run takes, about, where the case is long enough
 
 
 def peer_rows(
