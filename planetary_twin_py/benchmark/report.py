@@ -64,7 +64,8 @@ def as_table(rows: Sequence[Row]) -> Table:
     """For the terminal."""
     table = Table(box=None, header_style="bold", pad_edge=False)
     for title in _TITLES:
-        table.add_column(title, justify="left" if title in _TITLES[:2] else "right", no_wrap=True)
+        name = title in _TITLES[:2]
+        table.add_column(title, justify="left" if name else "right", no_wrap=not name)
     for row in rows:
         table.add_row(*_cells(row))
     return table

@@ -20,7 +20,8 @@ def bench(
         Path | None, typer.Option(help="Write the table as a page of the documentation.")
     ] = None,
     peers: Annotated[
-        bool, typer.Option("--peers", help="Measure off-the-shelf solvers, too (half an hour).")
+        bool,
+        typer.Option("--peers", help="Measure off-the-shelf solvers, too (a quarter of an hour)."),
     ] = False,
 ) -> None:
     """Measure speed against error, beside a converged reference by SciPy's DOP853."""
