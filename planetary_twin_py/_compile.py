@@ -23,6 +23,7 @@ _FAST = {"reassoc", "nsz", "arcp", "contract"}
 # Where kernels are, and what they take constants from.
 _KERNELS = (
     "_*.py",
+    "benchmark/peers/equations.py",
     "dynamics/*.py",
     "integrators/*.py",
     "losses/*.py",

@@ -11,9 +11,9 @@ from rich.table import Table
 
 from .cases import CASES
 from .reference import RELATIVE
-from .table import ROUNDS, SAMPLE_RATE, Row
+from .table import METHOD, ROUNDS, SAMPLE_RATE, Row
 
-_TITLES = ("case", "tolerance", "DTE error", "loss error", "speed", "spread")
+_TITLES = ("case", "method", "tolerance", "DTE error", "loss error", "speed", "spread")
 
 _PAGE = Template("""# Speed against error
 
@@ -27,7 +27,7 @@ read ratios. Kernels are compiled and cached before; scene, arrays and start tak
 - Reference: SciPy's DOP853 from event to event, relative tolerance $relative. It shares the
   equations with the integrator, but no step, step control, interpolant or event location.
   `tests/reference_model.py` is a second one that shares no code with the model at all.
-
+$peers
 The method is ROS34PW2, a linearly implicit Runge-Kutta method of order 3, from event to event
 (`integrators/`). `tolerance` bounds the local error of a step relative to the static deflection of
 the meshes; in these cases the DTE error comes out at $least to $most times the tolerance.
@@ -38,23 +38,34 @@ The cases: the scene `paper` with
 $cases
 """)
 
+_PEERS = f"""- Methods other than `{METHOD}` are off-the-shelf solvers and fixed steps, see
+  `benchmark/peers/`. They take the same equations as one compiled function of time and state, and
+  are not told of events. Their time leaves out working losses out of the states.
+"""
+
 
 def _cells(row: Row) -> tuple[str, ...]:
     return (
         row.case,
+        row.method,
         f"{row.tolerance:.0e}",
-        f"{row.error_dte:.1e}",
-        "-" if math.isnan(row.error_power_loss) else f"{row.error_power_loss:.1e}",
-        f"{row.rtf:.2f}",
-        f"{row.rtf_low:.1f}-{row.rtf_high:.1f}",
+        _figure(row.error_dte, ".1e"),
+        _figure(row.error_power_loss, ".1e"),
+        row.note or f"{row.rtf:.3g}",
+        "" if row.note else f"{row.rtf_low:.3g}-{row.rtf_high:.3g}",
     )
+
+
+def _figure(value: float, form: str) -> str:
+    return "-" if math.isnan(value) else format(value, form)
 
 
 def as_table(rows: Sequence[Row]) -> Table:
     """For the terminal."""
     table = Table(box=None, header_style="bold", pad_edge=False)
     for title in _TITLES:
-        table.add_column(title, justify="left" if title == "case" else "right", no_wrap=True)
+        name = title in _TITLES[:2]
+        table.add_column(title, justify="left" if name else "right", no_wrap=not name)
     for row in rows:
         table.add_row(*_cells(row))
     return table
@@ -63,14 +74,16 @@ def as_table(rows: Sequence[Row]) -> Table:
 def as_markdown(rows: Sequence[Row]) -> str:
     """The page `docs/speed-and-accuracy.md`."""
     lines = [_TITLES, ("---",) * len(_TITLES), *(_cells(row) for row in rows)]
-    ratios = [row.error_dte / row.tolerance for row in rows]
+    own = [row for row in rows if row.method == METHOD]
+    ratios = [row.error_dte / row.tolerance for row in own]
     return _PAGE.substitute(
         least=f"{min(ratios):.1f}",
         most=f"{max(ratios):.1f}",
-        setup=f"{median(row.setup_s for row in rows) * 1e3:.0f}",
+        setup=f"{median(row.setup_s for row in own) * 1e3:.0f}",
         rate=f"{SAMPLE_RATE / 1e3:g}",
         rounds=ROUNDS,
         relative=f"{RELATIVE:g}",
+        peers="" if len(own) == len(rows) else _PEERS,
         table="\n".join("| " + " | ".join(cells) + " |" for cells in lines),
         cases="\n".join(f"- {case.name}: {case.changes or 'as it is'}" for case in CASES),
     )

@@ -16,6 +16,7 @@ from .reference import Reference
 
 SAMPLE_RATE = 50_000.0
 TOLERANCES = (1e-2, 1e-3, 1e-4, 1e-5)
+METHOD = "rosenbrock"
 ROUNDS = 3  # timed runs, of which the median counts
 
 
@@ -31,21 +32,37 @@ class Row(NamedTuple):
     rtf_low: float  # the slowest round
     rtf_high: float  # the fastest
     setup_s: float  # building and starting the model, kernels compiled [s]
+    note: str = ""  # why there are no figures (they are NaN)
 
     def figures(self) -> dict[str, str | float | None]:
         """For JSON, which knows no NaN."""
         values = self._asdict()
-        if math.isnan(self.error_power_loss):
-            values["error_power_loss"] = None
-        return values
+        return {name: None if value != value else value for name, value in values.items()}
+
+
+# Further rows of a case, held against its reference (samples, QUANTITIES, meshes).
+Beside = Callable[[Case, np.ndarray], Iterable[Row]]
+
+
+def nothing(case: Case, reference: np.ndarray) -> Iterable[Row]:
+    """No further rows."""
+    return ()
 
 
 def measure(
     cases: Iterable[Case],
     tolerances: Iterable[float] = TOLERANCES,
     progress: Callable[[str], None] = lambda text: None,
+    beside: Beside = nothing,
 ) -> list[Row]:
-    """Measure all cases; `progress` is told what is under way."""
+    """Measure all cases.
+
+    Args:
+        cases: what to measure.
+        tolerances: each gives a row.
+        progress: is told what is under way.
+        beside: gives further rows.
+    """
     rows = []
     for case in cases:
         progress(f"{case.name}: reference")
@@ -53,6 +70,7 @@ def measure(
         for tolerance in tolerances:
             progress(f"{case.name}: tolerance {tolerance:g}")
             rows.append(_row(case, tolerance, reference))
+        rows += beside(case, reference)
     return rows
 
 
@@ -63,7 +81,7 @@ def _row(case: Case, tolerance: float, reference: np.ndarray) -> Row:
         _, seconds, setup = _run(case, tolerance, case.duration * case.repeats)
         rounds.append(case.duration * case.repeats / seconds)
     return Row(
-        case.name, "rosenbrock", tolerance,
+        case.name, METHOD, tolerance,
         *errors(samples, reference),
         float(np.median(rounds)), min(rounds), max(rounds), setup,
     )  # fmt: skip
@@ -80,8 +98,16 @@ def _run(case: Case, tolerance: float, duration: float) -> tuple[np.ndarray, flo
 
 
 def errors(samples: np.ndarray, reference: np.ndarray) -> tuple[float, float]:
-    """Relative errors of the transmission error (rms, worst mesh) and of the mean power loss."""
-    gap = samples[:, DTE] - reference[:, DTE]
-    dte = np.sqrt((gap**2).mean(axis=0) / (reference[:, DTE] ** 2).mean(axis=0)).max()
+    """Relative errors of the transmission error and of the mean power loss."""
     lost, true = samples[:, POWER_LOSS].sum(), reference[:, POWER_LOSS].sum()
-    return float(dte), float(abs(lost / true - 1.0)) if true else float("nan")
+    return dte_error(samples[:, DTE], reference[:, DTE]), loss_error(lost, true)
+
+
+def dte_error(dte: np.ndarray, true: np.ndarray) -> float:
+    """Relative error (rms, worst mesh) of transmission errors (samples, meshes)."""
+    return float(np.sqrt(((dte - true) ** 2).mean(axis=0) / (true**2).mean(axis=0)).max())
+
+
+def loss_error(lost: float, true: float) -> float:
+    """Relative error of a power loss; NaN where nothing is lost."""
+    return float(abs(lost / true - 1.0)) if true else math.nan

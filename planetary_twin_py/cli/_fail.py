@@ -24,3 +24,12 @@ def need_plots() -> None:
         import matplotlib  # noqa: F401
     except ImportError:
         fail("the plots are not installed: pip install 'planetary_twin_py[plots]'")
+
+
+def need_peers() -> None:
+    """End the command where the extra for the solvers to compare with is not installed."""
+    try:
+        import CyRK  # noqa: F401
+        import sksundae  # noqa: F401
+    except ImportError:
+        fail("the peers are not installed: pip install 'planetary_twin_py[bench]'")

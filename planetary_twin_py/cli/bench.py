@@ -9,6 +9,8 @@ from typing import Annotated
 
 import typer
 
+from ._fail import need_peers
+
 
 def bench(
     json_: Annotated[
@@ -17,18 +19,30 @@ def bench(
     markdown: Annotated[
         Path | None, typer.Option(help="Write the table as a page of the documentation.")
     ] = None,
+    peers: Annotated[
+        bool,
+        typer.Option("--peers", help="Measure off-the-shelf solvers, too (a quarter of an hour)."),
+    ] = False,
 ) -> None:
     """Measure speed against error, beside a converged reference by SciPy's DOP853."""
+    if peers:
+        need_peers()
     from rich.console import Console
 
     from ..benchmark.cases import CASES
+    from ..benchmark.peers.problem import Problem
+    from ..benchmark.peers.work_precision import peer_rows
     from ..benchmark.report import as_markdown, as_table
-    from ..benchmark.table import measure
+    from ..benchmark.table import measure, nothing
 
     console = Console(stderr=json_ == "-")
     with console.status("starting") as status:
-        rows = measure(CASES, progress=status.update)
+        beside = peer_rows(status.update) if peers else nothing
+        rows = measure(CASES, progress=status.update, beside=beside)
     console.print(as_table(rows))
+    if peers:
+        call = Problem(CASES[0].scene()).seconds_per_call()
+        console.print(f"right-hand side of the peers: {call * 1e9:.0f} ns a call ({CASES[0].name})")
     if markdown is not None:
         markdown.write_text(as_markdown(rows), "utf-8")
     if json_ is not None:

@@ -1,0 +1,81 @@
+"""A scene as an initial value problem, and what a solver has made of it."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable
+
+import numpy as np
+
+from ..._records import Record, new_record
+from ...dynamics.equations import MODEL
+from ...dynamics.moment import frame_cycle_rate
+from ...dynamics.oil import build_oil
+from ...dynamics.start import build_load, start_state
+from ...dynamics.static_load import mesh_force
+from ...dynamics.train import build_train
+from ...engine import LIGHTEST_MESH_LOAD
+from ...scene import Scene
+from .equations import PROBLEM, rate, repeat, show
+
+CALLS = 100_000  # of the right-hand side, to time it
+
+
+class Problem:
+    """y' = f(t, y), y(0) = 0, and the sizes of what varies."""
+
+    def __init__(self, scene: Scene) -> None:
+        train, point = build_train(scene), scene.operating_point
+        model = new_record(MODEL, train=train, oil=build_oil(scene, point))
+        model.load = build_load(scene, point, train)
+        self.record = np.zeros(1, PROBLEM)
+        start = start_state(scene, model)
+        self.record[0] = new_record(PROBLEM, model=model, start=start)
+        self._train: Record = train
+        self.bodies, self.axes = int(train.bodies), int(train.axes)
+        self.meshes = int(train.meshes)
+        self.size = 2 * self.bodies + self.axes
+        self.scale = self._scale(scene)
+        frequency = max(abs(frame_cycle_rate(train, start)), float(train.lowest_frequency))
+        self.mesh_period = 1.0 / frequency  # at the start [s]
+
+    def _scale(self, scene: Scene) -> np.ndarray:
+        """Sizes of the entries of y (size,): deflection of a mesh, and its fastest vibration."""
+        train, point = self._train, scene.operating_point
+        force = abs(mesh_force(scene, abs(point.input_torque) + point.torque_ripple))
+        stiffness = float(train.stiffness.min())
+        deflection = max(force, LIGHTEST_MESH_LOAD) / stiffness + 0.5 * point.backlash
+        fastest = np.sqrt(2.0 * stiffness / float(train.mass[: self.bodies].min()))
+        motor = deflection / float(train.radius[train.coupling[0, 0]])
+        sizes = [deflection, deflection * fastest, motor]
+        return np.repeat(sizes, [self.bodies, self.bodies, self.axes])
+
+    def function(self, check: Callable[[], None]) -> Callable[[float, np.ndarray], np.ndarray]:
+        """The right-hand side f(t, y), for a solver that calls Python; `check` is called first."""
+        record = self.record
+
+        def slope(t: float, y: np.ndarray) -> np.ndarray:
+            check()
+            dy = np.empty_like(y)
+            rate(record, t, y, dy)
+            return dy
+
+        return slope
+
+    def seconds_per_call(self) -> float:
+        """What the right-hand side takes, called from compiled code, over one mesh cycle [s]."""
+        y, dy = np.zeros(self.size), np.zeros(self.size)
+        repeat(self.record, 0.0, y, dy, 1)  # compiles
+        begin = time.process_time()
+        repeat(self.record, self.mesh_period / CALLS, y, dy, CALLS)
+        return (time.process_time() - begin) / CALLS
+
+    def observe(self, times: np.ndarray, states: np.ndarray) -> tuple[np.ndarray, float]:
+        """Transmission errors (samples, meshes) [m] and mean power loss [W] of states at times."""
+        dte = np.zeros((len(times), self.meshes))
+        return dte, float(show(self.record, times, np.ascontiguousarray(states), dte))
+
+
+def sample_times(duration: float, sample_rate: float) -> np.ndarray:
+    """The instants of the benchmark: whole multiples of 1/sample_rate [s], from the first on."""
+    return np.arange(1, round(duration * sample_rate) + 1) / sample_rate

@@ -1,0 +1,64 @@
+"""Every peer on a case: how fast and how wrong."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterable, Iterator
+
+import numpy as np
+
+from ...dynamics.observe import DTE, POWER_LOSS
+from ..cases import Case
+from ..table import ROUNDS, SAMPLE_RATE, TOLERANCES, Beside, Row, dte_error, loss_error
+from .solver import SolverError, TooSlow
+from .solvers import SOLVERS, Run, run
+
+LIMIT = 15.0  # [s] for one of the runs of a row
+ROUND = 0.5  # [s] that a timed run takes, about, where the case is long enough
+
+
+def peer_rows(
+    progress: Callable[[str], None] = lambda text: None,
+    tolerances: Iterable[float] = TOLERANCES,
+    names: Iterable[str] = tuple(SOLVERS),
+) -> Beside:
+    """What gives the rows of the peers `names`; `progress` is told what is under way."""
+    tolerances, names = sorted(tolerances, reverse=True), list(names)
+
+    def rows(case: Case, reference: np.ndarray) -> Iterator[Row]:
+        for name in names:
+            progress(f"{case.name}: {name}")
+            yield from _rows(case, name, tolerances, reference)
+
+    return rows
+
+
+def _rows(case: Case, name: str, tolerances: list[float], reference: np.ndarray) -> Iterator[Row]:
+    """A row for every tolerance; where one takes too long, so would those below it."""
+    slow: SolverError | None = None
+    for tolerance in tolerances:
+        try:
+            if slow is not None:
+                raise slow
+            yield _row(case, name, tolerance, reference)
+        except SolverError as error:
+            slow = error if isinstance(error, TooSlow) else None
+            nan = math.nan
+            yield Row(case.name, name, tolerance, nan, nan, nan, nan, nan, nan, str(error))
+
+
+def _row(case: Case, name: str, tolerance: float, reference: np.ndarray) -> Row:
+    first = _run(case, name, tolerance, 1)
+    repeats = max(1, min(case.repeats, int(ROUND / first.seconds)))
+    runs = [_run(case, name, tolerance, repeats) for _ in range(ROUNDS)]
+    rtf = [case.duration * repeats / each.seconds for each in runs]
+    return Row(
+        case.name, name, tolerance,
+        dte_error(first.dte, reference[:, DTE]),
+        loss_error(first.power_loss * len(reference), reference[:, POWER_LOSS].sum()),
+        float(np.median(rtf)), min(rtf), max(rtf), first.setup_s,
+    )  # fmt: skip
+
+
+def _run(case: Case, name: str, tolerance: float, repeats: int) -> Run:
+    return run(name, case.scene(), case.duration * repeats, SAMPLE_RATE, tolerance, LIMIT)

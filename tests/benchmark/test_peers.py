@@ -1,0 +1,157 @@
+"""Off-the-shelf solvers see the same model, and are held against the same reference."""
+
+import sys
+from importlib.util import find_spec
+
+import numpy as np
+import pytest
+from typer.testing import CliRunner
+
+from planetary_twin_py._records import new_record
+from planetary_twin_py.benchmark.cases import Case
+from planetary_twin_py.benchmark.peers import cvode, cvode_compiled, cyrk, work_precision
+from planetary_twin_py.benchmark.peers.equations import rate
+from planetary_twin_py.benchmark.peers.problem import Problem
+from planetary_twin_py.benchmark.peers.solver import SolverError
+from planetary_twin_py.benchmark.peers.solvers import SOLVERS, run
+from planetary_twin_py.benchmark.reference import Reference
+from planetary_twin_py.benchmark.report import as_markdown
+from planetary_twin_py.benchmark.table import SAMPLE_RATE, dte_error, measure
+from planetary_twin_py.cli import build_app
+from planetary_twin_py.dynamics.equations import EVALUATION, forces
+from planetary_twin_py.dynamics.observe import DTE, POWER_LOSS
+from planetary_twin_py.engine import Engine
+from planetary_twin_py.integrators.march import begin_step
+from planetary_twin_py.scene import load_scene, packaged_scenes
+
+SMOOTH = Case("smooth", {"lubrication.friction": False}, 0.002, 1)
+SHORT = Case("short", {}, 0.002, 1)
+VISCOUS = Case("viscous", {"mesh.damping.law": "viscous"}, 0.002, 1)
+MISSING = [
+    *([] if find_spec("sksundae") else [*cvode.SOLVERS, *cvode_compiled.SOLVERS]),
+    *([] if find_spec("CyRK") else cyrk.SOLVERS),
+]
+INSTALLED = [name for name in SOLVERS if name not in MISSING]
+SCENES = {
+    "rattle": ("paper", {"input_torque": 0.3, "torque_ripple": 3.0}),
+    "backwards with runout": ("paper", {"input_speed": -60.0, "mesh.runout.sun": 2e-6}),
+    "regulatory factor": ("paper", {"mesh.backlash": "regulatory_factor", "input_torque": -20.0}),
+    **{name: (name, {}) for name in packaged_scenes()},
+}
+
+
+@pytest.fixture(scope="module")
+def references():
+    return {
+        case.name: Reference(case.scene()).run(case.duration, SAMPLE_RATE)
+        for case in (SMOOTH, SHORT, VISCOUS)
+    }
+
+
+@pytest.mark.parametrize(("base", "changes"), SCENES.values(), ids=SCENES)
+def test_the_right_hand_side_is_the_derivative_of_the_twin(base, changes):
+    """At random states within the segments that steps of the march begin in."""
+    scene, random = load_scene(base).replace(**changes), np.random.default_rng(7)
+    engine, problem, out = Engine(scene, 1e-5), Problem(scene), new_record(EVALUATION)
+    train, march, n = engine.train, engine.march, problem.bodies
+    start, own = problem.record[0]["start"], problem.record[0]["state"]
+    motors, meshes = train.coupling[: 2 * problem.axes : 2, 0], problem.meshes
+    rigid, radius = train.ratio[:n], train.radius[:n]
+    compared = 0
+    for until in np.sort(random.uniform(1e-4, 0.02, 60)):
+        engine.advance(until, 1, 1.0, 0)
+        march.control.changed = True
+        begin_step(engine.model, march)
+        begin = march.begin
+        x, v = np.array(begin.x), np.array(begin.v)
+        x[:n] += random.normal(0.0, 1e-9, n)
+        v[:n] += random.normal(0.0, 1e-4, n)
+        x[motors] = v[motors] = 0.0  # they are the frame, and their speed the damping's
+        forces(engine.model, begin, march.moment, x, v, 0.0, begin.trim, out)
+
+        ahead = 2.0 * np.pi * (begin.turns + begin.fraction) - start["speed"] * begin.time
+        faster = begin.speed - start["speed"]
+        y = np.concatenate([
+            x[:n] + rigid @ ahead * radius - start["x"][:n],
+            v[:n] + rigid @ faster * radius,
+            (begin.trim - start["trim"])[: problem.axes],
+        ])  # fmt: skip
+        dy = np.empty_like(y)
+        rate(problem.record, begin.time, y, dy)
+        closed = begin.side[:meshes] != 0
+        if not np.array_equal(own["side"], begin.side) or not np.array_equal(
+            own["segment"][:meshes][closed], begin.segment[:meshes][closed]
+        ):
+            continue  # the march begins many steps at an edge
+        compared += 1
+        acceleration = out.force[:n] / train.mass[:n]
+        lag = begin.set_speed - begin.speed
+        np.testing.assert_array_equal(dy[:n], y[n : 2 * n])
+        np.testing.assert_allclose(
+            dy[n : 2 * n], acceleration, rtol=1e-8, atol=1e-8 * abs(acceleration).max()
+        )
+        np.testing.assert_allclose(dy[2 * n :], lag[: problem.axes], atol=1e-10)
+    assert compared >= 20
+
+
+@pytest.mark.parametrize("name", INSTALLED)
+def test_the_error_against_the_reference_falls_with_the_tolerance(name, references):
+    errors = [
+        dte_error(solved(name, SHORT, tolerance).dte, references["short"][:, DTE])
+        for tolerance in (3e-3, 3e-4)
+    ]
+    assert 3 * errors[1] < errors[0] < 5e-2
+
+
+@pytest.mark.parametrize(
+    # Damping that follows the speed does so at once here, in the reference event by event.
+    ("case", "agreement"),
+    [(SMOOTH, 1e-6), (VISCOUS, 1e-8)],
+    ids=["smooth", "viscous"],
+)
+def test_a_tight_tolerance_comes_to_the_reference(case, agreement, references):
+    found = solved("scipy_dop853", case, 1e-11).dte
+    assert dte_error(found, references[case.name][:, DTE]) < agreement
+
+
+@pytest.mark.skipif("cvode_bdf" in MISSING, reason="needs the extra [bench]")
+def test_cvode_takes_the_same_path_with_a_compiled_callback():
+    """But for rounding, which now and then tips the choice of a step."""
+    interpreted, compiled = (
+        solved(name, SHORT, 1e-4).dte for name in ("cvode_bdf", "cvode_bdf_compiled")
+    )
+    assert dte_error(compiled, interpreted) < 1e-5
+
+
+def test_the_mean_power_loss_is_that_of_the_reference(references):
+    found = solved("scipy_lsoda", SHORT, 1e-7).power_loss
+    lost = references["short"][:, POWER_LOSS].sum(axis=1).mean()
+    assert found == pytest.approx(lost, rel=1e-6)
+
+
+def test_a_row_says_why_it_has_no_figures(monkeypatch, references):
+    monkeypatch.setattr(work_precision, "LIMIT", 0.0)
+    beside = work_precision.peer_rows(tolerances=(1e-3, 1e-4), names=["scipy_lsoda"])
+    rows = measure([SHORT], (1e-2,), beside=beside)
+    assert [row.note for row in rows] == ["", "over 0 s", "over 0 s"]
+    assert "| short | scipy_lsoda | 1e-04 | - | - | over 0 s |" in as_markdown(rows)
+    assert rows[-1].figures()["rtf"] is None
+
+
+def test_a_step_beyond_the_limit_of_stability_is_reported():
+    with pytest.raises(SolverError, match="unstable"):
+        run("semi_implicit_euler", SHORT.scene(), 0.02, SAMPLE_RATE, 1e-2, 60.0)
+
+
+@pytest.mark.parametrize("package", ["sksundae", "CyRK"])
+def test_without_a_package_of_the_peers_the_command_ends_in_one_line(monkeypatch, package):
+    monkeypatch.setitem(sys.modules, package, None)
+    answer = CliRunner().invoke(build_app(), ["bench", "--peers"])
+    assert answer.exit_code == 2
+    assert answer.output.splitlines() == [
+        "planetary-twin: the peers are not installed: pip install 'planetary_twin_py[bench]'"
+    ]
+
+
+def solved(name, case, tolerance):
+    return run(name, case.scene(), case.duration, SAMPLE_RATE, tolerance, 60.0)
