@@ -16,7 +16,7 @@ from .reference import Reference
 
 SAMPLE_RATE = 50_000.0
 TOLERANCES = (1e-2, 1e-3, 1e-4, 1e-5)
-METHOD = "rosenbrock"
+METHOD = "auto"
 ROUNDS = 3  # timed runs, of which the median counts
 
 

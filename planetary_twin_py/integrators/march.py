@@ -380,13 +380,11 @@ def cut(model: Record, march: Record, time: float) -> None:
     """
     if time < march.end.time:
         length = time - march.begin.time
-        if length <= SHORTEST_STEP:
-            copy_state(march.begin, march.end)
-        elif march.control.collocated:
-            end_within(model, march, length)
+        march.control.changed = True
+        if length > SHORTEST_STEP:
+            one_step(model, march, length)
         else:
-            march.control.changed = True
-            _stiff_step(model, march, length, math.inf)
+            copy_state(march.begin, march.end)
         while time - march.end.time > SHORTEST_STEP:  # an event came before
             begin_step(model, march)
             one_step(model, march, time - march.end.time)

@@ -25,6 +25,7 @@ ABSCISSA = radau(NODES)
 LAST = NODES - 1
 # Coefficients of the powers of t/h from values at the nodes.
 COEFFICIENT = np.linalg.inv(np.vander(ABSCISSA, increasing=True))
+DAMPED_OUT = 10.0  # c/w beyond which a mode only creeps
 SCANNED = 8  # times at which flanks are looked at
 
 NODE = layout(
@@ -209,7 +210,7 @@ def visit(model: Record, march: Record, n: int) -> None:
 def integrate_powers(march: Record, bodies: int, h: float) -> None:
     """Fill the ledger at h seconds into the step.
 
-    By quadrature at the nodes; what damping takes from the waves of fast modes is known exactly.
+    By quadrature at the nodes; what damping takes from modes that swing is known exactly.
     """
     run, end = march.run, march.end
     end.energy[:] = march.begin.energy
@@ -222,12 +223,19 @@ def integrate_powers(march: Record, bodies: int, h: float) -> None:
         for e in range(LEDGER):
             end.energy[e] += run.step * weight * run.power[n, e]
         for m in range(bodies):
-            if run.slow[m] == 0:
+            if _swings(run, m):
                 damped = run.damping[m] * run.node_p[n, m] ** 2
                 end.energy[DAMPING] -= run.step * weight * damped
     for m in range(bodies):
-        if run.slow[m] == 0:
+        if _swings(run, m):
             end.energy[DAMPING] += _damped(run, m, h)
+
+
+@law
+def _swings(run: Record, m: int) -> bool:
+    """Whether a mode swings within the step, so that quadrature might miss what is damped."""
+    c = run.damping[m]
+    return run.slow[m] == 0 and 0.0 < c * c < run.square[m] * DAMPED_OUT**2
 
 
 @kernel

@@ -37,7 +37,7 @@ def test_without_load_nothing_is_pressed_and_friction_takes_nothing(law):
     idle = sound_run(PAPER.replace(input_torque=0.0, **{"mesh.damping.law": law}), 0.05)
     loaded = sound_run(PAPER.replace(**{"mesh.damping.law": law}), 0.05, tolerance=1e-4)
     assert idle.energy.friction < 1e-6 * loaded.energy.friction
-    assert np.abs(idle.mesh_force).max() < 1e-3
+    assert np.abs(idle.mesh_force).max() < 1e-2  # of the 1 N the tolerance refers to
     assert np.abs(idle.dte).max() <= 0.5 * PAPER.operating_point.backlash * (1.0 + 1e-4)
     assert idle.speed[-1, 0] == pytest.approx(pt.rpm(1000), rel=1e-6)
 

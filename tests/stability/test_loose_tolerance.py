@@ -42,7 +42,7 @@ class Rattle:
         push = d + tau * rate
         drive, coast = np.minimum(d, push) > model.half, np.minimum(-d, -push) > model.half
         side = np.where(drive, DRIVE, np.where(coast, COAST, OPEN))
-        return model.rate(time, y, side, tau)
+        return model.rate(time, y, side)
 
     def error(self, dte):
         return np.sqrt(((dte - self.exact) ** 2).mean() / (self.exact**2).mean())

@@ -34,7 +34,7 @@ def assert_sound(window):
     wave = window.waveform
     for values in (wave.dte, wave.mesh_force, wave.friction, window.angle, window.mean_speed):
         assert np.isfinite(values).all()
-    assert np.isfinite(window.power_loss) and window.power_loss >= 0.0
+    assert np.isfinite(window.power_loss) and window.power_loss > -1e-9  # rounding
 
 
 @pytest.mark.parametrize("ranges", [CALM, WILD], ids=["calm", "wild"])

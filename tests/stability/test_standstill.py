@@ -29,7 +29,7 @@ def test_standing_under_torque_the_teeth_are_bent_as_statics_say(law, torque):
     assert run.mesh_force[-1] == pytest.approx(force, rel=1e-6)
     expected = force / stiffnesses(scene) + np.copysign(0.5 * scene.operating_point.backlash, force)
     assert run.dte[-1] == pytest.approx(expected, rel=1e-6)
-    assert np.abs(run.speed).max() < 1e-6
+    assert np.abs(run.speed).max() < 1e-3  # an error of 1e-11 m at 10 kHz and 11 mm
 
 
 def test_standing_still_friction_carries_no_torque_and_takes_no_power():
@@ -80,7 +80,6 @@ def test_teeth_jammed_by_an_error_of_form_come_to_rest_at_the_live_tolerance():
     assert live.energy.friction == pytest.approx(tight.energy.friction, rel=0.5)
 
 
-@pytest.mark.xfail(strict=True, reason="tau is that of the last change of a tooth pair")
 def test_damping_without_bound_at_standstill_lets_go_as_the_gears_begin_to_turn():
     """q' = (F/k - q)/tau, tau = c/f_m, f_m = Zs slew t/(2 pi): q nears F/k as exp(-t^2)."""
     slew, loss_factor = 500.0, 0.009
@@ -102,7 +101,6 @@ def test_damping_without_bound_at_standstill_lets_go_as_the_gears_begin_to_turn(
     assert run.dte[:, 0] == pytest.approx(expected, abs=0.1 * more / stiffnesses(scene)[0])
 
 
-@pytest.mark.xfail(strict=True, reason="tau times the error of a speed falls below its rounding")
 def test_damping_without_bound_at_standstill_does_not_stall_a_start_under_a_light_load():
     """tau is 1885 s at 1e-6 rad/s: 5e-13 m allow an error of 3e-16 m/s."""
     scene = PAPER.replace(

@@ -23,7 +23,7 @@ from ...dynamics.cycle import cycle_shift, find_segment, frame_cycle
 from ...dynamics.equations import EVALUATION, MODEL, forces
 from ...dynamics.faults import find_faults
 from ...dynamics.mesh_force import deflection
-from ...dynamics.moment import MOMENT, damping_time, set_moment
+from ...dynamics.moment import MOMENT, set_moment
 from ...dynamics.observe import DTE, POWER_LOSS, QUANTITIES, observe
 from ...dynamics.state import COAST_SIDE, DRIVE_SIDE, OPEN, STATE
 
@@ -50,19 +50,7 @@ def place(problem: Record, t: float, y: np.ndarray) -> None:
     for i in range(train.meshes):
         state.side[i] = OPEN
     set_moment(problem.model, state, problem.moment)
-    _damp(train, state, problem.moment)
     _touch(problem)
-
-
-@kernel
-def _damp(train: Record, state: Record, moment: Record) -> None:
-    """Damping at the speed that the motors have now."""
-    rate = moment.cycle_rate
-    for a in range(train.axes):
-        motor = train.coupling[2 * a, 0]
-        rate += train.cycles[a] * state.v[motor] / train.radius[motor] / (2.0 * math.pi)
-    for kind in range(2):
-        moment.tau[kind] = damping_time(train, kind, rate)
 
 
 @kernel
