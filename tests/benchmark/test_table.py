@@ -14,11 +14,12 @@ RATTLE = Case("rattle", {"input_torque": 0.3, "torque_ripple": 60.0}, 0.004, 2)
 
 
 @pytest.mark.parametrize("case", [SHORT, RATTLE], ids=lambda case: case.name)
-def test_the_error_against_the_reference_falls_with_the_tolerance(case):
+def test_the_error_against_the_reference_is_that_of_the_tolerance(case):
     rows = measure([case], (1e-3, 1e-5))
-    assert 20 * rows[1].error_dte < rows[0].error_dte < 5e-2
-    assert rows[1].error_dte < 1e-4
-    assert rows[1].error_power_loss < 1e-4
+    assert rows[1].error_dte < rows[0].error_dte
+    for row in rows:
+        assert 0.0 < row.error_dte < 3.0 * row.tolerance
+        assert 0.0 < row.error_power_loss < 3.0 * row.tolerance
     assert all(row.rtf_low <= row.rtf <= row.rtf_high for row in rows)
 
 

@@ -1,7 +1,6 @@
 """The energy ledger: what the motor puts in is what comes out, is stored, and is lost."""
 
 import math
-from itertools import pairwise
 
 import pytest
 from power_flows import ALL_FLOWS, FLOWS, scene_of
@@ -65,10 +64,9 @@ def test_balance_closes_for_steps_of_the_stiffness_and_for_every_direction(chang
 
 
 def test_residual_falls_with_the_tolerance():
-    residuals = [imbalance(scene_of(FLOWS[0]), tol) for tol in (1e-2, 1e-4, 1e-6)]
-    assert residuals[0] < 1e-4
-    assert all(b < 0.5 * a for a, b in pairwise(residuals))
-    assert residuals[-1] < 1e-7
+    """It may pass through zero on the way, so each is held to a bound."""
+    for tolerance, bound in ((1e-2, 1e-4), (1e-4, 1e-6), (1e-6, 1e-7)):
+        assert imbalance(scene_of(FLOWS[0]), tolerance) < bound
 
 
 @pytest.mark.parametrize(
