@@ -6,7 +6,7 @@ a caller asks for never clips a step: samples come from the step's interpolant, 
 the end of the window is that of the last step begun. So the path does not depend on the windows.
 
 Steps are made by collocation. Near standstill friction is too stiff for its sweeps to come to
-rest; Rosenbrock's method then takes over for a while.
+rest, and damping too strong for its digits; Rosenbrock's method then takes over for a while.
 """
 
 from __future__ import annotations
@@ -26,7 +26,7 @@ from .collocation import collocate
 from .flanks import at_event, first_flank_event
 from .interpolant import Samples, sample
 from .progress import COLLOCATION, ROSENBROCK, copy_state
-from .propagation import LAST, enter, integrate_powers, propagate, trim_at
+from .propagation import LAST, enter, integrate_powers, propagate, resolves, trim_at
 from .rosenbrock import ORDER, step
 
 SHORTEST_STEP = 1e-13  # [s] below it two events count as one
@@ -132,6 +132,8 @@ def _collocated_step(model: Record, march: Record, longest: float, event: float,
     h = known.step[modes] if fresh and known.step[modes] > 0.0 else control.next_step
     h = min(_planned(event, min(h, longest), STRETCH), longest)
     while True:
+        if control.method != COLLOCATION and not resolves(run, model.train.bodies, h):
+            return False
         error, settled = collocate(model, march, h)
         if error <= 1.0 or (h <= SHORTEST_STEP and error < math.inf):
             break

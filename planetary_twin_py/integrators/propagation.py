@@ -25,7 +25,7 @@ ABSCISSA = radau(NODES)
 LAST = NODES - 1
 # Coefficients of the powers of t/h from values at the nodes.
 COEFFICIENT = np.linalg.inv(np.vander(ABSCISSA, increasing=True))
-DAMPED_OUT = 10.0  # c/w beyond which a mode only creeps
+LONGEST_MEMORY = 1e3  # c/(w^2 h) of a mode whose motion keeps ten digits
 SCANNED = 8  # times at which flanks are looked at
 
 NODE = layout(
@@ -101,6 +101,20 @@ def set_step(run: Record, bodies: int, h: float) -> None:
             for n in range(NODES):
                 cosine, sine = wave(run.square[m], run.damping[m], ABSCISSA[n] * h)
                 run.cosine[n, m], run.sine[n, m] = cosine, sine
+
+
+@kernel
+def resolves(run: Record, bodies: int, h: float) -> bool:
+    """Whether a step of h keeps its digits.
+
+    A mode that creeps for much longer than the step is a small difference of a polynomial and a
+    wave, both larger by the square of that ratio.
+    """
+    for m in range(bodies):
+        square, damping = run.square[m], run.damping[m]
+        if not is_slow(square, damping, h) and damping > LONGEST_MEMORY * square * h:
+            return False
+    return True
 
 
 @kernel
@@ -233,9 +247,9 @@ def integrate_powers(march: Record, bodies: int, h: float) -> None:
 
 @law
 def _swings(run: Record, m: int) -> bool:
-    """Whether a mode swings within the step, so that quadrature might miss what is damped."""
+    """Whether a mode has free waves, of which quadrature might miss what is damped."""
     c = run.damping[m]
-    return run.slow[m] == 0 and 0.0 < c * c < run.square[m] * DAMPED_OUT**2
+    return run.slow[m] == 0 and 0.0 < c <= LONGEST_MEMORY * run.square[m] * run.step
 
 
 @kernel
