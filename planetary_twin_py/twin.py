@@ -99,6 +99,8 @@ class Twin:
                 f"duration = {duration!r} s: must be above 0 and at most {LONGEST_WINDOW:g}"
             )
         start = self._time
+        if round(start + duration, 12) == start:
+            raise ValueError(f"duration = {duration!r} s: must be at least 1e-12, the clock's step")
         # Windows of 10 ms end on whole samples; their sum must not drift off them.
         self._time = round(start + duration, 12)
         first = math.floor(start * self.sample_rate + 1e-6) + 1

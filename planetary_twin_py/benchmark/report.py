@@ -31,7 +31,8 @@ $peers
 The method is exponential collocation at three Radau points in the modes of the meshes in contact,
 from event to event; near standstill ROS34PW2, a linearly implicit Runge-Kutta method of order 3,
 takes over (`integrators/`). `tolerance` bounds the local error of a step relative to the static
-deflection of the meshes; in these cases the DTE error comes out at $least to $most times the tolerance.
+deflection of the meshes; in these cases the DTE error comes out at $least to $most times the
+tolerance.
 
 $table
 

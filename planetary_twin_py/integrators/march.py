@@ -37,6 +37,7 @@ NEAREST, FARTHEST = 0.1, 0.9  # by which a step is shortened at a time to meet a
 SAFETY, SHRINK, GROW = 0.8, 0.25, 2.0
 STRETCH = 1.2  # by which a planned step is stretched to end on an event
 DETOUR = 20  # steps of Rosenbrock's method before collocation is tried again
+OUTDONE = 0.2  # of the other method's step, below which it is taken
 COLLOCATION_ORDER = 3  # of its error in the step
 STIFF = 3.0  # by which errors of Rosenbrock's method count more
 ROUNDING = 1e-15  # [m/s] errors of a speed below it are none
@@ -131,20 +132,25 @@ def _collocated_step(model: Record, march: Record, longest: float, event: float,
     known, modes, fresh = run.known, run.modes, control.changed
     h = known.step[modes] if fresh and known.step[modes] > 0.0 else control.next_step
     h = min(_planned(event, min(h, longest), STRETCH), longest)
+    restless = 0
     while True:
         if control.method != COLLOCATION and not resolves(run, model.train.bodies, h):
             return False
         error, settled = collocate(model, march, h)
         if error <= 1.0 or (h <= SHORTEST_STEP and error < math.inf):
             break
-        if h <= SHORTEST_STEP or (not settled and _detour_pays(control, h)):
+        restless += 0 if settled else 1
+        shorter = h * max(SHRINK, SAFETY * error ** (-1.0 / COLLOCATION_ORDER))
+        if h <= SHORTEST_STEP or _outdone(control, shorter, settled, restless):
             return False
         control.rejected += 1
-        h = max(h * max(SHRINK, SAFETY * error ** (-1.0 / COLLOCATION_ORDER)), SHORTEST_STEP)
+        h = max(shorter, SHORTEST_STEP)
     factor = SAFETY * error ** (-1.0 / COLLOCATION_ORDER) if error > 0.0 else GROW
     control.next_step = h * min(GROW, max(SHRINK, factor))
     if fresh:
         known.step[modes] = control.next_step
+    if h < min(event, longest) and _outdone(control, h, True, 0):
+        control.detour = DETOUR
     control.collocated = True
     control.changed = False
     end_within(model, march, h)
@@ -156,9 +162,13 @@ def _collocated_step(model: Record, march: Record, longest: float, event: float,
 
 
 @kernel
-def _detour_pays(control: Record, h: float) -> bool:
-    """Whether Rosenbrock's method is to try a step that collocation would have to shorten."""
-    return control.method != COLLOCATION and SHRINK * h < control.next_stiff
+def _outdone(control: Record, h: float, settled: bool, restless: int) -> bool:
+    """Whether Rosenbrock's method is to be taken rather than collocation over h seconds."""
+    if control.method == COLLOCATION:
+        return False
+    if not settled and (restless > 1 or h < control.next_stiff):
+        return True
+    return h < OUTDONE * control.next_stiff
 
 
 @kernel

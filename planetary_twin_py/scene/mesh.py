@@ -8,6 +8,8 @@ from pydantic import model_validator
 
 from .quantity import Section, quantity
 
+LARGEST_ERROR = 1e-3  # [m] an error of form beyond it is not one of a tooth
+
 
 class MeshDamping(Section):
     """Damping c = tau k of a mesh in every state of contact.
@@ -47,6 +49,12 @@ class TransmissionError(Section):
 
     @model_validator(mode="after")
     def _a_phase_each(self) -> Self:
+        for amplitude in self.amplitudes:
+            if abs(amplitude) > LARGEST_ERROR:
+                raise ValueError(
+                    f"amplitudes = {list(self.amplitudes)}: must be within "
+                    f"{-LARGEST_ERROR:g} and {LARGEST_ERROR:g}"
+                )
         if self.phases and len(self.phases) != len(self.amplitudes):
             raise ValueError(
                 f"phases = {list(self.phases)}: must be as many as amplitudes, or none"
