@@ -19,11 +19,11 @@ from .integrators.interpolant import Samples, new_samples, sample
 from .integrators.march import advance, begin_step, cut
 from .integrators.progress import AUTO, COLLOCATION, MARCH, ROSENBROCK
 from .scene import OperatingPoint, Scene
+from .tolerance import check_tolerance
 
 METHODS = {"auto": AUTO, "collocation": COLLOCATION, "rosenbrock": ROSENBROCK}
 LONGEST_STEP = 1e-3  # [s]
 FIRST_STEP = 1e-6  # [s]
-TOLERANCES = (1e-8, 0.1)  # allowed range
 LIGHTEST_MESH_LOAD = 1.0  # [N] smaller mesh forces do not tighten the tolerance further
 
 
@@ -40,10 +40,7 @@ class Engine:
     """
 
     def __init__(self, scene: Scene, tolerance: float, method: str = "auto") -> None:
-        if not TOLERANCES[0] <= tolerance <= TOLERANCES[1]:
-            raise ValueError(
-                f"tolerance = {tolerance!r}: must be within {TOLERANCES[0]:g} and {TOLERANCES[1]:g}"
-            )
+        check_tolerance(tolerance)
         self.scene = scene
         self.tolerance = tolerance
         self.train = build_train(scene)
@@ -94,9 +91,10 @@ class Engine:
         sample(self.model, self.march, time, samples, 0)
         return samples
 
-    def change(self, point: OperatingPoint, time: float) -> None:
-        """Run on with another operating point from `time` [s], the end of the last window."""
+    def change(self, point: OperatingPoint, tolerance: float, time: float) -> None:
+        """Run on with these from `time` [s], the end of the last window."""
         cut(self.model, self.march, time)
+        self.tolerance = tolerance
         self._load(point)
 
     @property

@@ -14,17 +14,18 @@ from .dynamics.state import BEARING, CHURNING, FRICTION, IMPULSE, WORK
 from .engine import Engine
 from .integrators.interpolant import Samples
 from .scene import TUNABLES, OperatingPoint, Scene, SceneError
+from .tolerance import LIVE_TOLERANCE, check_tolerance
 from .window import Waveform, Window, mesh_statistics
 
-LIVE_TOLERANCE = 5e-3
 LONGEST_WINDOW = 60.0  # [s] of samples held in memory at once
 
 
 class Change(NamedTuple):
-    """An operating point and the simulated instant from which it holds."""
+    """What a run follows from, and the simulated instant [s] from which it holds."""
 
     time: float
     point: OperatingPoint
+    tolerance: float
 
 
 class Twin:
@@ -50,8 +51,8 @@ class Twin:
         self._names = body_names(scene)
         self._engine = Engine(scene, tolerance)
         self._time = 0.0
-        self.log = [Change(0.0, scene.operating_point)]
-        """Every operating point and the instant from which it holds."""
+        self.log = [Change(0.0, scene.operating_point, self._engine.tolerance)]
+        """Every operating point and tolerance: made again at the same instants, the same run."""
         self._books = self._account()
         self._end = self._engine.sample(0.0)
 
@@ -70,6 +71,11 @@ class Twin:
         """The one in force."""
         return self.log[-1].point
 
+    @property
+    def tolerance(self) -> float:
+        """The one in force."""
+        return self.log[-1].tolerance
+
     def set(self, **changes: float) -> float:
         """Change fields of the operating point, all at `time`, which is returned [s].
 
@@ -82,11 +88,16 @@ class Twin:
         point = self.scene.replace(
             **{**self.operating_point.model_dump(), **changes}
         ).operating_point
-        if point != self.operating_point:
-            self._engine.change(point, self._time)
-            self._books = self._account()  # play that opens or closes stores no work of this window
-            self.log.append(Change(self._time, point))
-        return self._time
+        return self._change(point, self.tolerance)
+
+    def set_tolerance(self, tolerance: float) -> float:
+        """Change the tolerance at `time`, which is returned [s].
+
+        Raises:
+            ValueError: it is out of range; nothing has changed.
+        """
+        check_tolerance(tolerance)
+        return self._change(self.operating_point, tolerance)
 
     def advance(self, duration: float) -> Window:
         """Run for `duration` [s] of simulated time.
@@ -107,6 +118,14 @@ class Twin:
         room = math.floor(self._time * self.sample_rate + 1e-6) - first + 1
         samples = self._engine.advance(self._time, first, self.sample_rate, room)
         return self._window(start, first, samples)
+
+    def _change(self, point: OperatingPoint, tolerance: float) -> float:
+        change = Change(self._time, point, tolerance)
+        if change[1:] != self.log[-1][1:]:
+            self._engine.change(point, tolerance, self._time)
+            self._books = self._account()  # play that opens or closes stores no work of this window
+            self.log.append(change)
+        return self._time
 
     def _account(self) -> tuple[float, np.ndarray, float]:
         """Time reached, ledger and stored energy at that time."""
