@@ -97,6 +97,12 @@ def test_a_rung_that_proved_too_dear_is_tried_once(at_loosest):
     assert sum(loosened) == 1
 
 
+def test_no_rung_is_tried_that_might_be_late():
+    policy, load = AffordableTolerance(LADDER, 0.8, PERIOD), power_law(0.7, 3.0)
+    tolerances = chosen(policy, load, 60.0)
+    assert all(load(tolerance) < 1.0 for tolerance in tolerances[100:])
+
+
 def test_after_an_overload_it_tightens_again_but_not_soon():
     policy = automatic()
     load = power_law(0.05, 4.0)
