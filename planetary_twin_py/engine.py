@@ -82,7 +82,8 @@ class Engine:
         Returns `room` samples from number `first_sample` on.
         """
         samples = new_samples(self.train, room)
-        advance(self.model, self.march, until, first_sample, sample_rate, samples)
+        # A whole number would have the kernel compiled again.
+        advance(self.model, self.march, float(until), first_sample, float(sample_rate), samples)
         return samples
 
     def sample(self, time: float) -> Samples:
