@@ -10,9 +10,10 @@ from typing import Any
 
 import numpy as np
 
-# Room for 7 planets: planets, sun, ring, carrier, machines and the ground.
-BODIES = 14
-MESHES = 14
+REGISTER = 8  # doubles the compiler works on at a time: loops over whole registers run fastest
+# Room for 7 planets: planets, sun, ring, carrier, machines and the ground; their meshes.
+BODIES = 2 * REGISTER
+MESHES = 2 * REGISTER
 MACHINES = 3  # two motors and a load
 AXES = 2  # rigid motions of the train: one for each motor
 

@@ -124,7 +124,7 @@ class Reference:
         self._unpack(solution(delay))
         march = self._march
         observe(
-            self._model, march.begin, march.moment, self._x, self._v, delay, self._work.pairs, out
+            self._model, march.begin, march.moment, self._x, self._v, delay, self._work, out
         )
 
     def _finish(self, stretch: Any) -> None:

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from .._compile import law
 from .._records import Record
+from .._vector_math import exp, log
 from ..lubrication.boundary import boundary_shear
-from ..lubrication.film import SLOWEST_SPEED, film_thickness
+from ..lubrication.film import SLOWEST_SPEED, log_film_thickness
 from ..lubrication.hertz import half_width
 from ..lubrication.load_sharing import film_share
 from ..lubrication.rolling import rolling_resistance
@@ -18,6 +19,12 @@ LIGHTEST_LOAD = 1e-6  # [N] keeps logarithms finite
 def choices(oil: Record) -> tuple[bool, bool, bool, bool]:
     """Prescribed lambda ratio, printed asperity functions, load sharing, rolling resistance."""
     return oil.prescribed, oil.printed_asperities, oil.sharing, oil.rolling
+
+
+@law
+def lambda_ratio_of(oil: Record, prescribed: bool, given: float, log_film: float) -> float:
+    """Specific film thickness [-]: as given, or film over roughness."""
+    return given if prescribed else exp(log_film - oil.log_roughness)
 
 
 @law
@@ -38,9 +45,9 @@ def tooth_contact(
         lambda_ratio: specific film thickness, used where the scene prescribes it.
 
     Returns:
-        Signed friction [N], boundary and viscous friction [N], film [m], lambda ratio [-],
+        Signed friction [N], boundary and viscous friction [N], logarithm of the film in metres,
         sliding speed [m/s], growth of the friction with the sliding speed [N s/m], rolling
-        resistance [N] against the mean motion of both flanks.
+        resistance [N] against the mean motion of both flanks, and the power that takes [W].
     """
     prescribed, printed, sharing, resists = laws
     rho1, rho2, external, speed1, speed2, load = pair
@@ -51,28 +58,34 @@ def tooth_contact(
     # Friction vanishes with the load: a jump where flanks meet would have them chatter.
     fade = load / (load + LIGHTEST_LOAD)
     load = max(load, LIGHTEST_LOAD)
-    modulus = 2.0 * oil.contact_modulus
-    speed_group = oil.viscosity * speed / (modulus * radius)
-    material_group = oil.traction.pressure_viscosity * modulus
-    load_group = load / (modulus * radius * oil.face_width)
-    film = film_thickness(oil.film, radius, speed_group, material_group, load_group)
+    # Products and powers are sums of logarithms: divisions take longest of all in this loop.
+    log_radius, log_speed, log_load = log(radius), log(speed), log(load)
+    log_group = log_speed - log_radius + oil.log_speed_group  # of U
+    log_load_group = log_load - log_radius + oil.log_load_group  # of W
+    film = log_film_thickness(oil.film, log_radius, log_group, oil.log_material, log_load_group)
     area = 2.0 * oil.face_width * half_width(load, radius, oil.face_width, oil.contact_modulus)
-    ratio = lambda_ratio if prescribed else film / oil.roughness
-    sense = sliding_sense(sliding, speed, oil.sliding_threshold)
-    viscous = viscous_friction(oil.traction, load, area, radius, film, speed)
+    ratio = lambda_ratio_of(oil, prescribed, lambda_ratio, film)
+    steepness = 1.0 / (oil.sliding_threshold * speed)
+    sense = sliding_sense(sliding * steepness)
+    # sqrt(R F/(A V)) of (13), A being proportional to sqrt(R F)
+    log_heat = 0.25 * (log_radius + log_load) - 0.5 * (log_speed + oil.log_area)
+    viscous = viscous_friction(oil.traction, load, area, film, log_heat)
     if sharing:
         share = film_share(ratio)
         boundary = (1.0 - share) * oil.boundary_coefficient * load
         viscous *= share
     else:
         boundary = boundary_shear(oil.asperities, printed, ratio) * area
-    full = (boundary + viscous) * fade
-    slope = full * (1.0 - sense * sense) / (oil.sliding_threshold * speed)
-    rolling = 0.0
+    boundary *= fade
+    viscous *= fade
+    full = boundary + viscous
+    slope = full * (1.0 - sense * sense) * steepness
+    rolling = taken = 0.0
     if resists:
         size = radius * oil.face_width / oil.traction.pressure_viscosity
-        rolling = rolling_resistance(size, speed_group, material_group, load_group)
+        rolling = rolling_resistance(size, log_group, oil.log_material, log_load_group)
         # The formula is one of loaded films, and would act with no load at all.
         rolling /= 1.0 + rolling / load
-        rolling *= fade * sliding_sense(u1 + u2, SLOWEST_SPEED, 1.0)
-    return full * sense, boundary, viscous, film, ratio, sliding, slope, rolling
+        rolling *= fade * sliding_sense((u1 + u2) / SLOWEST_SPEED)
+        taken = rolling * (u1 + u2)
+    return full * sense, boundary, viscous, film, sliding, slope, rolling, taken

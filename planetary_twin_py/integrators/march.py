@@ -17,8 +17,8 @@ from .._compile import kernel
 from .._records import Record
 from ..dynamics.contact_events import change_contact, change_segment
 from ..dynamics.cycle import cycle_shift, mesh_cycle, nearest_to_segment
-from ..dynamics.equations import begin_pairs, drive, forces, squeeze
-from ..dynamics.mesh_force import mesh_motion
+from ..dynamics.equations import drive, forces, squeeze
+from ..dynamics.mesh_force import mesh_motion, move_meshes
 from ..dynamics.moment import set_moment
 from ..dynamics.state import OPEN
 from ..dynamics.tooth_friction import copy_friction
@@ -156,7 +156,7 @@ def _collocated_step(model: Record, march: Record, longest: float, event: float,
     end_within(model, march, h)
     if mesh >= 0 and h == event:
         _meet_edge(model, march, mesh, h)
-    march.last.power[:] = run.power[LAST]
+    march.last.power[:] = run.evaluation[LAST].power
     accept(model, march, _end_on_flank_event(model, march, h))
     return True
 
@@ -175,10 +175,9 @@ def _outdone(control: Record, h: float, settled: bool, restless: int) -> bool:
 def _hold_friction(model: Record, march: Record) -> None:
     """Forces at the start of a step, but with the friction of the end of the last."""
     begin, moment, first = march.begin, march.moment, march.first
-    begin_pairs(model.train, False, first.pairs)
-    squeeze(model, begin, moment, begin.x, begin.v, 0.0, first, first.pairs)
+    move_meshes(model.train, begin.x, begin.v, first.now)
+    squeeze(model, begin, moment, begin.x, begin.v, 0.0, first)
     first.rubbing[:] = march.run.evaluation[LAST].rubbing
-    first.force[:] += first.rubbing
     drive(model, begin, moment, begin.x, begin.v, 0.0, begin.trim, first)
 
 
@@ -187,9 +186,13 @@ def end_within(model: Record, march: Record, h: float) -> None:
     """Let the step of collocation end after h seconds, on its own motion."""
     begin, end = march.begin, march.end
     copy_state(begin, end)
-    propagate(model, march, h, end.x, end.v)
-    trim_at(model, march, h, end.x, end.trim)
-    integrate_powers(march, model.train.bodies, h)
+    if h == march.run.step:
+        end.x[:], end.v[:] = march.run.node_x[LAST], march.run.node_v[LAST]
+        end.trim[:] = march.run.node_trim[LAST]
+    else:
+        propagate(model, march, h, end.x, end.v)
+        trim_at(model, march, h, end.x, end.trim)
+    integrate_powers(march, model.train.lanes, h)
     _pass_time(model, march, h)
 
 

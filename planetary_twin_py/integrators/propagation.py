@@ -3,39 +3,31 @@
 M x'' = F(t, x, v) reads q'' + c q' + w^2 q = rest in the modes of the meshes in contact. The rest
 is friction, machines, errors of form, damping out of proportion, stiffness that changes within
 its segment; a polynomial through its values at the nodes of the step is answered exactly, at the
-nodes and at any time between them.
+nodes and at any time between them: by a polynomial and a free wave. A mode that hardly moves of
+its own within the step counts as a free mass, its spring and damper as part of the rest.
 """
 
 from __future__ import annotations
 
 import numpy as np
 
+from .._combine import combine, combine_both
 from .._compile import kernel, law
 from .._records import AXES, BODIES, MESHES, REAL, SMALL, WHOLE, Record, layout
-from ..dynamics.cycle import cycle_shift
 from ..dynamics.equations import EVALUATION
 from ..dynamics.state import DAMPING, LEDGER
-from ..dynamics.tooth_friction import INSTANTS
 from .contact_modes import CONTACT_MODES, find_modes
-from .oscillator import SERIES, is_slow, wave
+from .oscillator import decay_rates, is_free, wave
 from .radau import radau
 
-NODES = INSTANTS
+NODES = 3
 ABSCISSA = radau(NODES)
 LAST = NODES - 1
 # Coefficients of the powers of t/h from values at the nodes.
 COEFFICIENT = np.linalg.inv(np.vander(ABSCISSA, increasing=True))
+DEGREE = NODES + 1  # of the motion of a free mass
 LONGEST_MEMORY = 1e3  # c/(w^2 h) of a mode whose motion keeps ten digits
 SCANNED = 8  # times at which flanks are looked at
-
-NODE = layout(
-    delay=REAL,  # [s]
-    advance=REAL,  # mesh cycles since the start
-    pace=REAL,  # mesh cycles per second
-    x=(REAL, (BODIES,)),
-    v=(REAL, (BODIES,)),
-    trim=(REAL, (AXES,)),
-)
 
 # A step in the making, and what its dense output reads. q is in m sqrt(kg).
 PROPAGATION = layout(
@@ -44,27 +36,37 @@ PROPAGATION = layout(
     step=REAL,  # [s]
     square=(REAL, (BODIES,)),  # w^2 [1/s^2]
     damping=(REAL, (BODIES,)),  # c [1/s]
-    slow=(SMALL, (BODIES,)),
+    rate=(REAL, (BODIES,)),  # see `oscillator.decay_rates`
+    slow=(REAL, (BODIES,)),
+    fast=(REAL, (BODIES,)),
+    spring=(REAL, (BODIES,)),  # w^2 and c, but 0 for what counts as a free mass
+    damper=(REAL, (BODIES,)),
     q=(REAL, (BODIES,)),  # at the start
     p=(REAL, (BODIES,)),  # q' at the start
-    start=(REAL, (BODIES,)),  # rest at the start, friction being as it was before
+    force=(REAL, (BODIES,)),  # at the start, friction being as it was before
     rest=(REAL, (NODES, BODIES)),  # at the nodes
-    particular=(REAL, (SERIES, BODIES)),  # motion under the polynomial, of powers of t/h
+    particular=(REAL, (DEGREE + 1, BODIES)),  # motion under the polynomial, of powers of t/h
     free=(REAL, (2, BODIES)),  # q and q' of the free motion at the start
     cosine=(REAL, (NODES, BODIES)),  # `wave` at the nodes
     sine=(REAL, (NODES, BODIES)),
-    node=(NODE, (NODES,)),
     node_q=(REAL, (NODES, BODIES)),
     node_p=(REAL, (NODES, BODIES)),
-    evaluation=(EVALUATION, (NODES,)),  # the tooth pairs of all are in the first
-    power=(REAL, (NODES, LEDGER)),
+    node_x=(REAL, (NODES, BODIES)),
+    node_v=(REAL, (NODES, BODIES)),
+    node_trim=(REAL, (NODES, AXES)),
+    node_d=(REAL, (NODES, MESHES)),
+    node_rate=(REAL, (NODES, MESHES)),
+    before_d=(REAL, (MESHES,)),  # at the last node, one sweep earlier
+    before_rate=(REAL, (MESHES,)),
+    evaluation=(EVALUATION, (NODES,)),
     now_q=(REAL, (BODIES,)),  # room to work in
     now_p=(REAL, (BODIES,)),
-    wave_q=(REAL, (NODES, BODIES)),  # free motion at the nodes
-    wave_p=(REAL, (NODES, BODIES)),
+    now_d=(REAL, (MESHES,)),
+    now_rate=(REAL, (MESHES,)),
     suspect=(SMALL, (MESHES,)),  # may change its contact within the step
-    scan_q=(REAL, (SCANNED, BODIES)),  # at even times
-    scan_p=(REAL, (SCANNED, BODIES)),
+    least=(REAL, (MESHES,)),
+    scan_d=(REAL, (SCANNED, MESHES)),  # at even times
+    scan_rate=(REAL, (SCANNED, MESHES)),
 )
 
 
@@ -72,35 +74,36 @@ PROPAGATION = layout(
 def enter(model: Record, march: Record) -> None:
     """Express the start of a step in the modes of its contacts."""
     train, begin, moment, run = model.train, march.begin, march.moment, march.run
-    known = run.known
+    known, lanes = run.known, train.lanes
     n = find_modes(train, begin, known)
     run.modes = n
-    for m in range(train.bodies):
-        damping = known.shaft_damping[n, m]
-        for i in range(train.meshes):
-            k = known.stiffness[n, i]
-            damping += moment.tau[train.kind[i]] * k * known.motion[n, i, m] ** 2
-        q = p = force = 0.0
-        for j in range(train.bodies):
-            shape = known.form[n, j, m]
-            q += shape * train.mass[j] * begin.x[j]
-            p += shape * train.mass[j] * begin.v[j]
-            force += shape * march.first.force[j]
+    for m in range(lanes):
+        damping = known.shaft_damping[n, m] + moment.tau[0] * known.mesh_damping[n, 0, m]
+        damping += moment.tau[1] * known.mesh_damping[n, 1, m]
         square = known.square[n, m]
-        run.square[m], run.damping[m], run.q[m], run.p[m] = square, damping, q, p
-        run.start[m] = force + damping * p + square * q
+        run.square[m], run.damping[m] = square, damping
+        run.rate[m], run.slow[m], run.fast[m] = decay_rates(square, damping)
+        run.now_q[m], run.now_p[m] = train.mass[m] * begin.x[m], train.mass[m] * begin.v[m]
+    share = known.share[n]
+    combine_both(share, run.now_q, run.now_p, train.bodies, run.q, run.p, lanes)
+    combine(share, march.first.force, train.bodies, run.force, lanes)
 
 
 @kernel
-def set_step(run: Record, bodies: int, h: float) -> None:
-    """Free motions of all modes at the nodes of a step of h."""
+def set_step(run: Record, lanes: int, h: float) -> None:
+    """Free motions of all modes at the nodes of a step of h, and the rest as it is at the start."""
     run.step = h
-    for m in range(bodies):
-        run.slow[m] = 1 if is_slow(run.square[m], run.damping[m], h) else 0
-        if run.slow[m] == 0:
-            for n in range(NODES):
-                cosine, sine = wave(run.square[m], run.damping[m], ABSCISSA[n] * h)
-                run.cosine[n, m], run.sine[n, m] = cosine, sine
+    for m in range(lanes):
+        free = is_free(run.square[m], run.damping[m], h)
+        run.spring[m] = 0.0 if free else run.square[m]
+        run.damper[m] = 0.0 if free else run.damping[m]
+    for n in range(NODES):
+        t = ABSCISSA[n] * h
+        for m in range(lanes):
+            first, second = wave(run.damping[m], run.rate[m], run.slow[m], run.fast[m], t)
+            run.cosine[n, m], run.sine[n, m] = first, second
+            rest = run.force[m] + run.damper[m] * run.p[m] + run.spring[m] * run.q[m]
+            run.rest[n, m] = rest
 
 
 @kernel
@@ -112,85 +115,66 @@ def resolves(run: Record, bodies: int, h: float) -> bool:
     """
     for m in range(bodies):
         square, damping = run.square[m], run.damping[m]
-        if not is_slow(square, damping, h) and damping > LONGEST_MEMORY * square * h:
+        if not is_free(square, damping, h) and damping > LONGEST_MEMORY * square * h:
             return False
     return True
 
 
-@kernel
-def respond(run: Record, bodies: int) -> None:
+@law
+def respond(run: Record, lanes: int) -> None:
     """The motion of all modes under the polynomial through `rest`."""
     h = run.step
-    for m in range(bodies):
-        square, damping = run.square[m], run.damping[m]
-        a = run.particular
-        for k in range(NODES):
-            value = 0.0
-            for n in range(NODES):
-                value += COEFFICIENT[k, n] * run.rest[n, m]
-            a[k, m] = value
-        if run.slow[m] == 1:
-            stiff, loss = square * h * h, damping * h
-            for k in range(NODES, SERIES):
-                a[k, m] = 0.0
-            for k in range(SERIES - 3, -1, -1):  # make room for the first two
-                a[k + 2, m] = h * h * a[k, m]
-            a[0, m], a[1, m] = run.q[m], h * run.p[m]
-            for k in range(SERIES - 2):
-                inner = a[k + 2, m] - loss * (k + 1) * a[k + 1, m] - stiff * a[k, m]
-                a[k + 2, m] = inner / ((k + 1) * (k + 2))
-        else:
-            loss, inertia = damping / h, 1.0 / (h * h)
-            above = beyond = 0.0
-            for k in range(NODES - 1, -1, -1):
-                value = a[k, m] - (k + 1) * (loss * above + (k + 2) * inertia * beyond)
-                above, beyond = value / square, above
-                a[k, m] = above
-            run.free[0, m] = run.q[m] - a[0, m]
-            run.free[1, m] = run.p[m] - a[1, m] / h
+    half, sixth, twelfth = 0.5 * h * h, h * h / 6.0, h * h / 12.0
+    for m in range(lanes):
+        first, second, third = run.rest[0, m], run.rest[1, m], run.rest[2, m]
+        a = COEFFICIENT[0, 0] * first + COEFFICIENT[0, 1] * second + COEFFICIENT[0, 2] * third
+        b = COEFFICIENT[1, 0] * first + COEFFICIENT[1, 1] * second + COEFFICIENT[1, 2] * third
+        c = COEFFICIENT[2, 0] * first + COEFFICIENT[2, 1] * second + COEFFICIENT[2, 2] * third
+        spring, loss = run.spring[m], run.damper[m] / h
+        free = spring + loss == 0.0
+        inverse = 1.0 / (1.0 if free else spring)
+        two = c * inverse
+        one = (b - 2.0 * loss * two) * inverse
+        zero = (a - loss * one - 2.0 / (h * h) * two) * inverse
+        q, p = run.q[m], run.p[m]
+        run.particular[0, m] = q if free else zero
+        run.particular[1, m] = h * p if free else one
+        run.particular[2, m] = half * a if free else two
+        run.particular[3, m] = sixth * b if free else 0.0
+        run.particular[4, m] = twelfth * c if free else 0.0
+        run.free[0, m] = 0.0 if free else q - zero
+        run.free[1, m] = 0.0 if free else p - one / h
 
 
 @law
-def modal_state(run: Record, m: int, t: float, cosine: float, sine: float) -> tuple[float, float]:
-    """q and q' of mode m at t/h, with `wave` at that time where it is fast."""
-    a, value, slope = run.particular, 0.0, 0.0
-    if run.slow[m] == 1:
-        for k in range(SERIES - 1, -1, -1):
-            slope = slope * t + value
-            value = value * t + a[k, m]
-        return value, slope / run.step
-    for k in range(NODES - 1, -1, -1):
-        slope = slope * t + value
-        value = value * t + a[k, m]
+def modal_state(
+    run: Record, m: int, t: float, per_step: float, cosine: float, sine: float
+) -> tuple[float, float]:
+    """q and q' of mode m at t/h, from `wave` at that time and 1/h."""
+    a, b, c = run.particular[0, m], run.particular[1, m], run.particular[2, m]
+    d, e = run.particular[3, m], run.particular[4, m]
     u, w = run.free[0, m], run.free[1, m]
-    value += cosine * u + sine * w
-    slope /= run.step
-    slope += (cosine - run.damping[m] * sine) * w - run.square[m] * sine * u
-    return value, slope
+    value = a + t * (b + t * (c + t * (d + t * e))) + cosine * u + sine * w
+    slope = (b + t * (2.0 * c + t * (3.0 * d + t * 4.0 * e))) * per_step
+    return value, slope + (cosine - run.damping[m] * sine) * w - run.square[m] * sine * u
 
 
-@kernel
-def place_bodies(train: Record, run: Record, x: np.ndarray, v: np.ndarray) -> None:
-    """x and v of the bodies from the modes."""
-    known, n, bodies = run.known, run.modes, train.bodies
-    for j in range(bodies):
-        place = pace = 0.0
-        for m in range(bodies):
-            place += known.form[n, j, m] * run.now_q[m]
-            pace += known.form[n, j, m] * run.now_p[m]
-        x[j], v[j] = place, pace
+@law
+def modes_at(run: Record, lanes: int, delay: float) -> None:
+    """q and q' of all modes at any time within the step, in `now_q` and `now_p`."""
+    t, per_step = delay / run.step, 1.0 / run.step
+    for m in range(lanes):
+        first, second = wave(run.damping[m], run.rate[m], run.slow[m], run.fast[m], delay)
+        run.now_q[m], run.now_p[m] = modal_state(run, m, t, per_step, first, second)
 
 
 @kernel
 def propagate(model: Record, march: Record, delay: float, x: np.ndarray, v: np.ndarray) -> None:
     """x and v at any time within the step."""
     train, run = model.train, march.run
-    for m in range(train.bodies):
-        cosine = sine = 0.0
-        if run.slow[m] == 0:
-            cosine, sine = wave(run.square[m], run.damping[m], delay)
-        run.now_q[m], run.now_p[m] = modal_state(run, m, delay / run.step, cosine, sine)
-    place_bodies(train, run, x, v)
+    modes_at(run, train.lanes, delay)
+    form = run.known.form[run.modes]
+    combine_both(form, run.now_q, run.now_p, train.bodies, x, v, train.lanes)
 
 
 @kernel
@@ -200,61 +184,62 @@ def trim_at(model: Record, march: Record, delay: float, x: np.ndarray, trim: np.
     for a in range(train.axes):
         motor = train.coupling[2 * a, 0]
         lag = begin.set_speed[a] - begin.speed[a] + 0.5 * moment.slew[a] * delay
-        trim[a] = begin.trim[a] + lag * delay - (x[motor] - begin.x[motor]) / train.radius[motor]
+        turned = (x[motor] - begin.x[motor]) * train.inverse_radius[motor]
+        trim[a] = begin.trim[a] + lag * delay - turned
 
 
 @kernel
-def visit(model: Record, march: Record, n: int) -> None:
-    """Where the motion stands at node n."""
-    train, moment, run = model.train, march.moment, march.run
-    node = run.node[n]
-    node.delay = ABSCISSA[n] * run.step
-    for m in range(train.bodies):
-        cosine, sine = run.cosine[n, m], run.sine[n, m]
-        run.now_q[m], run.now_p[m] = modal_state(run, m, ABSCISSA[n], cosine, sine)
-        run.node_q[n, m], run.node_p[n, m] = run.now_q[m], run.now_p[m]
-    place_bodies(train, run, node.x, node.v)
-    trim_at(model, march, node.delay, node.x, node.trim)
-    shift = cycle_shift(train, node.x) - cycle_shift(train, march.begin.x)
-    node.advance = moment.cycle_rate * node.delay + shift
-    node.pace = moment.cycle_rate + cycle_shift(train, node.v)
+def visit_nodes(model: Record, march: Record) -> None:
+    """Answer the rest as it is now, and move on to where that takes the nodes."""
+    train, run = model.train, march.run
+    lanes, bodies, per_step = train.lanes, train.bodies, 1.0 / run.step
+    respond(run, lanes)
+    run.before_d[:] = run.node_d[LAST]
+    run.before_rate[:] = run.node_rate[LAST]
+    form, motion = run.known.form[run.modes], run.known.motion[run.modes]
+    for n in range(NODES):
+        t, q, p = ABSCISSA[n], run.node_q[n], run.node_p[n]
+        for m in range(lanes):
+            q[m], p[m] = modal_state(run, m, t, per_step, run.cosine[n, m], run.sine[n, m])
+        combine_both(form, q, p, bodies, run.node_x[n], run.node_v[n], lanes)
+        combine_both(motion, q, p, bodies, run.node_d[n], run.node_rate[n], lanes)
+        trim_at(model, march, t * run.step, run.node_x[n], run.node_trim[n])
 
 
 @kernel
-def integrate_powers(march: Record, bodies: int, h: float) -> None:
+def integrate_powers(march: Record, lanes: int, h: float) -> None:
     """Fill the ledger at h seconds into the step.
 
     By quadrature at the nodes; what damping takes from modes that swing is known exactly.
     """
     run, end = march.run, march.end
     end.energy[:] = march.begin.energy
-    t = h / run.step
+    t, lost = h / run.step, 0.0
     for n in range(NODES):
-        weight, u = 0.0, 1.0
+        weight, u = 0.0, run.step
         for k in range(NODES):
             u *= t
             weight += COEFFICIENT[k, n] * u / (k + 1)
         for e in range(LEDGER):
-            end.energy[e] += run.step * weight * run.power[n, e]
-        for m in range(bodies):
-            if _swings(run, m):
-                damped = run.damping[m] * run.node_p[n, m] ** 2
-                end.energy[DAMPING] -= run.step * weight * damped
-    for m in range(bodies):
-        if _swings(run, m):
-            end.energy[DAMPING] += _damped(run, m, h)
+            end.energy[e] += weight * run.evaluation[n].power[e]
+        for m in range(lanes):
+            damped = weight * run.damping[m] * run.node_p[n, m] ** 2
+            lost -= damped if _swings(run, m) else 0.0
+    for m in range(lanes):
+        lost += _damped(run, m, h) if _swings(run, m) else 0.0
+    end.energy[DAMPING] += lost
 
 
 @law
 def _swings(run: Record, m: int) -> bool:
     """Whether a mode has free waves, of which quadrature might miss what is damped."""
-    c = run.damping[m]
-    return run.slow[m] == 0 and 0.0 < c <= LONGEST_MEMORY * run.square[m] * run.step
+    c = run.damper[m]
+    return 0.0 < c <= LONGEST_MEMORY * run.spring[m] * run.step
 
 
-@kernel
+@law
 def _damped(run: Record, m: int, h: float) -> float:
-    """Integral of c q'^2 over h seconds for a fast mode [J].
+    """Integral of c q'^2 over h seconds for a mode that swings [J].
 
     q' is a polynomial b(t) and the rate of a free motion u. By itself that loses c int u'^2, the
     energy (u'^2 + w^2 u^2)/2 it has less at the end; int t^k u' and int t^k u follow from each
@@ -262,19 +247,13 @@ def _damped(run: Record, m: int, h: float) -> float:
     """
     c, square = run.damping[m], run.square[m]
     u0, w0 = run.free[0, m], run.free[1, m]
-    cosine, sine = wave(square, c, h)
-    u1, w1 = cosine * u0 + sine * w0, (cosine - c * sine) * w0 - square * sine * u0
-    total = 0.5 * (w0 * w0 - w1 * w1 + square * (u0 * u0 - u1 * u1))
-    rate_below = value_below = 0.0  # integrals of t^(k-1) u' and t^(k-1) u
-    power = 1.0
-    for k in range(NODES - 1):
-        start = 1.0 if k == 0 else 0.0
-        rate = power * u1 - start * u0 - k * value_below
-        value = -(power * w1 - start * w0 - k * rate_below + c * rate) / square
-        b = (k + 1) * run.particular[k + 1, m] / run.step ** (k + 1)
-        total += 2.0 * c * b * rate
-        for n in range(NODES - 1):
-            other = (n + 1) * run.particular[n + 1, m] / run.step ** (n + 1)
-            total += c * b * other * h ** (k + n + 1) / (k + n + 1)
-        rate_below, value_below, power = rate, value, power * h
-    return total
+    first, second = wave(c, run.rate[m], run.slow[m], run.fast[m], h)
+    u1, w1 = first * u0 + second * w0, (first - c * second) * w0 - square * second * u0
+    lost = 0.5 * (w0 * w0 - w1 * w1 + square * (u0 * u0 - u1 * u1))
+    b = run.particular[1, m] / run.step  # b(t) = b + a t
+    a = 2.0 * run.particular[2, m] / (run.step * run.step)
+    moved = u1 - u0  # integral of u'
+    swept = -(w1 - w0 + c * moved) / max(square, 1e-300)  # of u
+    carried = h * u1 - swept  # of t u'
+    own = h * (b * b + h * (a * b + h * a * a / 3.0))
+    return lost + c * (2.0 * (b * moved + a * carried) + own)
