@@ -6,6 +6,7 @@ Relative error below 1e-11 for `exp`, absolute error below 1e-12 for `log`, to t
 
 from __future__ import annotations
 
+import math
 from typing import Any
 
 from llvmlite import ir
@@ -17,6 +18,7 @@ from ._compile import law
 _LN2_HIGH = 0.693147180369123816490
 _LN2_LOW = 1.90821492927058770002e-10
 _INVERSE_LN2 = 1.4426950408889634
+_INVERSE_FACTORIAL = tuple(1.0 / math.factorial(n) for n in range(17))
 # pi/2 in parts whose multiples by a whole number are exact (Cody and Waite 1980).
 _RIGHT_ANGLE_HIGH = 1.57079632673412561417
 _RIGHT_ANGLE_MIDDLE = 6.07710050630396597660e-11
@@ -51,17 +53,18 @@ def exp(x: float) -> float:
     x = min(max(x, -700.0), 700.0)
     n = int(x * _INVERSE_LN2 + 1024.5) - 1024  # round: the offset makes truncation a floor
     r = (x - n * _LN2_HIGH) - n * _LN2_LOW
-    p = 1.0 + r / 11.0
-    p = 1.0 + r / 10.0 * p
-    p = 1.0 + r / 9.0 * p
-    p = 1.0 + r / 8.0 * p
-    p = 1.0 + r / 7.0 * p
-    p = 1.0 + r / 6.0 * p
-    p = 1.0 + r / 5.0 * p
-    p = 1.0 + r / 4.0 * p
-    p = 1.0 + r / 3.0 * p
-    p = 1.0 + r / 2.0 * p
-    p = 1.0 + r * p
+    p = _INVERSE_FACTORIAL[11]
+    p = _INVERSE_FACTORIAL[10] + r * p
+    p = _INVERSE_FACTORIAL[9] + r * p
+    p = _INVERSE_FACTORIAL[8] + r * p
+    p = _INVERSE_FACTORIAL[7] + r * p
+    p = _INVERSE_FACTORIAL[6] + r * p
+    p = _INVERSE_FACTORIAL[5] + r * p
+    p = _INVERSE_FACTORIAL[4] + r * p
+    p = _INVERSE_FACTORIAL[3] + r * p
+    p = _INVERSE_FACTORIAL[2] + r * p
+    p = _INVERSE_FACTORIAL[1] + r * p
+    p = _INVERSE_FACTORIAL[0] + r * p
     return p * _from_bits((n + 1023) << 52)
 
 
@@ -71,20 +74,21 @@ def precise_exp(x: float) -> float:
     x = max(x, -700.0)
     n = int(x * _INVERSE_LN2 + 1024.5) - 1024
     r = (x - n * _LN2_HIGH) - n * _LN2_LOW
-    p = 1.0 + r / 14.0
-    p = 1.0 + r / 13.0 * p
-    p = 1.0 + r / 12.0 * p
-    p = 1.0 + r / 11.0 * p
-    p = 1.0 + r / 10.0 * p
-    p = 1.0 + r / 9.0 * p
-    p = 1.0 + r / 8.0 * p
-    p = 1.0 + r / 7.0 * p
-    p = 1.0 + r / 6.0 * p
-    p = 1.0 + r / 5.0 * p
-    p = 1.0 + r / 4.0 * p
-    p = 1.0 + r / 3.0 * p
-    p = 1.0 + r / 2.0 * p
-    p = 1.0 + r * p
+    p = _INVERSE_FACTORIAL[14]
+    p = _INVERSE_FACTORIAL[13] + r * p
+    p = _INVERSE_FACTORIAL[12] + r * p
+    p = _INVERSE_FACTORIAL[11] + r * p
+    p = _INVERSE_FACTORIAL[10] + r * p
+    p = _INVERSE_FACTORIAL[9] + r * p
+    p = _INVERSE_FACTORIAL[8] + r * p
+    p = _INVERSE_FACTORIAL[7] + r * p
+    p = _INVERSE_FACTORIAL[6] + r * p
+    p = _INVERSE_FACTORIAL[5] + r * p
+    p = _INVERSE_FACTORIAL[4] + r * p
+    p = _INVERSE_FACTORIAL[3] + r * p
+    p = _INVERSE_FACTORIAL[2] + r * p
+    p = _INVERSE_FACTORIAL[1] + r * p
+    p = _INVERSE_FACTORIAL[0] + r * p
     return p * _from_bits((n + 1023) << 52)
 
 
@@ -94,20 +98,23 @@ def sin_cos(x: float) -> tuple[float, float]:
     n = int(x * _INVERSE_RIGHT_ANGLE + 0.5)
     r = ((x - n * _RIGHT_ANGLE_HIGH) - n * _RIGHT_ANGLE_MIDDLE) - n * _RIGHT_ANGLE_LOW
     q = r * r
-    s = 1.0 - q / 210.0 * (1.0 - q / 272.0)
-    s = 1.0 - q / 156.0 * s
-    s = 1.0 - q / 110.0 * s
-    s = 1.0 - q / 72.0 * s
-    s = 1.0 - q / 42.0 * s
-    s = 1.0 - q / 20.0 * s
-    s = r * (1.0 - q / 6.0 * s)
-    c = 1.0 - q / 182.0 * (1.0 - q / 240.0)
-    c = 1.0 - q / 132.0 * c
-    c = 1.0 - q / 90.0 * c
-    c = 1.0 - q / 56.0 * c
-    c = 1.0 - q / 30.0 * c
-    c = 1.0 - q / 12.0 * c
-    c = 1.0 - q / 2.0 * c
+    s = -_INVERSE_FACTORIAL[15]
+    s = _INVERSE_FACTORIAL[13] + q * s
+    s = -_INVERSE_FACTORIAL[11] + q * s
+    s = _INVERSE_FACTORIAL[9] + q * s
+    s = -_INVERSE_FACTORIAL[7] + q * s
+    s = _INVERSE_FACTORIAL[5] + q * s
+    s = -_INVERSE_FACTORIAL[3] + q * s
+    s = r + r * q * s
+    c = _INVERSE_FACTORIAL[16]
+    c = -_INVERSE_FACTORIAL[14] + q * c
+    c = _INVERSE_FACTORIAL[12] + q * c
+    c = -_INVERSE_FACTORIAL[10] + q * c
+    c = _INVERSE_FACTORIAL[8] + q * c
+    c = -_INVERSE_FACTORIAL[6] + q * c
+    c = _INVERSE_FACTORIAL[4] + q * c
+    c = -_INVERSE_FACTORIAL[2] + q * c
+    c = 1.0 + q * c
     sine, cosine = (c, s) if n & 1 else (s, c)
     return (-sine if n & 2 else sine), (-cosine if (n + 1) & 2 else cosine)
 

@@ -113,10 +113,10 @@ def place_meshes(
 @law
 def _weigh(train: Record, moment: Record, now: Record, pair: int) -> None:
     """Weights of one tooth pair of all meshes, and their growth."""
-    lanes = train.lanes
+    lanes, advance = train.lanes, now.advance
     if train.terms == 2:  # what a given stiffness needs
         for i in range(lanes):
-            u = moment.start[i] - moment.low[i] + moment.side[i] * now.advance
+            u = moment.start[i] - moment.low[i] + moment.side[i] * advance
             slope = moment.weight[pair, 1, i]
             now.weight[pair, i] = moment.weight[pair, 0, i] + slope * u
             now.growth[pair, i] = slope
@@ -126,7 +126,7 @@ def _weigh(train: Record, moment: Record, now: Record, pair: int) -> None:
         now.weight[pair, i], now.growth[pair, i] = moment.weight[pair, last, i], 0.0
     for t in range(last - 1, -1, -1):
         for i in range(lanes):
-            u = moment.start[i] - moment.low[i] + moment.side[i] * now.advance
+            u = moment.start[i] - moment.low[i] + moment.side[i] * advance
             value = now.weight[pair, i]
             now.growth[pair, i] = now.growth[pair, i] * u + value
             now.weight[pair, i] = value * u + moment.weight[pair, t, i]
@@ -135,16 +135,17 @@ def _weigh(train: Record, moment: Record, now: Record, pair: int) -> None:
 @kernel
 def press(model: Record, moment: Record, now: Record, power: np.ndarray) -> None:
     """Pushes of all meshes from where they stand; what they lose and put in goes into `power`."""
-    train, load = model.train, model.load
+    train, pace, following = model.train, now.pace, now.following
+    offset, inner_squared = model.load.offset, model.load.inner_squared
     _weigh(train, moment, now, TOTAL)
     for i in range(train.lanes):
         side, closed = moment.side[i], abs(moment.side[i])
         k = closed * (moment.base[i] + moment.gain[i] * now.weight[TOTAL, i])
-        squeeze, closing = side * now.d[i] - load.offset, side * now.rate[i]
-        damped = k * (moment.fixed[i] + now.following) * closing
+        squeeze, closing = side * now.d[i] - offset, side * now.rate[i]
+        damped = k * (moment.fixed[i] + following) * closing
         push = k * squeeze + damped
         work = 0.5 * closed * moment.gain[i] * now.growth[TOTAL, i]
-        work *= (squeeze * squeeze - load.inner_squared) * now.pace
+        work *= (squeeze * squeeze - inner_squared) * pace
         now.push[i] = push
         now.lost[i] = damped * closing
         now.work[i] = side * (work - push * now.error_rate[i])
@@ -164,15 +165,17 @@ def _book(train: Record, now: Record, power: np.ndarray) -> None:
 def spread(model: Record, moment: Record, now: Record, pairs: Record) -> None:
     """Loads and radii of the tooth pairs of all meshes."""
     train = model.train
-    pitch, meshes = train.base_pitch, train.meshes
+    pitch, meshes, lanes = train.base_pitch, train.meshes, train.lanes
+    passed = now.advance * pitch
     for p in range(train.slots):
         _weigh(train, moment, now, p)
         first = p * meshes  # the next pair takes over what whole registers write beyond
-        for i in range(train.lanes):
-            s = moment.side[i] * now.advance * pitch + moment.start[i] * pitch
+        for i in range(lanes):
             share = now.weight[p, i] / now.weight[TOTAL, i]
             pairs.share[first + i] = share
             pairs.load[first + i] = max(share * now.push[i], 0.0)
+        for i in range(lanes):
+            s = moment.side[i] * passed + moment.start[i] * pitch
             pairs.rho1[first + i] = moment.rho1[p, i] + s
             pairs.rho2[first + i] = moment.rho2[p, i] - moment.external[i] * s
             pairs.external[first + i] = moment.external[i]

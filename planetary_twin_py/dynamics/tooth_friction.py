@@ -15,7 +15,7 @@ from ..mesh.tooth_pairs import PAIRS
 from .tooth_contact import choices, tooth_contact
 
 SLOWEST_TURN = 1e-3  # [rad/s] below which the printed torque fades out
-ROOM = PAIRS * MESHES + REGISTER  # for all tooth pairs, and what whole registers write beyond
+ROOM = (PAIRS + 1) * MESHES  # for all tooth pairs, and what whole registers write beyond
 
 # Entry p * meshes + i is pair p of mesh i; one that is absent, or parted, has no load.
 TOOTH_PAIRS = layout(
@@ -71,9 +71,8 @@ def evaluate(model: Record, pairs: Record) -> None:
 
 @law
 def _evaluate(model: Record, laws: tuple[bool, bool, bool, bool], pairs: Record) -> None:
-    """Half registers of pairs, so that lanes beyond `count` are idle."""
-    half = REGISTER // 2
-    for p in range(-(-pairs.count // half) * half):
+    """Whole registers of pairs, so that lanes beyond `count` are idle."""
+    for p in range(-(-pairs.count // REGISTER) * REGISTER):
         signed, boundary, viscous, log_film, sliding, slope, rolling, taken = tooth_contact(
             model.oil,
             laws,

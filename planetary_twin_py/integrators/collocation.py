@@ -87,13 +87,13 @@ def _sweep(model: Record, march: Record, rubbing: bool) -> None:
     share, lanes = run.known.share[run.modes], train.lanes
     for n in range(NODES):
         out, x, v, delay = run.evaluation[n], run.node_x[n], run.node_v[n], ABSCISSA[n] * run.step
-        out.now.d[:] = run.node_d[n]
-        out.now.rate[:] = run.node_rate[n]
+        for i in range(lanes):
+            out.now.d[i], out.now.rate[i] = run.node_d[n, i], run.node_rate[n, i]
         squeeze(model, begin, moment, x, v, delay, out)
         if rubbing:
             rub(model, begin, moment, v, out)
         drive(model, begin, moment, x, v, delay, run.node_trim[n], out)
-        combine(share, out.force, train.bodies, run.rest[n], lanes)
+        combine(share, out.force, train.bodies, run.rest[n])
         for m in range(lanes):
             own = run.damper[m] * run.node_p[n, m] + run.spring[m] * run.node_q[n, m]
             run.rest[n, m] += own
@@ -130,7 +130,7 @@ def _tail(model: Record, march: Record) -> float:
         lasting = math.sqrt(1.0 + 2.0 / (run.damper[m] * h + 1e-6))
         lasting = 1.0 if run.spring[m] == 0.0 else lasting
         run.now_q[m] = tail * tail / (tail + below + 1e-300) * TAIL * static * lasting
-    combine(run.known.reach[run.modes], run.now_q, train.bodies, run.now_d, lanes)
+    combine(run.known.reach[run.modes], run.now_q, train.bodies, run.now_d)
     for i in range(train.meshes):
         largest = max(largest, run.now_d[i])
     return largest / march.control.tolerance_x

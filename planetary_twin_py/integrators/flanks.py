@@ -98,7 +98,7 @@ def _suspect_flanks(model: Record, march: Record) -> bool:
     reach, motion = run.known.reach[modes], run.known.motion[modes]
     for m in range(lanes):
         run.now_q[m], run.now_p[m] = _amplitude(run, m, sun), _amplitude(run, m, ring)
-    combine_both(reach, run.now_q, run.now_p, train.bodies, run.now_d, run.now_rate, lanes)
+    combine_both(reach, run.now_q, run.now_p, train.bodies, run.now_d, run.now_rate)
     for i in range(train.meshes):
         run.least[i] = -(run.now_d[i] if train.kind[i] == 0 else run.now_rate[i])
     for n in range(NODES):
@@ -108,7 +108,7 @@ def _suspect_flanks(model: Record, march: Record) -> bool:
             waves = _has_waves(run, m)
             rate = (c - run.damping[m] * s) * w - run.square[m] * s * u
             run.now_q[m], run.now_p[m] = (c * u + s * w if waves else 0.0), (rate if waves else 0.0)
-        combine_both(motion, run.now_q, run.now_p, train.bodies, run.now_d, run.now_rate, lanes)
+        combine_both(motion, run.now_q, run.now_p, train.bodies, run.now_d, run.now_rate)
         if n == 0:
             for i in range(train.meshes):
                 run.scan_d[0, i] = math.inf
@@ -169,9 +169,8 @@ def _scan(model: Record, march: Record, end: float) -> None:
     for k in range(SCANNED):
         modes_at(run, train.lanes, (k + 1) * end / SCANNED)
         combine_both(
-            motion, run.now_q, run.now_p, train.bodies,
-            run.scan_d[k], run.scan_rate[k], train.lanes,
-        )  # fmt: skip
+            motion, run.now_q, run.now_p, train.bodies, run.scan_d[k], run.scan_rate[k]
+        )
 
 
 @kernel

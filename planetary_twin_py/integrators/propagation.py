@@ -85,8 +85,8 @@ def enter(model: Record, march: Record) -> None:
         run.rate[m], run.slow[m], run.fast[m] = decay_rates(square, damping)
         run.now_q[m], run.now_p[m] = train.mass[m] * begin.x[m], train.mass[m] * begin.v[m]
     share = known.share[n]
-    combine_both(share, run.now_q, run.now_p, train.bodies, run.q, run.p, lanes)
-    combine(share, march.first.force, train.bodies, run.force, lanes)
+    combine_both(share, run.now_q, run.now_p, train.bodies, run.q, run.p)
+    combine(share, march.first.force, train.bodies, run.force)
 
 
 @kernel
@@ -174,7 +174,7 @@ def propagate(model: Record, march: Record, delay: float, x: np.ndarray, v: np.n
     train, run = model.train, march.run
     modes_at(run, train.lanes, delay)
     form = run.known.form[run.modes]
-    combine_both(form, run.now_q, run.now_p, train.bodies, x, v, train.lanes)
+    combine_both(form, run.now_q, run.now_p, train.bodies, x, v)
 
 
 @kernel
@@ -194,15 +194,15 @@ def visit_nodes(model: Record, march: Record) -> None:
     train, run = model.train, march.run
     lanes, bodies, per_step = train.lanes, train.bodies, 1.0 / run.step
     respond(run, lanes)
-    run.before_d[:] = run.node_d[LAST]
-    run.before_rate[:] = run.node_rate[LAST]
+    for i in range(lanes):
+        run.before_d[i], run.before_rate[i] = run.node_d[LAST, i], run.node_rate[LAST, i]
     form, motion = run.known.form[run.modes], run.known.motion[run.modes]
     for n in range(NODES):
         t, q, p = ABSCISSA[n], run.node_q[n], run.node_p[n]
         for m in range(lanes):
             q[m], p[m] = modal_state(run, m, t, per_step, run.cosine[n, m], run.sine[n, m])
-        combine_both(form, q, p, bodies, run.node_x[n], run.node_v[n], lanes)
-        combine_both(motion, q, p, bodies, run.node_d[n], run.node_rate[n], lanes)
+        combine_both(form, q, p, bodies, run.node_x[n], run.node_v[n])
+        combine_both(motion, q, p, bodies, run.node_d[n], run.node_rate[n])
         trim_at(model, march, t * run.step, run.node_x[n], run.node_trim[n])
 
 
