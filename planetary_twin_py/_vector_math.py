@@ -122,11 +122,34 @@ def sin_cos(x: float) -> tuple[float, float]:
 @law
 def log(x: float) -> float:
     """Natural logarithm of a positive normal number."""
+    mantissa, exponent = _split(x)
+    return _log_of((mantissa - 1.0) / (mantissa + 1.0), exponent)
+
+
+@law
+def logs(x: float, y: float, z: float) -> tuple[float, float, float]:
+    """Natural logarithms of three positive normal numbers, with one division for all."""
+    a, i = _split(x)
+    b, j = _split(y)
+    c, k = _split(z)
+    p, q, r = a + 1.0, b + 1.0, c + 1.0
+    inverse = 1.0 / (p * q * r)
+    first = _log_of((a - 1.0) * (q * r * inverse), i)
+    second = _log_of((b - 1.0) * (p * r * inverse), j)
+    return first, second, _log_of((c - 1.0) * (p * q * inverse), k)
+
+
+@law
+def _split(x: float) -> tuple[float, int]:
+    """Mantissa in [sqrt(1/2), sqrt(2)), where the series is shortest, and exponent."""
     bits = _bits(x)
-    # Move the mantissa to [sqrt(1/2), sqrt(2)), where the series is shortest.
     exponent = ((bits + 0x95F619980C433) >> 52) - 1023
-    mantissa = _from_bits(bits - (exponent << 52))
-    t = (mantissa - 1.0) / (mantissa + 1.0)
+    return _from_bits(bits - (exponent << 52)), exponent
+
+
+@law
+def _log_of(t: float, exponent: int) -> float:
+    """2 artanh(t) + exponent log(2)."""
     q = t * t
     series = 1.0 / 15.0
     series = 1.0 / 13.0 + q * series

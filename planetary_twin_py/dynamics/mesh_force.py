@@ -27,6 +27,7 @@ MESHES_NOW = layout(
     error_rate=(REAL, (MESHES,)),  # of the error of form [m/s]
     weight=(REAL, (PAIRS + 1, MESHES)),  # of the tooth pairs, and their sum
     growth=(REAL, (PAIRS + 1, MESHES)),  # per cycle
+    inverse=(REAL, (MESHES,)),  # of the sum of the weights
     push=(REAL, (MESHES,)),  # force, 0 if open [N]
     lost=(REAL, (MESHES,)),  # to damping [W]
     work=(REAL, (MESHES,)),  # what the changing shape puts in [W]
@@ -167,11 +168,13 @@ def spread(model: Record, moment: Record, now: Record, pairs: Record) -> None:
     train = model.train
     pitch, meshes, lanes = train.base_pitch, train.meshes, train.lanes
     passed = now.advance * pitch
+    for i in range(lanes):
+        now.inverse[i] = 1.0 / now.weight[TOTAL, i]
     for p in range(train.slots):
         _weigh(train, moment, now, p)
         first = p * meshes  # the next pair takes over what whole registers write beyond
         for i in range(lanes):
-            share = now.weight[p, i] / now.weight[TOTAL, i]
+            share = now.weight[p, i] * now.inverse[i]
             pairs.share[first + i] = share
             pairs.load[first + i] = max(share * now.push[i], 0.0)
         for i in range(lanes):

@@ -11,7 +11,7 @@ import math
 import numpy as np
 
 from .._compile import kernel, law
-from .._records import AXES, BODIES, MESHES, REAL, SMALL, Record, layout
+from .._records import AXES, BODIES, MESHES, REAL, SMALL, WHOLE, Record, layout
 from ..mesh.tooth_pairs import PAIRS, TERMS, TOTAL
 from .cycle import cycle_shift, frame_cycle, nearest_to_segment
 from .faults import FAULTS, find_faults
@@ -21,6 +21,7 @@ from .state import COAST_SIDE, OPEN
 MOMENT = layout(
     start=(REAL, (MESHES,)),  # fraction of the mesh cycle at the start of the step
     side=(REAL, (MESHES,)),  # +1, -1, or 0: open
+    segment=(WHOLE, (MESHES,)),  # 1 + that which the following arrays are of, 0: none yet
     low=(REAL, (MESHES,)),  # edges of the segment [cycles]
     high=(REAL, (MESHES,)),
     base=(REAL, (MESHES,)),  # law of stiffness [N/m]
@@ -63,7 +64,8 @@ def place_mesh(train: Record, state: Record, moment: Record, i: int, cycles: flo
     side = state.side[i]
     if train.lines[train.kind[i]] > 0:
         place_lines(train, state, i, moment.line_angle)
-    take_segment(train, state, moment, i)
+    if moment.segment[i] != state.segment[i] + 1 or moment.side[i] != side:
+        take_segment(train, state, moment, i)
     if side == OPEN:
         moment.start[i] = moment.low[i]
         return
@@ -77,7 +79,7 @@ def place_mesh(train: Record, state: Record, moment: Record, i: int, cycles: flo
 def take_segment(train: Record, state: Record, moment: Record, i: int) -> None:
     """Copy side and segment of mesh i from the tables; an open one carries nothing anywhere."""
     kind, segment, side = train.kind[i], state.segment[i], state.side[i]
-    moment.side[i] = side
+    moment.side[i], moment.segment[i] = side, segment + 1
     moment.base[i], moment.gain[i] = train.stiffness_base[kind], train.stiffness_gain[kind]
     moment.fixed[i], moment.external[i] = train.damping_time[kind], train.external[kind]
     moment.low[i], moment.high[i] = train.edge[kind, segment], train.edge[kind, segment + 1]

@@ -53,7 +53,7 @@ def observe(
         for i in range(train.meshes):
             k = p * train.meshes + i
             out[FILM, i] += pairs.share[k] * math.exp(pairs.log_film[k])
-            ratio = lambda_ratio_of(oil, oil.prescribed, model.load.lambda_ratio, pairs.log_film[k])
+            ratio = lambda_ratio_of(oil, oil.prescribed, pairs.log_film[k])
             out[LAMBDA, i] += pairs.share[k] * ratio
             if train.friction:
                 out[BOUNDARY, i] += pairs.boundary[k]

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 
 from .._records import FLAG, REAL, Record, fields_of, layout, new_record
-from ..lubrication.boundary import Asperities
+from ..lubrication.boundary import Asperities, boundary_shear
 from ..lubrication.film import FILM_LAWS, FilmLaw
 from ..lubrication.hertz import contact_modulus, half_width
 from ..lubrication.traction import Traction
@@ -27,6 +27,8 @@ OIL = layout(
     density=REAL,  # [kg/m^3]
     kinematic=REAL,  # eta0/density [m^2/s]
     prescribed=FLAG,  # lambda ratio: prescribed, or film/roughness
+    lambda_ratio=REAL,  # [-], where it is prescribed
+    asperity_shear=REAL,  # boundary friction per area at that ratio [Pa]
     printed_asperities=FLAG,
     sharing=FLAG,  # boundary friction: by load sharing, or of Greenwood and Tripp's asperities
     boundary_coefficient=REAL,  # [-], of the former
@@ -48,22 +50,24 @@ def build_oil(scene: Scene, point: OperatingPoint) -> Record:
     )
     printed_traction = data.traction == "printed"
     roughness_squared = math.pi * data.roughness_parameter**2
+    asperities = Asperities(
+        area_factor=math.pi * roughness_squared,
+        pressure_factor=(
+            16.0
+            * math.sqrt(2.0)
+            / 15.0
+            * roughness_squared
+            * math.sqrt(data.asperity_slope)
+            * (2.0 * modulus if data.modulus == "printed" else modulus)
+        ),
+        shear_stress=data.shear_stress,
+        pressure_coefficient=data.pressure_coefficient,
+    )
+    printed_asperities = data.asperities == "printed"
     return new_record(
         OIL,
         film=FILM_LAWS[data.film],
-        asperities=Asperities(
-            area_factor=math.pi * roughness_squared,
-            pressure_factor=(
-                16.0
-                * math.sqrt(2.0)
-                / 15.0
-                * roughness_squared
-                * math.sqrt(data.asperity_slope)
-                * (2.0 * modulus if data.modulus == "printed" else modulus)
-            ),
-            shear_stress=data.shear_stress,
-            pressure_coefficient=data.pressure_coefficient,
-        ),
+        asperities=asperities,
         traction=Traction(
             shear_stress=data.shear_stress,
             pressure_viscosity=data.pressure_viscosity,
@@ -99,7 +103,9 @@ def build_oil(scene: Scene, point: OperatingPoint) -> Record:
         density=data.oil_density,
         kinematic=viscosity / data.oil_density,
         prescribed=data.lambda_ratio == "prescribed",
-        printed_asperities=data.asperities == "printed",
+        lambda_ratio=point.lambda_ratio,
+        asperity_shear=boundary_shear(asperities, printed_asperities, point.lambda_ratio),
+        printed_asperities=printed_asperities,
         sharing=data.boundary == "load_sharing",
         boundary_coefficient=data.boundary_coefficient,
         rolling=data.rolling == "goksem_hargreaves",

@@ -45,7 +45,6 @@ def build_load(scene: Scene, point: OperatingPoint, train: Record) -> Record:
         offset=offset,
         inner_squared=(half - offset) ** 2,
         release=1.0 if scene.mesh.backlash == "dead_zone" else 0.0,
-        lambda_ratio=point.lambda_ratio,
         target_speed=np.array([point.input_speed, point.second_input_speed][:axes]),
         slew_rate=control.slew_rate,
         torque=point.input_torque * torques,

@@ -35,7 +35,6 @@ LOAD = layout(
     offset=REAL,  # transmission error from which the force grows [m]
     inner_squared=REAL,  # squeeze at which flanks meet, squared [m^2]
     release=REAL,  # 1: flanks part where the force vanishes, 0: where they met
-    lambda_ratio=REAL,  # [-]
     target_speed=(REAL, (AXES,)),  # [rad/s]
     slew_rate=REAL,  # [rad/s^2]
     torque=(REAL, (MACHINES,)),  # mean torque of each machine without loss [N m]

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from .._compile import law
 from .._records import Record
-from .._vector_math import exp, log
+from .._vector_math import exp, logs
 from ..lubrication.boundary import boundary_shear
 from ..lubrication.film import SLOWEST_SPEED, log_film_thickness
 from ..lubrication.hertz import half_width
@@ -22,9 +22,9 @@ def choices(oil: Record) -> tuple[bool, bool, bool, bool]:
 
 
 @law
-def lambda_ratio_of(oil: Record, prescribed: bool, given: float, log_film: float) -> float:
+def lambda_ratio_of(oil: Record, prescribed: bool, log_film: float) -> float:
     """Specific film thickness [-]: as given, or film over roughness."""
-    return given if prescribed else exp(log_film - oil.log_roughness)
+    return oil.lambda_ratio if prescribed else exp(log_film - oil.log_roughness)
 
 
 @law
@@ -32,7 +32,6 @@ def tooth_contact(
     oil: Record,
     laws: tuple[bool, bool, bool, bool],
     pair: tuple[float, float, float, float, float, float],
-    lambda_ratio: float,
 ) -> tuple[float, float, float, float, float, float, float, float]:
     """Friction of a tooth pair, positive against the sliding of the first flank on the second.
 
@@ -42,7 +41,6 @@ def tooth_contact(
             a loop over pairs, from which the compiler then takes their branches out.
         pair: radii of curvature of both flanks [m], +1 for an external mesh and -1 for an
             internal one, speeds of both gears relative to the carrier [rad/s], normal load [N].
-        lambda_ratio: specific film thickness, used where the scene prescribes it.
 
     Returns:
         Signed friction [N], boundary and viscous friction [N], logarithm of the film in metres,
@@ -54,28 +52,33 @@ def tooth_contact(
     u1, u2 = rho1 * speed1, -external * rho2 * speed2
     sliding = u1 - u2
     speed = max(abs(0.5 * (u1 + u2)), SLOWEST_SPEED)
-    radius = rho1 * rho2 / (rho2 + external * rho1)
+    # Three divisions in one, as they take longest of all in a loop over pairs.
+    distance, loaded = rho2 + external * rho1, load + LIGHTEST_LOAD
+    threshold = oil.sliding_threshold * speed
+    inverse = 1.0 / (distance * loaded * threshold)
+    radius = rho1 * rho2 * (loaded * threshold * inverse)
+    steepness = distance * loaded * inverse
     # Friction vanishes with the load: a jump where flanks meet would have them chatter.
-    fade = load / (load + LIGHTEST_LOAD)
+    fade = load * (distance * threshold * inverse)
     load = max(load, LIGHTEST_LOAD)
-    # Products and powers are sums of logarithms: divisions take longest of all in this loop.
-    log_radius, log_speed, log_load = log(radius), log(speed), log(load)
+    log_radius, log_speed, log_load = logs(radius, speed, load)
     log_group = log_speed - log_radius + oil.log_speed_group  # of U
     log_load_group = log_load - log_radius + oil.log_load_group  # of W
     film = log_film_thickness(oil.film, log_radius, log_group, oil.log_material, log_load_group)
     area = 2.0 * oil.face_width * half_width(load, radius, oil.face_width, oil.contact_modulus)
-    ratio = lambda_ratio_of(oil, prescribed, lambda_ratio, film)
-    steepness = 1.0 / (oil.sliding_threshold * speed)
     sense = sliding_sense(sliding * steepness)
     # sqrt(R F/(A V)) of (13), A being proportional to sqrt(R F)
     log_heat = 0.25 * (log_radius + log_load) - 0.5 * (log_speed + oil.log_area)
     viscous = viscous_friction(oil.traction, load, area, film, log_heat)
     if sharing:
-        share = film_share(ratio)
+        share = film_share(lambda_ratio_of(oil, prescribed, film))
         boundary = (1.0 - share) * oil.boundary_coefficient * load
         viscous *= share
     else:
-        boundary = boundary_shear(oil.asperities, printed, ratio) * area
+        # At a prescribed ratio it is the same for all pairs.
+        ratio = lambda_ratio_of(oil, prescribed, film)
+        shear = oil.asperity_shear if prescribed else boundary_shear(oil.asperities, printed, ratio)
+        boundary = shear * area
     boundary *= fade
     viscous *= fade
     full = boundary + viscous

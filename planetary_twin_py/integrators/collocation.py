@@ -37,6 +37,9 @@ def collocate(model: Record, march: Record, h: float) -> tuple[float, bool]:
     visit_nodes(model, march)
     if run.known.varies[run.modes] == 1:
         _settle_meshes(model, march)
+        tail = _tail(model, march)
+        if not tail <= 1.0:
+            return (tail if math.isfinite(tail) else math.inf), True
     return _settle_friction(model, march)
 
 

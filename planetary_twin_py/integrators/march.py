@@ -331,25 +331,38 @@ def _end_on_flank_event(model: Record, march: Record, h: float) -> int:
 @kernel
 def _pass_edges(model: Record, march: Record) -> None:
     """Change the segment of every mesh that has come to the edge of its own."""
-    train, end = model.train, march.end
-    pace = march.moment.cycle_rate + cycle_shift(train, end.v)
+    train, end, moment = model.train, march.end, march.moment
+    advance = moment.cycle_rate * march.control.step
+    advance += cycle_shift(train, end.x) - cycle_shift(train, march.begin.x)
+    pace = moment.cycle_rate + cycle_shift(train, end.v)
     for i in range(train.meshes):
-        side = end.side[i]
-        if side == OPEN:
-            continue
-        kind = train.kind[i]
-        for _ in range(train.segments[kind]):
-            cycle = mesh_cycle(train, end, i, side)
-            segment = end.segment[i]
-            cycle = nearest_to_segment(train, kind, segment, cycle)
-            if side * pace > 0.0 and cycle >= train.edge[kind, segment + 1] - EDGE:
-                change_segment(model, end, march.aside, i, 1)
-            elif side * pace < 0.0 and cycle <= train.edge[kind, segment] + EDGE:
-                change_segment(model, end, march.aside, i, -1)
-            else:
-                break
-            march.control.pair_events += 1
-            march.control.changed = True
+        cycle, ahead = moment.start[i] + moment.side[i] * advance, moment.side[i] * pace
+        if ahead > 0.0 and cycle >= moment.high[i] - EDGE:
+            _pass_edge(model, march, i, 1)
+        elif ahead < 0.0 and cycle <= moment.low[i] + EDGE:
+            _pass_edge(model, march, i, -1)
+
+
+@kernel
+def _pass_edge(model: Record, march: Record, i: int, direction: int) -> None:
+    """Change the segment of mesh i until it has come to the edge of its own no more."""
+    train, end, side = model.train, march.end, march.end.side[i]
+    for _ in range(train.segments[train.kind[i]]):
+        if side == OPEN or not _at_edge(train, end, i, direction):
+            return
+        change_segment(model, end, march.aside, i, direction)
+        march.control.pair_events += 1
+        march.control.changed = True
+
+
+@kernel
+def _at_edge(train: Record, end: Record, i: int, direction: int) -> bool:
+    """Whether mesh i has come to the edge of its segment that lies in a direction."""
+    kind, segment = train.kind[i], end.segment[i]
+    cycle = nearest_to_segment(train, kind, segment, mesh_cycle(train, end, i, end.side[i]))
+    if direction > 0:
+        return cycle >= train.edge[kind, segment + 1] - EDGE
+    return cycle <= train.edge[kind, segment] + EDGE
 
 
 @kernel

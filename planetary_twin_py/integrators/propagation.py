@@ -226,7 +226,10 @@ def integrate_powers(march: Record, lanes: int, h: float) -> None:
             damped = weight * run.damping[m] * run.node_p[n, m] ** 2
             lost -= damped if _swings(run, m) else 0.0
     for m in range(lanes):
-        lost += _damped(run, m, h) if _swings(run, m) else 0.0
+        first, second = run.cosine[LAST, m], run.sine[LAST, m]
+        if h != run.step:
+            first, second = wave(run.damping[m], run.rate[m], run.slow[m], run.fast[m], h)
+        lost += _damped(run, m, h, first, second) if _swings(run, m) else 0.0
     end.energy[DAMPING] += lost
 
 
@@ -238,8 +241,8 @@ def _swings(run: Record, m: int) -> bool:
 
 
 @law
-def _damped(run: Record, m: int, h: float) -> float:
-    """Integral of c q'^2 over h seconds for a mode that swings [J].
+def _damped(run: Record, m: int, h: float, first: float, second: float) -> float:
+    """Integral of c q'^2 over h seconds for a mode that swings, with `wave` at its end [J].
 
     q' is a polynomial b(t) and the rate of a free motion u. By itself that loses c int u'^2, the
     energy (u'^2 + w^2 u^2)/2 it has less at the end; int t^k u' and int t^k u follow from each
@@ -247,7 +250,6 @@ def _damped(run: Record, m: int, h: float) -> float:
     """
     c, square = run.damping[m], run.square[m]
     u0, w0 = run.free[0, m], run.free[1, m]
-    first, second = wave(c, run.rate[m], run.slow[m], run.fast[m], h)
     u1, w1 = first * u0 + second * w0, (first - c * second) * w0 - square * second * u0
     lost = 0.5 * (w0 * w0 - w1 * w1 + square * (u0 * u0 - u1 * u1))
     b = run.particular[1, m] / run.step  # b(t) = b + a t

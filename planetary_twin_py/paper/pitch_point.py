@@ -56,8 +56,8 @@ def contact(
     oil = build_oil(scene, point)
     pair = (*curvature, external, *speed, static_load(scene))
     signed, boundary, viscous, log_film, sliding, slope, rolling, _ = tooth_contact(
-        oil, choices(oil), pair, point.lambda_ratio
+        oil, choices(oil), pair
     )
-    ratio = lambda_ratio_of(oil, oil.prescribed, point.lambda_ratio, log_film)
+    ratio = lambda_ratio_of(oil, oil.prescribed, log_film)
     film = math.exp(log_film)
     return Contact(signed, boundary, viscous, film, ratio, sliding, slope, rolling)
