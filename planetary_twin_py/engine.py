@@ -18,9 +18,12 @@ from .dynamics.train import build_train
 from .integrators.interpolant import Samples, new_samples, sample
 from .integrators.march import advance, begin_step, cut
 from .integrators.progress import AUTO, COLLOCATION, MARCH, ROSENBROCK
+from .integrators.radau import radau
 from .scene import OperatingPoint, Scene
 
 METHODS = {"auto": AUTO, "collocation": COLLOCATION, "rosenbrock": ROSENBROCK}
+import os
+NODES = int(os.environ.get("NODES","3"))
 LONGEST_STEP = 1e-3  # [s]
 FIRST_STEP = 1e-6  # [s]
 TOLERANCES = (1e-8, 0.1)  # allowed range
@@ -53,6 +56,7 @@ class Engine:
         control.step = control.next_step = control.next_stiff = FIRST_STEP
         control.longest = LONGEST_STEP
         control.method = METHODS[method]
+        self.march.run.nodes = radau(NODES)
         self._load(scene.operating_point)
         self.march.begin = self.march.end = start_state(scene, self.model)
         self._compile()

@@ -14,13 +14,12 @@ from .._combine import combine
 from .._compile import kernel
 from .._records import Record
 from ..dynamics.equations import drive, rub, squeeze
-from .propagation import ABSCISSA, COEFFICIENT, LAST, NODES, set_step, visit_nodes
+from .propagation import power, set_step, visit_nodes
 
 MOST_SWEEPS = 6
 SHARE = 0.3  # of the tolerance that a sweep not made may leave
 WEAKEST_PULL = 0.5  # of a sweep, beyond which a shorter step or another method is called for
-TAIL = 0.2  # share of the highest power of the polynomial that counts as its error
-SETTLING = 40.0  # such a share moves a mode by 1/40 of what it would move it at rest
+TAIL = 4.0  # by which the estimated error of the polynomial counts more
 
 
 @kernel
@@ -32,7 +31,7 @@ def collocate(model: Record, march: Record, h: float) -> tuple[float, bool]:
     """
     train, run = model.train, march.run
     set_step(run, train.lanes, h)
-    for n in range(NODES):
+    for n in range(run.nodes.count):
         run.evaluation[n].rubbing[:] = march.first.rubbing
     visit_nodes(model, march)
     if run.known.varies[run.modes] == 1:
@@ -68,7 +67,7 @@ def _settle_friction(model: Record, march: Record) -> tuple[float, bool]:
     for sweep in range(MOST_SWEEPS):
         before = change
         _sweep(model, march, True)
-        march.control.evaluations += NODES
+        march.control.evaluations += run.nodes.count
         visit_nodes(model, march)
         change = _difference(model, march)
         if sweep == 0:
@@ -88,8 +87,9 @@ def _sweep(model: Record, march: Record, rubbing: bool) -> None:
     """Take the rest anew at all nodes, with friction as it was unless `rubbing`."""
     train, begin, moment, run = model.train, march.begin, march.moment, march.run
     share, lanes = run.known.share[run.modes], train.lanes
-    for n in range(NODES):
-        out, x, v, delay = run.evaluation[n], run.node_x[n], run.node_v[n], ABSCISSA[n] * run.step
+    for n in range(run.nodes.count):
+        out, x, v = run.evaluation[n], run.node_x[n], run.node_v[n]
+        delay = run.nodes.abscissa[n] * run.step
         for i in range(lanes):
             out.now.d[i], out.now.rate[i] = run.node_d[n, i], run.node_rate[n, i]
         squeeze(model, begin, moment, x, v, delay, out)
@@ -107,9 +107,10 @@ def _difference(model: Record, march: Record) -> float:
     """Largest motion of a mesh between the last sweep and the one before, over its tolerance."""
     train, run, tau = model.train, march.run, march.moment.tau
     largest = total = 0.0  # NaN would get lost in a maximum
+    last = run.nodes.count - 1
     for i in range(train.meshes):
-        d = run.node_d[LAST, i] - run.before_d[i]
-        rate = run.node_rate[LAST, i] - run.before_rate[i]
+        d = run.node_d[last, i] - run.before_d[i]
+        rate = run.node_rate[last, i] - run.before_rate[i]
         largest = max(largest, abs(d), tau[train.kind[i]] * abs(rate))
         total += d + rate
     return largest / march.control.tolerance_x if math.isfinite(total) else math.inf
@@ -120,19 +121,16 @@ def _tail(model: Record, march: Record) -> float:
     """Local error, what the highest power of the polynomial moves, over its tolerance."""
     train, run, largest = model.train, march.run, 0.0
     h, lanes = run.step, train.lanes
+    highest = run.nodes.count - 1
+    share = TAIL * run.nodes.smallest
+    settling = 2.0 * (highest + 2) * (highest + 3)  # it moves a mode by such a part of that at rest
     for m in range(lanes):
-        first, second, third = run.rest[0, m], run.rest[1, m], run.rest[2, m]
-        tail = abs(
-            COEFFICIENT[2, 0] * first + COEFFICIENT[2, 1] * second + COEFFICIENT[2, 2] * third
-        )
-        below = abs(
-            COEFFICIENT[1, 0] * first + COEFFICIENT[1, 1] * second + COEFFICIENT[1, 2] * third
-        )
-        static = 1.0 / max(run.square[m], SETTLING / (h * h))
+        tail, below = abs(power(run, highest, m)), abs(power(run, highest - 1, m))
+        static = 1.0 / max(run.square[m], settling / (h * h))
         # Steps within the memory of a mode make errors that add up at random.
         lasting = math.sqrt(1.0 + 2.0 / (run.damper[m] * h + 1e-6))
         lasting = 1.0 if run.spring[m] == 0.0 else lasting
-        run.now_q[m] = tail * tail / (tail + below + 1e-300) * TAIL * static * lasting
+        run.now_q[m] = tail * tail / (tail + below + 1e-300) * share * static * lasting
     combine(run.known.reach[run.modes], run.now_q, train.bodies, run.now_d)
     for i in range(train.meshes):
         largest = max(largest, run.now_d[i])

@@ -12,7 +12,7 @@ from ..dynamics.cycle import cycle_shift
 from ..dynamics.form_errors import form_error
 from ..dynamics.state import OPEN
 from .interpolant import interpolate
-from .propagation import NODES, SCANNED, modes_at
+from .propagation import SCANNED, modes_at
 
 SLACK = 0.01  # share of the local tolerance by which flanks may pull or pass each other
 ROUNDS = 60  # of closing in on an event
@@ -101,7 +101,7 @@ def _suspect_flanks(model: Record, march: Record) -> bool:
     combine_both(reach, run.now_q, run.now_p, train.bodies, run.now_d, run.now_rate)
     for i in range(train.meshes):
         run.least[i] = -(run.now_d[i] if train.kind[i] == 0 else run.now_rate[i])
-    for n in range(NODES):
+    for n in range(run.nodes.count):
         for m in range(lanes):
             u, w = run.free[0, m], run.free[1, m]
             c, s = run.cosine[n, m], run.sine[n, m]

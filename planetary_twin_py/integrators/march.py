@@ -26,7 +26,7 @@ from .collocation import collocate
 from .flanks import at_event, first_flank_event
 from .interpolant import Samples, sample
 from .progress import COLLOCATION, ROSENBROCK, copy_state
-from .propagation import LAST, enter, integrate_powers, propagate, resolves, trim_at
+from .propagation import enter, integrate_powers, propagate, resolves, trim_at
 from .rosenbrock import ORDER, step
 
 SHORTEST_STEP = 1e-13  # [s] below it two events count as one
@@ -38,7 +38,6 @@ SAFETY, SHRINK, GROW = 0.8, 0.25, 2.0
 STRETCH = 1.2  # by which a planned step is stretched to end on an event
 DETOUR = 20  # steps of Rosenbrock's method before collocation is tried again
 OUTDONE = 0.2  # of the other method's step, below which it is taken
-COLLOCATION_ORDER = 3  # of its error in the step
 STIFF = 3.0  # by which errors of Rosenbrock's method count more
 ROUNDING = 1e-15  # [m/s] errors of a speed below it are none
 
@@ -125,7 +124,7 @@ def _planned(event: float, h: float, stretch: float) -> float:
 @kernel
 def _collocated_step(model: Record, march: Record, longest: float, event: float, mesh: int) -> bool:
     """A step by collocation, at whose end `mesh` may come to an edge; False where it fails."""
-    control, run = march.control, march.run
+    control, run, order = march.control, march.run, march.run.nodes.count
     _hold_friction(model, march)
     enter(model, march)
     # Meshing returns to the same contacts: the step that did then, will do.
@@ -140,12 +139,12 @@ def _collocated_step(model: Record, march: Record, longest: float, event: float,
         if error <= 1.0 or (h <= SHORTEST_STEP and error < math.inf):
             break
         restless += 0 if settled else 1
-        shorter = h * max(SHRINK, SAFETY * error ** (-1.0 / COLLOCATION_ORDER))
+        shorter = h * max(SHRINK, SAFETY * error ** (-1.0 / order))
         if h <= SHORTEST_STEP or _outdone(control, shorter, settled, restless):
             return False
         control.rejected += 1
         h = max(shorter, SHORTEST_STEP)
-    factor = SAFETY * error ** (-1.0 / COLLOCATION_ORDER) if error > 0.0 else GROW
+    factor = SAFETY * error ** (-1.0 / order) if error > 0.0 else GROW
     control.next_step = h * min(GROW, max(SHRINK, factor))
     if fresh:
         known.step[modes] = control.next_step
@@ -156,7 +155,7 @@ def _collocated_step(model: Record, march: Record, longest: float, event: float,
     end_within(model, march, h)
     if mesh >= 0 and h == event:
         _meet_edge(model, march, mesh, h)
-    march.last.power[:] = run.evaluation[LAST].power
+    march.last.power[:] = run.evaluation[order - 1].power
     accept(model, march, _end_on_flank_event(model, march, h))
     return True
 
@@ -177,7 +176,7 @@ def _hold_friction(model: Record, march: Record) -> None:
     begin, moment, first = march.begin, march.moment, march.first
     move_meshes(model.train, begin.x, begin.v, first.now)
     squeeze(model, begin, moment, begin.x, begin.v, 0.0, first)
-    first.rubbing[:] = march.run.evaluation[LAST].rubbing
+    first.rubbing[:] = march.run.evaluation[march.run.nodes.count - 1].rubbing
     drive(model, begin, moment, begin.x, begin.v, 0.0, begin.trim, first)
 
 
@@ -187,8 +186,9 @@ def end_within(model: Record, march: Record, h: float) -> None:
     begin, end = march.begin, march.end
     copy_state(begin, end)
     if h == march.run.step:
-        end.x[:], end.v[:] = march.run.node_x[LAST], march.run.node_v[LAST]
-        end.trim[:] = march.run.node_trim[LAST]
+        last = march.run.nodes.count - 1
+        end.x[:], end.v[:] = march.run.node_x[last], march.run.node_v[last]
+        end.trim[:] = march.run.node_trim[last]
     else:
         propagate(model, march, h, end.x, end.v)
         trim_at(model, march, h, end.x, end.trim)
@@ -286,7 +286,7 @@ def _stiff_step(model: Record, march: Record, longest: float, event: float) -> N
     control.next_stiff = max(candidate, control.next_stiff) if factor >= 1.0 else candidate
     control.detour = max(control.detour - 1, 0)
     control.stiff_steps += 1
-    march.run.evaluation[LAST].rubbing[:] = march.last.rubbing
+    march.run.evaluation[march.run.nodes.count - 1].rubbing[:] = march.last.rubbing
     accept(model, march, _end_on_flank_event(model, march, h))
 
 

@@ -18,19 +18,15 @@ from ..dynamics.equations import EVALUATION
 from ..dynamics.state import DAMPING, LEDGER
 from .contact_modes import CONTACT_MODES, find_modes
 from .oscillator import decay_rates, is_free, wave
-from .radau import radau
+from .radau import MOST, NODES
 
-NODES = 3
-ABSCISSA = radau(NODES)
-LAST = NODES - 1
-# Coefficients of the powers of t/h from values at the nodes.
-COEFFICIENT = np.linalg.inv(np.vander(ABSCISSA, increasing=True))
-DEGREE = NODES + 1  # of the motion of a free mass
+POWERS = MOST + 2  # of t/h in the motion of a free mass
 LONGEST_MEMORY = 1e3  # c/(w^2 h) of a mode whose motion keeps ten digits
 SCANNED = 8  # times at which flanks are looked at
 
 # A step in the making, and what its dense output reads. q is in m sqrt(kg).
 PROPAGATION = layout(
+    nodes=NODES,
     known=CONTACT_MODES,
     modes=WHOLE,  # place in `known`
     step=REAL,  # [s]
@@ -44,21 +40,21 @@ PROPAGATION = layout(
     q=(REAL, (BODIES,)),  # at the start
     p=(REAL, (BODIES,)),  # q' at the start
     force=(REAL, (BODIES,)),  # at the start, friction being as it was before
-    rest=(REAL, (NODES, BODIES)),  # at the nodes
-    particular=(REAL, (DEGREE + 1, BODIES)),  # motion under the polynomial, of powers of t/h
+    rest=(REAL, (MOST, BODIES)),  # at the nodes
+    particular=(REAL, (POWERS, BODIES)),  # motion under the polynomial, of powers of t/h
     free=(REAL, (2, BODIES)),  # q and q' of the free motion at the start
-    cosine=(REAL, (NODES, BODIES)),  # `wave` at the nodes
-    sine=(REAL, (NODES, BODIES)),
-    node_q=(REAL, (NODES, BODIES)),
-    node_p=(REAL, (NODES, BODIES)),
-    node_x=(REAL, (NODES, BODIES)),
-    node_v=(REAL, (NODES, BODIES)),
-    node_trim=(REAL, (NODES, AXES)),
-    node_d=(REAL, (NODES, MESHES)),
-    node_rate=(REAL, (NODES, MESHES)),
+    cosine=(REAL, (MOST, BODIES)),  # `wave` at the nodes
+    sine=(REAL, (MOST, BODIES)),
+    node_q=(REAL, (MOST, BODIES)),
+    node_p=(REAL, (MOST, BODIES)),
+    node_x=(REAL, (MOST, BODIES)),
+    node_v=(REAL, (MOST, BODIES)),
+    node_trim=(REAL, (MOST, AXES)),
+    node_d=(REAL, (MOST, MESHES)),
+    node_rate=(REAL, (MOST, MESHES)),
     before_d=(REAL, (MESHES,)),  # at the last node, one sweep earlier
     before_rate=(REAL, (MESHES,)),
-    evaluation=(EVALUATION, (NODES,)),
+    evaluation=(EVALUATION, (MOST,)),
     now_q=(REAL, (BODIES,)),  # room to work in
     now_p=(REAL, (BODIES,)),
     now_d=(REAL, (MESHES,)),
@@ -97,8 +93,8 @@ def set_step(run: Record, lanes: int, h: float) -> None:
         free = is_free(run.square[m], run.damping[m], h)
         run.spring[m] = 0.0 if free else run.square[m]
         run.damper[m] = 0.0 if free else run.damping[m]
-    for n in range(NODES):
-        t = ABSCISSA[n] * h
+    for n in range(run.nodes.count):
+        t = run.nodes.abscissa[n] * h
         for m in range(lanes):
             first, second = wave(run.damping[m], run.rate[m], run.slow[m], run.fast[m], t)
             run.cosine[n, m], run.sine[n, m] = first, second
@@ -121,27 +117,38 @@ def resolves(run: Record, bodies: int, h: float) -> bool:
 
 
 @law
+def power(run: Record, k: int, m: int) -> float:
+    """Coefficient of (t/h)^k in the polynomial through the rest of mode m."""
+    c, rest = run.nodes.coefficient, run.rest
+    low = c[k, 0] * rest[0, m] + c[k, 1] * rest[1, m] + c[k, 2] * rest[2, m]
+    return low + c[k, 3] * rest[3, m] + c[k, 4] * rest[4, m]
+
+
+@law
 def respond(run: Record, lanes: int) -> None:
     """The motion of all modes under the polynomial through `rest`."""
     h = run.step
-    half, sixth, twelfth = 0.5 * h * h, h * h / 6.0, h * h / 12.0
+    square, inertia = h * h, 1.0 / (h * h)
     for m in range(lanes):
-        first, second, third = run.rest[0, m], run.rest[1, m], run.rest[2, m]
-        a = COEFFICIENT[0, 0] * first + COEFFICIENT[0, 1] * second + COEFFICIENT[0, 2] * third
-        b = COEFFICIENT[1, 0] * first + COEFFICIENT[1, 1] * second + COEFFICIENT[1, 2] * third
-        c = COEFFICIENT[2, 0] * first + COEFFICIENT[2, 1] * second + COEFFICIENT[2, 2] * third
         spring, loss = run.spring[m], run.damper[m] / h
         free = spring + loss == 0.0
         inverse = 1.0 / (1.0 if free else spring)
-        two = c * inverse
-        one = (b - 2.0 * loss * two) * inverse
-        zero = (a - loss * one - 2.0 / (h * h) * two) * inverse
+        a, b, c = power(run, 0, m), power(run, 1, m), power(run, 2, m)
+        d, e = power(run, 3, m), power(run, 4, m)
+        # w^2 y_k + (k + 1) c/h y_(k+1) + (k + 1) (k + 2)/h^2 y_(k+2) is the rest's coefficient.
+        four = e * inverse
+        three = (d - 4.0 * loss * four) * inverse
+        two = (c - 3.0 * loss * three - 12.0 * inertia * four) * inverse
+        one = (b - 2.0 * loss * two - 6.0 * inertia * three) * inverse
+        zero = (a - loss * one - 2.0 * inertia * two) * inverse
         q, p = run.q[m], run.p[m]
         run.particular[0, m] = q if free else zero
         run.particular[1, m] = h * p if free else one
-        run.particular[2, m] = half * a if free else two
-        run.particular[3, m] = sixth * b if free else 0.0
-        run.particular[4, m] = twelfth * c if free else 0.0
+        run.particular[2, m] = square / 2.0 * a if free else two
+        run.particular[3, m] = square / 6.0 * b if free else three
+        run.particular[4, m] = square / 12.0 * c if free else four
+        run.particular[5, m] = square / 20.0 * d if free else 0.0
+        run.particular[6, m] = square / 30.0 * e if free else 0.0
         run.free[0, m] = 0.0 if free else q - zero
         run.free[1, m] = 0.0 if free else p - one / h
 
@@ -151,12 +158,16 @@ def modal_state(
     run: Record, m: int, t: float, per_step: float, cosine: float, sine: float
 ) -> tuple[float, float]:
     """q and q' of mode m at t/h, from `wave` at that time and 1/h."""
-    a, b, c = run.particular[0, m], run.particular[1, m], run.particular[2, m]
-    d, e = run.particular[3, m], run.particular[4, m]
+    y = run.particular
+    a, b, c, d = y[0, m], y[1, m], y[2, m], y[3, m]
+    e, f, g = y[4, m], y[5, m], y[6, m]
     u, w = run.free[0, m], run.free[1, m]
-    value = a + t * (b + t * (c + t * (d + t * e))) + cosine * u + sine * w
-    slope = (b + t * (2.0 * c + t * (3.0 * d + t * 4.0 * e))) * per_step
-    return value, slope + (cosine - run.damping[m] * sine) * w - run.square[m] * sine * u
+    value = a + t * (b + t * (c + t * (d + t * (e + t * (f + t * g)))))
+    slope = b + t * (
+        2.0 * c + t * (3.0 * d + t * (4.0 * e + t * (5.0 * f + t * 6.0 * g)))
+    )
+    rate = (cosine - run.damping[m] * sine) * w - run.square[m] * sine * u
+    return value + cosine * u + sine * w, slope * per_step + rate
 
 
 @law
@@ -194,11 +205,12 @@ def visit_nodes(model: Record, march: Record) -> None:
     train, run = model.train, march.run
     lanes, bodies, per_step = train.lanes, train.bodies, 1.0 / run.step
     respond(run, lanes)
+    nodes, last = run.nodes, run.nodes.count - 1
     for i in range(lanes):
-        run.before_d[i], run.before_rate[i] = run.node_d[LAST, i], run.node_rate[LAST, i]
+        run.before_d[i], run.before_rate[i] = run.node_d[last, i], run.node_rate[last, i]
     form, motion = run.known.form[run.modes], run.known.motion[run.modes]
-    for n in range(NODES):
-        t, q, p = ABSCISSA[n], run.node_q[n], run.node_p[n]
+    for n in range(nodes.count):
+        t, q, p = nodes.abscissa[n], run.node_q[n], run.node_p[n]
         for m in range(lanes):
             q[m], p[m] = modal_state(run, m, t, per_step, run.cosine[n, m], run.sine[n, m])
         combine_both(form, q, p, bodies, run.node_x[n], run.node_v[n])
@@ -214,19 +226,19 @@ def integrate_powers(march: Record, lanes: int, h: float) -> None:
     """
     run, end = march.run, march.end
     end.energy[:] = march.begin.energy
-    t, lost = h / run.step, 0.0
-    for n in range(NODES):
+    t, last, lost = h / run.step, run.nodes.count - 1, 0.0
+    for n in range(run.nodes.count):
         weight, u = 0.0, run.step
-        for k in range(NODES):
+        for k in range(run.nodes.count):
             u *= t
-            weight += COEFFICIENT[k, n] * u / (k + 1)
+            weight += run.nodes.coefficient[k, n] * u / (k + 1)
         for e in range(LEDGER):
             end.energy[e] += weight * run.evaluation[n].power[e]
         for m in range(lanes):
             damped = weight * run.damping[m] * run.node_p[n, m] ** 2
             lost -= damped if _swings(run, m) else 0.0
     for m in range(lanes):
-        first, second = run.cosine[LAST, m], run.sine[LAST, m]
+        first, second = run.cosine[last, m], run.sine[last, m]
         if h != run.step:
             first, second = wave(run.damping[m], run.rate[m], run.slow[m], run.fast[m], h)
         lost += _damped(run, m, h, first, second) if _swings(run, m) else 0.0
@@ -244,7 +256,7 @@ def _swings(run: Record, m: int) -> bool:
 def _damped(run: Record, m: int, h: float, first: float, second: float) -> float:
     """Integral of c q'^2 over h seconds for a mode that swings, with `wave` at its end [J].
 
-    q' is a polynomial b(t) and the rate of a free motion u. By itself that loses c int u'^2, the
+    q' is a polynomial y'(t) and the rate of a free motion u. By itself that loses c int u'^2, the
     energy (u'^2 + w^2 u^2)/2 it has less at the end; int t^k u' and int t^k u follow from each
     other by u'' + c u' + w^2 u = 0.
     """
@@ -252,10 +264,19 @@ def _damped(run: Record, m: int, h: float, first: float, second: float) -> float
     u0, w0 = run.free[0, m], run.free[1, m]
     u1, w1 = first * u0 + second * w0, (first - c * second) * w0 - square * second * u0
     lost = 0.5 * (w0 * w0 - w1 * w1 + square * (u0 * u0 - u1 * u1))
-    b = run.particular[1, m] / run.step  # b(t) = b + a t
-    a = 2.0 * run.particular[2, m] / (run.step * run.step)
-    moved = u1 - u0  # integral of u'
-    swept = -(w1 - w0 + c * moved) / max(square, 1e-300)  # of u
-    carried = h * u1 - swept  # of t u'
-    own = h * (b * b + h * (a * b + h * a * a / 3.0))
-    return lost + c * (2.0 * (b * moved + a * carried) + own)
+    # y' = (a + b s + d s^2 + e s^3)/h with s = t/h, from 0 to `part`
+    step, part, y = run.step, h / run.step, run.particular
+    a, b, d, e = y[1, m], 2.0 * y[2, m], 3.0 * y[3, m], 4.0 * y[4, m]
+    inverse = 1.0 / max(square * step, 1e-300)
+    rate0 = u1 - u0  # integral of u', then of s^k u', and of s^k u over h
+    value0 = -(w1 - w0 + c * rate0) * inverse
+    rate1 = part * u1 - value0
+    value1 = -(part * w1 - rate0 / step + c * rate1) * inverse
+    rate2 = part * part * u1 - 2.0 * value1
+    value2 = -(part * part * w1 - 2.0 * rate1 / step + c * rate2) * inverse
+    rate3 = part * part * part * u1 - 3.0 * value2
+    cross = a * rate0 + b * rate1 + d * rate2 + e * rate3
+    own = a * a + part * (a * b + part * ((b * b + 2.0 * a * d) / 3.0 + part * (
+        0.5 * (a * e + b * d) + part * ((d * d + 2.0 * b * e) / 5.0 + part * (
+            d * e / 3.0 + part * e * e / 7.0)))))  # fmt: skip
+    return lost + c * (2.0 * cross + own * part) / step
