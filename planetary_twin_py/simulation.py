@@ -99,13 +99,13 @@ def _result(
             pair_events=int(count.pair_events),
             flank_events=int(count.flank_events),
             wall_time=wall,
-            real_time_factor=engine.reached / wall,
+            real_time_factor=float(engine.reached) / wall,
         ),
     )
 
 
 def _energy(engine: Engine, stored: tuple[float, float]) -> Energy:
-    ledger, now = engine.ledger(), engine.stored()
+    ledger, now = engine.take_ledger(), engine.stored()
     return Energy(
         machines=tuple(float(ledger[WORK + m]) for m in range(int(engine.train.machines))),
         kinetic=now[0] - stored[0],
