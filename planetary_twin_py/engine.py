@@ -30,6 +30,13 @@ TOLERANCES = (1e-8, 0.1)  # allowed range
 LIGHTEST_MESH_LOAD = 1.0  # [N] smaller mesh forces do not tighten the tolerance further
 
 
+def check_tolerance(tolerance: float) -> None:
+    """Raise a ValueError if there can be no such tolerance."""
+    least, most = TOLERANCES
+    if not least <= tolerance <= most:
+        raise ValueError(f"tolerance = {tolerance!r}: must be within {least:g} and {most:g}")
+
+
 class Engine:
     """Integrates a scene from its start.
 
@@ -43,10 +50,7 @@ class Engine:
     """
 
     def __init__(self, scene: Scene, tolerance: float, method: str = "auto") -> None:
-        if not TOLERANCES[0] <= tolerance <= TOLERANCES[1]:
-            raise ValueError(
-                f"tolerance = {tolerance!r}: must be within {TOLERANCES[0]:g} and {TOLERANCES[1]:g}"
-            )
+        check_tolerance(tolerance)
         self.scene = scene
         self.tolerance = tolerance
         self.train = build_train(scene)
