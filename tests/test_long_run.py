@@ -151,7 +151,10 @@ def test_samples_lie_on_one_clock_and_none_is_lost(rate):
         last = math.floor((begin + n * step) * Fraction(rate) + MILLIONTH)
         exact = [float(k / Fraction(rate)) for k in range(number + 1, last + 1)]
         assert np.array_equal(window.waveform.time, exact)
-        assert (window.start, window.end) == (float(begin + (n - 1) * step), float(begin + n * step))
+        assert (window.start, window.end) == (
+            float(begin + (n - 1) * step),
+            float(begin + n * step),
+        )
         number = last
 
 

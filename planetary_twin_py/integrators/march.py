@@ -367,9 +367,7 @@ def accept(model: Record, march: Record, mesh: int) -> None:
 
 
 @kernel
-def advance(
-    model: Record, march: Record, until: Instant, samples: Sampling, out: Samples
-) -> None:
+def advance(model: Record, march: Record, until: Instant, samples: Sampling, out: Samples) -> None:
     """Integrate to `until`, and fill `out` with `samples`, none of them later."""
     taken, room = 0, len(out.turns)
     while True:
