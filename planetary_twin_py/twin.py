@@ -48,6 +48,7 @@ class Twin:
             raise ValueError(f"sample_rate = {sample_rate!r} Hz: must be within 1 and 1e7")
         self.scene = scene
         self.sample_rate = float(sample_rate)
+        self._exact_rate = Fraction(self.sample_rate)
         self.meshes = mesh_names(scene)
         self._names = body_names(scene)
         self._engine = Engine(scene, tolerance)
@@ -112,7 +113,7 @@ class Twin:
 
     def _samples(self) -> int:
         """Number of samples up to now."""
-        return math.floor(self._clock * Fraction(self.sample_rate) + LEEWAY)
+        return math.floor(self._clock * self._exact_rate + LEEWAY)
 
     def _account(self) -> tuple[Fraction, np.ndarray, float]:
         """Time reached, ledger since the last account and stored energy at that time."""
