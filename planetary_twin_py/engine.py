@@ -6,6 +6,8 @@ arrays only; names and messages are for those above it.
 
 from __future__ import annotations
 
+from fractions import Fraction
+
 import numpy as np
 
 from ._records import Record, new_record
@@ -15,6 +17,7 @@ from .dynamics.oil import build_oil
 from .dynamics.start import build_load, start_state
 from .dynamics.static_load import mesh_force
 from .dynamics.train import build_train
+from .integrators.clock import delay, instant, sampling
 from .integrators.interpolant import Samples, new_samples, sample
 from .integrators.march import advance, begin_step, cut
 from .integrators.progress import AUTO, COLLOCATION, MARCH, ROSENBROCK
@@ -30,6 +33,13 @@ TOLERANCES = (1e-8, 0.1)  # allowed range
 LIGHTEST_MESH_LOAD = 1.0  # [N] smaller mesh forces do not tighten the tolerance further
 
 
+def check_tolerance(tolerance: float) -> None:
+    """Raise a ValueError if there can be no such tolerance."""
+    least, most = TOLERANCES
+    if not least <= tolerance <= most:
+        raise ValueError(f"tolerance = {tolerance!r}: must be within {least:g} and {most:g}")
+
+
 class Engine:
     """Integrates a scene from its start.
 
@@ -43,10 +53,7 @@ class Engine:
     """
 
     def __init__(self, scene: Scene, tolerance: float, method: str = "auto") -> None:
-        if not TOLERANCES[0] <= tolerance <= TOLERANCES[1]:
-            raise ValueError(
-                f"tolerance = {tolerance!r}: must be within {TOLERANCES[0]:g} and {TOLERANCES[1]:g}"
-            )
+        check_tolerance(tolerance)
         self.scene = scene
         self.tolerance = tolerance
         self.train = build_train(scene)
@@ -67,7 +74,7 @@ class Engine:
         begin_step(self.model, self.march)
         self.sample(0.0)
         self.stored()
-        cut(self.model, self.march, 0.0)
+        cut(self.model, self.march, instant(0.0))
 
     def _load(self, point: OperatingPoint) -> None:
         """Put an operating point into the model, and scale the tolerances to its deflection."""
@@ -83,34 +90,45 @@ class Engine:
         control.tolerance_v = control.tolerance_x * np.sqrt(2.0 * stiffness / lightest)
         control.changed = True
 
-    def advance(self, until: float, first_sample: int, sample_rate: float, room: int) -> Samples:
+    def advance(
+        self, until: float | Fraction, first_sample: int, sample_rate: float, room: int
+    ) -> Samples:
         """Integrate to `until` [s]; samples lie at whole multiples of 1/sample_rate.
 
-        Returns `room` samples from number `first_sample` on.
+        Returns `room` samples from number `first_sample` on. A time given as a fraction is exact
+        however late it is.
         """
         samples = new_samples(self.train, room)
-        advance(self.model, self.march, until, first_sample, sample_rate, samples)
+        at = sampling(first_sample, sample_rate)
+        advance(self.model, self.march, instant(until), at, samples)
         return samples
 
-    def sample(self, time: float) -> Samples:
+    def sample(self, time: float | Fraction) -> Samples:
         """One sample at `time` [s], the end of the last window."""
         samples = new_samples(self.train, 1)
-        sample(self.model, self.march, time, samples, 0)
+        sample(self.model, self.march, delay(self.march.begin, instant(time)), samples, 0)
         return samples
 
-    def change(self, point: OperatingPoint, time: float) -> None:
+    def change(self, point: OperatingPoint, time: float | Fraction) -> None:
         """Run on with another operating point from `time` [s], the end of the last window."""
-        cut(self.model, self.march, time)
+        cut(self.model, self.march, instant(time))
         self._load(point)
 
     @property
-    def reached(self) -> float:
+    def reached(self) -> Fraction:
         """End of the last step [s], at or after the end of the last window."""
-        return float(self.march.end.time)
+        end = self.march.end
+        return int(end.seconds) + Fraction(float(end.time))
 
-    def ledger(self) -> np.ndarray:
-        """Integrals of the ledger up to `reached`, see `dynamics.state`."""
-        return np.array(self.march.end.energy)
+    def take_ledger(self) -> np.ndarray:
+        """Integrals of the ledger up to `reached` since they were last taken, see `dynamics.state`.
+
+        They begin anew, so that what a window adds is not lost beside what a long run has added.
+        """
+        ledger = np.array(self.march.end.energy)
+        self.march.begin.energy -= ledger
+        self.march.end.energy -= ledger
+        return ledger
 
     def stored(self) -> tuple[float, float]:
         """Kinetic and elastic energy at `reached` [J]."""

@@ -19,7 +19,7 @@ from .dynamics.observe import (
     VISCOUS,
 )
 from .dynamics.state import BEARING, CHURNING, DAMPING, FRICTION, STIFFNESS_WORK, WORK
-from .engine import METHODS, Engine
+from .engine import METHODS, Engine, check_tolerance
 from .integrators.interpolant import Samples
 from .result import Energy, Result, Stats
 from .scene import Scene
@@ -46,13 +46,7 @@ def simulate(
     Raises:
         ValueError: an argument is out of range.
     """
-    if method not in METHODS:
-        raise ValueError(f"method = {method!r}: must be one of {', '.join(METHODS)}")
-    if not (duration > 0.0 and 1.0 <= duration * sample_rate <= MOST_SAMPLES):
-        raise ValueError(
-            f"duration = {duration!r} s at sample_rate = {sample_rate!r} Hz: must give between 1 "
-            f"and {MOST_SAMPLES} samples"
-        )
+    check_run(duration, sample_rate, method, tolerance)
     engine = Engine(scene, tolerance, method)
     stored = engine.stored()
     room = math.floor(duration * sample_rate + 1e-6)
@@ -60,6 +54,18 @@ def simulate(
     samples = engine.advance(duration, 1, sample_rate, room)
     wall = time.perf_counter() - begin
     return _result(scene, engine, samples, sample_rate, stored, wall)
+
+
+def check_run(duration: float, sample_rate: float, method: str, tolerance: float) -> None:
+    """Raise the ValueError of an argument of `simulate` that is out of range."""
+    if method not in METHODS:
+        raise ValueError(f"method = {method!r}: must be one of {', '.join(METHODS)}")
+    if not (duration > 0.0 and 1.0 <= duration * sample_rate <= MOST_SAMPLES):
+        raise ValueError(
+            f"duration = {duration!r} s at sample_rate = {sample_rate!r} Hz: must give between 1 "
+            f"and {MOST_SAMPLES} samples"
+        )
+    check_tolerance(tolerance)
 
 
 def _result(
@@ -99,13 +105,13 @@ def _result(
             pair_events=int(count.pair_events),
             flank_events=int(count.flank_events),
             wall_time=wall,
-            real_time_factor=engine.reached / wall,
+            real_time_factor=float(engine.reached) / wall,
         ),
     )
 
 
 def _energy(engine: Engine, stored: tuple[float, float]) -> Energy:
-    ledger, now = engine.ledger(), engine.stored()
+    ledger, now = engine.take_ledger(), engine.stored()
     return Energy(
         machines=tuple(float(ledger[WORK + m]) for m in range(int(engine.train.machines))),
         kinetic=now[0] - stored[0],

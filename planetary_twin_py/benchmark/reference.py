@@ -21,6 +21,7 @@ from ..dynamics.equations import EVALUATION, forces
 from ..dynamics.observe import QUANTITIES, observe
 from ..dynamics.state import OPEN
 from ..engine import Engine
+from ..integrators.clock import delay, instant, run_on
 from ..integrators.march import accept, begin_step
 from ..scene import Scene
 
@@ -48,9 +49,11 @@ class Reference:
         while taken < count:
             begin_step(self._model, self._march)
             stretch = self._stretch()
-            begin, end = self._march.begin.time, self._march.begin.time + stretch.t[-1]
-            while taken < count and (taken + 1) / sample_rate <= end:
-                self._observe(stretch.sol, (taken + 1) / sample_rate - begin, samples[taken])
+            while taken < count:
+                wait = delay(self._march.begin, instant((taken + 1) / sample_rate))
+                if wait > stretch.t[-1]:
+                    break
+                self._observe(stretch.sol, wait, samples[taken])
                 taken += 1
             self._finish(stretch)
         return samples
@@ -133,7 +136,7 @@ class Reference:
         y, length = stretch.y[:, -1], float(stretch.t[-1])
         self._march.end = begin
         end.x[:n], end.v[:n], end.trim[: self._axes] = y[:n], y[n : 2 * n], y[2 * n :]
-        end.time = begin.time + length
+        run_on(begin, end, length)
         end.set_speed = begin.set_speed + self._march.moment.slew * length
         turn = begin.fraction + begin.speed * length / (2.0 * np.pi)
         end.turns, end.fraction = begin.turns + np.floor(turn), turn - np.floor(turn)

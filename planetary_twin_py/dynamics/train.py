@@ -9,6 +9,8 @@ A held body is the ground: one more entry whose x is zero.
 
 from __future__ import annotations
 
+from functools import lru_cache
+
 import numpy as np
 
 from .._records import (
@@ -26,10 +28,13 @@ from .._records import (
 )
 from ..gearset.geometry import base_pitch
 from ..gearset.kinematics import mesh_cycles_per_turn
-from ..scene import Scene
+from ..scene import OperatingPoint, Scene
 from .bodies import Bodies, base_radii, build_bodies, machines, rigid_ratios
 from .drag import DRAG_LAYOUT, build_drag
 from .meshes import MESHES_LAYOUT, build_meshes
+from .stiffness_laws import stiffness_follows_load
+
+TRAINS_KEPT = 16
 
 # Constant data of the gearbox. `bodies` of them can turn; entry `bodies` is the ground.
 TRAIN = layout(
@@ -60,11 +65,19 @@ TRAIN = layout(
 
 
 def build_train(scene: Scene) -> Record:
-    """Translate a scene into arrays.
+    """Translate a scene into arrays, which scenes have in common that differ in what may change.
 
     Raises:
         ValueError: the teeth leave a moment without contact (see `pair_table`).
     """
+    torque = scene.operating_point.input_torque if stiffness_follows_load(scene) else 0.0
+    point = OperatingPoint(backlash=0.0, input_speed=0.0, input_torque=torque)
+    train: Record = _built(scene.model_copy(update={"operating_point": point})).copy()
+    return train
+
+
+@lru_cache(maxsize=TRAINS_KEPT)
+def _built(scene: Scene) -> Record:
     bodies = build_bodies(scene)
     radii = base_radii(scene)
     meshes = build_meshes(scene, bodies.place)

@@ -68,10 +68,9 @@ def new_samples(train: Record, room: int) -> Samples:
 
 
 @kernel
-def sample(model: Record, march: Record, time: float, out: Samples, row: int) -> None:
-    """Write what the train shows at `time`, which lies within the last step."""
+def sample(model: Record, march: Record, delay: float, out: Samples, row: int) -> None:
+    """Write what the train shows `delay` seconds after the start of the last step, within it."""
     train, begin = model.train, march.begin
-    delay = time - begin.time
     interpolate(model, march, delay)
     work = march.work.evaluation
     observe(model, begin, march.moment, march.dense_x, march.dense_v, delay, work, out.mesh[row])

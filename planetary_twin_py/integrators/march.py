@@ -22,6 +22,7 @@ from ..dynamics.mesh_force import mesh_motion, move_meshes
 from ..dynamics.moment import set_moment
 from ..dynamics.state import OPEN
 from ..dynamics.tooth_friction import copy_friction
+from .clock import Instant, Sampling, after, delay, due, run_on
 from .collocation import collocate
 from .flanks import at_event, first_flank_event
 from .interpolant import Samples, sample
@@ -200,7 +201,7 @@ def end_within(model: Record, march: Record, h: float) -> None:
 def _pass_time(model: Record, march: Record, h: float) -> None:
     """Let clock, set-points and frame of `end` run on for h seconds."""
     begin, end = march.begin, march.end
-    end.time = begin.time + h
+    run_on(begin, end, h)
     for a in range(model.train.axes):
         end.set_speed[a] = begin.set_speed[a] + march.moment.slew[a] * h
         _turn(end, a, begin.speed[a] * h / (2.0 * math.pi))
@@ -382,39 +383,35 @@ def accept(model: Record, march: Record, mesh: int) -> None:
 
 
 @kernel
-def advance(
-    model: Record, march: Record, until: float, first_sample: int, sample_rate: float, out: Samples
-) -> None:
-    """Integrate to `until` [s], and fill `out` with the samples from number `first_sample` on.
-
-    Sample k is taken at k/sample_rate seconds, none later than `until`.
-    """
+def advance(model: Record, march: Record, until: Instant, samples: Sampling, out: Samples) -> None:
+    """Integrate to `until`, and fill `out` with `samples`, none of them later."""
     taken, room = 0, len(out.turns)
     while True:
-        while taken < room and (first_sample + taken) / sample_rate <= march.end.time:
-            sample(model, march, (first_sample + taken) / sample_rate, out, taken)
+        while taken < room and delay(march.end, due(samples)) <= 0.0:
+            sample(model, march, delay(march.begin, due(samples)), out, taken)
+            samples = after(samples)
             taken += 1
-        if taken == room and march.end.time >= until:
+        if taken == room and delay(march.end, until) <= 0.0:
             return
         begin_step(model, march)
         one_step(model, march, math.inf)
 
 
 @kernel
-def cut(model: Record, march: Record, time: float) -> None:
-    """Take back what lies beyond `time` [s], which is within the last step.
+def cut(model: Record, march: Record, until: Instant) -> None:
+    """Take back what lies beyond `until`, which is within the last step.
 
-    What changes from outside, changes there: the next step begins at `time`.
+    What changes from outside, changes there: the next step begins at it.
     """
-    if time < march.end.time:
-        length = time - march.begin.time
+    if delay(march.end, until) < 0.0:
+        length = delay(march.begin, until)
         march.control.changed = True
         if length > SHORTEST_STEP:
             one_step(model, march, length)
         else:
             copy_state(march.begin, march.end)
-        while time - march.end.time > SHORTEST_STEP:  # an event came before
+        while delay(march.end, until) > SHORTEST_STEP:  # an event came before
             begin_step(model, march)
-            one_step(model, march, time - march.end.time)
-    march.end.time = time
+            one_step(model, march, delay(march.end, until))
+    march.end.seconds, march.end.time = until.seconds, until.time
     march.control.changed = True

@@ -15,6 +15,7 @@ from planetary_twin_py._records import new_record
 from planetary_twin_py.dynamics.bodies import LOAD_MACHINE
 from planetary_twin_py.dynamics.equations import MODEL
 from planetary_twin_py.dynamics.state import DRIVE_SIDE
+from planetary_twin_py.integrators.clock import Instant, instant, sampling
 from planetary_twin_py.integrators.interpolant import new_samples
 from planetary_twin_py.integrators.march import advance, cut
 from planetary_twin_py.integrators.progress import MARCH
@@ -65,7 +66,7 @@ class Oscillator:
         """Change the frequency ratio."""
         self.ratio = ratio
         size = self.alternating * ratio / math.hypot(ratio, 2.0 * self.zeta)
-        cut(self.model, self.march, self.march.end.time)
+        cut(self.model, self.march, Instant(self.march.end.seconds, self.march.end.time))
         self.model.train.line_amplitude[0, 0] = self.error = size
         self.march.end.speed[0] = self.march.end.set_speed[0] = ratio
         self.model.load.target_speed[0] = ratio
@@ -73,10 +74,11 @@ class Oscillator:
     def run(self, periods):
         """Squeeze x over `periods`, PER_PERIOD samples each."""
         rate = PER_PERIOD * self.ratio / (2.0 * math.pi)
-        first = math.ceil(self.march.end.time * rate) + 1
+        first = math.ceil((self.march.end.seconds + self.march.end.time) * rate) + 1
         count = periods * PER_PERIOD
         samples = new_samples(self.model.train, count)
-        advance(self.model, self.march, (first + count) / rate, first, rate, samples)
+        until = instant((first + count) / rate)
+        advance(self.model, self.march, until, sampling(first, rate), samples)
         angle = 2.0 * math.pi * samples.turns[:, 0] + samples.angle[:, MOTOR]
         return samples.mesh[:, 0, 0] - self.error * np.sin(angle)
 
