@@ -27,6 +27,14 @@ TOLERANCES = (1e-8, 0.1)  # allowed range
 LIGHTEST_MESH_LOAD = 1.0  # [N] smaller mesh forces do not tighten the tolerance further
 
 
+def check_tolerance(tolerance: float) -> None:
+    """Raise ValueError unless `tolerance` is within its range."""
+    if not TOLERANCES[0] <= tolerance <= TOLERANCES[1]:
+        raise ValueError(
+            f"tolerance = {tolerance!r}: must be within {TOLERANCES[0]:g} and {TOLERANCES[1]:g}"
+        )
+
+
 class Engine:
     """Integrates a scene from its start.
 
@@ -40,10 +48,7 @@ class Engine:
     """
 
     def __init__(self, scene: Scene, tolerance: float, method: str = "auto") -> None:
-        if not TOLERANCES[0] <= tolerance <= TOLERANCES[1]:
-            raise ValueError(
-                f"tolerance = {tolerance!r}: must be within {TOLERANCES[0]:g} and {TOLERANCES[1]:g}"
-            )
+        check_tolerance(tolerance)
         self.scene = scene
         self.tolerance = tolerance
         self.train = build_train(scene)
@@ -103,6 +108,16 @@ class Engine:
     def reached(self) -> float:
         """End of the last step [s], at or after the end of the last window."""
         return float(self.march.end.time)
+
+    @property
+    def control(self) -> Record:
+        """Step control and counters."""
+        return self.march.control
+
+    @property
+    def powers(self) -> np.ndarray:
+        """By which the ledger grows at `reached`."""
+        return np.array(self.march.last.power)
 
     def ledger(self) -> np.ndarray:
         """Integrals of the ledger up to `reached`, see `dynamics.state`."""

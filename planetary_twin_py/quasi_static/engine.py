@@ -1,0 +1,140 @@
+"""A quasi-static run in progress: what `Engine` is to a run with dynamics."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from .._records import Record, new_record
+from ..dynamics.bodies import MOTOR
+from ..dynamics.energy import kinetic
+from ..dynamics.equations import MODEL
+from ..dynamics.oil import build_oil
+from ..dynamics.start import build_load
+from ..dynamics.state import COAST_SIDE, DRIVE_SIDE, STATE
+from ..dynamics.static_load import mesh_force
+from ..dynamics.train import build_train
+from ..engine import check_tolerance
+from ..integrators.interpolant import Samples, new_samples
+from ..integrators.progress import CONTROL
+from ..scene import OperatingPoint, Scene
+from .ledger import Ledger, first_guess
+from .motion import turn_to
+from .sampling import sample, sample_all
+
+ROLL = 1.0  # [s] whole multiples at which turns are counted off, which keeps angles exact
+
+
+class QuasiStaticEngine:
+    """Follows a scene whose bodies turn rigidly under static loads.
+
+    Args:
+        scene: what to simulate.
+        tolerance: relative error of mesh forces, and of the losses of a mesh cycle.
+
+    Raises:
+        ValueError: the tolerance is out of range, or the scene cannot be built.
+    """
+
+    def __init__(self, scene: Scene, tolerance: float) -> None:
+        check_tolerance(tolerance)
+        self.scene = scene
+        self.tolerance = tolerance
+        # Nothing vibrates, so damping has nothing to do.
+        still = scene.replace(
+            **{"mesh.damping.law": "viscous", "mesh.damping.damping_ratio": 0.0}
+        )
+        self.train = build_train(still)
+        self.control: Record = new_record(CONTROL)
+        self.reached = 0.0
+        self._load(scene.operating_point, self._start())
+        self._compile()
+
+    def _compile(self) -> None:
+        """Have every kernel ready before the clock runs; at time zero none changes anything."""
+        sample_all(
+            self.model, self.tolerance, self._origin, self._run, (1, 0, 0), 1.0,
+            new_samples(self.train, 0),
+        )  # fmt: skip
+        self.sample(0.0)
+        self.ledger()
+        self.stored()
+
+    def _start(self) -> Record:
+        control, point = self.scene.drive.speed_control, self.scene.operating_point
+        speeds = [point.input_speed, point.second_input_speed]
+        if control.start_speed is not None:
+            speeds[0] = control.start_speed
+        axes = int(self.train.axes)
+        return new_record(STATE, speed=speeds[:axes], set_speed=speeds[:axes])
+
+    def _load(self, point: OperatingPoint, origin: Record) -> None:
+        """Run on from `origin` at an operating point; where that cannot be, nothing changes."""
+        load, oil = build_load(self.scene, point, self.train), build_oil(self.scene, point)
+        model = new_record(MODEL, train=self.train, oil=oil, load=load)
+        lean = DRIVE_SIDE if mesh_force(self.scene, float(load.torque[MOTOR])) >= 0.0 else COAST_SIDE
+        ledger = Ledger(model, self.tolerance, lean, origin)
+        self.model, self._lean, self._ledger = model, lean, ledger
+        self._origin, self._run = origin.copy(), first_guess(lean)
+
+    def advance(self, until: float, first_sample: int, sample_rate: float, room: int) -> Samples:
+        """Run to `until` [s]; samples lie at whole multiples of 1/sample_rate.
+
+        Returns `room` samples from number `first_sample` on.
+        """
+        samples, row = new_samples(self.train, room), 0
+        while row < room:
+            next_roll = self._roll((first_sample + row) / sample_rate)
+            end = min(room, max(row + 1, math.ceil(next_roll * sample_rate) - first_sample))
+            counts = (first_sample, row, end)
+            sample_all(
+                self.model, self.tolerance, self._origin, self._run, counts, sample_rate, samples
+            )
+            row = end
+        self._roll(until)
+        self.reached = until
+        return samples
+
+    def _roll(self, time: float) -> float:
+        """Move the origin to the last whole multiple of ROLL before `time`; the next one [s]."""
+        while True:
+            following = (math.floor(self._origin.time / ROLL) + 1) * ROLL
+            if time < following:
+                return following
+            turn_to(self.model, self._origin, following, self._origin)
+
+    def sample(self, time: float) -> Samples:
+        """One sample at `time` [s], the end of the last window."""
+        samples = new_samples(self.train, 1)
+        run = first_guess(self._lean)
+        sample(self.model, self.tolerance, self._origin, run, time, samples, 0)
+        return samples
+
+    def change(self, point: OperatingPoint, time: float) -> None:
+        """Run on with another operating point from `time` [s], the end of the last window.
+
+        Raises:
+            ValueError: there is no equilibrium; the point has not changed.
+        """
+        origin = self._standing(time)
+        origin.energy = self._ledger.at(time)
+        self._load(point, origin)
+
+    def _standing(self, time: float) -> Record:
+        state = self._origin.copy()
+        turn_to(self.model, self._origin, time, state)
+        return state
+
+    def ledger(self) -> np.ndarray:
+        """Integrals of the ledger up to `reached`, see `dynamics.state`."""
+        return self._ledger.at(self.reached)
+
+    @property
+    def powers(self) -> np.ndarray:
+        """By which the ledger grows at `reached`."""
+        return self._ledger.power(self.reached)
+
+    def stored(self) -> tuple[float, float]:
+        """Kinetic and elastic energy at `reached` [J]; what yields at rest does no work."""
+        return float(kinetic(self.model, self._standing(self.reached))), 0.0
