@@ -42,9 +42,7 @@ class QuasiStaticEngine:
         self.scene = scene
         self.tolerance = tolerance
         # Nothing vibrates, so damping has nothing to do.
-        still = scene.replace(
-            **{"mesh.damping.law": "viscous", "mesh.damping.damping_ratio": 0.0}
-        )
+        still = scene.replace(**{"mesh.damping.law": "viscous", "mesh.damping.damping_ratio": 0.0})
         self.train = build_train(still)
         self.control: Record = new_record(CONTROL)
         self.reached = 0.0
@@ -73,7 +71,9 @@ class QuasiStaticEngine:
         """Run on from `origin` at an operating point; where that cannot be, nothing changes."""
         load, oil = build_load(self.scene, point, self.train), build_oil(self.scene, point)
         model = new_record(MODEL, train=self.train, oil=oil, load=load)
-        lean = DRIVE_SIDE if mesh_force(self.scene, float(load.torque[MOTOR])) >= 0.0 else COAST_SIDE
+        lean = (
+            DRIVE_SIDE if mesh_force(self.scene, float(load.torque[MOTOR])) >= 0.0 else COAST_SIDE
+        )
         ledger = Ledger(model, self.tolerance, lean, origin)
         self.model, self._lean, self._ledger = model, lean, ledger
         self._origin, self._run = origin.copy(), first_guess(lean)

@@ -12,7 +12,8 @@ from .._records import Record
 def turn_to(model: Record, origin: Record, time: float, state: Record) -> None:
     """Put frame, speeds and clock of `state` where the motors are at `time` [s].
 
-    `origin` holds them at an earlier time; it may be `state` itself. Set-points run to their targets at the slew rate.
+    `origin` holds them at an earlier time; it may be `state` itself. Set-points run to
+    their targets at the slew rate.
     """
     load, after = model.load, time - origin.time
     for a in range(model.train.axes):

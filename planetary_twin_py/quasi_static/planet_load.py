@@ -107,7 +107,7 @@ def share(total: float, planets: int, springs: Record) -> float:
             force += one
             growth += slope
             size += abs(one)
-        if abs(force - total) <= CLOSED * size or not low < high:
+        if abs(force - total) <= CLOSED * size:
             break
         if force < total:
             low = w
@@ -116,4 +116,6 @@ def share(total: float, planets: int, springs: Record) -> float:
         w = w + (total - force) / growth if growth > 0.0 else math.inf
         if not low < w < high:
             w = 0.5 * (low + high)
+            if not low < w < high:  # neighbouring numbers
+                break
     return w
