@@ -33,8 +33,9 @@ from ..dynamics.state import COAST_SIDE, DRIVE_SIDE, IMPULSE, OPEN, STATE, WORK
 from .planet_load import SPRINGS, planet_force, share
 
 MOST_PASSES = 60
-BRISK_PASSES = 5  # then by half steps: an idle planet's friction may throw it to and fro
+BRISK_PASSES = 5  # then what is thrown to and fro is brought to rest
 FREE_PASSES = 20  # then tooth pairs stay: at a jump of the stiffness they may not come to rest
+DITHER = 0.05  # [N] below which, then, the friction of a mesh that hardly touches counts as settled
 PLACE = 0.01  # mesh cycles over which stiffness changes by as much as counts for the tolerance
 LIGHTEST_FORCE = 1.0  # [N] smaller mesh forces do not tighten the tolerance further
 LEAST_STIFFNESS = 1e-9  # of a healthy mesh: one whose only pair is just entering
@@ -81,6 +82,8 @@ def settle(model: Record, tolerance: float, run: Record, shown: np.ndarray) -> N
         state, evaluation = run.state, run.evaluation
         observe(model, state, run.moment, state.x, state.v, 0.0, evaluation.pairs, shown)
         slack = tolerance * max(mean, LIGHTEST_FORCE)
+        if n >= FREE_PASSES:
+            slack = max(slack, DITHER)
         moved = abs(cycle_shift(model.train, state.x) - shift)
         rests = moved <= PLACE * tolerance or n >= FREE_PASSES
         rests = _keeps_sides(model.train, run, shown, slack) and rests
@@ -89,7 +92,7 @@ def settle(model: Record, tolerance: float, run: Record, shown: np.ndarray) -> N
             _powers(model, run)
             return
         if n >= BRISK_PASSES:
-            run.evaluation.rubbing[:] = 0.5 * (run.evaluation.rubbing + run.before)
+            _rest_the_idle(model.train, run)
     raise ArithmeticError("no static equilibrium is found")
 
 
@@ -270,6 +273,18 @@ def _rubs_as_before(model: Record, run: Record, shown: np.ndarray, slack: float)
     for j in range(model.train.bodies):
         still = still and abs(evaluation.rubbing[j] - run.before[j]) <= slack
     return still
+
+
+@kernel
+def _rest_the_idle(train: Record, run: Record) -> None:
+    """Guess what rubs anew: nothing where its sense has just changed, else midway.
+
+    The friction of a light load is large beside it, so an idle planet is thrown from flank to
+    flank, pass by pass, while it is at rest amid its play.
+    """
+    for j in range(train.bodies):
+        now, before = run.evaluation.rubbing[j], run.before[j]
+        run.evaluation.rubbing[j] = 0.5 * (now + before) if now * before > 0.0 else 0.0
 
 
 @kernel
