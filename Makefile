@@ -67,8 +67,7 @@ $(STAMPS)/model: $(STAMPS)/dependencies pyproject.toml
 
 # Compiles the numerical kernels into the user's cache, so that the first run starts at once.
 $(STAMPS)/kernels: $(STAMPS)/model $(KERNELS)
-	$(BIN)/python -c 'import planetary_twin_py as pt; paper = pt.load_scene("paper"); \
-		[pt.Twin(paper.replace(dynamics=name)) for name in ("torsional", "quasi_static")]'
+	$(BIN)/python -c 'import planetary_twin_py as pt; [pt.Twin(pt.load_scene("paper").replace(dynamics=kind)) for kind in ("torsional", "quasi_static")]'
 	@touch $@
 
 $(STAMPS)/nodes: $(STAMPS)/dependencies tools/install_nodes $(NODES)

@@ -284,7 +284,7 @@ def _rest_the_idle(train: Record, run: Record) -> None:
     """
     for j in range(train.bodies):
         now, before = run.evaluation.rubbing[j], run.before[j]
-        run.evaluation.rubbing[j] = 0.5 * (now + before) if now * before > 0.0 else 0.0
+        run.evaluation.rubbing[j] = 0.0 if now * before < 0.0 else 0.5 * (now + before)
 
 
 @kernel

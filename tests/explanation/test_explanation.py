@@ -40,7 +40,7 @@ def test_a_quasi_static_scene_says_that_dynamics_is_left_out():
     assert {"torsional dynamics", "mesh damping"} == set(names(pt.load_scene("paper"))) - set(
         names(still)
     )
-    assert [limit.name for limit in limits(still)][0] == "dynamics"
+    assert limits(still)[0].name == "dynamics"
     assert limits(pt.load_scene("paper")) == limits(still)[1:]
 
 

@@ -1,6 +1,7 @@
 """Static loads against closed forms, and against equations of motion without acceleration."""
 
 import math
+from itertools import pairwise
 
 import numpy as np
 import pytest
@@ -121,7 +122,7 @@ def test_mean_power_loss_is_that_of_adaptive_quadrature_over_the_mesh_cycle():
     edges = np.append(corners, corners[0] + PERIOD)
     parts = [
         quad(lambda t: still.seen(t)[2], a, b, epsrel=1e-8, limit=200)[0]
-        for a, b in zip(edges[:-1], edges[1:], strict=True)
+        for a, b in pairwise(edges)
         if b - a > 1e-12
     ]
     run = pt.simulate(PAPER, 50 * PERIOD, tolerance=1e-7)

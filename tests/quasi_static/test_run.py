@@ -186,11 +186,11 @@ def test_nothing_is_carried_without_load():
 def test_a_force_that_jumps_is_refused_below_its_jump():
     """2e8 N/m times 20 um over cos(phi) is more than 1900 N."""
     jumps = {"mesh.backlash": "regulatory_factor"}
-    with pytest.raises(ValueError, match="^mesh.backlash = 'regulatory_factor': without dynamics"):
+    with pytest.raises(ValueError, match=r"^mesh.backlash = 'regulatory_factor': without dynamics"):
         pt.simulate(PAPER.replace(backlash="20 um", **jumps), 0.01)
     twin = pt.Twin(PAPER.replace(**jumps))
     before = twin.advance(0.01)
-    with pytest.raises(ValueError, match="mesh.backlash"):
+    with pytest.raises(ValueError, match=r"mesh.backlash"):
         twin.set(backlash=2e-5)
     after = twin.advance(0.01)
     assert twin.operating_point.backlash == 2e-7 and len(twin.log) == 1
@@ -198,9 +198,9 @@ def test_a_force_that_jumps_is_refused_below_its_jump():
 
 
 def test_methods_and_tolerances_are_refused_where_there_are_none():
-    with pytest.raises(ValueError, match="^method = 'rosenbrock': must be auto"):
+    with pytest.raises(ValueError, match=r"^method = 'rosenbrock': must be auto"):
         pt.simulate(PAPER, 0.01, method="rosenbrock")
-    with pytest.raises(ValueError, match="^tolerance = 1.0: must be within"):
+    with pytest.raises(ValueError, match=r"^tolerance = 1.0: must be within"):
         pt.simulate(PAPER, 0.01, tolerance=1.0)
-    with pytest.raises(pt.SceneError, match="^dynamics = 'none'"):
+    with pytest.raises(pt.SceneError, match=r"^dynamics = 'none'"):
         PAPER.replace(dynamics="none")
