@@ -72,9 +72,10 @@ def settle(model: Record, tolerance: float, run: Record, shown: np.ndarray) -> N
     Raises:
         ArithmeticError: there is no equilibrium, or it is not found.
     """
+    kept = False
     for n in range(MOST_PASSES):
         shift = cycle_shift(model.train, run.state.x)
-        if n < FREE_PASSES:
+        if n < FREE_PASSES or not kept:
             _place(model, run)
         _torques(model, run)
         mean = _carry(model, run)
@@ -85,8 +86,8 @@ def settle(model: Record, tolerance: float, run: Record, shown: np.ndarray) -> N
         if n >= FREE_PASSES:
             slack = max(slack, DITHER)
         moved = abs(cycle_shift(model.train, state.x) - shift)
-        rests = moved <= PLACE * tolerance or n >= FREE_PASSES
-        rests = _keeps_sides(model.train, run, shown, slack) and rests
+        kept = _keeps_sides(model.train, run, shown, slack)
+        rests = kept and (moved <= PLACE * tolerance or n >= FREE_PASSES)
         if _rubs_as_before(model, run, shown, slack) and rests:
             _check_jump(model, run)
             _powers(model, run)
@@ -251,7 +252,7 @@ def _deflect(model: Record, run: Record) -> None:
 def _keeps_sides(train: Record, run: Record, shown: np.ndarray, slack: float) -> bool:
     """Whether stiffness and play were those of the sides and tooth pairs that carry now."""
     for i in range(train.meshes):
-        if run.state.side[i] != OPEN and run.state.side[i] != run.lean[i]:
+        if abs(run.force[i]) > slack and run.state.side[i] != run.lean[i]:
             return False
         if abs(shown[MESH_FORCE, i] - run.force[i]) > slack:
             return False
