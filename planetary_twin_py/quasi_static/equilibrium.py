@@ -70,7 +70,7 @@ def settle(model: Record, tolerance: float, run: Record, shown: np.ndarray) -> N
         shown: (QUANTITIES, meshes), see `observe`.
 
     Raises:
-        ArithmeticError: there is no equilibrium, or it is not found.
+        ValueError: there is no equilibrium, or it is not found.
     """
     kept = False
     for n in range(MOST_PASSES):
@@ -94,7 +94,10 @@ def settle(model: Record, tolerance: float, run: Record, shown: np.ndarray) -> N
             return
         if n >= BRISK_PASSES:
             _rest_the_idle(model.train, run)
-    raise ArithmeticError("no static equilibrium is found")
+    raise ValueError(
+        "dynamics = 'quasi_static': no static equilibrium is found, some planet has none between "
+        "its flanks; soften the entry of teeth (mesh.ramp) or load the train more"
+    )
 
 
 @kernel

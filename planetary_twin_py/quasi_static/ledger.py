@@ -40,7 +40,7 @@ class Ledger:
         origin: a STATE: where the motors are, and the ledger so far.
 
     Raises:
-        ValueError, ArithmeticError: see `settle` and `divide_cycle`.
+        ValueError: see `settle` and `divide_cycle`.
     """
 
     def __init__(self, model: Record, tolerance: float, lean: int, origin: Record) -> None:

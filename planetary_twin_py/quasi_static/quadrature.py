@@ -76,7 +76,7 @@ def divide_cycle(
         Edges of the panels (m,) and the integrals up to them (m, LEDGER).
 
     Raises:
-        ArithmeticError: the tolerance asks for too many panels.
+        ValueError: the tolerance asks for too many panels.
     """
     phase, energy = np.zeros(PANELS), np.zeros((PANELS, LEDGER))
     whole, left, right = np.zeros(LEDGER), np.zeros(LEDGER), np.zeros(LEDGER)
@@ -101,7 +101,7 @@ def divide_cycle(
             error = abs(_lost(left) + _lost(right) - _lost(whole))
             if error <= tolerance * loss * max(high - low, SHARE) or high - low < NARROWEST:
                 if count + 1 == PANELS:
-                    raise ArithmeticError("tolerance: too small for the losses of this scene")
+                    raise ValueError("tolerance: too small for the losses of this scene")
                 phase[count + 1] = high
                 energy[count + 1] = energy[count] + left + right
                 count += 1
