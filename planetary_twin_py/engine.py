@@ -34,10 +34,11 @@ LIGHTEST_MESH_LOAD = 1.0  # [N] smaller mesh forces do not tighten the tolerance
 
 
 def check_tolerance(tolerance: float) -> None:
-    """Raise a ValueError if there can be no such tolerance."""
-    least, most = TOLERANCES
-    if not least <= tolerance <= most:
-        raise ValueError(f"tolerance = {tolerance!r}: must be within {least:g} and {most:g}")
+    """Raise ValueError unless `tolerance` is within its range."""
+    if not TOLERANCES[0] <= tolerance <= TOLERANCES[1]:
+        raise ValueError(
+            f"tolerance = {tolerance!r}: must be within {TOLERANCES[0]:g} and {TOLERANCES[1]:g}"
+        )
 
 
 class Engine:
@@ -119,6 +120,16 @@ class Engine:
         """End of the last step [s], at or after the end of the last window."""
         end = self.march.end
         return int(end.seconds) + Fraction(float(end.time))
+
+    @property
+    def control(self) -> Record:
+        """Step control and counters."""
+        return self.march.control
+
+    @property
+    def powers(self) -> np.ndarray:
+        """By which the ledger grows at `reached`."""
+        return np.array(self.march.last.power)
 
     def take_ledger(self) -> np.ndarray:
         """Integrals of the ledger up to `reached` since they were last taken, see `dynamics.state`.

@@ -19,9 +19,10 @@ from .dynamics.observe import (
     VISCOUS,
 )
 from .dynamics.state import BEARING, CHURNING, DAMPING, FRICTION, STIFFNESS_WORK, WORK
-from .engine import METHODS, Engine, check_tolerance
+from .engine import METHODS, check_tolerance
 from .integrators.interpolant import Samples
 from .result import Energy, Result, Stats
+from .run import Run, start
 from .scene import Scene
 
 MOST_SAMPLES = 20_000_000
@@ -47,7 +48,7 @@ def simulate(
         ValueError: an argument is out of range.
     """
     check_run(duration, sample_rate, method, tolerance)
-    engine = Engine(scene, tolerance, method)
+    engine = start(scene, tolerance, method)
     stored = engine.stored()
     room = math.floor(duration * sample_rate + 1e-6)
     begin = time.perf_counter()
@@ -70,14 +71,14 @@ def check_run(duration: float, sample_rate: float, method: str, tolerance: float
 
 def _result(
     scene: Scene,
-    engine: Engine,
+    engine: Run,
     samples: Samples,
     sample_rate: float,
     stored: tuple[float, float],
     wall: float,
 ) -> Result:
     names = body_names(scene)
-    mesh, count = samples.mesh, engine.march.control
+    mesh, count = samples.mesh, engine.control
     ground = np.zeros((len(mesh), 1))
     turned = 2.0 * math.pi * samples.turns @ engine.train.ratio[: engine.train.bodies].T
     return Result(
@@ -110,7 +111,7 @@ def _result(
     )
 
 
-def _energy(engine: Engine, stored: tuple[float, float]) -> Energy:
+def _energy(engine: Run, stored: tuple[float, float]) -> Energy:
     ledger, now = engine.take_ledger(), engine.stored()
     return Energy(
         machines=tuple(float(ledger[WORK + m]) for m in range(int(engine.train.machines))),

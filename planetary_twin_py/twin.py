@@ -11,8 +11,8 @@ import numpy as np
 from .dynamics.bodies import Ratios, body_names, mesh_names
 from .dynamics.observe import BOUNDARY, DTE, MESH_FORCE, VISCOUS
 from .dynamics.state import BEARING, CHURNING, FRICTION, IMPULSE, WORK
-from .engine import Engine
 from .integrators.interpolant import Samples
+from .run import start
 from .scene import TUNABLES, OperatingPoint, Scene, SceneError
 from .window import Waveform, Window, mesh_statistics
 
@@ -51,7 +51,7 @@ class Twin:
         self._exact_rate = Fraction(self.sample_rate)
         self.meshes = mesh_names(scene)
         self._names = body_names(scene)
-        self._engine = Engine(scene, tolerance)
+        self._engine = start(scene, tolerance)
         self._clock = Fraction(0)
         self.log = [Change(0.0, scene.operating_point)]
         """Every operating point and the instant from which it holds."""
@@ -128,7 +128,7 @@ class Twin:
             rate = self._books[1] / elapsed
             stored = (self._books[2] - before[2]) / elapsed
         else:  # a window within one step
-            rate, stored = np.array(self._engine.march.last.power), float("nan")
+            rate, stored = self._engine.powers, float("nan")
         turned = 2.0 * math.pi * (self._end.turns - begin.turns) @ train.ratio[: train.bodies].T
         speed = ((turned + self._end.angle - begin.angle) / float(step))[0]
         mean_speed = np.append(speed, 0.0)[names.place]
