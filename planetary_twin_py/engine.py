@@ -25,8 +25,8 @@ from .integrators.radau import radau
 from .scene import OperatingPoint, Scene
 
 METHODS = {"auto": AUTO, "collocation": COLLOCATION, "rosenbrock": ROSENBROCK}
-import os
-NODES = int(os.environ.get("NODES","3"))
+# Tolerances down to which so many points of a step are worth their cost, see docs.
+POINTS = ((3e-3, 3), (3e-4, 4), (0.0, 5))
 LONGEST_STEP = 1e-3  # [s]
 FIRST_STEP = 1e-6  # [s]
 TOLERANCES = (1e-8, 0.1)  # allowed range
@@ -64,7 +64,6 @@ class Engine:
         control.step = control.next_step = control.next_stiff = FIRST_STEP
         control.longest = LONGEST_STEP
         control.method = METHODS[method]
-        self.march.run.nodes = radau(NODES)
         self._load(scene.operating_point)
         self.march.begin = self.march.end = start_state(scene, self.model)
         self._compile()
@@ -88,6 +87,7 @@ class Engine:
         deflection = force / stiffness + 0.5 * point.backlash
         control = self.march.control
         control.tolerance_x = self.tolerance * deflection
+        self.march.run.nodes = radau(next(n for least, n in POINTS if self.tolerance > least))
         control.tolerance_v = control.tolerance_x * np.sqrt(2.0 * stiffness / lightest)
         control.changed = True
 

@@ -137,6 +137,7 @@ class Reference:
         self._march.end = begin
         end.x[:n], end.v[:n], end.trim[: self._axes] = y[:n], y[n : 2 * n], y[2 * n :]
         run_on(begin, end, length)
+        self._march.control.step = length
         end.set_speed = begin.set_speed + self._march.moment.slew * length
         turn = begin.fraction + begin.speed * length / (2.0 * np.pi)
         end.turns, end.fraction = begin.turns + np.floor(turn), turn - np.floor(turn)

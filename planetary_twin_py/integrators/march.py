@@ -157,6 +157,7 @@ def _collocated_step(model: Record, march: Record, longest: float, event: float,
     if mesh >= 0 and h == event:
         _meet_edge(model, march, mesh, h)
     march.last.power[:] = run.evaluation[order - 1].power
+    march.last.rubbing[:] = run.evaluation[order - 1].rubbing
     accept(model, march, _end_on_flank_event(model, march, h))
     return True
 
@@ -177,7 +178,7 @@ def _hold_friction(model: Record, march: Record) -> None:
     begin, moment, first = march.begin, march.moment, march.first
     move_meshes(model.train, begin.x, begin.v, first.now)
     squeeze(model, begin, moment, begin.x, begin.v, 0.0, first)
-    first.rubbing[:] = march.run.evaluation[march.run.nodes.count - 1].rubbing
+    first.rubbing[:] = march.last.rubbing
     drive(model, begin, moment, begin.x, begin.v, 0.0, begin.trim, first)
 
 
@@ -287,7 +288,6 @@ def _stiff_step(model: Record, march: Record, longest: float, event: float) -> N
     control.next_stiff = max(candidate, control.next_stiff) if factor >= 1.0 else candidate
     control.detour = max(control.detour - 1, 0)
     control.stiff_steps += 1
-    march.run.evaluation[march.run.nodes.count - 1].rubbing[:] = march.last.rubbing
     accept(model, march, _end_on_flank_event(model, march, h))
 
 
