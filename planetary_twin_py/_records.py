@@ -39,7 +39,7 @@ def layout(**fields: Any) -> np.dtype[Any]:
         offsets.append(-(-end // line) * line)
         end = offsets[-1] + kind.itemsize
     size = -(-end // CACHE_LINE) * CACHE_LINE
-    table = {"names": list(fields), "formats": formats, "offsets": offsets, "itemsize": size}
+    table: Any = {"names": list(fields), "formats": formats, "offsets": offsets, "itemsize": size}
     # The type of its scalars goes on last: with it numpy would ignore `align`.
     return np.dtype((np.record, np.dtype(table, align=True)))
 

@@ -42,9 +42,20 @@ def _real_of(typingctx: Any, value: Any) -> Any:
     return types.float64(types.int64), codegen
 
 
-# What a kernel sees: functions of one argument.
+@intrinsic
+def _rounded_difference(typingctx: Any, value: Any, other: Any) -> Any:
+    def codegen(context: Any, builder: Any, signature: Any, args: Any) -> Any:
+        return builder.fsub(*args, flags=("nsz",))  # numba adds no flags where there are some
+
+    return types.float64(types.float64, types.float64), codegen
+
+
+# What a kernel sees.
 _bits: Any = _bits_of
 _from_bits: Any = _real_of
+# A difference that the compiler does not take together with others, which would round once for
+# all: what is left of an argument less many periods needs them one by one.
+_less: Any = _rounded_difference
 
 
 @law
@@ -73,7 +84,7 @@ def precise_exp(x: float) -> float:
     """e**x to the last digits for x <= 0, saturating at the end of the double range."""
     x = max(x, -700.0)
     n = int(x * _INVERSE_LN2 + 1024.5) - 1024
-    r = (x - n * _LN2_HIGH) - n * _LN2_LOW
+    r = _less(_less(x, n * _LN2_HIGH), n * _LN2_LOW)
     p = _INVERSE_FACTORIAL[14]
     p = _INVERSE_FACTORIAL[13] + r * p
     p = _INVERSE_FACTORIAL[12] + r * p
@@ -96,7 +107,8 @@ def precise_exp(x: float) -> float:
 def sin_cos(x: float) -> tuple[float, float]:
     """Sine and cosine of 0 <= x <= 1e5."""
     n = int(x * _INVERSE_RIGHT_ANGLE + 0.5)
-    r = ((x - n * _RIGHT_ANGLE_HIGH) - n * _RIGHT_ANGLE_MIDDLE) - n * _RIGHT_ANGLE_LOW
+    r = _less(_less(x, n * _RIGHT_ANGLE_HIGH), n * _RIGHT_ANGLE_MIDDLE)
+    r = _less(r, n * _RIGHT_ANGLE_LOW)
     q = r * r
     s = -_INVERSE_FACTORIAL[15]
     s = _INVERSE_FACTORIAL[13] + q * s

@@ -19,11 +19,11 @@ OIL = layout(
     traction=fields_of(Traction),
     contact_modulus=REAL,  # E* [Pa]
     face_width=REAL,  # L [m]
-    log_speed_group=REAL,  # logarithms of U R/V = eta0/E', of G, and of W R/F = 1/(E' L), in SI units
-    log_material=REAL,
-    log_load_group=REAL,
-    log_area=REAL,  # and of A/sqrt(R F)
-    log_roughness=REAL,  # and of sigma
+    log_speed_group=REAL,  # logarithm of U R/V = eta0/E' in SI units
+    log_material=REAL,  # of G
+    log_load_group=REAL,  # of W R/F = 1/(E' L)
+    log_area=REAL,  # of A/sqrt(R F)
+    log_roughness=REAL,  # of sigma
     density=REAL,  # [kg/m^3]
     kinematic=REAL,  # eta0/density [m^2/s]
     prescribed=FLAG,  # lambda ratio: prescribed, or film/roughness

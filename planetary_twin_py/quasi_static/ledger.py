@@ -140,7 +140,7 @@ class Ledger:
         return bool(np.all(self._mark.set_speed == self._model.load.target_speed))
 
     def _integral(self, begin: float, end: float) -> np.ndarray:
-        """Over times since the mark [s] within one panel, from a fresh guess: it leaves no trace."""
+        """Over times after the mark [s] in one panel, from a fresh guess: it leaves no trace."""
         gain = np.zeros_like(self._mark.energy)
         integrate(
             self._model, self._tolerance, self._mark, first_guess(self._lean), (begin, end),

@@ -19,6 +19,7 @@ from planetary_twin_py.integrators.clock import Instant, instant, sampling
 from planetary_twin_py.integrators.interpolant import new_samples
 from planetary_twin_py.integrators.march import advance, cut
 from planetary_twin_py.integrators.progress import MARCH
+from planetary_twin_py.integrators.radau import radau
 from planetary_twin_py.mesh.tooth_pairs import TOTAL
 
 MASS, MOTOR, GROUND = 0, 1, 2
@@ -34,7 +35,8 @@ class Oscillator:
         train, load = self.model.train, self.model.load
         train.bodies, train.meshes, train.axes, train.machines = 2, 1, 1, 2
         train.mass[:3] = 1.0, 1e30, 1.0
-        train.radius[:3] = 1.0
+        train.lanes, train.slots = 4, 1
+        train.radius[:3] = train.inverse_radius[:3] = 1.0
         train.ratio[MOTOR, 0] = 1.0
         train.body[0] = MASS, GROUND, GROUND
         train.sign[0] = 1.0, 0.0, 0.0
@@ -53,9 +55,10 @@ class Oscillator:
         load.half_backlash = load.offset = load.release = 1.0
         load.torque[LOAD_MACHINE] = mean
         load.slew_rate = 1.0
+        self.march.run.nodes = radau(5)
         control = self.march.control
         control.tolerance_x = control.tolerance_v = tolerance
-        control.next_step = control.step = 1e-3
+        control.next_step = control.next_stiff = control.step = 1e-3
         control.longest = 0.2
         for state in (self.march.begin, self.march.end):
             state.side[0] = DRIVE_SIDE

@@ -6,6 +6,7 @@ from fractions import Fraction
 import numpy as np
 import pytest
 from power_flows import ALL_FLOWS, scene_of
+from test_long_run import HOURS, columns, turns_after
 
 import planetary_twin_py as pt
 from planetary_twin_py.run import start
@@ -112,6 +113,44 @@ def test_angles_are_those_of_rigid_gears_after_hours():
     ring = (-hour * 3 % 7) / 7 * 2 * math.pi
     for body, expected in (("sun", 0.0), ("ring", ring), ("planet_1", 0.0), ("carrier", 0.0)):
         assert abs(math.remainder(angle[body] - expected, 2 * math.pi)) < 1e-9
+
+
+def aged(scene):
+    """A twin whose clock and whole turns are those of HOURS."""
+    twin = pt.Twin(scene)
+    engine = twin._engine
+    for state in (engine._origin, engine._ledger._mark):
+        state.seconds += 3600 * HOURS
+        state.turns[:1] += turns_after(scene, HOURS)
+    twin._clock += 3600 * HOURS
+    engine.reached = twin._clock
+    twin._end, twin._books = engine.sample(twin._clock), twin._account()
+    return twin
+
+
+@pytest.mark.parametrize("changes", [{}, WEAR, {"torque_ripple": 20.0}], ids=str)
+def test_a_thousand_hours_change_no_sample_and_no_power(changes):
+    old, young = aged(PAPER.replace(**changes)), pt.Twin(PAPER.replace(**changes))
+    for point in ({}, {"input_torque": 40.0}, {"input_speed": 90.0}):
+        for twin in (old, young):
+            twin.set(**point)
+        for length in (0.01, 1e-3, 1.234e-4):
+            now, then = old.advance(length), young.advance(length)
+            assert np.array_equal(columns(now), columns(then))
+            assert np.array_equal(now.machine_power, then.machine_power)
+            assert now.power_loss == then.power_loss and now.stored_power == then.stored_power
+    assert old.time == 3600 * HOURS + young.time
+
+
+def test_the_ledger_of_a_thousand_hours_is_that_of_a_second_as_often():
+    second, hours = start(PAPER, 1e-4), start(PAPER, 1e-4)
+    for engine, time in ((second, 1), (hours, 3600 * HOURS)):
+        engine.take_ledger()
+        engine.advance(Fraction(time), 1, 1.0, 0)
+        assert engine.reached == time
+    one, all_ = second.take_ledger(), hours.take_ledger()
+    assert all_ == pytest.approx(one * 3600 * HOURS, rel=1e-12)
+    assert not second.take_ledger().any() and not hours.take_ledger().any()
 
 
 def test_speed_follows_the_slewed_set_point_and_inertia_takes_its_work():
