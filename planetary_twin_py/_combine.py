@@ -17,9 +17,7 @@ LANES = BODIES  # known to the compiler, which would not use registers for what 
 
 
 @law
-def combine(
-    rows: np.ndarray, weights: np.ndarray, count: int, out: np.ndarray
-) -> None:
+def combine(rows: np.ndarray, weights: np.ndarray, count: int, out: np.ndarray) -> None:
     """Fill out (LANES,) from rows (`count`, LANES) and weights (`count`,)."""
     a, b, c, d = weights[0], weights[1], weights[2], weights[3]
     e, f, g, h = weights[4], weights[5], weights[6], weights[7]

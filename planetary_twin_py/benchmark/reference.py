@@ -123,9 +123,7 @@ class Reference:
     def _observe(self, solution: Any, delay: float, out: np.ndarray) -> None:
         self._unpack(solution(delay))
         march = self._march
-        observe(
-            self._model, march.begin, march.moment, self._x, self._v, delay, self._work, out
-        )
+        observe(self._model, march.begin, march.moment, self._x, self._v, delay, self._work, out)
 
     def _finish(self, stretch: Any) -> None:
         """Hand the end of the stretch to the march, which changes contacts and segments."""

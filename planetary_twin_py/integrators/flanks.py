@@ -114,9 +114,7 @@ def _suspect_flanks(model: Record, march: Record) -> bool:
                 run.scan_d[0, i] = math.inf
         for i in range(train.meshes):
             tau = sun if train.kind[i] == 0 else ring
-            run.scan_d[0, i] = min(
-                run.scan_d[0, i], _left_without_waves(model, march, i, n, tau)
-            )
+            run.scan_d[0, i] = min(run.scan_d[0, i], _left_without_waves(model, march, i, n, tau))
     for i in range(train.meshes):
         suspect = run.scan_d[0, i] + run.least[i] < 0.0
         run.suspect[i] = 1 if suspect else 0
@@ -168,9 +166,7 @@ def _scan(model: Record, march: Record, end: float) -> None:
     motion = run.known.motion[run.modes]
     for k in range(SCANNED):
         modes_at(run, train.lanes, (k + 1) * end / SCANNED)
-        combine_both(
-            motion, run.now_q, run.now_p, train.bodies, run.scan_d[k], run.scan_rate[k]
-        )
+        combine_both(motion, run.now_q, run.now_p, train.bodies, run.scan_d[k], run.scan_rate[k])
 
 
 @kernel

@@ -163,9 +163,7 @@ def modal_state(
     e, f, g = y[4, m], y[5, m], y[6, m]
     u, w = run.free[0, m], run.free[1, m]
     value = a + t * (b + t * (c + t * (d + t * (e + t * (f + t * g)))))
-    slope = b + t * (
-        2.0 * c + t * (3.0 * d + t * (4.0 * e + t * (5.0 * f + t * 6.0 * g)))
-    )
+    slope = b + t * (2.0 * c + t * (3.0 * d + t * (4.0 * e + t * (5.0 * f + t * 6.0 * g))))
     rate = (cosine - run.damping[m] * sine) * w - run.square[m] * sine * u
     return value + cosine * u + sine * w, slope * per_step + rate
 
