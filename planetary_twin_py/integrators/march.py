@@ -25,8 +25,8 @@ from ..dynamics.tooth_friction import copy_friction
 from .collocation import collocate
 from .flanks import at_event, first_flank_event
 from .interpolant import Samples, sample
-from .progress import COLLOCATION, ROSENBROCK, copy_state
 from .memory import remember
+from .progress import COLLOCATION, ROSENBROCK, copy_state
 from .propagation import enter, integrate_powers, propagate, resolves, trim_at
 from .rosenbrock import ORDER, step
 
