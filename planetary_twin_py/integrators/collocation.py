@@ -14,6 +14,7 @@ from .._combine import combine
 from .._compile import kernel
 from .._records import Record
 from ..dynamics.equations import drive, rub, squeeze
+from .memory import recall
 from .propagation import power, set_step, visit_nodes
 
 MOST_SWEEPS = 6
@@ -23,8 +24,8 @@ TAIL = 4.0  # by which the estimated error of the polynomial counts more
 
 
 @kernel
-def collocate(model: Record, march: Record, h: float) -> tuple[float, bool]:
-    """Try a step of h, up to the motion at its nodes.
+def collocate(model: Record, march: Record, h: float, fresh: bool) -> tuple[float, bool]:
+    """Try a step of h, up to the motion at its nodes; `fresh`: the contacts have just changed.
 
     Returns:
         Its error over what is allowed, and whether the sweeps came to rest.
@@ -33,6 +34,8 @@ def collocate(model: Record, march: Record, h: float) -> tuple[float, bool]:
     set_step(run, train.lanes, h)
     for n in range(run.nodes.count):
         run.evaluation[n].rubbing[:] = march.first.rubbing
+    if fresh:
+        recall(train, march)
     visit_nodes(model, march)
     if run.known.varies[run.modes] == 1:
         _settle_meshes(model, march)

@@ -17,6 +17,7 @@ from .._records import BODIES, MESHES, REAL, SMALL, WHOLE, Record, layout
 from ..dynamics.mesh_force import mesh_stiffness
 from ..dynamics.state import OPEN
 from ..mesh.tooth_pairs import SEGMENTS
+from .radau import MOST
 
 FIRST_PULL = 1e4  # [1/s]
 ROOM = 256  # contact states kept
@@ -37,6 +38,9 @@ CONTACT_MODES = layout(
     square=(REAL, (ROOM, BODIES)),  # w^2 [1/s^2]
     varies=(SMALL, (ROOM,)),  # whether a stiffness changes within its segment
     step=(REAL, (ROOM,)),  # that did last time such a state began, 0: none yet [s]
+    past_step=(REAL, (ROOM,)),  # see `memory`, 0: none yet [s]
+    past_rest=(REAL, (ROOM, MOST + 1, BODIES)),
+    past_rubbing=(REAL, (ROOM, MOST + 1, BODIES)),  # [N]
     pull=(REAL, (ROOM, 2)),  # by which a sweep brings the next closer, per step length [1/s]
     shaft_damping=(REAL, (ROOM, BODIES)),  # c of the couplings [1/s]
     mesh_damping=(REAL, (ROOM, 2, BODIES)),  # c/tau of each kind of mesh [1/s^2]
@@ -92,7 +96,7 @@ def _search(train: Record, state: Record, known: Record, key: tuple[int, int]) -
 @kernel
 def _solve_modes(train: Record, state: Record, known: Record, n: int) -> None:
     bodies = train.bodies
-    known.step[n] = 0.0
+    known.step[n] = known.past_step[n] = 0.0
     known.pull[n] = FIRST_PULL
     known.varies[n] = 1 if train.faults > 0 or train.lines[0] + train.lines[1] > 0 else 0
     scale = np.zeros(bodies + 1)

@@ -26,6 +26,7 @@ from .clock import Instant, Sampling, after, delay, due, run_on
 from .collocation import collocate
 from .flanks import at_event, first_flank_event
 from .interpolant import Samples, sample
+from .memory import remember
 from .progress import COLLOCATION, ROSENBROCK, copy_state
 from .propagation import enter, integrate_powers, propagate, resolves, trim_at
 from .rosenbrock import ORDER, step
@@ -136,7 +137,7 @@ def _collocated_step(model: Record, march: Record, longest: float, event: float,
     while True:
         if control.method != COLLOCATION and not resolves(run, model.train.bodies, h):
             return False
-        error, settled = collocate(model, march, h)
+        error, settled = collocate(model, march, h, fresh)
         if error <= 1.0 or (h <= SHORTEST_STEP and error < math.inf):
             break
         restless += 0 if settled else 1
@@ -149,6 +150,7 @@ def _collocated_step(model: Record, march: Record, longest: float, event: float,
     control.next_step = h * min(GROW, max(SHRINK, factor))
     if fresh:
         known.step[modes] = control.next_step
+        remember(model.train, march)
     if h < min(event, longest) and _outdone(control, h, True, 0):
         control.detour = DETOUR
     control.collocated = True

@@ -1,4 +1,4 @@
-"""Exact free motion of one mode, q'' + c q' + w^2 q = 0, as it runs in vector registers."""
+"""Exact free motion of one mode, q'' + c q' + w^2 q = 0, fit for vector registers."""
 
 from __future__ import annotations
 

@@ -22,6 +22,7 @@ from .radau import MOST, NODES
 
 POWERS = MOST + 2  # of t/h in the motion of a free mass
 LONGEST_MEMORY = 1e3  # c/(w^2 h) of a mode whose motion keeps ten digits
+SLOWEST_SWING = 30.0  # (1 + c h)/(w h)^2, to whose fourth power digits are lost
 SCANNED = 8  # times at which flanks are looked at
 
 # A step in the making, and what its dense output reads. q is in m sqrt(kg).
@@ -245,9 +246,13 @@ def integrate_powers(march: Record, lanes: int, h: float) -> None:
 
 @law
 def _swings(run: Record, m: int) -> bool:
-    """Whether a mode has free waves, of which quadrature might miss what is damped."""
-    c = run.damper[m]
-    return 0.0 < c <= LONGEST_MEMORY * run.spring[m] * run.step
+    """Whether a mode has free waves, of which quadrature might miss what is damped.
+
+    Not those that hardly move within the step: `_damped` would lose all its digits, quadrature
+    none.
+    """
+    stiff, loss = run.spring[m] * run.step * run.step, run.damper[m] * run.step
+    return loss > 0.0 and 1.0 + loss < SLOWEST_SWING * stiff
 
 
 @law
