@@ -5,7 +5,8 @@ BIN := $(VENV)/bin
 STAMPS := $(VENV)/stamps
 INSTALL := $(BIN)/uv pip install --quiet --python $(BIN)/python --no-deps --no-build-isolation
 INTERFACES := msgs_spec/package.xml msgs_spec/CMakeLists.txt $(wildcard msgs_spec/msg/* msgs_spec/srv/*)
-KERNELS := $(wildcard $(addprefix planetary_twin_py/,_*.py dynamics/*.py integrators/*.py losses/*.py lubrication/*.py mesh/*.py))
+KERNELS := $(wildcard $(addprefix planetary_twin_py/,_*.py dynamics/*.py integrators/*.py losses/*.py lubrication/*.py mesh/*.py \
+	quasi_static/*.py))
 NODES := $(shell find ros_ws/src/planetary_twin -not -path '*/build*' -not -path '*.egg-info*' \
 	-not -name '*.pyc' -not -name __pycache__)
 
@@ -66,7 +67,7 @@ $(STAMPS)/model: $(STAMPS)/dependencies pyproject.toml
 
 # Compiles the numerical kernels into the user's cache, so that the first run starts at once.
 $(STAMPS)/kernels: $(STAMPS)/model $(KERNELS)
-	$(BIN)/python -c 'import planetary_twin_py as pt; pt.Twin(pt.load_scene("paper"))'
+	$(BIN)/python -c 'import planetary_twin_py as pt; [pt.Twin(pt.load_scene("paper").replace(dynamics=kind)) for kind in ("torsional", "quasi_static")]'
 	@touch $@
 
 $(STAMPS)/nodes: $(STAMPS)/dependencies tools/install_nodes $(NODES)

@@ -11,6 +11,7 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
+    from .batch import Outcome, simulate_many
     from .modal.modes import NaturalModes
     from .modal.natural import natural_modes
     from .result import Energy, Result, Stats
@@ -30,6 +31,7 @@ if TYPE_CHECKING:
     from .window import Waveform, Window
 
 _HOME = {
+    "batch": ("Outcome", "simulate_many"),
     "modal.modes": ("NaturalModes",),
     "modal.natural": ("natural_modes",),
     "result": ("Energy", "Result", "Stats"),
@@ -50,6 +52,7 @@ __all__ = [
     "Energy",
     "NaturalModes",
     "OperatingPoint",
+    "Outcome",
     "Result",
     "Scene",
     "SceneError",
@@ -64,6 +67,7 @@ __all__ = [
     "parse_scene",
     "rpm",
     "simulate",
+    "simulate_many",
 ]
 
 

@@ -29,6 +29,7 @@ _KERNELS = (
     "losses/*.py",
     "lubrication/*.py",
     "mesh/*.py",
+    "quasi_static/*.py",
 )
 
 

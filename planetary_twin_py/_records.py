@@ -10,9 +10,10 @@ from typing import Any
 
 import numpy as np
 
-# Room for 7 planets: planets, sun, ring, carrier, machines and the ground.
-BODIES = 14
-MESHES = 14
+REGISTER = 4  # doubles the compiler works on at a time: loops over whole registers run fastest
+# Room for 7 planets: planets, sun, ring, carrier, machines and the ground; their meshes.
+BODIES = 4 * REGISTER
+MESHES = 4 * REGISTER
 MACHINES = 3  # two motors and a load
 AXES = 2  # rigid motions of the train: one for each motor
 
@@ -23,12 +24,24 @@ SMALL = "i1"  # for arrays of flags, which a compiled kernel cannot have in a re
 Record = Any
 
 
+CACHE_LINE = 64  # [bytes] vector registers that straddle two lines take twice as long to load
+
+
 def layout(**fields: Any) -> np.dtype[Any]:
-    """Type of a record; a field is a type or a (type, shape) pair."""
-    items = [
-        (name, *(kind if isinstance(kind, tuple) else (kind,))) for name, kind in fields.items()
-    ]
-    return np.dtype((np.record, items), align=True)
+    """Type of a record; a field is a type or a (type, shape) pair.
+
+    What fills a cache line begins with one.
+    """
+    formats = [np.dtype(kind) for kind in fields.values()]
+    offsets, end = [], 0
+    for kind in formats:
+        line = CACHE_LINE if kind.itemsize >= CACHE_LINE else max(kind.alignment, 1)
+        offsets.append(-(-end // line) * line)
+        end = offsets[-1] + kind.itemsize
+    size = -(-end // CACHE_LINE) * CACHE_LINE
+    table: Any = {"names": list(fields), "formats": formats, "offsets": offsets, "itemsize": size}
+    # The type of its scalars goes on last: with it numpy would ignore `align`.
+    return np.dtype((np.record, np.dtype(table, align=True)))
 
 
 def fields_of(constants: type[Any]) -> np.dtype[Any]:
@@ -38,7 +51,9 @@ def fields_of(constants: type[Any]) -> np.dtype[Any]:
 
 def new_record(kind: np.dtype[Any], /, **values: Any) -> Record:
     """A record of zeros, then with the given fields; an array may be shorter than its room."""
-    record = np.zeros(1, kind).view(np.recarray)[0]
+    room = np.zeros(kind.itemsize + CACHE_LINE, np.uint8)
+    start = -room.ctypes.data % CACHE_LINE
+    record = room[start : start + kind.itemsize].view(kind).view(np.recarray)[0]
     for name, value in values.items():
         if kind[name].shape:
             value = np.asarray(value)

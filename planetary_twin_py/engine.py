@@ -6,6 +6,8 @@ arrays only; names and messages are for those above it.
 
 from __future__ import annotations
 
+from fractions import Fraction
+
 import numpy as np
 
 from ._records import Record, new_record
@@ -15,13 +17,17 @@ from .dynamics.oil import build_oil
 from .dynamics.start import build_load, start_state
 from .dynamics.static_load import mesh_force
 from .dynamics.train import build_train
+from .integrators.clock import delay, instant, sampling
 from .integrators.interpolant import Samples, new_samples, sample
 from .integrators.march import advance, begin_step, cut
 from .integrators.progress import AUTO, COLLOCATION, MARCH, ROSENBROCK
+from .integrators.radau import radau
 from .scene import OperatingPoint, Scene
 from .tolerance import check_tolerance
 
 METHODS = {"auto": AUTO, "collocation": COLLOCATION, "rosenbrock": ROSENBROCK}
+# Tolerances down to which so many points of a step are worth their cost, see docs.
+POINTS = ((3e-3, 3), (3e-4, 4), (0.0, 5))
 LONGEST_STEP = 1e-3  # [s]
 FIRST_STEP = 1e-6  # [s]
 LIGHTEST_MESH_LOAD = 1.0  # [N] smaller mesh forces do not tighten the tolerance further
@@ -60,7 +66,7 @@ class Engine:
         begin_step(self.model, self.march)
         self.sample(0.0)
         self.stored()
-        cut(self.model, self.march, 0.0)
+        cut(self.model, self.march, instant(0.0))
 
     def _load(self, point: OperatingPoint) -> None:
         """Put an operating point into the model, and scale the tolerances to its deflection."""
@@ -73,39 +79,60 @@ class Engine:
         deflection = force / stiffness + 0.5 * point.backlash
         control = self.march.control
         control.tolerance_x = self.tolerance * deflection
+        self.march.run.nodes = radau(next(n for least, n in POINTS if self.tolerance > least))
         control.tolerance_v = control.tolerance_x * np.sqrt(2.0 * stiffness / lightest)
         control.changed = True
 
-    def advance(self, until: float, first_sample: int, sample_rate: float, room: int) -> Samples:
+    def advance(
+        self, until: float | Fraction, first_sample: int, sample_rate: float, room: int
+    ) -> Samples:
         """Integrate to `until` [s]; samples lie at whole multiples of 1/sample_rate.
 
-        Returns `room` samples from number `first_sample` on.
+        Returns `room` samples from number `first_sample` on. A time given as a fraction is exact
+        however late it is.
         """
         samples = new_samples(self.train, room)
-        # A whole number would have the kernel compiled again.
-        advance(self.model, self.march, float(until), first_sample, float(sample_rate), samples)
+        at = sampling(first_sample, sample_rate)
+        advance(self.model, self.march, instant(until), at, samples)
         return samples
 
-    def sample(self, time: float) -> Samples:
+    def sample(self, time: float | Fraction) -> Samples:
         """One sample at `time` [s], the end of the last window."""
         samples = new_samples(self.train, 1)
-        sample(self.model, self.march, time, samples, 0)
+        sample(self.model, self.march, delay(self.march.begin, instant(time)), samples, 0)
         return samples
 
-    def change(self, point: OperatingPoint, tolerance: float, time: float) -> None:
+    def change(self, point: OperatingPoint, tolerance: float, time: float | Fraction) -> None:
         """Run on with these from `time` [s], the end of the last window."""
-        cut(self.model, self.march, time)
+        cut(self.model, self.march, instant(time))
         self.tolerance = tolerance
         self._load(point)
 
     @property
-    def reached(self) -> float:
+    def reached(self) -> Fraction:
         """End of the last step [s], at or after the end of the last window."""
-        return float(self.march.end.time)
+        end = self.march.end
+        return int(end.seconds) + Fraction(float(end.time))
 
-    def ledger(self) -> np.ndarray:
-        """Integrals of the ledger up to `reached`, see `dynamics.state`."""
-        return np.array(self.march.end.energy)
+    @property
+    def control(self) -> Record:
+        """Step control and counters."""
+        return self.march.control
+
+    @property
+    def powers(self) -> np.ndarray:
+        """By which the ledger grows at `reached`."""
+        return np.array(self.march.last.power)
+
+    def take_ledger(self) -> np.ndarray:
+        """Integrals of the ledger up to `reached` since they were last taken, see `dynamics.state`.
+
+        They begin anew, so that what a window adds is not lost beside what a long run has added.
+        """
+        ledger = np.array(self.march.end.energy)
+        self.march.begin.energy -= ledger
+        self.march.end.energy -= ledger
+        return ledger
 
     def stored(self) -> tuple[float, float]:
         """Kinetic and elastic energy at `reached` [J]."""

@@ -19,10 +19,12 @@ from .dynamics.observe import (
     VISCOUS,
 )
 from .dynamics.state import BEARING, CHURNING, DAMPING, FRICTION, STIFFNESS_WORK, WORK
-from .engine import METHODS, Engine
+from .engine import METHODS
 from .integrators.interpolant import Samples
 from .result import Energy, Result, Stats
+from .run import Run, start
 from .scene import Scene
+from .tolerance import check_tolerance
 
 MOST_SAMPLES = 20_000_000
 
@@ -46,14 +48,8 @@ def simulate(
     Raises:
         ValueError: an argument is out of range.
     """
-    if method not in METHODS:
-        raise ValueError(f"method = {method!r}: must be one of {', '.join(METHODS)}")
-    if not (duration > 0.0 and 1.0 <= duration * sample_rate <= MOST_SAMPLES):
-        raise ValueError(
-            f"duration = {duration!r} s at sample_rate = {sample_rate!r} Hz: must give between 1 "
-            f"and {MOST_SAMPLES} samples"
-        )
-    engine = Engine(scene, tolerance, method)
+    check_run(duration, sample_rate, method, tolerance)
+    engine = start(scene, tolerance, method)
     stored = engine.stored()
     room = math.floor(duration * sample_rate + 1e-6)
     begin = time.perf_counter()
@@ -62,16 +58,28 @@ def simulate(
     return _result(scene, engine, samples, sample_rate, stored, wall)
 
 
+def check_run(duration: float, sample_rate: float, method: str, tolerance: float) -> None:
+    """Raise the ValueError of an argument of `simulate` that is out of range."""
+    if method not in METHODS:
+        raise ValueError(f"method = {method!r}: must be one of {', '.join(METHODS)}")
+    if not (duration > 0.0 and 1.0 <= duration * sample_rate <= MOST_SAMPLES):
+        raise ValueError(
+            f"duration = {duration!r} s at sample_rate = {sample_rate!r} Hz: must give between 1 "
+            f"and {MOST_SAMPLES} samples"
+        )
+    check_tolerance(tolerance)
+
+
 def _result(
     scene: Scene,
-    engine: Engine,
+    engine: Run,
     samples: Samples,
     sample_rate: float,
     stored: tuple[float, float],
     wall: float,
 ) -> Result:
     names = body_names(scene)
-    mesh, count = samples.mesh, engine.march.control
+    mesh, count = samples.mesh, engine.control
     ground = np.zeros((len(mesh), 1))
     turned = 2.0 * math.pi * samples.turns @ engine.train.ratio[: engine.train.bodies].T
     return Result(
@@ -99,13 +107,13 @@ def _result(
             pair_events=int(count.pair_events),
             flank_events=int(count.flank_events),
             wall_time=wall,
-            real_time_factor=engine.reached / wall,
+            real_time_factor=float(engine.reached) / wall,
         ),
     )
 
 
-def _energy(engine: Engine, stored: tuple[float, float]) -> Energy:
-    ledger, now = engine.ledger(), engine.stored()
+def _energy(engine: Run, stored: tuple[float, float]) -> Energy:
+    ledger, now = engine.take_ledger(), engine.stored()
     return Energy(
         machines=tuple(float(ledger[WORK + m]) for m in range(int(engine.train.machines))),
         kinetic=now[0] - stored[0],

@@ -11,12 +11,14 @@ import numpy as np
 from .dynamics.bodies import Ratios, body_names, mesh_names
 from .dynamics.observe import BOUNDARY, DTE, MESH_FORCE, VISCOUS
 from .dynamics.state import BEARING, CHURNING, FRICTION, IMPULSE, WORK
-from .engine import Engine
 from .integrators.interpolant import Samples
+from .run import start
 from .scene import TUNABLES, OperatingPoint, Scene, SceneError
 from .tolerance import LIVE_TOLERANCE, check_tolerance
 from .window import Waveform, Window, mesh_statistics
 
+TICKS = 10**12  # of the clock, in a second
+LEEWAY = Fraction(1, 10**6)  # of a sample period, by which a sample may lie beyond its window
 LONGEST_WINDOW = 60.0  # [s] of samples held in memory at once
 
 
@@ -47,14 +49,15 @@ class Twin:
             raise ValueError(f"sample_rate = {sample_rate!r} Hz: must be within 1 and 1e7")
         self.scene = scene
         self.sample_rate = float(sample_rate)
+        self._exact_rate = Fraction(self.sample_rate)
         self.meshes = mesh_names(scene)
         self._names = body_names(scene)
-        self._engine = Engine(scene, tolerance)
-        self._time = 0.0
-        self.log = [Change(0.0, scene.operating_point, self._engine.tolerance)]
+        self._engine = start(scene, tolerance)
+        self._clock = Fraction(0)
+        self.log = [Change(0.0, scene.operating_point, tolerance)]
         """Every operating point and tolerance: made again at the same instants, the same run."""
         self._books = self._account()
-        self._end = self._engine.sample(0.0)
+        self._end = self._engine.sample(self._clock)
 
     @property
     def bodies(self) -> tuple[str, ...]:
@@ -64,7 +67,7 @@ class Twin:
     @property
     def time(self) -> float:
         """Simulated time [s]: the end of the last window."""
-        return self._time
+        return float(self._clock)
 
     @property
     def operating_point(self) -> OperatingPoint:
@@ -109,46 +112,50 @@ class Twin:
             raise ValueError(
                 f"duration = {duration!r} s: must be above 0 and at most {LONGEST_WINDOW:g}"
             )
-        start = self._time
-        if round(start + duration, 12) == start:
-            raise ValueError(f"duration = {duration!r} s: must be at least 1e-12, the clock's step")
         # Windows of 10 ms end on whole samples; their sum must not drift off them.
-        self._time = round(start + duration, 12)
-        first = math.floor(start * self.sample_rate + 1e-6) + 1
-        room = math.floor(self._time * self.sample_rate + 1e-6) - first + 1
-        samples = self._engine.advance(self._time, first, self.sample_rate, room)
-        return self._window(start, first, samples)
+        step = Fraction(round(duration * TICKS), TICKS)
+        if not step:
+            raise ValueError(f"duration = {duration!r} s: must be at least 1e-12, the clock's step")
+        first = self._samples() + 1
+        self._clock += step
+        room = self._samples() - first + 1
+        samples = self._engine.advance(self._clock, first, self.sample_rate, room)
+        return self._window(step, first, samples)
 
     def _change(self, point: OperatingPoint, tolerance: float) -> float:
-        change = Change(self._time, point, tolerance)
+        change = Change(self.time, point, tolerance)
         if change[1:] != self.log[-1][1:]:
-            self._engine.change(point, tolerance, self._time)
+            self._engine.change(point, tolerance, self._clock)
             self._books = self._account()  # play that opens or closes stores no work of this window
             self.log.append(change)
-        return self._time
+        return self.time
 
-    def _account(self) -> tuple[float, np.ndarray, float]:
-        """Time reached, ledger and stored energy at that time."""
-        return self._engine.reached, self._engine.ledger(), sum(self._engine.stored())
+    def _samples(self) -> int:
+        """Number of samples up to now."""
+        return math.floor(self._clock * self._exact_rate + LEEWAY)
 
-    def _window(self, start: float, first: int, samples: Samples) -> Window:
+    def _account(self) -> tuple[Fraction, np.ndarray, float]:
+        """Time reached, ledger since the last account and stored energy at that time."""
+        return self._engine.reached, self._engine.take_ledger(), sum(self._engine.stored())
+
+    def _window(self, step: Fraction, first: int, samples: Samples) -> Window:
         before, begin = self._books, self._end
-        self._books, self._end = self._account(), self._engine.sample(self._time)
+        self._books, self._end = self._account(), self._engine.sample(self._clock)
         train, names = self._engine.train, self._names
-        elapsed = self._books[0] - before[0]
+        elapsed = float(self._books[0] - before[0])
         if elapsed > 0.0:
-            rate = (self._books[1] - before[1]) / elapsed
+            rate = self._books[1] / elapsed
             stored = (self._books[2] - before[2]) / elapsed
         else:  # a window within one step
-            rate, stored = np.array(self._engine.march.last.power), float("nan")
+            rate, stored = self._engine.powers, float("nan")
         turned = 2.0 * math.pi * (self._end.turns - begin.turns) @ train.ratio[: train.bodies].T
-        speed = ((turned + self._end.angle - begin.angle) / (self._time - start))[0]
+        speed = ((turned + self._end.angle - begin.angle) / float(step))[0]
         mean_speed = np.append(speed, 0.0)[names.place]
         sun, carrier = mean_speed[names.names.index("sun")], mean_speed[-1]
         mesh = samples.mesh
         return Window(
-            start=start,
-            end=self._time,
+            start=float(self._clock - step),
+            end=self.time,
             bodies=names.names,
             meshes=self.meshes,
             waveform=Waveform(

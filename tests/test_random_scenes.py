@@ -148,6 +148,19 @@ def test_many_random_scenes_are_finite_dissipative_and_closed_in_energy(changes)
 
 
 @QUICK
+@given(changes=SCENES)
+def test_statics_of_a_random_scene_are_dissipative_and_closed_in_energy(changes):
+    scene = build(changes | {"dynamics": "quasi_static"})
+    if scene is None:
+        return
+    run = pt.simulate(scene, 0.004, 20_000.0)
+    for values in (run.dte, run.mesh_force, run.speed, run.angle):
+        assert np.isfinite(values).all()
+    assert run.energy.friction >= 0.0 and (run.power_loss >= 0.0).all()
+    assert abs(run.energy.residual) <= 1e-12 * turnover(run)
+
+
+@QUICK
 @given(parts=st.tuples(gears(), flows(), LAWS))
 def test_planets_may_be_renamed(parts):
     """All but the first, which defines angle zero."""

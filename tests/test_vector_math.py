@@ -1,11 +1,13 @@
-"""exp and log for vector registers against the C library's."""
+"""Functions and products for vector registers against the C library and numpy."""
 
 import math
 
 import numpy as np
 import pytest
 
-from planetary_twin_py._vector_math import exp, log
+from planetary_twin_py._combine import combine, combine_both
+from planetary_twin_py._records import BODIES
+from planetary_twin_py._vector_math import exp, log, logs, precise_exp, sin_cos
 
 
 def test_exp_is_accurate_over_the_whole_double_range():
@@ -23,3 +25,42 @@ def test_log_is_accurate_for_all_normal_numbers():
     x = np.concatenate([np.logspace(-307, 308, 20001), np.linspace(0.4, 2.5, 20001)])
     mine = np.array([log(value) for value in x])
     assert np.abs(mine - np.log(x)).max() < 1e-12
+
+
+def test_three_logarithms_at_once_are_those_one_by_one():
+    x = np.logspace(-307, 308, 5001)
+    random = np.random.default_rng(5)
+    for y, z in ((x[::-1], x), (random.permutation(x), random.permutation(x))):
+        mine = np.array([logs(*values) for values in zip(x, y, z, strict=True)])
+        assert np.abs(mine - np.log(np.column_stack([x, y, z]))).max() < 1e-12
+
+
+def test_precise_exp_keeps_its_last_digits():
+    x = np.concatenate([np.linspace(-699.0, 0.0, 20001), -np.logspace(-20, 0, 2001)])
+    mine = np.array([precise_exp(value) for value in x])
+    assert np.abs(mine / np.exp(x) - 1.0).max() < 1e-15
+    assert precise_exp(0.0) == 1.0
+    assert precise_exp(-1e6) == pytest.approx(math.exp(-700.0), rel=1e-15)
+
+
+def test_sine_and_cosine_keep_their_last_digits():
+    x = np.concatenate([
+        np.linspace(0.0, 1e5, 50001), np.linspace(0.0, 10.0, 10001), np.logspace(-20, 5, 5001),
+        np.arange(2000) * (np.pi / 4),
+    ])  # fmt: skip
+    mine = np.array([sin_cos(value) for value in x])
+    assert np.abs(mine - np.column_stack([np.sin(x), np.cos(x)])).max() < 5e-16
+    small = np.logspace(-300, -9, 1001)
+    assert [sin_cos(value)[0] for value in small] == pytest.approx(small, rel=1e-15)
+
+
+@pytest.mark.parametrize("count", [1, 7, 8, 9, 13, 16])
+def test_combine_is_a_product_with_the_rows_in_use(count):
+    random = np.random.default_rng(count)
+    rows, weights = np.zeros((BODIES, BODIES)), random.normal(size=(2, BODIES))
+    rows[:count] = random.normal(size=(count, BODIES))
+    outs = np.full((3, BODIES), np.nan)
+    combine(rows, weights[0], count, outs[0])
+    combine_both(rows, weights[0], weights[1], count, outs[1], outs[2])
+    expected = weights[:, :count] @ rows[:count]
+    assert outs == pytest.approx(expected[[0, 0, 1]], rel=1e-14, abs=1e-14)

@@ -21,6 +21,7 @@ from ..dynamics.equations import EVALUATION, forces
 from ..dynamics.observe import QUANTITIES, observe
 from ..dynamics.state import OPEN
 from ..engine import Engine
+from ..integrators.clock import delay, instant, run_on
 from ..integrators.march import accept, begin_step
 from ..scene import Scene
 
@@ -48,9 +49,11 @@ class Reference:
         while taken < count:
             begin_step(self._model, self._march)
             stretch = self._stretch()
-            begin, end = self._march.begin.time, self._march.begin.time + stretch.t[-1]
-            while taken < count and (taken + 1) / sample_rate <= end:
-                self._observe(stretch.sol, (taken + 1) / sample_rate - begin, samples[taken])
+            while taken < count:
+                wait = delay(self._march.begin, instant((taken + 1) / sample_rate))
+                if wait > stretch.t[-1]:
+                    break
+                self._observe(stretch.sol, wait, samples[taken])
                 taken += 1
             self._finish(stretch)
         return samples
@@ -123,9 +126,7 @@ class Reference:
     def _observe(self, solution: Any, delay: float, out: np.ndarray) -> None:
         self._unpack(solution(delay))
         march = self._march
-        observe(
-            self._model, march.begin, march.moment, self._x, self._v, delay, self._work.pairs, out
-        )
+        observe(self._model, march.begin, march.moment, self._x, self._v, delay, self._work, out)
 
     def _finish(self, stretch: Any) -> None:
         """Hand the end of the stretch to the march, which changes contacts and segments."""
@@ -133,7 +134,8 @@ class Reference:
         y, length = stretch.y[:, -1], float(stretch.t[-1])
         self._march.end = begin
         end.x[:n], end.v[:n], end.trim[: self._axes] = y[:n], y[n : 2 * n], y[2 * n :]
-        end.time = begin.time + length
+        run_on(begin, end, length)
+        self._march.control.step = length
         end.set_speed = begin.set_speed + self._march.moment.slew * length
         turn = begin.fraction + begin.speed * length / (2.0 * np.pi)
         end.turns, end.fraction = begin.turns + np.floor(turn), turn - np.floor(turn)

@@ -29,6 +29,7 @@ def bench(
         need_peers()
     from rich.console import Console
 
+    from ..benchmark.batch import batch_markdown, batch_table, measure_batch
     from ..benchmark.cases import CASES
     from ..benchmark.peers.problem import Problem
     from ..benchmark.peers.work_precision import peer_rows
@@ -39,12 +40,14 @@ def bench(
     with console.status("starting") as status:
         beside = peer_rows(status.update) if peers else nothing
         rows = measure(CASES, progress=status.update, beside=beside)
+        batches = measure_batch(progress=status.update)
     console.print(as_table(rows))
+    console.print(batch_table(batches))
     if peers:
         call = Problem(CASES[0].scene()).seconds_per_call()
         console.print(f"right-hand side of the peers: {call * 1e9:.0f} ns a call ({CASES[0].name})")
     if markdown is not None:
-        markdown.write_text(as_markdown(rows), "utf-8")
+        markdown.write_text(as_markdown(rows) + batch_markdown(batches), "utf-8")
     if json_ is not None:
         text = json.dumps([row.figures() for row in rows], indent=2) + "\n"
         sys.stdout.write(text) if json_ == "-" else Path(json_).write_text(text, "utf-8")

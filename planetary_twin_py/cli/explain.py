@@ -42,7 +42,7 @@ def explain(
         fail(error)
     console.print(f"[bold]{loaded.name}[/bold]: {loaded.description}\n")
     console.print(_table(loaded, found))
-    console.print(_limits())
+    console.print(_limits(loaded))
     if json_ is not None:
         text = json.dumps(_as_figures(found), indent=2) + "\n"
         sys.stdout.write(text) if json_ == "-" else Path(json_).write_text(text, "utf-8")
@@ -79,13 +79,13 @@ def _change(with_: Figures, without: Figures, name: str) -> str:
     return f"{100 * (after / before - 1.0):+.2f} %" if before > 0.0 else "-"
 
 
-def _limits() -> Table:
+def _limits(scene: Scene) -> Table:
     from rich.table import Table
 
-    from ..explanation.terms import NOT_MODELLED
+    from ..explanation.terms import limits
 
-    table = Table("not modelled", "so", title="Left out of every scene")
-    for limit in NOT_MODELLED:
+    table = Table("not modelled", "so", title="Left out")
+    for limit in limits(scene):
         table.add_row(*limit)
     return table
 

@@ -12,4 +12,4 @@ from .._records import Record
 def body_speed(train: Record, state: Record, v: np.ndarray, j: int) -> float:
     """Absolute speed of body j [rad/s]."""
     rigid = train.ratio[j, 0] * state.speed[0] + train.ratio[j, 1] * state.speed[1]
-    return rigid + v[j] / train.radius[j]
+    return rigid + v[j] * train.inverse_radius[j]

@@ -14,7 +14,7 @@ from .._compile import kernel, law
 from .._records import Record
 from .cycle import find_segment, mesh_cycle
 from .mesh_force import deflection, stored_energy
-from .moment import damping_time
+from .moment import damping_time, passing_rate
 from .state import COAST_SIDE, DAMPING, DRIVE_SIDE, OPEN, STIFFNESS_WORK
 
 
@@ -43,7 +43,7 @@ def departure(
     """
     advance, pace, slack = stand
     d, rate, _ = deflection(model.train, moment, i, x, v, advance, pace)
-    tau = damping_time(model.train, moment, v, model.train.kind[i])
+    tau = damping_time(model.train, model.train.kind[i], passing_rate(model.train, moment, v))
     return play_left(model.load, state.side[i], d, tau * rate, slack)
 
 

@@ -71,7 +71,7 @@ def _sense(speed: float) -> float:
 def apply_drag(model: Record, state: Record, v: np.ndarray, out: Record) -> None:
     """Add the drag of bearings and discs to out.rubbing; book it in out.power.
 
-    Reads the pushes of the meshes from `out.push`.
+    Reads the pushes of the meshes from `out.now`.
     """
     train, oil = model.train, model.oil
     planets = train.meshes // 2
@@ -83,7 +83,7 @@ def apply_drag(model: Record, state: Record, v: np.ndarray, out: Record) -> None
         )
         load = 0.0
         if planet != NO_PLANET:
-            load = train.pin_share * abs(out.push[planet] + out.push[planets + planet])
+            load = train.pin_share * abs(out.now.push[planet] + out.now.push[planets + planet])
         speed = body_speed(train, state, v, inner) - body_speed(train, state, v, outer)
         torque = bearing_torque(
             train.bearing_idle[b], train.bearing_rubbing[b], oil.kinematic, speed, load

@@ -12,30 +12,20 @@ import math
 import numpy as np
 
 from .._compile import kernel
-from .._records import BODIES, MESHES, REAL, WHOLE, Record, layout
+from .._records import BODIES, REAL, Record, layout
 from .bodies import MOTOR
 from .body_speed import body_speed
-from .cycle import cycle_shift
 from .drag import apply_drag
-from .mesh_force import press
-from .moment import damping_time
+from .mesh_force import MESHES_NOW, move_meshes, place_meshes, press, press_faulty, spread
 from .oil import OIL
-from .state import (
-    DAMPING,
-    FRICTION,
-    IMPULSE,
-    LEDGER,
-    LOAD,
-    OPEN,
-    STIFFNESS_WORK,
-    WORK,
-)
+from .state import DAMPING, FRICTION, IMPULSE, LEDGER, LOAD, WORK
 from .tooth_friction import (
+    DRAG_OF_MESHES,
     TOOTH_PAIRS,
-    apply_friction,
-    apply_printed_friction,
-    apply_rolling,
+    collect,
+    collect_printed,
     evaluate,
+    turn_pairs,
 )
 from .train import TRAIN
 
@@ -47,10 +37,9 @@ EVALUATION = layout(
     force=(REAL, (BODIES,)),  # [N]
     rubbing=(REAL, (BODIES,)),  # friction and drag alone [N]
     power=(REAL, (LEDGER,)),  # integrands of the energy ledger [W]
-    push=(REAL, (MESHES,)),  # of every mesh, 0 if open [N]
-    first_pair=WHOLE,  # its tooth pairs in a TOOTH_PAIRS
-    end_pair=WHOLE,
+    now=MESHES_NOW,
     pairs=TOOTH_PAIRS,
+    dragging=DRAG_OF_MESHES,
 )
 
 
@@ -69,37 +58,10 @@ def forces(
 
     `state` gives the sides in contact, the segments and x at the start.
     """
-    train = model.train
-    begin_pairs(train, train.friction, out.pairs)
-    squeeze(model, state, moment, x, v, delay, out, out.pairs)
-    if train.friction:
-        evaluate(model, out.pairs)
-    rub(model, state, v, out, out.pairs)
+    move_meshes(model.train, x, v, out.now)
+    squeeze(model, state, moment, x, v, delay, out)
+    rub(model, state, moment, v, out)
     drive(model, state, moment, x, v, delay, trim, out)
-
-
-@kernel
-def begin_pairs(train: Record, wanted: bool, pairs: Record) -> None:
-    """Empty `pairs`; faulty meshes need them in any case."""
-    pairs.count = 0
-    pairs.wanted = wanted or train.faults > 0
-
-
-@kernel
-def place_pairs(
-    train: Record,
-    state: Record,
-    moment: Record,
-    x: np.ndarray,
-    v: np.ndarray,
-    delay: float,
-    pairs: Record,
-) -> None:
-    """Note where the meshes stand `delay` seconds after the start of a step."""
-    pairs.advance = moment.cycle_rate * delay + cycle_shift(train, x) - cycle_shift(train, state.x)
-    pairs.pace = moment.cycle_rate + cycle_shift(train, v)
-    for kind in range(2):
-        pairs.tau[kind] = damping_time(train, moment, v, kind)
 
 
 @kernel
@@ -111,46 +73,43 @@ def squeeze(
     v: np.ndarray,
     delay: float,
     out: Record,
-    pairs: Record,
 ) -> None:
-    """Forces of the meshes; their tooth pairs are appended to `pairs` if those are wanted.
-
-    The first part of `forces`: the pairs of several instants can be evaluated side by side.
-    """
-    train, force, power = model.train, out.force, out.power
-    force[:] = 0.0
-    power[:] = 0.0
-    place_pairs(train, state, moment, x, v, delay, pairs)
-    out.first_pair = pairs.count
-    for i in range(train.meshes):
-        side = state.side[i]
-        if side == OPEN:
-            out.push[i] = 0.0
-            continue
-        push, lost, work = press(model, state, moment, i, x, v, pairs)
-        for j in range(3):
-            force[train.body[i, j]] -= side * push * train.sign[i, j]
-        out.push[i] = push
-        power[DAMPING] += lost
-        power[STIFFNESS_WORK] += work
-    out.end_pair = pairs.count
+    """Pushes of the meshes, whose transmission errors are known."""
+    train, now = model.train, out.now
+    out.power[:] = 0.0
+    place_meshes(train, state, moment, x, v, delay, now)
+    if train.faults > 0:
+        press_faulty(model, state, moment, now, out.pairs, out.power)
+    else:
+        press(model, moment, now, out.power)
 
 
 @kernel
-def rub(model: Record, state: Record, v: np.ndarray, out: Record, pairs: Record) -> None:
-    """Add friction and drag to the forces of the meshes."""
-    train, force, power = model.train, out.rubbing, out.power
-    force[:] = 0.0
-    span = (out.first_pair, out.end_pair if train.friction else out.first_pair)
-    if train.printed_torque:
-        power[FRICTION] = apply_printed_friction(train, state, v, pairs, span, force)
-    else:
-        power[FRICTION] = apply_friction(train, pairs, span, force)
-    if model.oil.rolling:
-        power[FRICTION] += apply_rolling(train, pairs, span, force)
+def share_loads(model: Record, moment: Record, out: Record) -> None:
+    """Share the pushes among the tooth pairs, where that is not done yet."""
+    if model.train.faults == 0:
+        spread(model, moment, out.now, out.pairs)
+
+
+@kernel
+def rub(model: Record, state: Record, moment: Record, v: np.ndarray, out: Record) -> None:
+    """Friction and drag."""
+    train, pairs, dragging = model.train, out.pairs, out.dragging
+    out.rubbing[:] = 0.0
+    if train.friction:
+        share_loads(model, moment, out)
+        turn_pairs(train, moment, v, pairs)
+        evaluate(model, pairs)
+        if train.printed_torque:
+            collect_printed(train, moment, v, pairs, dragging)
+        else:
+            collect(train, pairs, dragging)
+        for i in range(train.meshes):
+            out.power[FRICTION] += dragging.power[i]
+            for j in range(3):
+                out.rubbing[train.body[i, j]] += dragging.torque[j, i] * train.lever[j, i]
     if train.bearings + train.discs > 0:
         apply_drag(model, state, v, out)
-    out.force[:] += force
 
 
 @kernel
@@ -164,7 +123,13 @@ def drive(
     trim: np.ndarray,
     out: Record,
 ) -> None:
-    """Add the couplings and the machines."""
+    """All forces together: pushes of the meshes, friction and drag, couplings, machines."""
+    train = model.train
+    out.force[:] = out.rubbing
+    for i in range(train.meshes):
+        push = state.side[i] * out.now.push[i]
+        for j in range(3):
+            out.force[train.body[i, j]] -= push * train.sign[i, j]
     _couplings(model.train, x, v, out)
     _machines(model, state, moment, x, v, delay, trim, out)
     out.force[model.train.bodies] = 0.0  # the ground
@@ -208,7 +173,7 @@ def _machines(
             torque += load.proportional[own] * (set_speed - speed)
             for a in range(train.axes):
                 torque += load.inertia[own, a] * moment.slew[a]
-        if c == MOTOR:
+        if c == MOTOR and load.ripple != 0.0:
             angle = 2.0 * math.pi * state.fraction[0] + state.speed[0] * delay
             angle += x[body] / train.radius[body]
             torque += load.ripple * math.sin(load.ripple_order * angle)

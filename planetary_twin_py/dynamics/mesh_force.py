@@ -1,4 +1,4 @@
-"""The force of one mesh, shared among its tooth pairs.
+"""The forces of the meshes, and how their tooth pairs share them.
 
 A closed mesh is squeezed by q = d - e - b on its side, d the transmission error, e the error of
 form, b half the backlash. A pair of stiffness k pushes with k (q + tau q'), Salagianni et al. 2017,
@@ -10,14 +10,28 @@ from __future__ import annotations
 import numpy as np
 
 from .._compile import kernel, law
-from .._records import Record
-from ..mesh.tooth_pairs import TOTAL
-from .body_speed import body_speed
+from .._records import MESHES, REAL, Record, layout
+from ..mesh.tooth_pairs import PAIRS, TOTAL
+from .cycle import cycle_shift, frame_cycle
 from .form_errors import form_error, form_error_bend
-from .moment import place_mesh
-from .state import OPEN
+from .moment import passing_rate, place_mesh
+from .state import DAMPING, OPEN, STIFFNESS_WORK
 
-LINEAR = 2  # terms
+# All meshes at one instant; entry i belongs to mesh i.
+MESHES_NOW = layout(
+    advance=REAL,  # mesh cycles since the start of the step
+    pace=REAL,  # mesh cycles per second
+    following=REAL,  # damping time that follows the rate at which teeth pass [s]
+    d=(REAL, (MESHES,)),  # transmission error, less the error of form [m]
+    rate=(REAL, (MESHES,)),  # of it [m/s]
+    error_rate=(REAL, (MESHES,)),  # of the error of form [m/s]
+    weight=(REAL, (PAIRS + 1, MESHES)),  # of the tooth pairs, and their sum
+    growth=(REAL, (PAIRS + 1, MESHES)),  # per cycle
+    inverse=(REAL, (MESHES,)),  # of the sum of the weights
+    push=(REAL, (MESHES,)),  # force, 0 if open [N]
+    lost=(REAL, (MESHES,)),  # to damping [W]
+    work=(REAL, (MESHES,)),  # what the changing shape puts in [W]
+)
 
 
 @law
@@ -52,10 +66,6 @@ def polynomial(
     table: np.ndarray, kind: int, segment: int, pair: int, u: float, terms: int
 ) -> tuple[float, float]:
     """A tabulated polynomial and its derivative at `u` cycles into a segment."""
-    slope = table[kind, segment, pair, 1]
-    value = table[kind, segment, pair, 0] + slope * u
-    if terms == LINEAR:  # what a given stiffness needs
-        return value, slope
     value = slope = 0.0
     for n in range(terms - 1, -1, -1):
         slope = slope * u + value
@@ -77,6 +87,105 @@ def mesh_stiffness(train: Record, kind: int, segment: int, cycle: float) -> floa
 
 
 @kernel
+def move_meshes(train: Record, x: np.ndarray, v: np.ndarray, now: Record) -> None:
+    """Transmission errors and their rates from the motion of the bodies."""
+    for i in range(train.meshes):
+        now.d[i], now.rate[i] = mesh_motion(train, i, x), mesh_motion(train, i, v)
+
+
+@kernel
+def place_meshes(
+    train: Record, state: Record, moment: Record, x: np.ndarray, v: np.ndarray, delay: float,
+    now: Record,
+) -> None:  # fmt: skip
+    """Where the meshes stand `delay` seconds after the start of a step, errors of form counted."""
+    now.advance = moment.cycle_rate * delay + cycle_shift(train, x) - cycle_shift(train, state.x)
+    now.pace = moment.cycle_rate + cycle_shift(train, v)
+    rate = max(passing_rate(train, moment, v), train.lowest_frequency)
+    now.following = train.damping_cycles / rate
+    if train.lines[0] + train.lines[1] > 0:
+        for i in range(train.meshes):
+            e, e_rate = form_error(train, i, moment.line_angle, now.advance, now.pace)
+            now.d[i] -= e
+            now.rate[i] -= e_rate
+            now.error_rate[i] = e_rate
+
+
+@law
+def _weigh(train: Record, moment: Record, now: Record, pair: int) -> None:
+    """Weights of one tooth pair of all meshes, and their growth."""
+    lanes, advance = train.lanes, now.advance
+    if train.terms == 2:  # what a given stiffness needs
+        for i in range(lanes):
+            u = moment.start[i] - moment.low[i] + moment.side[i] * advance
+            slope = moment.weight[pair, 1, i]
+            now.weight[pair, i] = moment.weight[pair, 0, i] + slope * u
+            now.growth[pair, i] = slope
+        return
+    last = train.terms - 1
+    for i in range(lanes):
+        now.weight[pair, i], now.growth[pair, i] = moment.weight[pair, last, i], 0.0
+    for t in range(last - 1, -1, -1):
+        for i in range(lanes):
+            u = moment.start[i] - moment.low[i] + moment.side[i] * advance
+            value = now.weight[pair, i]
+            now.growth[pair, i] = now.growth[pair, i] * u + value
+            now.weight[pair, i] = value * u + moment.weight[pair, t, i]
+
+
+@kernel
+def press(model: Record, moment: Record, now: Record, power: np.ndarray) -> None:
+    """Pushes of all meshes from where they stand; what they lose and put in goes into `power`."""
+    train, pace, following = model.train, now.pace, now.following
+    offset, inner_squared = model.load.offset, model.load.inner_squared
+    _weigh(train, moment, now, TOTAL)
+    for i in range(train.lanes):
+        side, closed = moment.side[i], abs(moment.side[i])
+        k = closed * (moment.base[i] + moment.gain[i] * now.weight[TOTAL, i])
+        squeeze, closing = side * now.d[i] - offset, side * now.rate[i]
+        damped = k * (moment.fixed[i] + following) * closing
+        push = k * squeeze + damped
+        work = 0.5 * closed * moment.gain[i] * now.growth[TOTAL, i]
+        work *= (squeeze * squeeze - inner_squared) * pace
+        now.push[i] = push
+        now.lost[i] = damped * closing
+        now.work[i] = side * (work - push * now.error_rate[i])
+    _book(train, now, power)
+
+
+@law
+def _book(train: Record, now: Record, power: np.ndarray) -> None:
+    lost = work = 0.0
+    for i in range(train.meshes):
+        lost += now.lost[i]
+        work += now.work[i]
+    power[DAMPING], power[STIFFNESS_WORK] = lost, work
+
+
+@kernel
+def spread(model: Record, moment: Record, now: Record, pairs: Record) -> None:
+    """Loads and radii of the tooth pairs of all meshes."""
+    train = model.train
+    pitch, meshes, lanes = train.base_pitch, train.meshes, train.lanes
+    passed = now.advance * pitch
+    for i in range(lanes):
+        now.inverse[i] = 1.0 / now.weight[TOTAL, i]
+    for p in range(train.slots):
+        _weigh(train, moment, now, p)
+        first = p * meshes  # the next pair takes over what whole registers write beyond
+        for i in range(lanes):
+            share = now.weight[p, i] * now.inverse[i]
+            pairs.share[first + i] = share
+            pairs.load[first + i] = max(share * now.push[i], 0.0)
+        for i in range(lanes):
+            s = moment.side[i] * passed + moment.start[i] * pitch
+            pairs.rho1[first + i] = moment.rho1[p, i] + s
+            pairs.rho2[first + i] = moment.rho2[p, i] - moment.external[i] * s
+            pairs.external[first + i] = moment.external[i]
+    pairs.count = train.slots * meshes
+
+
+@kernel
 def fault_effect(
     train: Record, moment: Record, i: int, segment: int, pair: int, u: float
 ) -> tuple[float, float, float]:
@@ -93,81 +202,50 @@ def fault_effect(
     return factor, growth, gap
 
 
-@law
-def append_pairs(
-    train: Record, state: Record, i: int, cycle: float, total: float, v: np.ndarray, pairs: Record
-) -> int:
-    """Append the tooth pairs of mesh i at a fraction of its cycle, with their share of its load.
-
-    Returns the place of the first.
-    """
-    kind, segment, begin = train.kind[i], state.segment[i], pairs.count
-    frame = body_speed(train, state, v, train.body[i, 2])
-    speed1 = body_speed(train, state, v, train.body[i, 0]) - frame
-    speed2 = body_speed(train, state, v, train.body[i, 1]) - frame
-    u, inverse = cycle - train.edge[kind, segment], 1.0 / total
-    for p in range(train.present[kind, segment]):
-        n = begin + p
-        s = (cycle + train.shift[kind, segment, p]) * train.base_pitch
-        weight, slope = polynomial(train.weight, kind, segment, p, u, train.terms)
-        pairs.mesh[n] = i
-        pairs.share[n] = weight * inverse
-        pairs.growth[n] = slope * inverse
-        pairs.rho1[n] = train.pitch_curvature[kind, 0] + s
-        pairs.rho2[n] = train.pitch_curvature[kind, 1] - train.external[kind] * s
-        pairs.external[n] = train.external[kind]
-        pairs.speed1[n] = speed1
-        pairs.speed2[n] = speed2
-    pairs.count += train.present[kind, segment]
-    return begin
-
-
-@law
-def press(
-    model: Record,
-    state: Record,
-    moment: Record,
-    i: int,
-    x: np.ndarray,
-    v: np.ndarray,
-    pairs: Record,
-) -> tuple[float, float, float]:
-    """Push of closed mesh i, whose tooth pairs are appended to `pairs` if they are wanted.
-
-    `pairs.advance` and `pairs.pace` tell where the meshes stand.
-
-    Returns:
-        Force [N], power lost to damping [W], power that its changing shape puts in [W].
-    """
-    train, tau = model.train, pairs.tau[model.train.kind[i]]
-    side, kind, segment = state.side[i], train.kind[i], state.segment[i]
-    d, rate, e_rate = deflection(train, moment, i, x, v, pairs.advance, pairs.pace)
-    squeeze, closing = side * d - model.load.offset, side * rate
-    cycle = moment.start[i] + side * pairs.advance
-    u = cycle - train.edge[kind, segment]
-    total, growth = total_weight(train, kind, segment, u)
-    begin = pairs.count
-    if pairs.wanted:
-        append_pairs(train, state, i, cycle, total, v, pairs)
-    if train.faults > 0:
-        cramp = (u, squeeze, closing, total, growth)
-        force, lost, work = press_faulty(model, moment, i, segment, begin, cramp, pairs)
-    else:
-        k = train.stiffness_base[kind] + train.stiffness_gain[kind] * total
-        force = k * (squeeze + tau * closing)
-        lost = tau * k * closing * closing
-        work = 0.5 * train.stiffness_gain[kind] * growth
-        work *= squeeze * squeeze - model.load.inner_squared
-        for n in range(begin, pairs.count):
-            pairs.load[n] = max(pairs.share[n] * force, 0.0)
-    return force, lost, side * (work * pairs.pace - force * e_rate)
+@kernel
+def press_faulty(
+    model: Record, state: Record, moment: Record, now: Record, pairs: Record, power: np.ndarray
+) -> None:
+    """The same as `press` and `spread`, pair by pair, since each may have its faults."""
+    train, load = model.train, model.load
+    _weigh(train, moment, now, TOTAL)
+    spread(model, moment, now, pairs)
+    for i in range(train.meshes):
+        side, segment = state.side[i], state.segment[i]
+        now.push[i] = now.lost[i] = now.work[i] = 0.0
+        if side == OPEN:
+            continue
+        u = moment.start[i] - moment.low[i] + side * now.advance
+        squeeze, closing = side * now.d[i] - load.offset, side * now.rate[i]
+        tau, total = moment.fixed[i] + now.following, now.weight[TOTAL, i]
+        per_weight = moment.base[i] / total + moment.gain[i]
+        falling = -moment.base[i] * now.growth[TOTAL, i] / (total * total)
+        work = 0.0
+        for p in range(train.slots):
+            factor, slope, gap = fault_effect(train, moment, i, segment, p, u)
+            weight = now.weight[p, i]
+            k = per_weight * weight * factor
+            dk = (per_weight * now.growth[p, i] + falling * weight) * factor
+            dk += per_weight * weight * slope
+            q = squeeze - gap
+            if gap > 0.0 and q < 0.0:
+                k = dk = 0.0
+            force = k * (q + tau * closing)
+            if gap > 0.0:
+                force = max(force, 0.0)
+            now.push[i] += force
+            now.lost[i] += (force - k * q) * closing
+            work += 0.5 * dk * (q * q - load.inner_squared)
+            pairs.load[p * train.meshes + i] = max(force, 0.0)
+        now.work[i] = side * (work * now.pace - now.push[i] * now.error_rate[i])
+    _book(train, now, power)
 
 
 @kernel
 def push_drift(model: Record, state: Record, moment: Record, i: int, pace: float) -> float:
     """Growth [N/s] of the push of closed mesh i with its cycle, were its bodies to rest in x."""
     train, kind, side = model.train, model.train.kind[i], state.side[i]
-    tau, u = moment.tau[kind], moment.start[i] - train.edge[kind, state.segment[i]]
+    tau, u = moment.tau[kind], moment.start[i] - moment.low[i]
     d, rate, e_rate = deflection(train, moment, i, state.x, state.v, 0.0, pace)
     total, growth = total_weight(train, kind, state.segment[i], u)
     push = side * d - model.load.offset + tau * side * rate
@@ -180,52 +258,15 @@ def push_drift(model: Record, state: Record, moment: Record, i: int, pace: float
 
 
 @kernel
-def press_faulty(
-    model: Record,
-    moment: Record,
-    i: int,
-    segment: int,
-    begin: int,
-    cramp: tuple[float, float, float, float, float],
-    pairs: Record,
-) -> tuple[float, float, float]:
-    """Force, loss and work per cycle of a mesh, pair by pair, since each may have its faults.
-
-    `cramp` holds the cycles into the segment, squeeze [m], its rate, the sum of the weights and
-    its growth per cycle.
-    """
-    u, squeeze, closing, total, growth = cramp
-    train, kind = model.train, model.train.kind[i]
-    stiffness = train.stiffness_base[kind] + train.stiffness_gain[kind] * total
-    stiffness_growth = -train.stiffness_base[kind] * growth / total
-    force = lost = work = 0.0
-    for n in range(begin, pairs.count):
-        factor, slope, gap = fault_effect(train, moment, i, segment, n - begin, u)
-        healthy = stiffness * pairs.share[n]
-        healthy_growth = stiffness * pairs.growth[n] + stiffness_growth * pairs.share[n]
-        k, dk = healthy * factor, healthy_growth * factor + healthy * slope
-        q = squeeze - gap
-        if gap > 0.0 and q < 0.0:
-            k = dk = 0.0
-        load = k * (q + pairs.tau[kind] * closing)
-        if gap > 0.0:
-            load = max(load, 0.0)
-        force += load
-        lost += (load - k * q) * closing
-        work += 0.5 * dk * (q * q - model.load.inner_squared)
-        pairs.load[n] = max(load, 0.0)
-    return force, lost, work
-
-
-@kernel
 def stored_energy(model: Record, state: Record, moment: Record, i: int) -> float:
     """Elastic energy [J] of mesh i; `moment` is room for where it stands."""
     side = state.side[i]
     if side == OPEN:
         return 0.0
     train, kind, segment = model.train, model.train.kind[i], state.segment[i]
-    place_mesh(train, state, moment, i)
-    u = moment.start[i] - train.edge[kind, segment]
+    cycles = frame_cycle(train, state, 1) + cycle_shift(train, state.x)
+    place_mesh(train, state, moment, i, cycles)
+    u = moment.start[i] - moment.low[i]
     d = deflection(train, moment, i, state.x, state.v, 0.0, 0.0)[0]
     per_weight = (
         train.stiffness_base[kind] / total_weight(train, kind, segment, u)[0]

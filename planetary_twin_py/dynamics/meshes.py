@@ -41,6 +41,7 @@ MESHES_LAYOUT: dict[str, Any] = {
     "edge": (REAL, (2, SEGMENTS + 1)),
     "shift": (REAL, (2, SEGMENTS, PAIRS)),
     "present": (WHOLE, (2, SEGMENTS)),  # number of tooth pairs
+    "slots": WHOLE,  # tooth pairs of a mesh at most
     "terms": WHOLE,  # of the polynomials below that are in use
     "weight": (REAL, (2, SEGMENTS, PAIRS + 1, TERMS)),
     **FORM_ERRORS_LAYOUT,
@@ -93,6 +94,7 @@ def build_meshes(scene: Scene, place: dict[str, int]) -> dict[str, object]:
         "edge": np.array([table.edge for table in tables]),
         "shift": np.array([table.shift for table in tables]),
         "present": np.array([table.present.sum(axis=1) for table in tables]),
+        "slots": max(int(table.present.sum(axis=1).max()) for table in tables),
         "terms": max(terms_in_use(table) for table in tables),
         "weight": np.array([table.weight for table in tables]),
         **build_form_errors(scene),

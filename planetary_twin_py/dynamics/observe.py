@@ -2,14 +2,17 @@
 
 from __future__ import annotations
 
+import math
+
 import numpy as np
 
 from .._compile import kernel
 from .._records import Record
-from .equations import place_pairs
-from .mesh_force import mesh_motion, press
+from .equations import share_loads, squeeze
+from .mesh_force import mesh_motion, move_meshes
 from .state import OPEN
-from .tooth_friction import evaluate, rolling_power
+from .tooth_contact import lambda_ratio_of
+from .tooth_friction import evaluate, turn_pairs
 
 # Rows of the answer of `observe`.
 DTE, MESH_FORCE, BOUNDARY, VISCOUS, FILM, LAMBDA, POWER_LOSS, MESH_POWER = range(8)
@@ -24,33 +27,36 @@ def observe(
     x: np.ndarray,
     v: np.ndarray,
     delay: float,
-    pairs: Record,
+    work: Record,
     out: np.ndarray,
 ) -> None:
     """Fill out[:, i] for every mesh i; film and lambda ratio are NaN without contact.
 
-    Both are means over the tooth pairs, weighted by load. Friction forces are magnitudes.
+    Both are means over the tooth pairs, weighted by load. Friction forces are magnitudes. `work`
+    is an EVALUATION to work in.
     """
-    train = model.train
+    train, oil, now, pairs = model.train, model.oil, work.now, work.pairs
     out[:] = 0.0
-    pairs.count = 0
-    place_pairs(train, state, moment, x, v, delay, pairs)
-    pairs.wanted = True
+    move_meshes(train, x, v, now)
+    squeeze(model, state, moment, x, v, delay, work)
+    share_loads(model, moment, work)
     for i in range(train.meshes):
-        side = state.side[i]
+        side, force = state.side[i], max(now.push[i], 0.0)
         out[DTE, i] = mesh_motion(train, i, x)
+        out[MESH_FORCE, i] = side * force
+        out[MESH_POWER, i] = force * train.base_pitch * abs(now.pace)
         if side == OPEN:
             out[FILM, i] = out[LAMBDA, i] = np.nan
-        else:
-            force = press(model, state, moment, i, x, v, pairs)[0]
-            out[MESH_FORCE, i] = side * max(force, 0.0)
-            out[MESH_POWER, i] = max(force, 0.0) * train.base_pitch * abs(pairs.pace)
+    turn_pairs(train, moment, v, pairs)
     evaluate(model, pairs)
-    for p in range(pairs.count):
-        i = pairs.mesh[p]
-        out[FILM, i] += pairs.share[p] * pairs.film[p]
-        out[LAMBDA, i] += pairs.share[p] * pairs.lambda_ratio[p]
-        if train.friction:
-            out[BOUNDARY, i] += pairs.boundary[p]
-            out[VISCOUS, i] += pairs.viscous[p]
-            out[POWER_LOSS, i] += pairs.friction[p] * pairs.sliding[p] + rolling_power(pairs, p)
+    for p in range(train.slots):
+        for i in range(train.meshes):
+            k = p * train.meshes + i
+            out[FILM, i] += pairs.share[k] * math.exp(pairs.log_film[k])
+            ratio = lambda_ratio_of(oil, oil.prescribed, pairs.log_film[k])
+            out[LAMBDA, i] += pairs.share[k] * ratio
+            if train.friction:
+                out[BOUNDARY, i] += pairs.boundary[k]
+                out[VISCOUS, i] += pairs.viscous[k]
+                taken = pairs.friction[k] * pairs.sliding[k] + pairs.rolling_power[k]
+                out[POWER_LOSS, i] += taken

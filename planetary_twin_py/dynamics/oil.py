@@ -5,9 +5,9 @@ from __future__ import annotations
 import math
 
 from .._records import FLAG, REAL, Record, fields_of, layout, new_record
-from ..lubrication.boundary import Asperities
+from ..lubrication.boundary import Asperities, boundary_shear
 from ..lubrication.film import FILM_LAWS, FilmLaw
-from ..lubrication.hertz import contact_modulus
+from ..lubrication.hertz import contact_modulus, half_width
 from ..lubrication.traction import Traction
 from ..lubrication.viscosity import viscosity_at
 from ..scene import OperatingPoint, Scene
@@ -19,11 +19,16 @@ OIL = layout(
     traction=fields_of(Traction),
     contact_modulus=REAL,  # E* [Pa]
     face_width=REAL,  # L [m]
-    viscosity=REAL,  # eta0 [Pa s]
+    log_speed_group=REAL,  # logarithm of U R/V = eta0/E' in SI units
+    log_material=REAL,  # of G
+    log_load_group=REAL,  # of W R/F = 1/(E' L)
+    log_area=REAL,  # of A/sqrt(R F)
+    log_roughness=REAL,  # of sigma
     density=REAL,  # [kg/m^3]
     kinematic=REAL,  # eta0/density [m^2/s]
-    roughness=REAL,  # sigma [m]
     prescribed=FLAG,  # lambda ratio: prescribed, or film/roughness
+    lambda_ratio=REAL,  # [-], where it is prescribed
+    asperity_shear=REAL,  # boundary friction per area at that ratio [Pa]
     printed_asperities=FLAG,
     sharing=FLAG,  # boundary friction: by load sharing, or of Greenwood and Tripp's asperities
     boundary_coefficient=REAL,  # [-], of the former
@@ -36,6 +41,7 @@ def build_oil(scene: Scene, point: OperatingPoint) -> Record:
     """Collect the constants of the laws a scene chooses, at the temperature of the oil."""
     data = scene.lubrication
     modulus = contact_modulus(data.youngs_modulus, data.poisson_ratio)
+    width = scene.gearset.face_width
     viscosity = viscosity_at(
         point.oil_temperature,
         (data.reference_temperature, data.viscosity),
@@ -44,34 +50,38 @@ def build_oil(scene: Scene, point: OperatingPoint) -> Record:
     )
     printed_traction = data.traction == "printed"
     roughness_squared = math.pi * data.roughness_parameter**2
+    asperities = Asperities(
+        area_factor=math.pi * roughness_squared,
+        pressure_factor=(
+            16.0
+            * math.sqrt(2.0)
+            / 15.0
+            * roughness_squared
+            * math.sqrt(data.asperity_slope)
+            * (2.0 * modulus if data.modulus == "printed" else modulus)
+        ),
+        shear_stress=data.shear_stress,
+        pressure_coefficient=data.pressure_coefficient,
+    )
+    printed_asperities = data.asperities == "printed"
     return new_record(
         OIL,
         film=FILM_LAWS[data.film],
-        asperities=Asperities(
-            area_factor=math.pi * roughness_squared,
-            pressure_factor=(
-                16.0
-                * math.sqrt(2.0)
-                / 15.0
-                * roughness_squared
-                * math.sqrt(data.asperity_slope)
-                * (2.0 * modulus if data.modulus == "printed" else modulus)
-            ),
-            shear_stress=data.shear_stress,
-            pressure_coefficient=data.pressure_coefficient,
-        ),
+        asperities=asperities,
         traction=Traction(
             shear_stress=data.shear_stress,
             pressure_viscosity=data.pressure_viscosity,
-            conductivity_group=(
-                2.0
+            log_root=math.log(
+                (1.2 / data.shear_stress) ** 2
+                * 2.0
                 * data.oil_conductivity
                 * viscosity
                 / (1.0 if printed_traction else data.temperature_viscosity)
             ),
             least=-math.inf if printed_traction else 0.0,
-            film_heating=(
-                4.0
+            log_heating=math.log(
+                9.6
+                * 4.0
                 / math.pi
                 * data.oil_conductivity
                 / math.sqrt(
@@ -84,13 +94,18 @@ def build_oil(scene: Scene, point: OperatingPoint) -> Record:
             ),
         ),
         contact_modulus=modulus,
-        face_width=scene.gearset.face_width,
-        viscosity=viscosity,
+        face_width=width,
+        log_speed_group=math.log(viscosity / (2.0 * modulus)),
+        log_material=math.log(data.pressure_viscosity * 2.0 * modulus),
+        log_load_group=-math.log(2.0 * modulus * width),
+        log_area=math.log(2.0 * width * half_width(1.0, 1.0, width, modulus)),
+        log_roughness=math.log(data.composite_roughness),
         density=data.oil_density,
         kinematic=viscosity / data.oil_density,
-        roughness=data.composite_roughness,
         prescribed=data.lambda_ratio == "prescribed",
-        printed_asperities=data.asperities == "printed",
+        lambda_ratio=point.lambda_ratio,
+        asperity_shear=boundary_shear(asperities, printed_asperities, point.lambda_ratio),
+        printed_asperities=printed_asperities,
         sharing=data.boundary == "load_sharing",
         boundary_coefficient=data.boundary_coefficient,
         rolling=data.rolling == "goksem_hargreaves",

@@ -11,12 +11,12 @@ import math
 
 import numpy as np
 
+from .._compile import kernel
 from .._records import AXES, MACHINES, Record, new_record
 from ..scene import OperatingPoint, Scene
 from .bodies import LOAD_MACHINE, MOTOR, SECOND_MOTOR
 from .cycle import find_segment, mesh_cycle
 from .equations import EVALUATION, forces
-from .form_errors import form_error
 from .mesh_force import deflection, mesh_stiffness
 from .moment import MOMENT, frame_cycle_rate, set_moment
 from .state import COAST_SIDE, DRIVE_SIDE, LOAD, OPEN, STATE
@@ -45,7 +45,6 @@ def build_load(scene: Scene, point: OperatingPoint, train: Record) -> Record:
         offset=offset,
         inner_squared=(half - offset) ** 2,
         release=1.0 if scene.mesh.backlash == "dead_zone" else 0.0,
-        lambda_ratio=point.lambda_ratio,
         target_speed=np.array([point.input_speed, point.second_input_speed][:axes]),
         slew_rate=control.slew_rate,
         torque=point.input_torque * torques,
@@ -76,34 +75,43 @@ def start_state(scene: Scene, model: Record) -> Record:
     state.set_speed[:] = state.speed
     mean = mesh_force(scene, float(load.torque[MOTOR]))
     state.side[: train.meshes] = DRIVE_SIDE if mean >= 0.0 else COAST_SIDE
-    drag = np.zeros(axes)
-    for point in range(CYCLE_POINTS):
-        state.fraction[0] = point / (CYCLE_POINTS * abs(train.cycles[0]))
-        _settle(model, state, moment, mean)
-        drag += _drag(model, state, moment) / CYCLE_POINTS
-    state.fraction[0] = 0.0
+    steady = model.copy()
+    steady.load.ripple = 0.0
+    steady.load.proportional[:] = 0.0
+    drag = _mean_drag(steady, state, moment, mean, new_record(EVALUATION))
     _settle(model, state, moment, mean)
     _choose_sides(model, state, moment)
     # In steady running the machines give what friction takes along each rigid motion.
     bodies = train.coupling[: train.machines, 0]
     effect = train.ratio[bodies, :axes].T @ load.trim_gain[: train.machines, :axes]
-    state.trim[:axes] = np.linalg.solve(effect, drag)
+    state.trim[:axes] = np.linalg.solve(effect, drag[:axes])
     return state
 
 
-def _drag(model: Record, state: Record, moment: Record) -> np.ndarray:
-    """Torques against the rigid motion of each motor [N m]: friction, all else being balanced."""
-    train, evaluation = model.train, new_record(EVALUATION)
-    steady = model.copy()
-    steady.load.ripple = 0.0
-    steady.load.proportional[:] = 0.0
-    still = moment.copy()
-    still.slew[:] = 0.0
-    forces(steady, state, still, state.x, state.v, 0.0, np.zeros(AXES), evaluation)
-    torque = evaluation.force * train.radius
-    return -(train.ratio.T @ torque)[: int(train.axes)]
+@kernel
+def _mean_drag(
+    model: Record, state: Record, moment: Record, mean: float, work: Record
+) -> np.ndarray:
+    """Torques against the rigid motion of each motor [N m]: friction, all else being balanced.
+
+    Means over a mesh cycle from motor angle zero, where `state` is left.
+    """
+    train = model.train
+    drag = np.zeros(AXES)
+    for point in range(CYCLE_POINTS):
+        state.fraction[0] = point / (CYCLE_POINTS * abs(train.cycles[0]))
+        _settle(model, state, moment, mean)
+        moment.slew[:] = 0.0
+        forces(model, state, moment, state.x, state.v, 0.0, state.trim, work)
+        for a in range(train.axes):
+            for j in range(train.bodies):
+                torque = work.force[j] * train.radius[j]
+                drag[a] -= train.ratio[j, a] * torque / CYCLE_POINTS
+    state.fraction[0] = 0.0
+    return drag
 
 
+@kernel
 def _settle(model: Record, state: Record, moment: Record, mean: float) -> None:
     """Choose x so that every mesh and coupling carries its mean load at the present motor angle.
 
@@ -116,11 +124,12 @@ def _settle(model: Record, state: Record, moment: Record, mean: float) -> None:
     _place_pairs(model, state, moment)
 
 
+@kernel
 def _place_pairs(model: Record, state: Record, moment: Record) -> None:
     """Let every mesh have the tooth pairs that belong to its place in the cycle."""
     train = model.train
     for i in range(train.meshes):
-        side = int(state.side[i])
+        side = state.side[i]
         if side == OPEN:
             continue
         direction = math.copysign(1.0, side * frame_cycle_rate(train, state))
@@ -129,9 +138,10 @@ def _place_pairs(model: Record, state: Record, moment: Record) -> None:
     set_moment(model, state, moment)
 
 
+@kernel
 def _choose_sides(model: Record, state: Record, moment: Record) -> None:
     """Let every mesh touch where its flanks are: errors of form beyond its deflection part them."""
-    train, half = model.train, float(model.load.half_backlash)
+    train, half = model.train, model.load.half_backlash
     for i in range(train.meshes):
         d = deflection(train, moment, i, state.x, state.v, 0.0, 0.0)[0]
         if state.side[i] * d < half:
@@ -139,33 +149,48 @@ def _choose_sides(model: Record, state: Record, moment: Record) -> None:
     _place_pairs(model, state, moment)
 
 
+@kernel
 def _balance(model: Record, state: Record, moment: Record, mean: float) -> None:
-    """Choose x for the tooth pairs that are in contact.
+    """Move x to where the forces on every body balance, the tooth pairs being those in contact.
 
-    Least squares, because more meshes than bodies ask for a place: all of them get theirs only
-    if all are equally stiff at this angle.
+    The motors stand still. More meshes than bodies are to carry the mean force: all of them do
+    only if all are equally stiff at this angle.
     """
     train, load = model.train, model.load
-    bodies = train.bodies + 1
-    rows, targets, weights = [], [], []
+    size = train.bodies + 1
+    stiffness, force = np.zeros((size, size)), np.zeros(size)
     for i in range(train.meshes):
         k = mesh_stiffness(train, train.kind[i], state.segment[i], moment.start[i])
-        error = form_error(train, i, moment.line_angle, 0.0, 0.0)[0]
-        row = np.zeros(bodies)
-        np.add.at(row, train.body[i], train.sign[i])
-        rows.append(row)
-        targets.append(state.side[i] * load.offset + error + mean / k)
-        weights.append(k)
-    for c, (machine, member) in enumerate(train.coupling[: train.machines]):
-        row = np.zeros(bodies)
-        row[machine], row[member] = 1.0, -1.0
-        rows.append(row)
-        targets.append(load.torque[c] / train.radius[machine] / train.coupling_stiffness[c])
-        weights.append(train.coupling_stiffness[c])
-    still = [*train.coupling[: 2 * train.axes : 2, 0], train.bodies]  # motors and ground
-    rows += list(np.eye(bodies)[still])
-    scale = np.sqrt(np.array(weights + [max(weights)] * len(still)))
-    right = np.array(targets + [0.0] * len(still))
-    matrix = np.array(rows)
-    state.x[:bodies] = np.linalg.lstsq(matrix * scale[:, None], right * scale, rcond=None)[0]
-    state.x[train.bodies] = 0.0
+        d = deflection(train, moment, i, state.x, state.v, 0.0, 0.0)[0]
+        push = mean + k * (state.side[i] * load.offset - d)
+        for a in range(3):
+            body, sign = train.body[i, a], train.sign[i, a]
+            force[body] += sign * push
+            for b in range(3):
+                stiffness[body, train.body[i, b]] += k * sign * train.sign[i, b]
+    for c in range(train.machines):
+        machine, member = train.coupling[c, 0], train.coupling[c, 1]
+        k = train.coupling_stiffness[c]
+        pull = load.torque[c] / train.radius[machine]
+        pull -= k * (state.x[machine] - state.x[member])
+        force[machine] += pull
+        force[member] -= pull
+        stiffness[machine, machine] += k
+        stiffness[member, member] += k
+        stiffness[machine, member] -= k
+        stiffness[member, machine] -= k
+    _hold(stiffness, force, train.bodies)
+    for a in range(train.axes):
+        _hold(stiffness, force, train.coupling[2 * a, 0])
+    moved = np.linalg.solve(stiffness, force)
+    for j in range(train.bodies):
+        state.x[j] += moved[j]
+
+
+@kernel
+def _hold(stiffness: np.ndarray, force: np.ndarray, body: int) -> None:
+    """Let a body stay where it is."""
+    stiffness[body] = 0.0
+    stiffness[:, body] = 0.0
+    stiffness[body, body] = 1.0
+    force[body] = 0.0

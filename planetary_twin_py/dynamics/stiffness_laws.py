@@ -40,6 +40,11 @@ def stiffness_laws(scene: Scene) -> tuple[StiffnessLaw, StiffnessLaw]:
     )
 
 
+def stiffness_follows_load(scene: Scene) -> bool:
+    """Whether teeth are as stiff as the scene's own torque makes their contact."""
+    return scene.mesh.stiffness == "involute" and scene.mesh.tooth.contact != "yang_sun"
+
+
 def tooth_pairs(scene: Scene) -> tuple[ToothPair, ToothPair]:
     """Healthy pairs of sun and planet, and of planet and ring."""
     gearset, oil, how = scene.gearset, scene.lubrication, scene.mesh.tooth

@@ -1,8 +1,8 @@
 """Friction of all loaded tooth pairs of the train, side by side.
 
-The pairs of all meshes are gathered into columns first, so that the laws of friction run over
-them in vector registers; then each is applied as a generalised force Q_j = -f dVs/dw_j, which
-takes exactly f Vs out of the motion, whatever turns and whatever is held.
+The pairs of all meshes stand in columns, so that the laws of friction run over them in vector
+registers; then each is applied as a generalised force Q_j = -f dVs/dw_j, which takes exactly f Vs
+out of the motion, whatever turns and whatever is held.
 """
 
 from __future__ import annotations
@@ -10,58 +10,72 @@ from __future__ import annotations
 import numpy as np
 
 from .._compile import kernel, law
-from .._records import FLAG, MESHES, REAL, WHOLE, Record, layout
+from .._records import MESHES, REAL, REGISTER, WHOLE, Record, layout
 from ..mesh.tooth_pairs import PAIRS
-from .body_speed import body_speed
 from .tooth_contact import choices, tooth_contact
 
 SLOWEST_TURN = 1e-3  # [rad/s] below which the printed torque fades out
-REGISTER = 8  # doubles the compiler works on at a time
-INSTANTS = 3
-LANES = -(-INSTANTS * MESHES * PAIRS // REGISTER) * REGISTER  # room for all tooth pairs
+ROOM = (PAIRS + 1) * MESHES  # for all tooth pairs, and what whole registers write beyond
 
+# Entry p * meshes + i is pair p of mesh i; one that is absent, or parted, has no load.
 TOOTH_PAIRS = layout(
-    count=WHOLE,  # how many there are
-    advance=REAL,  # mesh cycles since the start of the step
-    pace=REAL,  # mesh cycles per second
-    tau=(REAL, (2,)),  # damping time of each kind of mesh [s]
-    wanted=FLAG,  # whether the columns below are to be filled
-    mesh=(WHOLE, (LANES,)),
-    share=(REAL, (LANES,)),  # of the mesh force [-]
-    growth=(REAL, (LANES,)),  # of the weight behind it, per mesh cycle [-]
-    rho1=(REAL, (LANES,)),  # radii of curvature [m]
-    rho2=(REAL, (LANES,)),
-    external=(REAL, (LANES,)),  # +1: external mesh, -1: internal
-    speed1=(REAL, (LANES,)),  # of the gears relative to the carrier [rad/s]
-    speed2=(REAL, (LANES,)),
-    load=(REAL, (LANES,)),  # [N]
-    friction=(REAL, (LANES,)),  # signed, against the sliding [N]
-    boundary=(REAL, (LANES,)),  # [N]
-    viscous=(REAL, (LANES,)),  # [N]
-    film=(REAL, (LANES,)),  # [m]
-    lambda_ratio=(REAL, (LANES,)),  # [-]
-    sliding=(REAL, (LANES,)),  # [m/s]
-    slope=(REAL, (LANES,)),  # of friction over sliding [N s/m]
-    rolling=(REAL, (LANES,)),  # rolling resistance, signed [N]
+    count=WHOLE,
+    share=(REAL, (ROOM,)),  # of the mesh force [-]
+    rho1=(REAL, (ROOM,)),  # radii of curvature [m]
+    rho2=(REAL, (ROOM,)),
+    external=(REAL, (ROOM,)),  # +1: external mesh, -1: internal
+    speed1=(REAL, (ROOM,)),  # of the gears relative to the carrier [rad/s]
+    speed2=(REAL, (ROOM,)),
+    load=(REAL, (ROOM,)),  # [N]
+    friction=(REAL, (ROOM,)),  # signed, against the sliding [N]
+    boundary=(REAL, (ROOM,)),  # [N]
+    viscous=(REAL, (ROOM,)),  # [N]
+    log_film=(REAL, (ROOM,)),  # logarithm of the film thickness in metres
+    sliding=(REAL, (ROOM,)),  # [m/s]
+    slope=(REAL, (ROOM,)),  # of friction over sliding [N s/m]
+    rolling=(REAL, (ROOM,)),  # rolling resistance, signed [N]
+    rolling_power=(REAL, (ROOM,)),  # that it takes [W]
 )
+
+# What the friction of a mesh does to its gears and the carrier.
+DRAG_OF_MESHES = layout(
+    torque=(REAL, (3, MESHES)),  # [N m]
+    power=(REAL, (MESHES,)),  # lost [W]
+)
+
+
+@kernel
+def turn_pairs(train: Record, moment: Record, v: np.ndarray, pairs: Record) -> None:
+    """Speeds of the gears of all pairs."""
+    meshes = train.meshes
+    for i in range(meshes):
+        first, second, carrier = train.body[i, 0], train.body[i, 1], train.body[i, 2]
+        frame = moment.rigid[carrier] + v[carrier] * train.inverse_radius[carrier]
+        speed1 = moment.rigid[first] + v[first] * train.inverse_radius[first] - frame
+        speed2 = moment.rigid[second] + v[second] * train.inverse_radius[second] - frame
+        for p in range(train.slots):
+            pairs.speed1[p * meshes + i] = speed1
+            pairs.speed2[p * meshes + i] = speed2
 
 
 @kernel
 def evaluate(model: Record, pairs: Record) -> None:
     """Film and friction of all pairs."""
     laws = choices(model.oil)
-    if not (laws[1] or laws[2] or laws[3]):
-        # Constants take the laws not chosen out of the loop, which saves a quarter of its time.
-        _evaluate(model, (laws[0], False, False, False), pairs)
-    else:
+    # Constants take the laws not chosen out of the loop, which halves its time.
+    if laws[1] or laws[2] or laws[3]:
         _evaluate(model, laws, pairs)
+    elif laws[0]:
+        _evaluate(model, (True, False, False, False), pairs)
+    else:
+        _evaluate(model, (False, False, False, False), pairs)
 
 
 @law
 def _evaluate(model: Record, laws: tuple[bool, bool, bool, bool], pairs: Record) -> None:
     """Whole registers of pairs, so that lanes beyond `count` are idle."""
     for p in range(-(-pairs.count // REGISTER) * REGISTER):
-        signed, boundary, viscous, film, ratio, sliding, slope, rolling = tooth_contact(
+        signed, boundary, viscous, log_film, sliding, slope, rolling, taken = tooth_contact(
             model.oil,
             laws,
             (
@@ -72,78 +86,53 @@ def _evaluate(model: Record, laws: tuple[bool, bool, bool, bool], pairs: Record)
                 pairs.speed2[p],
                 pairs.load[p],
             ),
-            model.load.lambda_ratio,
         )
         pairs.friction[p] = signed
         pairs.boundary[p] = boundary
         pairs.viscous[p] = viscous
-        pairs.film[p] = film
-        pairs.lambda_ratio[p] = ratio
+        pairs.log_film[p] = log_film
         pairs.sliding[p] = sliding
         pairs.slope[p] = slope
         pairs.rolling[p] = rolling
+        pairs.rolling_power[p] = taken
 
 
 @kernel
-def apply_friction(train: Record, pairs: Record, span: tuple[int, int], force: np.ndarray) -> float:
-    """Add the generalised forces -f dVs/dw/r of the pairs in `span`; return their power [W]."""
-    power = 0.0
-    for p in range(span[0], span[1]):
-        i = pairs.mesh[p]
-        first, second, carrier = train.body[i, 0], train.body[i, 1], train.body[i, 2]
-        f, rho1, rho2 = pairs.friction[p], pairs.rho1[p], pairs.external[p] * pairs.rho2[p]
-        force[first] -= f * rho1 / train.radius[first]
-        force[second] -= f * rho2 / train.radius[second]
-        force[carrier] += f * (rho1 + rho2) / train.radius[carrier]
-        power += f * pairs.sliding[p]
-    return power
-
-
-@law
-def rolling_power(pairs: Record, p: int) -> float:
-    """Power that rolling resistance takes from a tooth pair, F_R (u1 + u2) [W]."""
-    u1, u2 = pairs.rho1[p] * pairs.speed1[p], pairs.external[p] * pairs.rho2[p] * pairs.speed2[p]
-    return pairs.rolling[p] * (u1 - u2)
+def collect(train: Record, pairs: Record, out: Record) -> None:
+    """Add up what the pairs of each mesh do: -f dVs/dw and -F_R d(u1 + u2)/dw of both gears."""
+    for i in range(train.meshes):
+        out.torque[0, i] = out.torque[1, i] = out.power[i] = 0.0
+    for p in range(train.slots):
+        first = p * train.meshes
+        for i in range(train.meshes):
+            k = first + i
+            f, rolling = pairs.friction[k], pairs.rolling[k]
+            out.torque[0, i] -= (f + rolling) * pairs.rho1[k]
+            out.torque[1, i] -= (f - rolling) * pairs.external[k] * pairs.rho2[k]
+            out.power[i] += f * pairs.sliding[k] + pairs.rolling_power[k]
+    for i in range(train.meshes):
+        out.torque[2, i] = -(out.torque[0, i] + out.torque[1, i])
 
 
 @kernel
-def apply_rolling(train: Record, pairs: Record, span: tuple[int, int], force: np.ndarray) -> float:
-    """Add the generalised forces -F_R d(u1 + u2)/dw/r of pairs in `span`; return the power [W]."""
-    power = 0.0
-    for p in range(span[0], span[1]):
-        i = pairs.mesh[p]
-        f, rho1, rho2 = pairs.rolling[p], pairs.rho1[p], -pairs.external[p] * pairs.rho2[p]
-        force[train.body[i, 0]] -= f * rho1 / train.radius[train.body[i, 0]]
-        force[train.body[i, 1]] -= f * rho2 / train.radius[train.body[i, 1]]
-        force[train.body[i, 2]] += f * (rho1 + rho2) / train.radius[train.body[i, 2]]
-        power += rolling_power(pairs, p)
-    return power
-
-
-@kernel
-def apply_printed_friction(
-    train: Record,
-    state: Record,
-    v: np.ndarray,
-    pairs: Record,
-    span: tuple[int, int],
-    force: np.ndarray,
-) -> float:
-    """Friction torque as Salagianni et al. 2017 print it; return the power it takes [W].
+def collect_printed(
+    train: Record, moment: Record, v: np.ndarray, pairs: Record, out: Record
+) -> None:
+    """Friction torque as Salagianni et al. 2017 print it.
 
     T = P/w (17) on both gears, with the sign of (18)-(20): it drives every gear the way it turns,
     and so puts in twice what is lost. Divided by (w^2 + w0^2)/w, as 0/0 would stand at rest.
     """
-    power = 0.0
-    for p in range(span[0], span[1]):
-        lost = pairs.friction[p] * pairs.sliding[p]
+    collect(train, pairs, out)
+    for i in range(train.meshes):
+        lost, power = out.power[i], 0.0
         for gear in range(2):
-            body = train.body[pairs.mesh[p], gear]
-            speed = body_speed(train, state, v, body)
+            body = train.body[i, gear]
+            speed = moment.rigid[body] + v[body] * train.inverse_radius[body]
             torque = lost * speed / (speed * speed + SLOWEST_TURN * SLOWEST_TURN)
-            force[body] += torque / train.radius[body]
+            out.torque[gear, i] = torque
             power -= torque * speed
-    return power
+        out.torque[2, i], out.power[i] = 0.0, power
 
 
 @kernel
@@ -153,13 +142,13 @@ def friction_damping(train: Record, pairs: Record, matrix: np.ndarray) -> None:
     Large where little slides: at the pitch point, and for everything near standstill.
     """
     row = np.empty(3)
-    for p in range(pairs.count):
-        i = pairs.mesh[p]
-        rho1, rho2 = pairs.rho1[p], pairs.external[p] * pairs.rho2[p]
-        row[0] = rho1 / train.radius[train.body[i, 0]]
-        row[1] = rho2 / train.radius[train.body[i, 1]]
-        row[2] = -(rho1 + rho2) / train.radius[train.body[i, 2]]
-        add_outer(matrix, train.body[i], row, pairs.slope[p])
+    for k in range(pairs.count):
+        i = k % train.meshes
+        rho1, rho2 = pairs.rho1[k], pairs.external[k] * pairs.rho2[k]
+        row[0] = rho1 * train.lever[0, i]
+        row[1] = rho2 * train.lever[1, i]
+        row[2] = -(rho1 + rho2) * train.lever[2, i]
+        add_outer(matrix, train.body[i], row, pairs.slope[k])
 
 
 @kernel
@@ -174,9 +163,8 @@ def add_outer(matrix: np.ndarray, body: np.ndarray, row: np.ndarray, factor: flo
 def copy_friction(source: Record, target: Record) -> None:
     """Copy what `friction_damping` reads."""
     target.count = source.count
-    for p in range(source.count):
-        target.mesh[p] = source.mesh[p]
-        target.rho1[p] = source.rho1[p]
-        target.rho2[p] = source.rho2[p]
-        target.external[p] = source.external[p]
-        target.slope[p] = source.slope[p]
+    for k in range(source.count):
+        target.rho1[k] = source.rho1[k]
+        target.rho2[k] = source.rho2[k]
+        target.external[k] = source.external[k]
+        target.slope[k] = source.slope[k]

@@ -9,22 +9,41 @@ A held body is the ground: one more entry whose x is zero.
 
 from __future__ import annotations
 
+from functools import lru_cache
+
 import numpy as np
 
-from .._records import AXES, BODIES, FLAG, MACHINES, REAL, WHOLE, Record, layout, new_record
+from .._records import (
+    AXES,
+    BODIES,
+    FLAG,
+    MACHINES,
+    MESHES,
+    REAL,
+    REGISTER,
+    WHOLE,
+    Record,
+    layout,
+    new_record,
+)
 from ..gearset.geometry import base_pitch
 from ..gearset.kinematics import mesh_cycles_per_turn
-from ..scene import Scene
+from ..scene import OperatingPoint, Scene
 from .bodies import Bodies, base_radii, build_bodies, machines, rigid_ratios
 from .drag import DRAG_LAYOUT, build_drag
 from .meshes import MESHES_LAYOUT, build_meshes
+from .stiffness_laws import stiffness_follows_load
+
+TRAINS_KEPT = 16
 
 # Constant data of the gearbox. `bodies` of them can turn; entry `bodies` is the ground.
 TRAIN = layout(
     bodies=WHOLE,
+    lanes=WHOLE,  # bodies or meshes, in whole registers
     axes=WHOLE,  # inputs, each with its rigid motion of the train
     mass=(REAL, (BODIES,)),  # J/r^2 [kg]
     radius=(REAL, (BODIES,)),  # r of x = r theta [m]
+    inverse_radius=(REAL, (BODIES,)),  # 1/r [1/m]
     ratio=(REAL, (BODIES, AXES)),  # rigid speed per speed of each input [-]
     machines=WHOLE,
     coupling=(WHOLE, (MACHINES, 2)),  # machine and member
@@ -37,6 +56,7 @@ TRAIN = layout(
     carrier=WHOLE,
     sun_advance=REAL,  # mesh cycles per x of the sun [1/m]
     carrier_advance=REAL,  # and per x of the carrier
+    lever=(REAL, (3, MESHES)),  # 1/r of the gears and the carrier of a mesh [1/m]
     friction=FLAG,
     printed_torque=FLAG,  # friction torque P/w instead of -f dVs/dw
     **MESHES_LAYOUT,
@@ -45,20 +65,31 @@ TRAIN = layout(
 
 
 def build_train(scene: Scene) -> Record:
-    """Translate a scene into arrays.
+    """Translate a scene into arrays, which scenes have in common that differ in what may change.
 
     Raises:
         ValueError: the teeth leave a moment without contact (see `pair_table`).
     """
+    torque = scene.operating_point.input_torque if stiffness_follows_load(scene) else 0.0
+    point = OperatingPoint(backlash=0.0, input_speed=0.0, input_torque=torque)
+    train: Record = _built(scene.model_copy(update={"operating_point": point})).copy()
+    return train
+
+
+@lru_cache(maxsize=TRAINS_KEPT)
+def _built(scene: Scene) -> Record:
     bodies = build_bodies(scene)
     radii = base_radii(scene)
+    meshes = build_meshes(scene, bodies.place)
     pitch = base_pitch(scene.gearset.module, scene.gearset.pressure_angle)
     return new_record(
         TRAIN,
         bodies=len(bodies.mass) - 1,
+        lanes=_whole_registers(max(len(bodies.mass) - 1, 2 * scene.gearset.planets)),
         axes=len(scene.drive.inputs),
         mass=bodies.mass,
         radius=bodies.radius,
+        inverse_radius=1.0 / bodies.radius,
         ratio=bodies.ratio,
         sun=bodies.place["sun"],
         carrier=bodies.place["carrier"],
@@ -68,9 +99,14 @@ def build_train(scene: Scene) -> Record:
         printed_torque=scene.lubrication.friction_torque == "printed",
         **_cycles(scene),
         **_couplings(scene, bodies),
-        **build_meshes(scene, bodies.place),
+        lever=1.0 / bodies.radius[np.asarray(meshes["body"])].T,
+        **meshes,
         **build_drag(scene, bodies),
     )
+
+
+def _whole_registers(count: int) -> int:
+    return -(-count // REGISTER) * REGISTER
 
 
 def _cycles(scene: Scene) -> dict[str, np.ndarray]:

@@ -33,11 +33,28 @@ NOT_MODELLED = (
     Limit("memory of the oil film", "film and traction follow load and speed at once"),
 )
 
+STATICS_ONLY = Limit(
+    "dynamics", "dynamics: quasi_static; the train turns rigidly, meshes do not vibrate or rattle"
+)
+
+
+def limits(scene: Scene) -> tuple[Limit, ...]:
+    """What `scene` leaves out for good, or by its choice of statics alone."""
+    return (STATICS_ONLY, *NOT_MODELLED) if scene.dynamics == "quasi_static" else NOT_MODELLED
+
 
 def terms(scene: Scene) -> tuple[Term, ...]:
     """The terms that are on in `scene`."""
     found = (build(scene) for build in _TERMS)
     return tuple(term for term in found if term is not None)
+
+
+def _dynamics(scene: Scene) -> Term | None:
+    # A force that jumps where flanks meet has no equilibrium under any load below the jump.
+    if scene.dynamics == "quasi_static" or scene.mesh.backlash == "regulatory_factor":
+        return None
+    law = "every body free to turn, couplings and teeth elastic"
+    return Term("torsional dynamics", law, {"dynamics": "quasi_static"})
 
 
 def _friction(scene: Scene) -> Term | None:
@@ -114,7 +131,8 @@ def _runout(scene: Scene) -> Term | None:
 
 def _damping(scene: Scene) -> Term | None:
     damping = scene.mesh.damping
-    if damping.law == "viscous" and damping.damping_ratio == 0.0:
+    undamped = damping.law == "viscous" and damping.damping_ratio == 0.0
+    if undamped or scene.dynamics == "quasi_static":
         return None
     law = f"{damping.law.replace('_', ' ')}, proportional to the stiffness"
     return Term("mesh damping", law, {"mesh.damping": {"law": "viscous", "damping_ratio": 0.0}})
@@ -151,6 +169,7 @@ def _churning(scene: Scene) -> Term | None:
 
 
 _TERMS: tuple[Callable[[Scene], Term | None], ...] = (
+    _dynamics,
     _tooth_pairs,
     _ramp,
     _backlash,

@@ -10,43 +10,38 @@ from __future__ import annotations
 
 import math
 
+from .._combine import combine
 from .._compile import kernel
 from .._records import Record
-from ..dynamics.equations import begin_pairs, drive, rub, squeeze
-from ..dynamics.tooth_friction import evaluate
-from .propagation import (
-    COEFFICIENT,
-    LAST,
-    NODES,
-    modal_state,
-    place_bodies,
-    respond,
-    set_step,
-    visit,
-)
+from ..dynamics.equations import drive, rub, squeeze
+from .memory import recall
+from .propagation import power, set_step, visit_nodes
 
 MOST_SWEEPS = 6
 SHARE = 0.3  # of the tolerance that a sweep not made may leave
 WEAKEST_PULL = 0.5  # of a sweep, beyond which a shorter step or another method is called for
-TAIL = 0.2  # share of the highest power of the polynomial that counts as its error
-SETTLING = 40.0  # such a share moves a mode by 1/40 of what it would move it at rest
+TAIL = 4.0  # by which the estimated error of the polynomial counts more
 
 
 @kernel
-def collocate(model: Record, march: Record, h: float) -> tuple[float, bool]:
-    """Try a step of h into x and v of `end`.
+def collocate(model: Record, march: Record, h: float, fresh: bool) -> tuple[float, bool]:
+    """Try a step of h, up to the motion at its nodes; `fresh`: the contacts have just changed.
 
     Returns:
         Its error over what is allowed, and whether the sweeps came to rest.
     """
     train, run = model.train, march.run
-    set_step(run, train.bodies, h)
-    for n in range(NODES):
-        run.rest[n] = run.start
+    set_step(run, train.lanes, h)
+    for n in range(run.nodes.count):
         run.evaluation[n].rubbing[:] = march.first.rubbing
-    respond(run, train.bodies)
+    if fresh:
+        recall(train, march)
+    visit_nodes(model, march)
     if run.known.varies[run.modes] == 1:
         _settle_meshes(model, march)
+        tail = _tail(model, march)
+        if not tail <= 1.0:
+            return (tail if math.isfinite(tail) else math.inf), True
     return _settle_friction(model, march)
 
 
@@ -57,8 +52,9 @@ def _settle_meshes(model: Record, march: Record) -> None:
     pull = run.known.pull[run.modes, 0] * run.step
     for sweep in range(MOST_SWEEPS):
         before = change
-        _press_again(model, march)
-        change = _move_on(model, march)
+        _sweep(model, march, False)
+        visit_nodes(model, march)
+        change = _difference(model, march)
         if sweep > 0 and before > 0.0:
             pull = change / before
             run.known.pull[run.modes, 0] = pull / run.step
@@ -73,9 +69,10 @@ def _settle_friction(model: Record, march: Record) -> tuple[float, bool]:
     pull = run.known.pull[run.modes, 1] * run.step
     for sweep in range(MOST_SWEEPS):
         before = change
-        _sweep(model, march)
-        march.control.evaluations += NODES
-        change = _move_on(model, march)
+        _sweep(model, march, True)
+        march.control.evaluations += run.nodes.count
+        visit_nodes(model, march)
+        change = _difference(model, march)
         if sweep == 0:
             tail = _tail(model, march)
         elif before > 0.0:
@@ -89,74 +86,35 @@ def _settle_friction(model: Record, march: Record) -> tuple[float, bool]:
 
 
 @kernel
-def _press_again(model: Record, march: Record) -> None:
-    """Take the rest anew at all nodes, while friction stays what it is."""
+def _sweep(model: Record, march: Record, rubbing: bool) -> None:
+    """Take the rest anew at all nodes, with friction as it was unless `rubbing`."""
     train, begin, moment, run = model.train, march.begin, march.moment, march.run
-    pairs = run.evaluation[0].pairs
-    for n in range(NODES):
-        node, out = run.node[n], run.evaluation[n]
-        visit(model, march, n)
-        begin_pairs(train, False, pairs)
-        squeeze(model, begin, moment, node.x, node.v, node.delay, out, pairs)
-        out.force[:] += out.rubbing
-        _rest(model, march, n, node, out)
-
-
-@kernel
-def _sweep(model: Record, march: Record) -> None:
-    """Take the rest anew at all nodes."""
-    train, begin, moment, run = model.train, march.begin, march.moment, march.run
-    pairs = run.evaluation[0].pairs
-    begin_pairs(train, train.friction, pairs)
-    for n in range(NODES):
-        node = run.node[n]
-        visit(model, march, n)
-        squeeze(model, begin, moment, node.x, node.v, node.delay, run.evaluation[n], pairs)
-    if train.friction:
-        evaluate(model, pairs)
-    for n in range(NODES):
-        node, out = run.node[n], run.evaluation[n]
-        rub(model, begin, node.v, out, pairs)
-        _rest(model, march, n, node, out)
-        run.power[n] = out.power
-
-
-@kernel
-def _rest(model: Record, march: Record, n: int, node: Record, out: Record) -> None:
-    """What the modes do not know of the forces at node n."""
-    train, run, shape = model.train, march.run, march.run.known.form
-    drive(model, march.begin, march.moment, node.x, node.v, node.delay, node.trim, out)
-    for m in range(train.bodies):
-        force = run.damping[m] * run.node_p[n, m] + run.square[m] * run.node_q[n, m]
-        for j in range(train.bodies):
-            force += shape[run.modes, j, m] * out.force[j]
-        run.rest[n, m] = force
-
-
-@kernel
-def _move_on(model: Record, march: Record) -> float:
-    """Answer the rest as it is now; how far that moves the end of the step, over its tolerance."""
-    train, run, end = model.train, march.run, march.end
-    respond(run, train.bodies)
-    for m in range(train.bodies):
-        cosine, sine = run.cosine[LAST, m], run.sine[LAST, m]
-        run.now_q[m], run.now_p[m] = modal_state(run, m, 1.0, cosine, sine)
-    place_bodies(train, run, end.x, end.v)
-    return _difference(model, march)
+    share, lanes = run.known.share[run.modes], train.lanes
+    for n in range(run.nodes.count):
+        out, x, v = run.evaluation[n], run.node_x[n], run.node_v[n]
+        delay = run.nodes.abscissa[n] * run.step
+        for i in range(lanes):
+            out.now.d[i], out.now.rate[i] = run.node_d[n, i], run.node_rate[n, i]
+        squeeze(model, begin, moment, x, v, delay, out)
+        if rubbing:
+            rub(model, begin, moment, v, out)
+        drive(model, begin, moment, x, v, delay, run.node_trim[n], out)
+        combine(share, out.force, train.bodies, run.rest[n])
+        for m in range(lanes):
+            own = run.damper[m] * run.node_p[n, m] + run.spring[m] * run.node_q[n, m]
+            run.rest[n, m] += own
 
 
 @kernel
 def _difference(model: Record, march: Record) -> float:
     """Largest motion of a mesh between the last sweep and the one before, over its tolerance."""
-    train, last, end = model.train, march.run.node[LAST], march.end
+    train, run, tau = model.train, march.run, march.moment.tau
     largest = total = 0.0  # NaN would get lost in a maximum
+    last = run.nodes.count - 1
     for i in range(train.meshes):
-        d = rate = 0.0
-        for a in range(3):
-            j = train.body[i, a]
-            d += train.sign[i, a] * (end.x[j] - last.x[j])
-            rate += train.sign[i, a] * (end.v[j] - last.v[j])
-        largest = max(largest, abs(d), march.moment.tau[train.kind[i]] * abs(rate))
+        d = run.node_d[last, i] - run.before_d[i]
+        rate = run.node_rate[last, i] - run.before_rate[i]
+        largest = max(largest, abs(d), tau[train.kind[i]] * abs(rate))
         total += d + rate
     return largest / march.control.tolerance_x if math.isfinite(total) else math.inf
 
@@ -165,20 +123,18 @@ def _difference(model: Record, march: Record) -> float:
 def _tail(model: Record, march: Record) -> float:
     """Local error, what the highest power of the polynomial moves, over its tolerance."""
     train, run, largest = model.train, march.run, 0.0
-    h, n = run.step, run.modes
-    for m in range(train.bodies):
-        tail = below = 0.0
-        for k in range(NODES):
-            tail += COEFFICIENT[LAST, k] * run.rest[k, m]
-            below += COEFFICIENT[LAST - 1, k] * run.rest[k, m]
-        static = 1.0 / max(run.square[m], SETTLING / (h * h))
-        ratio = abs(tail) / (abs(tail) + abs(below) + 1e-300)
-        if run.slow[m] == 0:  # steps within the memory of the mode, whose errors add up at random
-            static *= math.sqrt(1.0 + 2.0 / (run.damping[m] * h + 1e-6))
-        run.now_q[m] = abs(tail) * ratio * TAIL * static
+    h, lanes = run.step, train.lanes
+    highest = run.nodes.count - 1
+    share = TAIL * run.nodes.smallest
+    settling = 2.0 * (highest + 2) * (highest + 3)  # it moves a mode by such a part of that at rest
+    for m in range(lanes):
+        tail, below = abs(power(run, highest, m)), abs(power(run, highest - 1, m))
+        static = 1.0 / max(run.square[m], settling / (h * h))
+        # Steps within the memory of a mode make errors that add up at random.
+        lasting = math.sqrt(1.0 + 2.0 / (run.damper[m] * h + 1e-6))
+        lasting = 1.0 if run.spring[m] == 0.0 else lasting
+        run.now_q[m] = tail * tail / (tail + below + 1e-300) * share * static * lasting
+    combine(run.known.reach[run.modes], run.now_q, train.bodies, run.now_d)
     for i in range(train.meshes):
-        total = 0.0
-        for m in range(train.bodies):
-            total += abs(run.known.motion[n, i, m]) * run.now_q[m]
-        largest = max(largest, total)
+        largest = max(largest, run.now_d[i])
     return largest / march.control.tolerance_x

@@ -17,22 +17,33 @@ from .._records import BODIES, MESHES, REAL, SMALL, WHOLE, Record, layout
 from ..dynamics.mesh_force import mesh_stiffness
 from ..dynamics.state import OPEN
 from ..mesh.tooth_pairs import SEGMENTS
+from .radau import MOST
 
 FIRST_PULL = 1e4  # [1/s]
 ROOM = 256  # contact states kept
 
-# Modes of the contact states met so far. Mode m moves body j by form[j, m], with unit modal mass.
+# Modes of the contact states met so far, of unit modal mass. Rows are what `combine` adds up:
+# `form[n, m]` is what mode m does to the bodies, `share[n, j]` what body j does to the modes,
+# `motion[n, m]` what mode m does to the meshes, and `reach` its magnitude [1/sqrt(kg)].
 CONTACT_MODES = layout(
     count=WHOLE,
     key=(WHOLE, (ROOM, 2)),  # see `contact_key`
+    follower=(WHOLE, (ROOM,)),  # the state that came next last time
+    last=WHOLE,  # state found last
     stiffness=(REAL, (ROOM, MESHES)),  # of every mesh [N/m]
-    form=(REAL, (ROOM, BODIES, BODIES)),  # [1/sqrt(kg)], the ground stands still
+    form=(REAL, (ROOM, BODIES, BODIES)),
+    share=(REAL, (ROOM, BODIES, BODIES)),
+    motion=(REAL, (ROOM, BODIES, MESHES)),
+    reach=(REAL, (ROOM, BODIES, MESHES)),
     square=(REAL, (ROOM, BODIES)),  # w^2 [1/s^2]
-    motion=(REAL, (ROOM, MESHES, BODIES)),  # of the meshes in the modes [1/sqrt(kg)]
     varies=(SMALL, (ROOM,)),  # whether a stiffness changes within its segment
     step=(REAL, (ROOM,)),  # that did last time such a state began, 0: none yet [s]
+    past_step=(REAL, (ROOM,)),  # see `memory`, 0: none yet [s]
+    past_rest=(REAL, (ROOM, MOST + 1, BODIES)),
+    past_rubbing=(REAL, (ROOM, MOST + 1, BODIES)),  # [N]
     pull=(REAL, (ROOM, 2)),  # by which a sweep brings the next closer, per step length [1/s]
     shaft_damping=(REAL, (ROOM, BODIES)),  # c of the couplings [1/s]
+    mesh_damping=(REAL, (ROOM, 2, BODIES)),  # c/tau of each kind of mesh [1/s^2]
 )
 
 
@@ -52,15 +63,32 @@ def contact_key(train: Record, state: Record) -> tuple[int, int]:
 @kernel
 def find_modes(train: Record, state: Record, known: Record) -> int:
     """Place in `known` of the modes of the contacts of `state`, which are computed once."""
-    sun, ring = contact_key(train, state)
+    key = contact_key(train, state)
+    for likely in (known.last, known.follower[known.last]):
+        if likely < known.count and _fits(known, likely, key):
+            known.last = likely
+            return likely
+    n = _search(train, state, known, key)
+    known.follower[known.last] = n
+    known.last = n
+    return n
+
+
+@kernel
+def _fits(known: Record, n: int, key: tuple[int, int]) -> bool:
+    return known.key[n, 0] == key[0] and known.key[n, 1] == key[1]
+
+
+@kernel
+def _search(train: Record, state: Record, known: Record, key: tuple[int, int]) -> int:
     for n in range(known.count):
-        if known.key[n, 0] == sun and known.key[n, 1] == ring:
+        if _fits(known, n, key):
             return n
     if known.count == ROOM:
         known.count = 0
     n = known.count
     known.count += 1
-    known.key[n, 0], known.key[n, 1] = sun, ring
+    known.key[n, 0], known.key[n, 1] = key
     _solve_modes(train, state, known, n)
     return n
 
@@ -68,13 +96,38 @@ def find_modes(train: Record, state: Record, known: Record) -> int:
 @kernel
 def _solve_modes(train: Record, state: Record, known: Record, n: int) -> None:
     bodies = train.bodies
-    known.step[n] = 0.0
+    known.step[n] = known.past_step[n] = 0.0
     known.pull[n] = FIRST_PULL
     known.varies[n] = 1 if train.faults > 0 or train.lines[0] + train.lines[1] > 0 else 0
-    matrix = np.zeros((bodies + 1, bodies + 1))
     scale = np.zeros(bodies + 1)
     for j in range(bodies):
         scale[j] = 1.0 / math.sqrt(train.mass[j])
+    matrix = _stiffness_matrix(train, state, known, n, scale)
+    squares, vectors = np.linalg.eigh(np.ascontiguousarray(matrix[:bodies, :bodies]))
+    known.form[n] = known.share[n] = known.motion[n] = known.reach[n] = 0.0
+    known.square[n] = known.shaft_damping[n] = known.mesh_damping[n] = 0.0
+    for m in range(bodies):
+        known.square[n, m] = max(squares[m], 0.0)
+        for j in range(bodies):
+            known.form[n, m, j] = known.share[n, j, m] = vectors[j, m] * scale[j]
+        for i in range(train.meshes):
+            motion = 0.0
+            for a in range(3):
+                motion += train.sign[i, a] * known.form[n, m, train.body[i, a]]
+            known.motion[n, m, i], known.reach[n, m, i] = motion, abs(motion)
+            known.mesh_damping[n, train.kind[i], m] += known.stiffness[n, i] * motion * motion
+        for c in range(train.machines):
+            p, q = train.coupling[c, 0], train.coupling[c, 1]
+            twist = known.form[n, m, p] - known.form[n, m, q]
+            known.shaft_damping[n, m] += train.coupling_damping[c] * twist * twist
+
+
+@kernel
+def _stiffness_matrix(
+    train: Record, state: Record, known: Record, n: int, scale: np.ndarray
+) -> np.ndarray:
+    """K between the bodies and the ground, in coordinates of unit mass [1/s^2]."""
+    matrix = np.zeros((train.bodies + 1, train.bodies + 1))
     for i in range(train.meshes):
         k = 0.0
         if state.side[i] != OPEN:
@@ -95,20 +148,4 @@ def _solve_modes(train: Record, state: Record, known: Record, n: int) -> None:
         matrix[q, q] += k * scale[q] * scale[q]
         matrix[p, q] -= k * scale[p] * scale[q]
         matrix[q, p] -= k * scale[p] * scale[q]
-    squares, vectors = np.linalg.eigh(np.ascontiguousarray(matrix[:bodies, :bodies]))
-    known.form[n] = 0.0
-    for m in range(bodies):
-        known.square[n, m] = max(squares[m], 0.0)
-        for j in range(bodies):
-            known.form[n, j, m] = vectors[j, m] * scale[j]
-        for i in range(train.meshes):
-            motion = 0.0
-            for a in range(3):
-                motion += train.sign[i, a] * known.form[n, train.body[i, a], m]
-            known.motion[n, i, m] = motion
-        damping = 0.0
-        for c in range(train.machines):
-            p, q = train.coupling[c, 0], train.coupling[c, 1]
-            twist = known.form[n, p, m] - known.form[n, q, m]
-            damping += train.coupling_damping[c] * twist * twist
-        known.shaft_damping[n, m] = damping
+    return matrix

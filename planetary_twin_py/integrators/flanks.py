@@ -4,17 +4,19 @@ from __future__ import annotations
 
 import math
 
+from .._combine import combine_both
 from .._compile import kernel, law
 from .._records import Record
 from ..dynamics.contact_events import departure, play_left
 from ..dynamics.cycle import cycle_shift
+from ..dynamics.form_errors import form_error
 from ..dynamics.state import OPEN
 from .interpolant import interpolate
-from .oscillator import SERIES, wave
-from .propagation import NODES, SCANNED, modal_state
+from .propagation import SCANNED, modes_at
 
 SLACK = 0.01  # share of the local tolerance by which flanks may pull or pass each other
 ROUNDS = 60  # of closing in on an event
+TAME = 0.5  # (w h)^2 + c h below which a mode does not turn round between two nodes
 
 
 @kernel
@@ -90,58 +92,81 @@ def _suspect_flanks(model: Record, march: Record) -> bool:
     What a mesh has left before it changes is a polynomial, known at the nodes, and free waves,
     which are bounded by their amplitudes.
     """
-    train, begin, moment, run = model.train, march.begin, march.moment, march.run
-    known, modes, found = run.known, run.modes, False
-    for n in range(NODES):
-        for m in range(train.bodies):
-            run.wave_q[n, m] = run.wave_p[n, m] = 0.0
-            if run.slow[m] == 0:
-                u, w, c, s = run.free[0, m], run.free[1, m], run.cosine[n, m], run.sine[n, m]
-                run.wave_q[n, m] = c * u + s * w
-                run.wave_p[n, m] = (c - run.damping[m] * s) * w - run.square[m] * s * u
+    train, moment, run = model.train, march.moment, march.run
+    lanes, modes, found = train.lanes, run.modes, False
+    sun, ring = model.load.release * moment.tau[0], model.load.release * moment.tau[1]
+    reach, motion = run.known.reach[modes], run.known.motion[modes]
+    for m in range(lanes):
+        run.now_q[m], run.now_p[m] = _amplitude(run, m, sun), _amplitude(run, m, ring)
+    combine_both(reach, run.now_q, run.now_p, train.bodies, run.now_d, run.now_rate)
     for i in range(train.meshes):
-        side, tau = begin.side[i], model.load.release * moment.tau[train.kind[i]]
-        waves, least = 0.0, math.inf
-        for m in range(train.bodies):
-            if run.slow[m] == 0:
-                waves += abs(known.motion[modes, i, m]) * _amplitude(run, m, tau)
-        for n in range(NODES):
-            node, wave = run.node[n], 0.0
-            for m in range(train.bodies):
-                wave += known.motion[modes, i, m] * (run.wave_q[n, m] + tau * run.wave_p[n, m])
-            stand = (node.advance, node.pace, 0.0)
-            left = departure(model, begin, moment, i, node.x, node.v, stand)
-            least = min(least, left - (side * wave if side != OPEN else abs(wave)))
-        run.suspect[i] = 1 if least < waves else 0
-        found |= least < waves
+        run.least[i] = -(run.now_d[i] if train.kind[i] == 0 else run.now_rate[i])
+    for n in range(run.nodes.count):
+        for m in range(lanes):
+            u, w = run.free[0, m], run.free[1, m]
+            c, s = run.cosine[n, m], run.sine[n, m]
+            waves = _has_waves(run, m)
+            rate = (c - run.damping[m] * s) * w - run.square[m] * s * u
+            run.now_q[m], run.now_p[m] = (c * u + s * w if waves else 0.0), (rate if waves else 0.0)
+        combine_both(motion, run.now_q, run.now_p, train.bodies, run.now_d, run.now_rate)
+        if n == 0:
+            for i in range(train.meshes):
+                run.scan_d[0, i] = math.inf
+        for i in range(train.meshes):
+            tau = sun if train.kind[i] == 0 else ring
+            run.scan_d[0, i] = min(run.scan_d[0, i], _left_without_waves(model, march, i, n, tau))
+    for i in range(train.meshes):
+        suspect = run.scan_d[0, i] + run.least[i] < 0.0
+        run.suspect[i] = 1 if suspect else 0
+        found |= suspect
     return found
+
+
+@law
+def _left_without_waves(model: Record, march: Record, i: int, n: int, tau: float) -> float:
+    """Play that mesh i has left at node n, less what its free waves take or add."""
+    train, run, side = model.train, march.run, march.begin.side[i]
+    d, rate = run.node_d[n, i], run.node_rate[n, i]
+    if train.lines[train.kind[i]] > 0:
+        now = run.evaluation[n].now
+        e, e_rate = form_error(train, i, march.moment.line_angle, now.advance, now.pace)
+        d, rate = d - e, rate - e_rate
+    wave = run.now_d[i] + tau * run.now_rate[i]
+    left = play_left(model.load, side, d, tau * rate, 0.0)
+    return left - (side * wave if side != OPEN else abs(wave))
+
+
+@law
+def _has_waves(run: Record, m: int) -> bool:
+    """Whether mode m may turn round between two nodes."""
+    return run.square[m] * run.step * run.step + run.damping[m] * run.step > TAME
+
+
+@law
+def _amplitude(run: Record, m: int, tau: float) -> float:
+    """Bound on the free motion of mode m and tau times its rate, together."""
+    half = 0.5 * run.damping[m]
+    swings = run.slow[m] == run.fast[m]
+    # From (1, 0): C - tau w^2 S; from (0, 1): S + tau (C - c S); S never exceeds 1/w, nor C 1.
+    longest = 1.0 / math.sqrt(max(run.square[m], 1e-300))
+    inverse = 1.0 / max(run.rate[m], 1e-300)
+    longest = min(longest, inverse) if swings else longest
+    lean = half - tau * run.square[m]
+    first = 1.0 + abs(lean) * longest
+    ratio = lean * inverse
+    first = min(first, math.sqrt(1.0 + ratio * ratio)) if swings else first
+    bound = first * abs(run.free[0, m]) + (longest + tau) * abs(run.free[1, m])
+    return bound if _has_waves(run, m) else 0.0
 
 
 @kernel
 def _scan(model: Record, march: Record, end: float) -> None:
-    """Modes at even times up to `end` [s]; free motions are carried on from one to the next."""
-    run, step = march.run, end / SCANNED
-    for m in range(model.train.bodies):
-        cosine = sine = 0.0
-        u, w = run.free[0, m], run.free[1, m]
-        if run.slow[m] == 0:
-            cosine, sine = wave(run.square[m], run.damping[m], step)
-        for k in range(SCANNED):
-            t = (k + 1) * step / run.step
-            value = slope = 0.0
-            terms = SERIES if run.slow[m] == 1 else NODES
-            for n in range(terms - 1, -1, -1):
-                slope = slope * t + value
-                value = value * t + run.particular[n, m]
-            slope /= run.step
-            if run.slow[m] == 0:
-                u, w = (
-                    cosine * u + sine * w,
-                    (cosine - run.damping[m] * sine) * w - run.square[m] * sine * u,
-                )
-                value += u
-                slope += w
-            run.scan_q[k, m], run.scan_p[k, m] = value, slope
+    """Transmission errors at even times up to `end` [s]."""
+    train, run = model.train, march.run
+    motion = run.known.motion[run.modes]
+    for k in range(SCANNED):
+        modes_at(run, train.lanes, (k + 1) * end / SCANNED)
+        combine_both(motion, run.now_q, run.now_p, train.bodies, run.scan_d[k], run.scan_rate[k])
 
 
 @kernel
@@ -153,11 +178,7 @@ def _first_scanned(model: Record, march: Record, i: int, end: float) -> int:
         if train.lines[train.kind[i]] > 0:
             play = departure_at(model, march, i, (k + 1) * end / SCANNED)
         else:
-            d = rate = 0.0
-            for m in range(train.bodies):
-                motion = run.known.motion[run.modes, i, m]
-                d += motion * run.scan_q[k, m]
-                rate += motion * run.scan_p[k, m]
+            d, rate = run.scan_d[k, i], run.scan_rate[k, i]
             play = play_left(model.load, march.begin.side[i], d, tau * rate, slack)
         if play < 0.0:
             return k
@@ -168,29 +189,11 @@ def _first_scanned(model: Record, march: Record, i: int, end: float) -> int:
 def _play_at(model: Record, march: Record, i: int, delay: float, slack: float) -> float:
     """`departure` of mesh i within the step, where no error of form moves its flanks."""
     train, run, moment = model.train, march.run, march.moment
+    modes_at(run, train.lanes, delay)
     d = rate = 0.0
     for m in range(train.bodies):
-        motion = run.known.motion[run.modes, i, m]
-        cosine = sine = 0.0
-        if run.slow[m] == 0:
-            cosine, sine = wave(run.square[m], run.damping[m], delay)
-        q, p = modal_state(run, m, delay / run.step, cosine, sine)
-        d += motion * q
-        rate += motion * p
+        motion = run.known.motion[run.modes, m, i]
+        d += motion * run.now_q[m]
+        rate += motion * run.now_p[m]
     tau = moment.tau[train.kind[i]]
     return play_left(model.load, march.begin.side[i], d, tau * rate, slack)
-
-
-@law
-def _amplitude(run: Record, m: int, tau: float) -> float:
-    """Bound on the free motion of mode m and tau times its rate, together."""
-    w = math.sqrt(run.square[m])
-    half = 0.5 * run.damping[m]
-    split = run.square[m] - half * half
-    # From (1, 0): C - tau w^2 S; from (0, 1): S + tau (C - c S); S never exceeds 1/w, nor C 1.
-    longest = 1.0 / w if split <= 0.0 else min(1.0 / w, 1.0 / math.sqrt(split))
-    first = 1.0 + abs(half - tau * run.square[m]) * longest
-    if split > 0.0:
-        ratio = (half - tau * run.square[m]) / math.sqrt(split)
-        first = min(first, math.sqrt(1.0 + ratio * ratio))
-    return first * abs(run.free[0, m]) + (longest + tau) * abs(run.free[1, m])

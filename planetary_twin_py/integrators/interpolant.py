@@ -68,17 +68,15 @@ def new_samples(train: Record, room: int) -> Samples:
 
 
 @kernel
-def sample(model: Record, march: Record, time: float, out: Samples, row: int) -> None:
-    """Write what the train shows at `time`, which lies within the last step."""
+def sample(model: Record, march: Record, delay: float, out: Samples, row: int) -> None:
+    """Write what the train shows `delay` seconds after the start of the last step, within it."""
     train, begin = model.train, march.begin
-    delay = time - begin.time
     interpolate(model, march, delay)
-    pairs = march.work.evaluation.pairs
-    observe(model, begin, march.moment, march.dense_x, march.dense_v, delay, pairs, out.mesh[row])
+    work = march.work.evaluation
+    observe(model, begin, march.moment, march.dense_x, march.dense_v, delay, work, out.mesh[row])
     if train.bearings + train.discs > 0:
-        work = march.work.evaluation
         for i in range(train.meshes):
-            work.push[i] = abs(out.mesh[row, MESH_FORCE, i])
+            work.now.push[i] = abs(out.mesh[row, MESH_FORCE, i])
         work.power[:] = 0.0
         apply_drag(model, begin, march.dense_v, work)
         out.drag[row, 0], out.drag[row, 1] = work.power[BEARING], work.power[CHURNING]

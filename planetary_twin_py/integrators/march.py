@@ -17,16 +17,18 @@ from .._compile import kernel
 from .._records import Record
 from ..dynamics.contact_events import change_contact, change_segment
 from ..dynamics.cycle import cycle_shift, mesh_cycle, nearest_to_segment
-from ..dynamics.equations import begin_pairs, drive, forces, squeeze
-from ..dynamics.mesh_force import mesh_motion
+from ..dynamics.equations import drive, forces, squeeze
+from ..dynamics.mesh_force import mesh_motion, move_meshes
 from ..dynamics.moment import set_moment
 from ..dynamics.state import OPEN
 from ..dynamics.tooth_friction import copy_friction
+from .clock import Instant, Sampling, after, delay, due, run_on
 from .collocation import collocate
 from .flanks import at_event, first_flank_event
 from .interpolant import Samples, sample
+from .memory import remember
 from .progress import COLLOCATION, ROSENBROCK, copy_state
-from .propagation import LAST, enter, integrate_powers, propagate, resolves, trim_at
+from .propagation import enter, integrate_powers, propagate, resolves, trim_at
 from .rosenbrock import ORDER, step
 
 SHORTEST_STEP = 1e-13  # [s] below it two events count as one
@@ -38,7 +40,6 @@ SAFETY, SHRINK, GROW = 0.8, 0.25, 2.0
 STRETCH = 1.2  # by which a planned step is stretched to end on an event
 DETOUR = 20  # steps of Rosenbrock's method before collocation is tried again
 OUTDONE = 0.2  # of the other method's step, below which it is taken
-COLLOCATION_ORDER = 3  # of its error in the step
 STIFF = 3.0  # by which errors of Rosenbrock's method count more
 ROUNDING = 1e-15  # [m/s] errors of a speed below it are none
 
@@ -125,7 +126,7 @@ def _planned(event: float, h: float, stretch: float) -> float:
 @kernel
 def _collocated_step(model: Record, march: Record, longest: float, event: float, mesh: int) -> bool:
     """A step by collocation, at whose end `mesh` may come to an edge; False where it fails."""
-    control, run = march.control, march.run
+    control, run, order = march.control, march.run, march.run.nodes.count
     _hold_friction(model, march)
     enter(model, march)
     # Meshing returns to the same contacts: the step that did then, will do.
@@ -136,19 +137,20 @@ def _collocated_step(model: Record, march: Record, longest: float, event: float,
     while True:
         if control.method != COLLOCATION and not resolves(run, model.train.bodies, h):
             return False
-        error, settled = collocate(model, march, h)
+        error, settled = collocate(model, march, h, fresh)
         if error <= 1.0 or (h <= SHORTEST_STEP and error < math.inf):
             break
         restless += 0 if settled else 1
-        shorter = h * max(SHRINK, SAFETY * error ** (-1.0 / COLLOCATION_ORDER))
+        shorter = h * max(SHRINK, SAFETY * error ** (-1.0 / order))
         if h <= SHORTEST_STEP or _outdone(control, shorter, settled, restless):
             return False
         control.rejected += 1
         h = max(shorter, SHORTEST_STEP)
-    factor = SAFETY * error ** (-1.0 / COLLOCATION_ORDER) if error > 0.0 else GROW
+    factor = SAFETY * error ** (-1.0 / order) if error > 0.0 else GROW
     control.next_step = h * min(GROW, max(SHRINK, factor))
     if fresh:
         known.step[modes] = control.next_step
+        remember(model.train, march)
     if h < min(event, longest) and _outdone(control, h, True, 0):
         control.detour = DETOUR
     control.collocated = True
@@ -156,7 +158,8 @@ def _collocated_step(model: Record, march: Record, longest: float, event: float,
     end_within(model, march, h)
     if mesh >= 0 and h == event:
         _meet_edge(model, march, mesh, h)
-    march.last.power[:] = run.power[LAST]
+    march.last.power[:] = run.evaluation[order - 1].power
+    march.last.rubbing[:] = run.evaluation[order - 1].rubbing
     accept(model, march, _end_on_flank_event(model, march, h))
     return True
 
@@ -175,10 +178,9 @@ def _outdone(control: Record, h: float, settled: bool, restless: int) -> bool:
 def _hold_friction(model: Record, march: Record) -> None:
     """Forces at the start of a step, but with the friction of the end of the last."""
     begin, moment, first = march.begin, march.moment, march.first
-    begin_pairs(model.train, False, first.pairs)
-    squeeze(model, begin, moment, begin.x, begin.v, 0.0, first, first.pairs)
-    first.rubbing[:] = march.run.evaluation[LAST].rubbing
-    first.force[:] += first.rubbing
+    move_meshes(model.train, begin.x, begin.v, first.now)
+    squeeze(model, begin, moment, begin.x, begin.v, 0.0, first)
+    first.rubbing[:] = march.last.rubbing
     drive(model, begin, moment, begin.x, begin.v, 0.0, begin.trim, first)
 
 
@@ -187,9 +189,14 @@ def end_within(model: Record, march: Record, h: float) -> None:
     """Let the step of collocation end after h seconds, on its own motion."""
     begin, end = march.begin, march.end
     copy_state(begin, end)
-    propagate(model, march, h, end.x, end.v)
-    trim_at(model, march, h, end.x, end.trim)
-    integrate_powers(march, model.train.bodies, h)
+    if h == march.run.step:
+        last = march.run.nodes.count - 1
+        end.x[:], end.v[:] = march.run.node_x[last], march.run.node_v[last]
+        end.trim[:] = march.run.node_trim[last]
+    else:
+        propagate(model, march, h, end.x, end.v)
+        trim_at(model, march, h, end.x, end.trim)
+    integrate_powers(march, model.train.lanes, h)
     _pass_time(model, march, h)
 
 
@@ -197,7 +204,7 @@ def end_within(model: Record, march: Record, h: float) -> None:
 def _pass_time(model: Record, march: Record, h: float) -> None:
     """Let clock, set-points and frame of `end` run on for h seconds."""
     begin, end = march.begin, march.end
-    end.time = begin.time + h
+    run_on(begin, end, h)
     for a in range(model.train.axes):
         end.set_speed[a] = begin.set_speed[a] + march.moment.slew[a] * h
         _turn(end, a, begin.speed[a] * h / (2.0 * math.pi))
@@ -283,7 +290,6 @@ def _stiff_step(model: Record, march: Record, longest: float, event: float) -> N
     control.next_stiff = max(candidate, control.next_stiff) if factor >= 1.0 else candidate
     control.detour = max(control.detour - 1, 0)
     control.stiff_steps += 1
-    march.run.evaluation[LAST].rubbing[:] = march.last.rubbing
     accept(model, march, _end_on_flank_event(model, march, h))
 
 
@@ -328,25 +334,38 @@ def _end_on_flank_event(model: Record, march: Record, h: float) -> int:
 @kernel
 def _pass_edges(model: Record, march: Record) -> None:
     """Change the segment of every mesh that has come to the edge of its own."""
-    train, end = model.train, march.end
-    pace = march.moment.cycle_rate + cycle_shift(train, end.v)
+    train, end, moment = model.train, march.end, march.moment
+    advance = moment.cycle_rate * march.control.step
+    advance += cycle_shift(train, end.x) - cycle_shift(train, march.begin.x)
+    pace = moment.cycle_rate + cycle_shift(train, end.v)
     for i in range(train.meshes):
-        side = end.side[i]
-        if side == OPEN:
-            continue
-        kind = train.kind[i]
-        for _ in range(train.segments[kind]):
-            cycle = mesh_cycle(train, end, i, side)
-            segment = end.segment[i]
-            cycle = nearest_to_segment(train, kind, segment, cycle)
-            if side * pace > 0.0 and cycle >= train.edge[kind, segment + 1] - EDGE:
-                change_segment(model, end, march.aside, i, 1)
-            elif side * pace < 0.0 and cycle <= train.edge[kind, segment] + EDGE:
-                change_segment(model, end, march.aside, i, -1)
-            else:
-                break
-            march.control.pair_events += 1
-            march.control.changed = True
+        cycle, ahead = moment.start[i] + moment.side[i] * advance, moment.side[i] * pace
+        if ahead > 0.0 and cycle >= moment.high[i] - EDGE:
+            _pass_edge(model, march, i, 1)
+        elif ahead < 0.0 and cycle <= moment.low[i] + EDGE:
+            _pass_edge(model, march, i, -1)
+
+
+@kernel
+def _pass_edge(model: Record, march: Record, i: int, direction: int) -> None:
+    """Change the segment of mesh i until it has come to the edge of its own no more."""
+    train, end, side = model.train, march.end, march.end.side[i]
+    for _ in range(train.segments[train.kind[i]]):
+        if side == OPEN or not _at_edge(train, end, i, direction):
+            return
+        change_segment(model, end, march.aside, i, direction)
+        march.control.pair_events += 1
+        march.control.changed = True
+
+
+@kernel
+def _at_edge(train: Record, end: Record, i: int, direction: int) -> bool:
+    """Whether mesh i has come to the edge of its segment that lies in a direction."""
+    kind, segment = train.kind[i], end.segment[i]
+    cycle = nearest_to_segment(train, kind, segment, mesh_cycle(train, end, i, end.side[i]))
+    if direction > 0:
+        return cycle >= train.edge[kind, segment + 1] - EDGE
+    return cycle <= train.edge[kind, segment] + EDGE
 
 
 @kernel
@@ -366,39 +385,35 @@ def accept(model: Record, march: Record, mesh: int) -> None:
 
 
 @kernel
-def advance(
-    model: Record, march: Record, until: float, first_sample: int, sample_rate: float, out: Samples
-) -> None:
-    """Integrate to `until` [s], and fill `out` with the samples from number `first_sample` on.
-
-    Sample k is taken at k/sample_rate seconds, none later than `until`.
-    """
+def advance(model: Record, march: Record, until: Instant, samples: Sampling, out: Samples) -> None:
+    """Integrate to `until`, and fill `out` with `samples`, none of them later."""
     taken, room = 0, len(out.turns)
     while True:
-        while taken < room and (first_sample + taken) / sample_rate <= march.end.time:
-            sample(model, march, (first_sample + taken) / sample_rate, out, taken)
+        while taken < room and delay(march.end, due(samples)) <= 0.0:
+            sample(model, march, delay(march.begin, due(samples)), out, taken)
+            samples = after(samples)
             taken += 1
-        if taken == room and march.end.time >= until:
+        if taken == room and delay(march.end, until) <= 0.0:
             return
         begin_step(model, march)
         one_step(model, march, math.inf)
 
 
 @kernel
-def cut(model: Record, march: Record, time: float) -> None:
-    """Take back what lies beyond `time` [s], which is within the last step.
+def cut(model: Record, march: Record, until: Instant) -> None:
+    """Take back what lies beyond `until`, which is within the last step.
 
-    What changes from outside, changes there: the next step begins at `time`.
+    What changes from outside, changes there: the next step begins at it.
     """
-    if time < march.end.time:
-        length = time - march.begin.time
+    if delay(march.end, until) < 0.0:
+        length = delay(march.begin, until)
         march.control.changed = True
         if length > SHORTEST_STEP:
             one_step(model, march, length)
         else:
             copy_state(march.begin, march.end)
-        while time - march.end.time > SHORTEST_STEP:  # an event came before
+        while delay(march.end, until) > SHORTEST_STEP:  # an event came before
             begin_step(model, march)
-            one_step(model, march, time - march.end.time)
-    march.end.time = time
+            one_step(model, march, delay(march.end, until))
+    march.end.seconds, march.end.time = until.seconds, until.time
     march.control.changed = True

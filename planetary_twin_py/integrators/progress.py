@@ -55,6 +55,7 @@ def copy_state(source: Record, target: Record) -> None:
     target.v[:] = source.v
     target.side[:] = source.side
     target.segment[:] = source.segment
+    target.seconds = source.seconds
     target.time = source.time
     target.turns[:] = source.turns
     target.fraction[:] = source.fraction

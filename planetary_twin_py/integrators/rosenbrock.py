@@ -114,7 +114,8 @@ def _assemble(
         k = train.coupling_stiffness[c]
         add_outer(work.stiffness, train.coupling[c], _ENDS, k)
         add_outer(work.system, train.coupling[c], _ENDS, train.coupling_damping[c] + step * k)
-    friction_damping(train, first.pairs, work.system)
+    if train.friction:
+        friction_damping(train, first.pairs, work.system)
     for j in range(train.bodies + 1):
         work.system[j, j] += train.mass[j] / step
 

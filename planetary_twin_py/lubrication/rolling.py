@@ -8,16 +8,15 @@ does: the rising end of a Stribeck curve.
 from __future__ import annotations
 
 from .._compile import law
-from .._vector_math import exp, log
+from .._vector_math import exp
 
 COEFFICIENT, SPEED, LOAD = 4.318, 0.658, 0.0126
 
 
 @law
 def rolling_resistance(
-    size: float, speed_group: float, material_group: float, load_group: float
+    size: float, log_speed_group: float, log_material_group: float, log_load_group: float
 ) -> float:
-    """Force F_R [N] on each surface, from R L/alpha [N] and the groups U, G and W [-]."""
-    return (
-        COEFFICIENT * size * exp(SPEED * log(speed_group * material_group) + LOAD * log(load_group))
-    )
+    """Force F_R [N] on each surface, from R L/alpha [N] and the logarithms of U, G and W."""
+    groups = SPEED * (log_speed_group + log_material_group) + LOAD * log_load_group
+    return COEFFICIENT * size * exp(groups)

@@ -91,6 +91,7 @@ def pair_table(
     for j, (low, high) in enumerate(pairwise(edges)):
         middle = 0.5 * (low + high)
         shifts = [n for n in range(-PAIRS, PAIRS + 1) if -path.approach < middle + n < path.recess]
+        table.shift[j] = shifts[0]  # pairs that are absent have no weight, but a place
         table.shift[j, : len(shifts)] = shifts
         table.present[j, : len(shifts)] = True
     table.weight[:, :TOTAL] = along(

@@ -7,7 +7,7 @@ from typing import NamedTuple
 
 from ..dynamics.oil import build_oil
 from ..dynamics.static_load import mesh_force
-from ..dynamics.tooth_contact import choices, tooth_contact
+from ..dynamics.tooth_contact import choices, lambda_ratio_of, tooth_contact
 from ..gearset.geometry import pitch_radius
 from ..scene import Scene
 
@@ -55,4 +55,9 @@ def contact(
     point = scene.operating_point
     oil = build_oil(scene, point)
     pair = (*curvature, external, *speed, static_load(scene))
-    return Contact(*tooth_contact(oil, choices(oil), pair, point.lambda_ratio))
+    signed, boundary, viscous, log_film, sliding, slope, rolling, _ = tooth_contact(
+        oil, choices(oil), pair
+    )
+    ratio = lambda_ratio_of(oil, oil.prescribed, log_film)
+    film = math.exp(log_film)
+    return Contact(signed, boundary, viscous, film, ratio, sliding, slope, rolling)

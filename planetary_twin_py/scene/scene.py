@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from importlib import resources
 from pathlib import Path
-from typing import Any, Self
+from typing import Any, Literal, Self
 
 import yaml
 from pydantic import Field, ValidationError, model_validator
@@ -25,6 +25,11 @@ class Scene(Section):
 
     name: str
     description: str = ""
+    dynamics: Literal["torsional", "quasi_static"] = Field(
+        "torsional",
+        description="torsional: all bodies are free to vibrate; quasi_static: the train turns "
+        "rigidly and its loads are in static equilibrium at every instant",
+    )
     gearset: Gearset
     mesh: Mesh
     lubrication: Lubrication

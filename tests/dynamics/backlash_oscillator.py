@@ -15,9 +15,11 @@ from planetary_twin_py._records import new_record
 from planetary_twin_py.dynamics.bodies import LOAD_MACHINE
 from planetary_twin_py.dynamics.equations import MODEL
 from planetary_twin_py.dynamics.state import DRIVE_SIDE
+from planetary_twin_py.integrators.clock import Instant, instant, sampling
 from planetary_twin_py.integrators.interpolant import new_samples
 from planetary_twin_py.integrators.march import advance, cut
 from planetary_twin_py.integrators.progress import MARCH
+from planetary_twin_py.integrators.radau import radau
 from planetary_twin_py.mesh.tooth_pairs import TOTAL
 
 MASS, MOTOR, GROUND = 0, 1, 2
@@ -33,7 +35,8 @@ class Oscillator:
         train, load = self.model.train, self.model.load
         train.bodies, train.meshes, train.axes, train.machines = 2, 1, 1, 2
         train.mass[:3] = 1.0, 1e30, 1.0
-        train.radius[:3] = 1.0
+        train.lanes, train.slots = 4, 1
+        train.radius[:3] = train.inverse_radius[:3] = 1.0
         train.ratio[MOTOR, 0] = 1.0
         train.body[0] = MASS, GROUND, GROUND
         train.sign[0] = 1.0, 0.0, 0.0
@@ -52,9 +55,10 @@ class Oscillator:
         load.half_backlash = load.offset = load.release = 1.0
         load.torque[LOAD_MACHINE] = mean
         load.slew_rate = 1.0
+        self.march.run.nodes = radau(5)
         control = self.march.control
         control.tolerance_x = control.tolerance_v = tolerance
-        control.next_step = control.step = 1e-3
+        control.next_step = control.next_stiff = control.step = 1e-3
         control.longest = 0.2
         for state in (self.march.begin, self.march.end):
             state.side[0] = DRIVE_SIDE
@@ -65,7 +69,7 @@ class Oscillator:
         """Change the frequency ratio."""
         self.ratio = ratio
         size = self.alternating * ratio / math.hypot(ratio, 2.0 * self.zeta)
-        cut(self.model, self.march, self.march.end.time)
+        cut(self.model, self.march, Instant(self.march.end.seconds, self.march.end.time))
         self.model.train.line_amplitude[0, 0] = self.error = size
         self.march.end.speed[0] = self.march.end.set_speed[0] = ratio
         self.model.load.target_speed[0] = ratio
@@ -73,10 +77,11 @@ class Oscillator:
     def run(self, periods):
         """Squeeze x over `periods`, PER_PERIOD samples each."""
         rate = PER_PERIOD * self.ratio / (2.0 * math.pi)
-        first = math.ceil(self.march.end.time * rate) + 1
+        first = math.ceil((self.march.end.seconds + self.march.end.time) * rate) + 1
         count = periods * PER_PERIOD
         samples = new_samples(self.model.train, count)
-        advance(self.model, self.march, (first + count) / rate, first, rate, samples)
+        until = instant((first + count) / rate)
+        advance(self.model, self.march, until, sampling(first, rate), samples)
         angle = 2.0 * math.pi * samples.turns[:, 0] + samples.angle[:, MOTOR]
         return samples.mesh[:, 0, 0] - self.error * np.sin(angle)
 

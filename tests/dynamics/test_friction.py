@@ -2,15 +2,14 @@
 
 import numpy as np
 import pytest
-from power_flows import ALL_FLOWS, scene_of
+from power_flows import ALL_FLOWS, FLOWS, scene_of
 
 from planetary_twin_py._records import new_record
 from planetary_twin_py.dynamics.cycle import find_segment
 from planetary_twin_py.dynamics.equations import EVALUATION, forces
 from planetary_twin_py.dynamics.mesh_force import mesh_motion
-from planetary_twin_py.dynamics.moment import MOMENT
-from planetary_twin_py.dynamics.state import COAST_SIDE, DRIVE_SIDE, FRICTION
-from planetary_twin_py.dynamics.tooth_friction import apply_friction
+from planetary_twin_py.dynamics.moment import MOMENT, set_moment, take_segment
+from planetary_twin_py.dynamics.state import COAST_SIDE, DRIVE_SIDE, FRICTION, OPEN
 from planetary_twin_py.engine import Engine
 
 
@@ -22,10 +21,12 @@ def random_moment(engine, random):
     x[:bodies] = random.normal(0.0, 1e-5, bodies)
     state.x = x
     v[:bodies] = random.normal(0.0, 0.3, bodies)
+    set_moment(engine.model, state, moment)
     for i in range(train.meshes):
         state.side[i] = DRIVE_SIDE if mesh_motion(train, i, x) > 0.0 else COAST_SIDE
         moment.start[i] = random.uniform()
         state.segment[i] = find_segment(train, train.kind[i], moment.start[i], 1.0)
+        take_segment(train, state, moment, i)
     return state, moment, x, v
 
 
@@ -34,8 +35,9 @@ def sliding_speeds(train, pairs, speed):
     internal one, at angular speeds of bodies and ground."""
     result = []
     for p in range(pairs.count):
-        first, second, carrier = (speed[j] for j in train.body[pairs.mesh[p]])
-        sense = 1.0 if train.kind[pairs.mesh[p]] == 0 else -1.0
+        mesh = p % train.meshes
+        first, second, carrier = (speed[j] for j in train.body[mesh])
+        sense = 1.0 if train.kind[mesh] == 0 else -1.0
         result.append(
             pairs.rho1[p] * (first - carrier) + sense * pairs.rho2[p] * (second - carrier)
         )
@@ -56,7 +58,7 @@ def test_friction_takes_what_the_sliding_loses(flow, seed):
 
     pairs, bodies = with_friction.pairs, int(train.bodies)
     friction = pairs.friction[: pairs.count]
-    assert pairs.count >= 3 and np.abs(friction).max() > 1.0
+    assert (pairs.load[: pairs.count] > 0.0).sum() >= 3 and np.abs(friction).max() > 1.0
     q = (with_friction.force - without.force)[:bodies]
     speed = train.ratio @ state.speed + v / train.radius.clip(1e-9)
     sliding = sliding_speeds(train, pairs, speed)
@@ -77,9 +79,8 @@ def test_turning_everything_together_meets_no_friction(flow):
     engine = Engine(scene_of(flow), 1e-4)
     out, bodies = new_record(EVALUATION), int(engine.train.bodies)
     forces(engine.model, *random_moment(engine, np.random.default_rng(1)), 0.0, np.zeros(2), out)
-    q = np.zeros_like(out.force)
-    apply_friction(engine.train, out.pairs, (0, int(out.pairs.count)), q)
-    torque = (q * engine.train.radius)[: bodies + 1]  # the last is that on the ground
+    torque = (out.rubbing * engine.train.radius)[: bodies + 1]  # the last is that on the ground
+    assert np.abs(torque).max() > 0.0
     assert torque.sum() == pytest.approx(0.0, abs=1e-12 * np.abs(torque).sum())
 
 
@@ -88,7 +89,54 @@ def test_pairs_of_a_mesh_share_all_of_its_force(flow):
     engine = Engine(scene_of(flow), 1e-4)
     out = new_record(EVALUATION)
     forces(engine.model, *random_moment(engine, np.random.default_rng(2)), 0.0, np.zeros(2), out)
-    shares = np.bincount(
-        out.pairs.mesh[: out.pairs.count], out.pairs.share[: out.pairs.count], engine.train.meshes
-    )
+    meshes, slots = int(engine.train.meshes), int(engine.train.slots)
+    assert out.pairs.count == slots * meshes
+    shares = out.pairs.share[: slots * meshes].reshape(slots, meshes).sum(axis=0)
     assert shares == pytest.approx(1.0)
+
+
+LAWS = {
+    "prescribed": {},
+    "computed": {"lubrication.lambda_ratio": "computed"},
+    "printed": {"lubrication.asperities": "printed", "lubrication.traction": "printed"},
+    "sharing": {"lubrication.boundary": "load_sharing", "lubrication.lambda_ratio": "computed"},
+    "rolling": {"lubrication.rolling": "goksem_hargreaves"},
+    "torque": {"lubrication.friction_torque": "printed"},
+    "worn": {"faults": [{"kind": "wear", "gear": "sun", "tooth": 1, "depth": "2 um"}]},
+    "free of load": {"backlash": 1e-3},
+}
+
+
+@pytest.mark.parametrize("laws", LAWS.values(), ids=LAWS)
+def test_open_meshes_and_absent_pairs_rub_on_nothing(laws):
+    """They stand in the same registers as those that do."""
+    random = np.random.default_rng(3)
+    engine = Engine(scene_of(FLOWS[0], **laws), 1e-4)
+    train, out = engine.train, new_record(EVALUATION)
+    meshes, slots = int(train.meshes), int(train.slots)
+    seen = np.zeros(2, dtype=int)
+    for _ in range(20):
+        state, moment, x, v = random_moment(engine, random)
+        for i in random.choice(meshes, 2, replace=False):
+            state.side[i] = OPEN
+            take_segment(train, state, moment, i)
+        forces(engine.model, state, moment, x, v, 0.0, np.zeros(2), out)
+        columns = {
+            name: np.array(out.pairs[name][: slots * meshes]).reshape(slots, meshes)
+            for name in out.pairs.dtype.names[1:]
+        }
+        is_open = state.side[:meshes] == OPEN
+        present = train.present[train.kind[:meshes], state.segment[:meshes]]
+        idle = is_open | (np.arange(slots)[:, None] >= present)
+        seen += is_open.sum(), (idle & ~is_open).sum()
+        for name, values in columns.items():
+            assert np.isfinite(values).all(), name
+        for name in (
+            "load", "friction", "boundary", "viscous", "slope", "rolling", "rolling_power"
+        ):  # fmt: skip
+            assert (columns[name][idle] == 0.0).all(), name
+        for values in (out.now.push, out.now.lost, out.now.work, out.dragging.power):
+            assert (values[:meshes][is_open] == 0.0).all()
+        assert (out.dragging.torque[:, :meshes][:, is_open] == 0.0).all()
+        assert np.isfinite(out.force).all() and np.isfinite(out.power).all()
+    assert seen.min() > 0

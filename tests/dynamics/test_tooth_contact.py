@@ -6,7 +6,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from planetary_twin_py.dynamics.oil import build_oil
-from planetary_twin_py.dynamics.tooth_contact import choices, tooth_contact
+from planetary_twin_py.dynamics.tooth_contact import choices, lambda_ratio_of, tooth_contact
 from planetary_twin_py.scene import load_scene
 
 PAPER = load_scene("paper")
@@ -40,17 +40,15 @@ def test_finite_dissipative_and_never_negative_unless_printed_so(laws, pair):
     scene = PAPER.replace(**laws)
     oil = build_oil(scene, scene.operating_point)
     rho1, factor, external, *rest = pair
-    signed, boundary, viscous, film, ratio, sliding, slope, rolling = tooth_contact(
-        oil,
-        choices(oil),
-        (rho1, factor * rho1, external, *rest),
-        scene.operating_point.lambda_ratio,
+    signed, boundary, viscous, log_film, sliding, slope, rolling, taken = tooth_contact(
+        oil, choices(oil), (rho1, factor * rho1, external, *rest)
     )
-    for value in (signed, boundary, viscous, film, ratio, sliding, slope, rolling):
+    ratio = lambda_ratio_of(oil, oil.prescribed, log_film)
+    for value in (signed, boundary, viscous, log_film, ratio, sliding, slope, rolling, taken):
         assert math.isfinite(value)
-    assert film > 0.0 and ratio >= 0.0
+    assert math.exp(log_film) > 0.0 and ratio >= 0.0
     u1, u2 = rho1 * rest[0], -external * factor * rho1 * rest[1]
-    assert rolling * (u1 + u2) >= 0.0
+    assert rolling * (u1 + u2) >= 0.0 and taken >= 0.0
     if scene.lubrication.traction == "evans_johnson":
         assert viscous >= 0.0
         if scene.lubrication.asperities == "exact" or scene.lubrication.boundary == "load_sharing":

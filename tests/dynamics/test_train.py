@@ -9,7 +9,7 @@ from scipy.linalg import eigvalsh
 
 from planetary_twin_py._records import new_record
 from planetary_twin_py.dynamics.equations import EVALUATION, forces
-from planetary_twin_py.dynamics.moment import MOMENT
+from planetary_twin_py.dynamics.moment import MOMENT, set_moment
 from planetary_twin_py.dynamics.train import build_train
 from planetary_twin_py.engine import Engine
 
@@ -26,6 +26,7 @@ def test_rigid_motion_leaves_every_mesh_as_it_is(flow):
 def stiffness_matrix(model, state, bodies):
     """-dF/dx of the compiled equations, by differences of what is linear."""
     out, moment = new_record(EVALUATION), new_record(MOMENT)
+    set_moment(model, state, moment)
     columns = []
     for j in range(bodies):
         ends = []

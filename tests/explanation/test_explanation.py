@@ -9,7 +9,7 @@ from typer.testing import CliRunner
 import planetary_twin_py as pt
 from planetary_twin_py.cli import build_app
 from planetary_twin_py.explanation.measure import explain
-from planetary_twin_py.explanation.terms import terms
+from planetary_twin_py.explanation.terms import limits, terms
 
 SCENES = pytest.mark.parametrize("name", pt.packaged_scenes())
 
@@ -32,7 +32,16 @@ def test_a_term_that_is_off_is_not_listed():
     bare = pt.load_scene("paper").replace(
         backlash=0.0, **{"mesh.ramp": 0.0, "lubrication.friction": False}
     )
-    assert names(bare) == ["alternation of tooth pairs", "mesh damping"]
+    assert names(bare) == ["torsional dynamics", "alternation of tooth pairs", "mesh damping"]
+
+
+def test_a_quasi_static_scene_says_that_dynamics_is_left_out():
+    still = pt.load_scene("paper").replace(dynamics="quasi_static")
+    assert {"torsional dynamics", "mesh damping"} == set(names(pt.load_scene("paper"))) - set(
+        names(still)
+    )
+    assert limits(still)[0].name == "dynamics"
+    assert limits(pt.load_scene("paper")) == limits(still)[1:]
 
 
 def test_what_leaving_friction_out_changes_is_what_two_runs_differ_by():
@@ -51,7 +60,7 @@ def test_the_command_prints_terms_and_limits_and_figures_for_machines():
     runner = CliRunner()
     shown = runner.invoke(build_app(), ["explain", "paper", "--duration", "0.005"])
     assert shown.exit_code == 0
-    assert "backlash" in shown.output and "Left out of every scene" in shown.output
+    assert "backlash" in shown.output and "Left out" in shown.output
     figures = runner.invoke(build_app(), ["explain", "paper", "--duration", "0.005", "--json", "-"])
     data = json.loads(figures.stdout)
     assert data["scene"]["power_loss"] > 0.0

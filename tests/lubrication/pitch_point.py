@@ -4,7 +4,7 @@ import math
 from typing import NamedTuple
 
 from planetary_twin_py.dynamics.oil import build_oil
-from planetary_twin_py.lubrication.film import FILM_LAWS, film_thickness
+from planetary_twin_py.lubrication.film import FILM_LAWS, log_film_thickness
 
 CASES = [(mesh, rpm) for mesh in ("sp", "pr") for rpm in (1000, 2000, 3000)]
 MODULUS = 206e9 / (1 - 0.3**2)  # E' = 2 E*
@@ -35,13 +35,13 @@ def pitch_point(mesh, rpm):
 
 def film(law, mesh, rpm, load=LOAD):
     point = pitch_point(mesh, rpm)
-    return film_thickness(
-        FILM_LAWS[law],
+    sizes = (
         point.radius,
         VISCOSITY * point.speed / (MODULUS * point.radius),
         PRESSURE_VISCOSITY * MODULUS,
         load / (MODULUS * point.radius * FACE_WIDTH),
     )
+    return math.exp(log_film_thickness(FILM_LAWS[law], *map(math.log, sizes)))
 
 
 def oil_of(scene):

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from lubrication.pitch_point import LOAD, oil_of, pitch_point
 
-from planetary_twin_py.dynamics.tooth_contact import choices, tooth_contact
+from planetary_twin_py.dynamics.tooth_contact import choices, lambda_ratio_of, tooth_contact
 from planetary_twin_py.lubrication.load_sharing import film_share
 from planetary_twin_py.scene import load_scene
 
@@ -26,9 +26,11 @@ def coefficients(scene, speeds, load=LOAD):
     found = []
     for speed in speeds:
         w1, w2 = speed * (1 + SLIDING / 2) / rho, -speed * (1 - SLIDING / 2) / rho
-        values = tooth_contact(oil, choices(oil), (rho, rho, 1.0, w1, w2, load), 1.0)
-        taken = values[0] * values[5] + values[7] * 2.0 * speed
-        found.append((taken / (load * values[5]), values[4]))
+        signed, _, _, log_film, sliding, _, _, rolling_power = tooth_contact(
+            oil, choices(oil), (rho, rho, 1.0, w1, w2, load)
+        )
+        ratio = lambda_ratio_of(oil, oil.prescribed, log_film)
+        found.append(((signed * sliding + rolling_power) / (load * sliding), ratio))
     return np.array(found).T
 
 

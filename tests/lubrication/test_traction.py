@@ -15,7 +15,8 @@ def friction(mesh, rpm, load=LOAD, traction=TRACTION):
     point = pitch_point(mesh, rpm)
     area = point.area * math.sqrt(load / LOAD)
     h = film("salagianni", mesh, rpm, load)
-    return viscous_friction(traction, load, area, point.radius, h, point.speed)
+    log_heat = 0.5 * math.log(point.radius * load / (area * point.speed))
+    return viscous_friction(traction, load, area, math.log(h), log_heat)
 
 
 def test_coefficients_at_the_pitch_points():
@@ -42,8 +43,8 @@ def test_friction_is_zero_not_negative_under_a_load_too_light_for_the_law():
 def test_sense_of_sliding_is_an_odd_tanh_of_the_slide_to_roll_ratio():
     for ratio in (0.0, 1e-4, 0.015, 0.1, 3.0):
         expected = math.tanh(ratio / 0.015)
-        assert sliding_sense(ratio * 0.5, 0.5, 0.015) == pytest.approx(expected, abs=1e-11)
-        assert sliding_sense(-ratio * 0.5, 0.5, 0.015) == pytest.approx(-expected, abs=1e-11)
+        assert sliding_sense(ratio / 0.015) == pytest.approx(expected, abs=1e-11)
+        assert sliding_sense(-ratio / 0.015) == pytest.approx(-expected, abs=1e-11)
 
 
 PRINTED = load_scene("paper").replace(**{"lubrication.traction": "printed"})

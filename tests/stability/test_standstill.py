@@ -76,8 +76,10 @@ def test_teeth_jammed_by_an_error_of_form_come_to_rest_at_the_live_tolerance():
             "drive.speed_control.bandwidth": 100.0,
         },
     )
-    live, tight = (pt.simulate(scene, 0.02, 20_000.0, tolerance=t) for t in (5e-3, 1e-6))
-    assert live.energy.friction == pytest.approx(tight.energy.friction, rel=0.5)
+    tolerances = (4.9e-3, 5e-3, 5.1e-3, 1e-6)  # one alone may be right by chance
+    runs = [pt.simulate(scene, 0.02, 20_000.0, tolerance=tolerance) for tolerance in tolerances]
+    *live, tight = (run.energy.friction for run in runs)
+    assert live == pytest.approx([tight] * 3, rel=0.5)
 
 
 def test_damping_without_bound_at_standstill_lets_go_as_the_gears_begin_to_turn():

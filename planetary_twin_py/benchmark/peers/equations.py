@@ -23,7 +23,7 @@ from ...dynamics.cycle import cycle_shift, find_segment, frame_cycle
 from ...dynamics.equations import EVALUATION, MODEL, forces
 from ...dynamics.faults import find_faults
 from ...dynamics.mesh_force import deflection
-from ...dynamics.moment import MOMENT, set_moment
+from ...dynamics.moment import MOMENT, set_moment, take_segment
 from ...dynamics.observe import DTE, POWER_LOSS, QUANTITIES, observe
 from ...dynamics.state import COAST_SIDE, DRIVE_SIDE, OPEN, STATE
 
@@ -70,6 +70,7 @@ def _touch(problem: Record) -> None:
         cycle -= math.floor(cycle)
         state.side[i] = side
         state.segment[i] = find_segment(train, train.kind[i], cycle, side * pace)
+        take_segment(train, state, moment, i)
         moment.start[i] = cycle
         if train.faults > 0:
             find_faults(train, state, i, side, cycle, moment.faulty)
@@ -111,7 +112,7 @@ def show(problem: np.ndarray, times: np.ndarray, states: np.ndarray, out: np.nda
     for k in range(len(times)):
         place(own, times[k], states[k])
         x, v = own.state.x, own.state.v
-        observe(own.model, own.state, own.moment, x, v, 0.0, own.evaluation.pairs, room)
+        observe(own.model, own.state, own.moment, x, v, 0.0, own.evaluation, room)
         out[k] = room[DTE]
         lost += room[POWER_LOSS].sum()
     return lost / len(times)

@@ -1,0 +1,1 @@
+"""A train without dynamics: it turns rigidly, and its loads are in static equilibrium."""

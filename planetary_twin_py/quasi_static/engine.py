@@ -1,0 +1,126 @@
+"""A quasi-static run in progress: what `Engine` is to a run with dynamics."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+
+import numpy as np
+
+from .._records import Record, new_record
+from ..dynamics.bodies import MOTOR
+from ..dynamics.energy import kinetic
+from ..dynamics.equations import MODEL
+from ..dynamics.oil import build_oil
+from ..dynamics.start import build_load
+from ..dynamics.state import COAST_SIDE, DRIVE_SIDE, STATE
+from ..dynamics.static_load import mesh_force
+from ..dynamics.train import build_train
+from ..integrators.clock import delay, instant, sampling
+from ..integrators.interpolant import Samples, new_samples
+from ..integrators.progress import CONTROL
+from ..scene import OperatingPoint, Scene
+from ..tolerance import check_tolerance
+from .ledger import Ledger, first_guess
+from .motion import roll, turn_to
+from .sampling import sample, sample_all
+
+
+class QuasiStaticEngine:
+    """Follows a scene whose bodies turn rigidly under static loads.
+
+    Args:
+        scene: what to simulate.
+        tolerance: relative error of mesh forces, and of the losses of a mesh cycle.
+
+    Raises:
+        ValueError: the tolerance is out of range, or the scene cannot be built.
+    """
+
+    def __init__(self, scene: Scene, tolerance: float) -> None:
+        check_tolerance(tolerance)
+        self.scene = scene
+        # Nothing vibrates, so damping has nothing to do.
+        still = scene.replace(**{"mesh.damping.law": "viscous", "mesh.damping.damping_ratio": 0.0})
+        self.train = build_train(still)
+        self.control: Record = new_record(CONTROL)
+        self.reached = Fraction(0)
+        self._load(scene.operating_point, tolerance, self._start())
+        self._compile()
+
+    def _compile(self) -> None:
+        """Have every kernel ready before the clock runs; at time zero none changes anything."""
+        self.advance(0.0, 1, 1.0, 0)
+        self.sample(0.0)
+        self.take_ledger()
+        self.stored()
+
+    def _start(self) -> Record:
+        control, point = self.scene.drive.speed_control, self.scene.operating_point
+        speeds = [point.input_speed, point.second_input_speed]
+        if control.start_speed is not None:
+            speeds[0] = control.start_speed
+        axes = int(self.train.axes)
+        return new_record(STATE, speed=speeds[:axes], set_speed=speeds[:axes])
+
+    def _load(self, point: OperatingPoint, tolerance: float, origin: Record) -> None:
+        """Run on from `origin` at an operating point; where that cannot be, nothing changes."""
+        load, oil = build_load(self.scene, point, self.train), build_oil(self.scene, point)
+        model = new_record(MODEL, train=self.train, oil=oil, load=load)
+        lean = (
+            DRIVE_SIDE if mesh_force(self.scene, float(load.torque[MOTOR])) >= 0.0 else COAST_SIDE
+        )
+        ledger = Ledger(model, tolerance, lean, origin)
+        self.model, self.tolerance, self._lean, self._ledger = model, tolerance, lean, ledger
+        self._origin, self._run = origin.copy(), first_guess(lean)
+
+    def advance(
+        self, until: float | Fraction, first_sample: int, sample_rate: float, room: int
+    ) -> Samples:
+        """Run to `until` [s]; samples lie at whole multiples of 1/sample_rate.
+
+        Returns `room` samples from number `first_sample` on. A time given as a fraction is exact
+        however late it is.
+        """
+        samples = new_samples(self.train, room)
+        at = sampling(first_sample, sample_rate)
+        sample_all(self.model, self.tolerance, self._origin, self._run, at, samples)
+        roll(self.model, self._origin, instant(until))
+        self.reached = Fraction(until)
+        return samples
+
+    def sample(self, time: float | Fraction) -> Samples:
+        """One sample at `time` [s], the end of the last window."""
+        samples, run = new_samples(self.train, 1), first_guess(self._lean)
+        sample(self.model, self.tolerance, self._origin, run, instant(time), samples, 0)
+        return samples
+
+    def change(self, point: OperatingPoint, tolerance: float, time: float | Fraction) -> None:
+        """Run on with these from `time` [s], the end of the last window.
+
+        Raises:
+            ValueError: there is no equilibrium; nothing has changed.
+        """
+        origin = self._standing(time)
+        origin.energy = self._ledger.at(instant(time))
+        self._load(point, tolerance, origin)
+
+    def _standing(self, time: float | Fraction) -> Record:
+        state = self._origin.copy()
+        turn_to(self.model, self._origin, delay(self._origin, instant(time)), state)
+        return state
+
+    def take_ledger(self) -> np.ndarray:
+        """Integrals of the ledger up to `reached` since they were last taken, see `dynamics.state`.
+
+        They begin anew, so that what a window adds is not lost beside what a long run has added.
+        """
+        return self._ledger.take(instant(self.reached))
+
+    @property
+    def powers(self) -> np.ndarray:
+        """By which the ledger grows at `reached`."""
+        return self._ledger.power(instant(self.reached))
+
+    def stored(self) -> tuple[float, float]:
+        """Kinetic and elastic energy at `reached` [J]; what yields at rest does no work."""
+        return float(kinetic(self.model, self._standing(self.reached))), 0.0

@@ -1,0 +1,166 @@
+"""The energy ledger of a quasi-static run, at any time.
+
+In steady running whose powers repeat with the mesh cycle, one cycle is integrated and counted. A
+changing speed, a torque ripple, runout and faulty teeth are followed panel by panel.
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from .._records import Record, new_record
+from ..dynamics.bodies import MOTOR
+from ..dynamics.cycle import cycle_shift, frame_cycle
+from ..dynamics.moment import frame_cycle_rate
+from ..dynamics.observe import QUANTITIES
+from ..dynamics.state import COAST_SIDE, DRIVE_SIDE
+from ..integrators.clock import Instant, delay
+from .equilibrium import EQUILIBRIUM, settle
+from .motion import turn_to
+from .quadrature import ON_EDGE, divide_cycle, integrate, march
+
+SAME = 1e-12  # mesh cycles below which two edges are one
+
+
+def first_guess(lean: int) -> Record:
+    """An equilibrium still to be found, the teeth on the side `lean`."""
+    run = new_record(EQUILIBRIUM)
+    run.lean[:] = lean
+    return run
+
+
+class Ledger:
+    """Integrals of the powers since the start, at one operating point.
+
+    Args:
+        model: the train at that point.
+        tolerance: relative error of the losses of a mesh cycle.
+        lean: side of the teeth on which the mean torque presses.
+        origin: a STATE: where the motors are, and the ledger so far.
+
+    Raises:
+        ValueError: see `settle` and `divide_cycle`.
+    """
+
+    def __init__(self, model: Record, tolerance: float, lean: int, origin: Record) -> None:
+        self._model, self._tolerance, self._lean = model, tolerance, lean
+        self._mark = origin.copy()
+        self._run = first_guess(lean)
+        self._shown = np.zeros((QUANTITIES, int(model.train.meshes)))
+        self._repeats = _repeats(model)
+        self._edges = self._corners(origin)
+        self._cycle: tuple[np.ndarray, np.ndarray] | None = None
+        self._edges = self._panels(origin)
+
+    def at(self, time: Instant) -> np.ndarray:
+        """Ledger at `time`, which is not before the origin, since it was last taken."""
+        march(
+            self._model, self._tolerance, self._mark, self._run, self._edges, time, self._repeats,
+            self._shown,
+        )  # fmt: skip
+        if not self._repeats or not self._is_steady():
+            return self._mark.energy + self._integral(0.0, delay(self._mark, time))
+        rate = abs(float(frame_cycle_rate(self._model.train, self._mark)))
+        if rate == 0.0:
+            left = delay(self._mark, time)
+            self._move(self.power(time) * left, left)
+            return np.array(self._mark.energy)
+        return self._mark.energy + self._cycles(time, 1.0 / rate)
+
+    def take(self, time: Instant) -> np.ndarray:
+        """The same, and let it begin anew there."""
+        energy = self.at(time)
+        self._mark.energy -= energy
+        return energy
+
+    def _cycles(self, time: Instant, period: float) -> np.ndarray:
+        """Integrals over what is left of a mesh cycle once the mark has moved by whole ones."""
+        if self._cycle is None:
+            self._cycle = self._divide(self._model, self._mark)
+        phase, energy = self._cycle
+        whole = math.floor(delay(self._mark, time) / period + ON_EDGE)
+        self._move(whole * energy[-1], whole * period)
+        left = max(delay(self._mark, time), 0.0)
+        last = int(np.searchsorted(phase, left / period + ON_EDGE, "right")) - 1
+        last = min(last, len(phase) - 2)
+        rest: np.ndarray = energy[last] + self._integral(period * phase[last], left)
+        return rest
+
+    def _move(self, energy: np.ndarray, time: float) -> None:
+        """Let the mark stand `time` [s] later, with so much more in the ledger."""
+        self._mark.energy += energy
+        turn_to(self._model, self._mark, time, self._mark)
+
+    def _panels(self, origin: Record) -> np.ndarray:
+        """Edges of panels [mesh cycles of the frame], fine enough at the speed to come."""
+        for speed in (self._model.load.target_speed, origin.set_speed):
+            model, state = self._model.copy(), origin.copy()
+            model.load.target_speed = speed
+            state.set_speed = state.speed = speed
+            rate = float(frame_cycle_rate(model.train, state))
+            if rate != 0.0:
+                phase = self._divide(model, state)[0]
+                first = float(frame_cycle(model.train, state, 1))
+                return np.mod(first + math.copysign(1.0, rate) * phase[:-1], 1.0)
+        return self._edges
+
+    def _divide(self, model: Record, origin: Record) -> tuple[np.ndarray, np.ndarray]:
+        rate = float(frame_cycle_rate(model.train, origin))
+        first = float(frame_cycle(model.train, origin, 1))
+        ahead = np.mod(math.copysign(1.0, rate) * (self._edges - first), 1.0)
+        edges = np.unique(np.concatenate([[0.0, 1.0], ahead]))
+        edges = edges[np.append(np.diff(edges) > SAME, True)]
+        edges[0], edges[-1] = 0.0, 1.0
+        run = first_guess(self._lean)
+        phase, energy = divide_cycle(
+            model, self._tolerance, origin, run, edges, 1.0 / abs(rate), self._shown
+        )
+        return phase, energy
+
+    def _corners(self, origin: Record) -> np.ndarray:
+        """Mesh cycles of the frame at which a tooth pair begins or ends to enter or leave."""
+        train, load, run = self._model.train, self._model.load, first_guess(self._lean)
+        turn_to(self._model, origin, 0.0, run.state)
+        settle(self._model, self._tolerance, run, self._shown)
+        shift = float(cycle_shift(train, run.state.x))
+        reverses = load.ripple >= abs(load.torque[MOTOR])
+        sides = (DRIVE_SIDE, COAST_SIDE) if reverses else (self._lean,)
+        corners = []
+        for i in range(train.meshes):
+            kind = train.kind[i]
+            edge = train.edge[kind, : train.segments[kind]]
+            for side in sides:
+                late = 0.5 if side == COAST_SIDE else 0.0
+                corners.append(side * (edge - late) + train.phase[i] - shift)
+        return np.unique(np.mod(np.concatenate(corners), 1.0))
+
+    def _is_steady(self) -> bool:
+        return bool(np.all(self._mark.set_speed == self._model.load.target_speed))
+
+    def _integral(self, begin: float, end: float) -> np.ndarray:
+        """Over times after the mark [s] in one panel, from a fresh guess: it leaves no trace."""
+        gain = np.zeros_like(self._mark.energy)
+        integrate(
+            self._model, self._tolerance, self._mark, first_guess(self._lean), (begin, end),
+            self._shown, gain,
+        )  # fmt: skip
+        return gain
+
+    def power(self, time: Instant) -> np.ndarray:
+        """By which the ledger grows at `time`, which is not before the mark."""
+        run = first_guess(self._lean)
+        turn_to(self._model, self._mark, delay(self._mark, time), run.state)
+        settle(self._model, self._tolerance, run, self._shown)
+        power: np.ndarray = run.evaluation.power
+        return power
+
+
+def _repeats(model: Record) -> bool:
+    """Whether the powers of steady running depend on nothing but the place in the mesh cycle."""
+    train = model.train
+    periods = [train.line_period[kind, : train.lines[kind]] for kind in range(2)]
+    return bool(
+        model.load.ripple == 0.0 and train.faults == 0 and np.all(np.concatenate(periods) == 1)
+    )

@@ -1,0 +1,117 @@
+"""Many scenes at once: as one by one, in order, a few at a time, and none stops another."""
+
+import gc
+import threading
+import weakref
+
+import numpy as np
+import pytest
+from stability.sound import PAPER
+
+import planetary_twin_py as pt
+from planetary_twin_py import batch
+from planetary_twin_py.dynamics import train
+
+# The first takes longest, so that others are done before it.
+SCENES = [
+    PAPER.replace(input_torque=0.3, torque_ripple=3.0),
+    pt.load_scene("differential"),
+    pt.load_scene("wind_turbine_stage"),
+    *(PAPER.replace(lambda_ratio=x, input_torque=y) for x in (1.0, 1.5) for y in (20.0, 63.0)),
+]
+# So small an addendum that a tooth pair leaves before the next one comes.
+IMPOSSIBLE = PAPER.replace(**{"gearset.addendum": 0.3})
+ARRAYS = ("time", "angle", "speed", "dte", "mesh_force", "film_thickness", "power_loss")
+
+
+@pytest.mark.parametrize("workers", [1, 2, 5])
+def test_results_are_those_of_single_runs_to_the_last_bit_and_in_order(workers):
+    outcomes = list(pt.simulate_many(SCENES, 0.01, 20_000.0, tolerance=1e-3, workers=workers))
+    assert [outcome.place for outcome in outcomes] == list(range(len(SCENES)))
+    for outcome, scene in zip(outcomes, SCENES, strict=True):
+        assert outcome.scene is scene
+        alone = pt.simulate(scene, 0.01, 20_000.0, tolerance=1e-3)
+        for name in ARRAYS:
+            found, expected = getattr(outcome.result, name), getattr(alone, name)
+            assert np.array_equal(found, expected, equal_nan=True)
+        assert outcome.result.energy == alone.energy
+
+
+@pytest.mark.parametrize("workers", [1, 2])
+def test_a_scene_that_fails_is_named_with_its_place_and_stops_no_other(workers):
+    scenes = [PAPER, IMPOSSIBLE, PAPER]
+    first, failed, last = pt.simulate_many(scenes, 0.002, workers=workers)
+    assert np.array_equal(first.result.dte, last.result.dte)
+    assert isinstance(failed.found, ValueError)
+    with pytest.raises(ValueError, match=r"^scene 1 \(paper\): ") as error:
+        _ = failed.result
+    assert "\n" not in str(error.value) and error.value.__cause__ is failed.found
+
+
+def test_a_defect_is_not_taken_for_a_scene_that_fails(monkeypatch):
+    def defect(*_):
+        raise TypeError
+
+    monkeypatch.setattr(batch, "simulate", defect)
+    with pytest.raises(TypeError):
+        list(pt.simulate_many([PAPER], 0.001))
+
+
+def test_scenes_are_taken_and_results_kept_only_a_few_ahead_of_the_caller():
+    taken, results = [], []
+
+    def scenes():
+        for n in range(40):
+            taken.append(n)
+            yield PAPER.replace(lambda_ratio=1.0 + 0.01 * n)
+
+    for outcome in pt.simulate_many(scenes(), 0.001, workers=2):
+        assert len(taken) <= outcome.place + 1 + 2 * batch.AHEAD
+        results.append(weakref.ref(outcome.result))
+        del outcome
+        gc.collect()
+        assert all(result() is None for result in results)
+    assert len(taken) == 40
+
+
+def test_who_stops_taking_stops_the_work():
+    before = threading.active_count()
+    outcomes = pt.simulate_many([PAPER] * 1000, 0.002, workers=2)
+    next(outcomes)
+    outcomes.close()
+    assert threading.active_count() == before
+
+
+def test_an_empty_batch_gives_nothing():
+    assert list(pt.simulate_many([], 0.01)) == []
+
+
+@pytest.mark.parametrize(
+    "arguments",
+    [{"duration": 0.0}, {"method": "euler"}, {"tolerance": 1.0}, {"workers": 0}],
+    ids=str,
+)
+def test_arguments_out_of_range_are_refused_before_anything_runs(arguments):
+    (name,) = arguments
+    with pytest.raises(ValueError, match=f"^{name} = ") as error:
+        pt.simulate_many([PAPER], **{"duration": 0.01, **arguments})
+    assert "\n" not in str(error.value)
+
+
+@pytest.mark.parametrize("name", [*pt.packaged_scenes(), "yang_sun"])
+def test_a_train_that_scenes_share_is_the_one_built_for_each(name):
+    if name == "yang_sun":
+        contact = {"mesh.tooth.contact": name}
+        scene = pt.load_scene("cracked_tooth").replace(**contact)
+    else:
+        scene = pt.load_scene(name)
+    other = {"lambda_ratio": 1.7, "input_torque": 9.0, "backlash": 3e-6, "oil_temperature": 300.0}
+    for point in (scene, scene.replace(**other)):
+        shared, own = train.build_train(point), train._built.__wrapped__(point)
+        for field in own.dtype.names:  # what lies between the fields is anything
+            assert shared[field].tobytes() == own[field].tobytes(), field
+
+
+def test_who_changes_a_train_does_not_change_that_of_others():
+    train.build_train(PAPER).radius[:] = 1.0
+    assert train.build_train(PAPER).radius[0] < 0.1

@@ -1,0 +1,55 @@
+"""Kernels are compiled once, and never because a number has changed."""
+
+import sys
+import time
+from statistics import median
+
+import numba
+import pytest
+
+import planetary_twin_py as pt
+
+CHANGES = [
+    {"backlash": 0.0},
+    {"backlash": 4e-7},
+    {"lambda_ratio": 2},
+    {"oil_temperature": 300.0},
+    {"input_speed": 0},
+    {"input_speed": -2.0},
+    {"input_torque": -20.0},
+    {"input_torque": 0.0, "torque_ripple": 3.0},
+]
+
+
+def compiled():
+    """Number of machine codes of every kernel of the package."""
+    kernels = {
+        value
+        for name, module in list(sys.modules.items())
+        if name.startswith("planetary_twin_py")
+        for value in vars(module).values()
+        if isinstance(value, numba.core.dispatcher.Dispatcher)
+    }
+    return {kernel.py_func.__qualname__: len(kernel.overloads) for kernel in kernels}
+
+
+@pytest.mark.parametrize("name", pt.packaged_scenes())
+def test_no_change_and_no_scene_compiles_anything_after_the_first_twin(name):
+    pt.Twin(pt.load_scene("paper")).advance(1e-3)
+    before = compiled()
+    assert before["advance"] == before["cut"] == 1
+    twin = pt.Twin(pt.load_scene(name), sample_rate=1000.0)
+    for change in CHANGES:
+        twin.set(**change)
+        twin.advance(0.5e-3)
+    assert compiled() == before
+
+
+def test_a_change_takes_less_than_5_milliseconds():
+    twin, taken = pt.Twin(pt.load_scene("paper")), []
+    for change in CHANGES * 3:
+        twin.advance(1.23e-3)  # ends within a step, part of which is made again
+        begin = time.perf_counter()
+        twin.set(**change)
+        taken.append(time.perf_counter() - begin)
+    assert median(taken) < 5e-3
