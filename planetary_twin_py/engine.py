@@ -10,12 +10,12 @@ from fractions import Fraction
 
 import numpy as np
 
-from ._records import Record, new_record
+from ._records import AXES, Record, new_record
 from .dynamics.energy import elastic, kinetic
 from .dynamics.equations import MODEL
 from .dynamics.oil import build_oil
 from .dynamics.start import build_load, start_state
-from .dynamics.static_load import mesh_force
+from .dynamics.static_load import mesh_force, static_torques
 from .dynamics.train import build_train
 from .integrators.clock import delay, instant, sampling
 from .integrators.interpolant import Samples, new_samples, sample
@@ -69,19 +69,31 @@ class Engine:
         cut(self.model, self.march, instant(0.0))
 
     def _load(self, point: OperatingPoint) -> None:
-        """Put an operating point into the model, and scale the tolerances to its deflection."""
+        """Put an operating point into the model, and scale the tolerances to its deflections."""
         self.model.oil = build_oil(self.scene, point)
         self.model.load = build_load(self.scene, point, self.train)
         strongest = abs(point.input_torque) + point.torque_ripple
-        force = max(abs(mesh_force(self.scene, strongest)), LIGHTEST_MESH_LOAD)
+        per_torque = abs(mesh_force(self.scene, 1.0))
         stiffness = float(self.train.stiffness.min())
         lightest = float(self.train.mass[: self.train.bodies].min())
-        deflection = force / stiffness + 0.5 * point.backlash
         control = self.march.control
-        control.tolerance_x = self.tolerance * deflection
+        control.tolerance = self.tolerance
+        control.deflection = max(per_torque * strongest, LIGHTEST_MESH_LOAD) / stiffness
+        control.deflection += 0.5 * point.backlash
+        control.yielding = per_torque * self._accelerating_torque() / stiffness
+        control.quickness = np.sqrt(2.0 * stiffness / lightest)
         self.march.run.nodes = radau(next(n for least, n in POINTS if self.tolerance > least))
-        control.tolerance_v = control.tolerance_x * np.sqrt(2.0 * stiffness / lightest)
         control.changed = True
+
+    def _accelerating_torque(self) -> np.ndarray:
+        """Torque of the first motor [N m] that loads the meshes as each input's acceleration does,
+        per rad/s^2: a motor turns its own inertia without them."""
+        train, torque = self.train, np.zeros(AXES)
+        for axis, share in enumerate(static_torques(self.scene)[::2]):
+            motor = train.coupling[2 * axis, 0]
+            own = train.mass[motor] * train.radius[motor] ** 2
+            torque[axis] = (self.model.load.inertia[axis, axis] - own) / abs(share)
+        return torque
 
     def advance(
         self, until: float | Fraction, first_sample: int, sample_rate: float, room: int

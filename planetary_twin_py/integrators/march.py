@@ -100,6 +100,18 @@ def begin_step(model: Record, march: Record) -> None:
     copy_state(march.end, march.begin)
     _rebase(model.train, march.begin)
     set_moment(model, march.begin, march.moment)
+    _set_tolerances(model.train, march)
+
+
+@kernel
+def _set_tolerances(train: Record, march: Record) -> None:
+    """Allow errors in proportion to what the meshes yield, be it to torques or to inertia."""
+    control = march.control
+    deflection = control.deflection
+    for a in range(train.axes):
+        deflection += control.yielding[a] * abs(march.moment.slew[a])
+    control.tolerance_x = control.tolerance * deflection
+    control.tolerance_v = control.tolerance_x * control.quickness
 
 
 @kernel

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from .._compile import kernel
-from .._records import BODIES, FLAG, REAL, WHOLE, Record, layout
+from .._records import AXES, BODIES, FLAG, REAL, WHOLE, Record, layout
 from ..dynamics.equations import EVALUATION
 from ..dynamics.moment import MOMENT
 from ..dynamics.state import STATE
@@ -14,7 +14,11 @@ AUTO, COLLOCATION, ROSENBROCK = 0, 1, 2
 
 # Step control and counters.
 CONTROL = layout(
-    tolerance_x=REAL,  # local error a step may make in a transmission error [m]
+    tolerance=REAL,  # relative to the deflection of the meshes
+    deflection=REAL,  # under the torques of steady running [m]
+    yielding=(REAL, (AXES,)),  # and under each acceleration of a set-point [m s^2/rad]
+    quickness=REAL,  # speed of a body per deflection [1/s]
+    tolerance_x=REAL,  # local error this step may make in a transmission error [m]
     tolerance_v=REAL,  # and in the speed of a body [m/s]
     next_step=REAL,  # [s]
     step=REAL,  # the last one taken [s]

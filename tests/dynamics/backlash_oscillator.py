@@ -57,7 +57,7 @@ class Oscillator:
         load.slew_rate = 1.0
         self.march.run.nodes = radau(5)
         control = self.march.control
-        control.tolerance_x = control.tolerance_v = tolerance
+        control.tolerance, control.deflection, control.quickness = tolerance, 1.0, 1.0
         control.next_step = control.next_stiff = control.step = 1e-3
         control.longest = 0.2
         for state in (self.march.begin, self.march.end):
