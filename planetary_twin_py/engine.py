@@ -23,22 +23,14 @@ from .integrators.march import advance, begin_step, cut
 from .integrators.progress import AUTO, COLLOCATION, MARCH, ROSENBROCK
 from .integrators.radau import radau
 from .scene import OperatingPoint, Scene
+from .tolerance import check_tolerance
 
 METHODS = {"auto": AUTO, "collocation": COLLOCATION, "rosenbrock": ROSENBROCK}
 # Tolerances down to which so many points of a step are worth their cost, see docs.
 POINTS = ((3e-3, 3), (3e-4, 4), (0.0, 5))
 LONGEST_STEP = 1e-3  # [s]
 FIRST_STEP = 1e-6  # [s]
-TOLERANCES = (1e-8, 0.1)  # allowed range
 LIGHTEST_MESH_LOAD = 1.0  # [N] smaller mesh forces do not tighten the tolerance further
-
-
-def check_tolerance(tolerance: float) -> None:
-    """Raise ValueError unless `tolerance` is within its range."""
-    if not TOLERANCES[0] <= tolerance <= TOLERANCES[1]:
-        raise ValueError(
-            f"tolerance = {tolerance!r}: must be within {TOLERANCES[0]:g} and {TOLERANCES[1]:g}"
-        )
 
 
 class Engine:
@@ -110,9 +102,10 @@ class Engine:
         sample(self.model, self.march, delay(self.march.begin, instant(time)), samples, 0)
         return samples
 
-    def change(self, point: OperatingPoint, time: float | Fraction) -> None:
-        """Run on with another operating point from `time` [s], the end of the last window."""
+    def change(self, point: OperatingPoint, tolerance: float, time: float | Fraction) -> None:
+        """Run on with these from `time` [s], the end of the last window."""
         cut(self.model, self.march, instant(time))
+        self.tolerance = tolerance
         self._load(point)
 
     @property

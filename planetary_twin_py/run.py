@@ -39,8 +39,8 @@ class Run(Protocol):
     def sample(self, time: float | Fraction) -> Samples:
         """One sample at `time` [s], the end of the last window."""
 
-    def change(self, point: OperatingPoint, time: float | Fraction) -> None:
-        """Run on with another operating point from `time` [s], the end of the last window."""
+    def change(self, point: OperatingPoint, tolerance: float, time: float | Fraction) -> None:
+        """Run on with these from `time` [s], the end of the last window."""
 
     def take_ledger(self) -> np.ndarray:
         """Integrals of the ledger up to `reached` since they were last taken."""

@@ -19,11 +19,12 @@ from .dynamics.observe import (
     VISCOUS,
 )
 from .dynamics.state import BEARING, CHURNING, DAMPING, FRICTION, STIFFNESS_WORK, WORK
-from .engine import METHODS, check_tolerance
+from .engine import METHODS
 from .integrators.interpolant import Samples
 from .result import Energy, Result, Stats
 from .run import Run, start
 from .scene import Scene
+from .tolerance import check_tolerance
 
 MOST_SAMPLES = 20_000_000
 

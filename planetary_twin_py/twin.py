@@ -14,19 +14,20 @@ from .dynamics.state import BEARING, CHURNING, FRICTION, IMPULSE, WORK
 from .integrators.interpolant import Samples
 from .run import start
 from .scene import TUNABLES, OperatingPoint, Scene, SceneError
+from .tolerance import LIVE_TOLERANCE, check_tolerance
 from .window import Waveform, Window, mesh_statistics
 
-LIVE_TOLERANCE = 5e-3
 TICKS = 10**12  # of the clock, in a second
 LEEWAY = Fraction(1, 10**6)  # of a sample period, by which a sample may lie beyond its window
 LONGEST_WINDOW = 60.0  # [s] of samples held in memory at once
 
 
 class Change(NamedTuple):
-    """An operating point and the simulated instant from which it holds."""
+    """What a run follows from, and the simulated instant [s] from which it holds."""
 
     time: float
     point: OperatingPoint
+    tolerance: float
 
 
 class Twin:
@@ -53,8 +54,8 @@ class Twin:
         self._names = body_names(scene)
         self._engine = start(scene, tolerance)
         self._clock = Fraction(0)
-        self.log = [Change(0.0, scene.operating_point)]
-        """Every operating point and the instant from which it holds."""
+        self.log = [Change(0.0, scene.operating_point, tolerance)]
+        """Every operating point and tolerance: made again at the same instants, the same run."""
         self._books = self._account()
         self._end = self._engine.sample(self._clock)
 
@@ -73,6 +74,11 @@ class Twin:
         """The one in force."""
         return self.log[-1].point
 
+    @property
+    def tolerance(self) -> float:
+        """The one in force."""
+        return self.log[-1].tolerance
+
     def set(self, **changes: float) -> float:
         """Change fields of the operating point, all at `time`, which is returned [s].
 
@@ -85,11 +91,16 @@ class Twin:
         point = self.scene.replace(
             **{**self.operating_point.model_dump(), **changes}
         ).operating_point
-        if point != self.operating_point:
-            self._engine.change(point, self._clock)
-            self._books = self._account()  # play that opens or closes stores no work of this window
-            self.log.append(Change(self.time, point))
-        return self.time
+        return self._change(point, self.tolerance)
+
+    def set_tolerance(self, tolerance: float) -> float:
+        """Change the tolerance at `time`, which is returned [s].
+
+        Raises:
+            ValueError: it is out of range; nothing has changed.
+        """
+        check_tolerance(tolerance)
+        return self._change(self.operating_point, tolerance)
 
     def advance(self, duration: float) -> Window:
         """Run for `duration` [s] of simulated time.
@@ -110,6 +121,14 @@ class Twin:
         room = self._samples() - first + 1
         samples = self._engine.advance(self._clock, first, self.sample_rate, room)
         return self._window(step, first, samples)
+
+    def _change(self, point: OperatingPoint, tolerance: float) -> float:
+        change = Change(self.time, point, tolerance)
+        if change[1:] != self.log[-1][1:]:
+            self._engine.change(point, tolerance, self._clock)
+            self._books = self._account()  # play that opens or closes stores no work of this window
+            self.log.append(change)
+        return self.time
 
     def _samples(self) -> int:
         """Number of samples up to now."""

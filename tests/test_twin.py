@@ -168,3 +168,57 @@ def test_the_ends_of_the_ranges_stay_finite_at_a_change_and_from_the_start(point
 def test_a_window_that_cannot_be_is_refused(duration):
     with pytest.raises(ValueError, match="duration"):
         pt.Twin(PAPER).advance(duration)
+
+
+def test_a_tolerance_set_holds_from_its_instant_and_is_logged():
+    twin, undisturbed = pt.Twin(PAPER, tolerance=1e-3), pt.Twin(PAPER, tolerance=1e-3)
+    before = [t.advance(0.0123).waveform.dte for t in (twin, undisturbed)]
+    assert np.array_equal(*before)
+    assert twin.set_tolerance(1e-5) == twin.time == 0.0123
+    assert twin.set_tolerance(1e-5) == 0.0123
+    assert [(change.time, change.tolerance) for change in twin.log] == [(0.0, 1e-3), (0.0123, 1e-5)]
+    assert twin.tolerance == 1e-5
+    assert twin.operating_point == PAPER.operating_point
+    after = [t.advance(0.05).waveform.dte for t in (twin, undisturbed)]
+    assert not np.array_equal(*after)
+    assert after[0] == pytest.approx(after[1], rel=1e-2)
+
+
+def test_a_tighter_tolerance_set_on_the_way_is_worth_its_steps():
+    changed, loose, exact = (pt.Twin(PAPER, tolerance=t) for t in (1e-2, 1e-2, 1e-7))
+    for twin in (changed, loose, exact):
+        twin.advance(0.01)
+    changed.set_tolerance(1e-6)
+    # What the loose start has left behind dies away before it is looked at.
+    dte = [[t.advance(0.5), t.advance(0.05)][1].waveform.dte for t in (changed, loose, exact)]
+    errors = [np.abs(wave - dte[2]).max() for wave in dte[:2]]
+    assert errors[0] < 0.1 * errors[1]
+
+
+def test_a_run_is_made_again_bit_by_bit_from_its_log():
+    twin, samples = pt.Twin(PAPER, tolerance=1e-2), []
+    for k in range(30):
+        if k % 7 == 3:
+            twin.set_tolerance((1e-3, 3e-6, 1e-2, 3e-4)[k // 7 % 4])
+        if k % 5 == 3:
+            twin.set(backlash=(2 + k) * 1e-8, lambda_ratio=1.0 + 0.1 * k)
+        samples.append(twin.advance(0.003).waveform.dte)
+    again, log = pt.Twin(PAPER, tolerance=twin.log[0].tolerance), []
+    for change in [*twin.log[1:], pt.Change(twin.time, *twin.log[-1][1:])]:
+        if change.time > again.time:
+            log.append(again.advance(change.time - again.time).waveform.dte)
+        again.set(**change.point.model_dump())
+        again.set_tolerance(change.tolerance)
+    assert len(twin.log) > 9
+    assert again.log[-1] == twin.log[-1]
+    assert np.array_equal(np.vstack(log), np.vstack(samples))
+
+
+@pytest.mark.parametrize("tolerance", [0.0, 1e-9, 0.2, math.nan])
+def test_a_tolerance_that_cannot_be_is_refused_and_changes_nothing(tolerance):
+    twin = pt.Twin(PAPER)
+    with pytest.raises(ValueError, match=r"^tolerance = .*: must be within 1e-08 and 0\.1$"):
+        twin.set_tolerance(tolerance)
+    with pytest.raises(ValueError, match=r"^tolerance = "):
+        pt.Twin(PAPER, tolerance=tolerance)
+    assert len(twin.log) == 1

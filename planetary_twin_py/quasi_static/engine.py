@@ -15,11 +15,11 @@ from ..dynamics.start import build_load
 from ..dynamics.state import COAST_SIDE, DRIVE_SIDE, STATE
 from ..dynamics.static_load import mesh_force
 from ..dynamics.train import build_train
-from ..engine import check_tolerance
 from ..integrators.clock import delay, instant, sampling
 from ..integrators.interpolant import Samples, new_samples
 from ..integrators.progress import CONTROL
 from ..scene import OperatingPoint, Scene
+from ..tolerance import check_tolerance
 from .ledger import Ledger, first_guess
 from .motion import roll, turn_to
 from .sampling import sample, sample_all
@@ -39,13 +39,12 @@ class QuasiStaticEngine:
     def __init__(self, scene: Scene, tolerance: float) -> None:
         check_tolerance(tolerance)
         self.scene = scene
-        self.tolerance = tolerance
         # Nothing vibrates, so damping has nothing to do.
         still = scene.replace(**{"mesh.damping.law": "viscous", "mesh.damping.damping_ratio": 0.0})
         self.train = build_train(still)
         self.control: Record = new_record(CONTROL)
         self.reached = Fraction(0)
-        self._load(scene.operating_point, self._start())
+        self._load(scene.operating_point, tolerance, self._start())
         self._compile()
 
     def _compile(self) -> None:
@@ -63,15 +62,15 @@ class QuasiStaticEngine:
         axes = int(self.train.axes)
         return new_record(STATE, speed=speeds[:axes], set_speed=speeds[:axes])
 
-    def _load(self, point: OperatingPoint, origin: Record) -> None:
+    def _load(self, point: OperatingPoint, tolerance: float, origin: Record) -> None:
         """Run on from `origin` at an operating point; where that cannot be, nothing changes."""
         load, oil = build_load(self.scene, point, self.train), build_oil(self.scene, point)
         model = new_record(MODEL, train=self.train, oil=oil, load=load)
         lean = (
             DRIVE_SIDE if mesh_force(self.scene, float(load.torque[MOTOR])) >= 0.0 else COAST_SIDE
         )
-        ledger = Ledger(model, self.tolerance, lean, origin)
-        self.model, self._lean, self._ledger = model, lean, ledger
+        ledger = Ledger(model, tolerance, lean, origin)
+        self.model, self.tolerance, self._lean, self._ledger = model, tolerance, lean, ledger
         self._origin, self._run = origin.copy(), first_guess(lean)
 
     def advance(
@@ -95,15 +94,15 @@ class QuasiStaticEngine:
         sample(self.model, self.tolerance, self._origin, run, instant(time), samples, 0)
         return samples
 
-    def change(self, point: OperatingPoint, time: float | Fraction) -> None:
-        """Run on with another operating point from `time` [s], the end of the last window.
+    def change(self, point: OperatingPoint, tolerance: float, time: float | Fraction) -> None:
+        """Run on with these from `time` [s], the end of the last window.
 
         Raises:
-            ValueError: there is no equilibrium; the point has not changed.
+            ValueError: there is no equilibrium; nothing has changed.
         """
         origin = self._standing(time)
         origin.energy = self._ledger.at(instant(time))
-        self._load(point, origin)
+        self._load(point, tolerance, origin)
 
     def _standing(self, time: float | Fraction) -> Record:
         state = self._origin.copy()

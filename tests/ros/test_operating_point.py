@@ -50,6 +50,10 @@ def test_nonsense_is_refused_with_the_reason_and_changes_nothing(
         {"backlash": math.nan},
         {"lambda_ratio": "inf"},
         {"lambda_ratio": True},
+        {"tolerance": 5e-09},
+        {"tolerance": -1e-3},
+        {"tolerance": math.nan},
+        {"tolerance": "tight"},
     ):
         result = peer.set(NODE, **values)
         assert not result.successful
@@ -116,7 +120,9 @@ def test_values_given_at_start_are_read_the_same_way(peer: Peer, start: Start) -
     assert (point.backlash, point.lambda_ratio) == (3e-7, 2.0)
 
 
-@pytest.mark.parametrize("given", ["backlash:=7", "backlash:=wide", "scene:=nowhere"])
+@pytest.mark.parametrize(
+    "given", ["backlash:=7", "backlash:=wide", "tolerance:=5e-09", "tolerance:=7", "scene:=nowhere"]
+)
 def test_nonsense_at_start_ends_in_one_line(start: Start, given: str) -> None:
     process = start("planetary_twin.simulation", "--ros-args", "-p", given)
     _, errors = process.communicate(timeout=60)

@@ -151,6 +151,7 @@ def test_kill_minus_nine_of_the_run_takes_its_nodes_along(
         (["nowhere"], "nowhere"),
         (["--set", "backlash=7"], "backlash"),
         (["--set", "gap=7"], "gap"),
+        (["--tolerance", "7"], "tolerance = 7"),
         (["--record", "../x"], "--record"),
     ],
 )

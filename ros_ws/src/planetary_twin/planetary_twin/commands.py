@@ -29,6 +29,9 @@ def run(
     rate_factor: Annotated[
         float, typer.Option(help="Gearbox seconds per second.", min=0.01, max=100.0)
     ] = 1.0,
+    tolerance: Annotated[
+        float, typer.Option(help="Relative error of a step; 0: the tightest that time allows.")
+    ] = 0.0,
     tour: Annotated[
         bool, typer.Option(help="Change the operating point on the way, to show what it does.")
     ] = True,
@@ -39,7 +42,12 @@ def run(
     """Run a gearbox live on ROS 2, change it while it runs, and record it."""
     for number in (signal.SIGTERM, signal.SIGHUP):
         signal.signal(number, _interrupt)
-    options = {"scene": scene, "duration": duration, "rate_factor": rate_factor}
+    options = {
+        "scene": scene,
+        "duration": duration,
+        "rate_factor": rate_factor,
+        "tolerance": tolerance,
+    }
     try:
         _run(options, record, set_ or [], tour, json_)
     except KeyboardInterrupt:
@@ -82,11 +90,14 @@ def _run(
     # Loading ROS and the model takes a second in which Ctrl-C must end as cleanly as later.
     from rich.console import Console
 
+    from planetary_twin_py.tolerance import ladder_of
+
     from .running.outcome import print_outcome
     from .running.session import Plan, run_session
     from .running.tour import tour_of
 
     scene, duration = options["scene"], options["duration"]
+    ladder_of(options["tolerance"])  # refuses what cannot be before any process starts
     plan = Plan(
         **options,
         folder=_folder(record, scene),

@@ -10,6 +10,7 @@ from concurrent.futures import Future
 from typing import NamedTuple, Protocol
 
 from planetary_twin_py import Twin, Window
+from planetary_twin_py.tolerance import AffordableTolerance
 
 from .pacing import Pace
 
@@ -26,6 +27,9 @@ class Listener(Protocol):
     def changed(self, instant: float) -> None:
         """The operating point in force from simulated time `instant` [s] is a new one."""
 
+    def retuned(self, instant: float, affordable: AffordableTolerance) -> None:
+        """From simulated time `instant` [s] the tolerance is the one that is `affordable`."""
+
     def stopped(self, defect: Exception) -> None:
         """The thread ends because of `defect`."""
 
@@ -40,12 +44,23 @@ class Progress(NamedTuple):
 
 
 class LiveTwin:
-    """Advances `twin` by `interval` [s] at a time, `rate_factor` simulated seconds per second."""
+    """Advances `twin` by `interval` [s] at a time, `rate_factor` simulated seconds per second.
 
-    def __init__(self, twin: Twin, interval: float, rate_factor: float, listener: Listener) -> None:
+    `affordable` chooses the tolerance, and may be replaced at any time, from any thread.
+    """
+
+    def __init__(
+        self,
+        twin: Twin,
+        interval: float,
+        rate_factor: float,
+        affordable: AffordableTolerance,
+        listener: Listener,
+    ) -> None:
         self._twin = twin
         self._interval = interval
         self._pace = Pace(interval / rate_factor)
+        self.affordable = affordable
         self._listener = listener
         self._changes: queue.SimpleQueue[tuple[Mapping[str, float], Future[float]]] = (
             queue.SimpleQueue()
@@ -76,12 +91,23 @@ class LiveTwin:
         try:
             while not self._stop.is_set():
                 self._apply_changes()
-                self._listener.prepare(self._twin.advance(self._interval))
+                self._listener.prepare(self._advance())
                 self._pace.wait()
                 self._listener.publish()
                 self.progress = self._standing()
         except Exception as defect:
             self._listener.stopped(defect)
+
+    def _advance(self) -> Window:
+        """The next interval, at the tolerance that is affordable as far as is known."""
+        affordable = self.affordable
+        if affordable.tolerance != self._twin.tolerance:
+            instant = self._twin.set_tolerance(affordable.tolerance)
+            self._listener.retuned(instant, affordable)
+        begin = time.monotonic()
+        window = self._twin.advance(self._interval)
+        affordable.observe(time.monotonic() - begin)
+        return window
 
     def _apply_changes(self) -> None:
         while not self._changes.empty():
@@ -91,6 +117,7 @@ class LiveTwin:
             except ValueError as refusal:
                 future.set_exception(refusal)
                 continue
+            self.affordable.relearn()
             self._listener.changed(instant)
             future.set_result(instant)
 

@@ -39,13 +39,16 @@ def declare_bounded(
     return _declare_number(node, name, default, descriptor)
 
 
-def declare_tunable(node: Node, tunable: Tunable, default: float) -> float:
-    """Declare a quantity that may change while the twin runs and return its value at start."""
+def declare_tunable(node: Node, tunable: Tunable, default: float, told_in: str) -> float:
+    """Declare a quantity that may change while the twin runs and return its value at start.
+
+    `told_in` is the topic that tells the instant of a change.
+    """
     bounds = FloatingPointRange(from_value=tunable.minimum, to_value=tunable.maximum)
     descriptor = ParameterDescriptor(
         description=f"{tunable.description} [{tunable.unit or '-'}]",
         additional_constraints="a finite number, also written 1 or 2e-7; "
-        "takes effect between two published intervals, at the instant operating_point tells",
+        f"takes effect between two published intervals, at the instant {told_in} tells",
         floating_point_range=[bounds],
     )
     return _declare_number(node, tunable.name, default, descriptor)

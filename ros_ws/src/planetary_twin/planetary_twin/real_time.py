@@ -3,9 +3,12 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus, KeyValue
+
+from planetary_twin_py import Change
+from planetary_twin_py.tolerance import AffordableTolerance
 
 from .live import Progress
 
@@ -14,17 +17,30 @@ _SHORTEST = 0.5  # [s] over less than this, one late wake-up would already look 
 
 
 class RealTimeReport:
-    """Compares where a live twin stands now with where it stood at the report before."""
+    """Compares where a live twin stands now with where it stood at the report before.
 
-    def __init__(self, hardware: str, rate_factor: float, begun: Progress) -> None:
+    `log` is the twin's, which grows.
+    """
+
+    def __init__(
+        self, hardware: str, rate_factor: float, log: Sequence[Change], begun: Progress
+    ) -> None:
         self._hardware = hardware
         self._rate_factor = rate_factor
+        self._log = log
+        self._told = 0
         self._begun = self._last = begun
         self._process_cpu = time.process_time()
         self._wall = time.monotonic()
 
     def message(
-        self, now: Progress, published: Mapping[str, int], stamp: int, *, last: bool
+        self,
+        now: Progress,
+        affordable: AffordableTolerance,
+        published: Mapping[str, int],
+        stamp: int,
+        *,
+        last: bool,
     ) -> DiagnosticArray:
         """The report: `published` counts messages by topic, `stamp` [ns] is the ROS time.
 
@@ -50,6 +66,9 @@ class RealTimeReport:
             "simulated_time": f"{now.simulated:.6f}",
             "overruns": now.overruns,
             **self._cpu(now),
+            "computing": f"{affordable.load:.3f}",
+            "tolerance_choice": "automatic" if affordable.automatic else "fixed",
+            **self._tolerances(),
             **{f"published.{topic}": count for topic, count in published.items()},
         }
         status.values = [KeyValue(key=key, value=str(value)) for key, value in figures.items()]
@@ -57,6 +76,20 @@ class RealTimeReport:
         array = DiagnosticArray(status=[status])
         array.header.stamp.sec, array.header.stamp.nanosec = divmod(stamp, 1_000_000_000)
         return array
+
+    def _tolerances(self) -> dict[str, str]:
+        """The tolerance, and each since the report before with the instant it holds from.
+
+        All digits are told: with them a recording can be simulated again.
+        """
+        log = self._log[: len(self._log)]
+        told, self._told = self._told, len(log)
+        new = {
+            f"tolerance_from.{change.time!r}": repr(change.tolerance)
+            for k, change in enumerate(log[told:], told)
+            if k == 0 or change.tolerance != log[k - 1].tolerance
+        }
+        return {"tolerance": repr(log[-1].tolerance), **new}
 
     def _cpu(self, now: Progress) -> dict[str, str]:
         """Shares of one core since the report before."""

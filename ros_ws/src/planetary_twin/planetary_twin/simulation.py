@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import sys
 import traceback
 from concurrent.futures import Future
@@ -13,6 +14,12 @@ from rclpy.parameter import Parameter
 
 import planetary_twin_py as pt
 from planetary_twin_py.robot import robot_description
+from planetary_twin_py.tolerance import (
+    AUTOMATIC,
+    TOLERANCES,
+    AffordableTolerance,
+    ladder_of,
+)
 
 from .live import LiveTwin
 from .managed import ManagedNode, NodeError, run_node
@@ -21,6 +28,13 @@ from .real_time import RealTimeReport
 from .telemetry import Telemetry
 
 _REPORT_PERIOD = 1.0  # [s]
+_TOLERANCE = pt.Tunable(
+    "tolerance",
+    "",
+    "relative error of a step; 0: the tightest that the time left allows",
+    AUTOMATIC,
+    TOLERANCES[1],
+)
 
 
 class Simulation(ManagedNode):
@@ -48,14 +62,17 @@ class Simulation(ManagedNode):
         """Run from where the twin stands, with what was set while it stood."""
         twin = self._running_twin()
         instant = twin.set(**self._wanted())
-        self._live = LiveTwin(twin, 1.0 / self._rate, self._rate_factor, self)
+        affordable = self._affordable(twin.tolerance)
+        twin.set_tolerance(affordable.tolerance)
+        self.retuned(instant, affordable)
+        self._live = LiveTwin(twin, 1.0 / self._rate, self._rate_factor, affordable, self)
         point = twin.operating_point
         # Nothing between these two: stamps and wall instants must start from the same moment.
         self._telemetry.begin(self.get_clock().now().nanoseconds, instant)
         begun = self._live.start()
         self._telemetry.announce(point, instant)
         self._telemetry.describe(self._urdf)
-        self._report = RealTimeReport(self.get_namespace(), self._rate_factor, begun)
+        self._report = RealTimeReport(self.get_namespace(), self._rate_factor, twin.log, begun)
 
     def deactivate(self) -> None:
         """Stop after the interval in progress; the last report counts every message."""
@@ -85,6 +102,15 @@ class Simulation(ManagedNode):
         """Tell of a new operating point."""
         self._telemetry.announce(self._running_twin().operating_point, instant)
 
+    def retuned(self, instant: float, affordable: AffordableTolerance) -> None:
+        """Say which tolerance holds, and why."""
+        load = affordable.load
+        why = "to begin with" if math.isnan(load) else f"computing took {load:.0%} of the time"
+        self.get_logger().info(
+            f"tolerance {affordable.tolerance:g} from {instant:g} s, "
+            + (why if affordable.automatic else "as set")
+        )
+
     def stopped(self, defect: Exception) -> None:
         """End the process with the reason; a publisher refuses once a signal has shut ROS down."""
         if not self.context.ok():
@@ -107,12 +133,21 @@ class Simulation(ManagedNode):
         self._rate_factor = declare_bounded(
             self, "rate_factor", 1.0, (0.01, 100.0), "simulated seconds per second [-]"
         )
+        self._compute_share = declare_bounded(
+            self,
+            "compute_share",
+            0.4,
+            (0.05, 0.9),
+            "share of the time that computing may take where the tolerance is automatic [-]",
+        )
+        ladder_of(declare_tunable(self, _TOLERANCE, AUTOMATIC, "/diagnostics"))
         self._scene = pt.load_scene(name)
         for tunable in self._scene.tunables.values():
             default = getattr(self._scene.operating_point, tunable.name)
-            declare_tunable(self, tunable, default)
+            declare_tunable(self, tunable, default, "operating_point")
         self._scene = self._scene.replace(**self._wanted())
-        self.add_pre_set_parameters_callback(lambda given: coerce(given, pt.TUNABLES))
+        numbers = {*pt.TUNABLES, _TOLERANCE.name}
+        self.add_pre_set_parameters_callback(lambda given: coerce(given, numbers))
         self.add_on_set_parameters_callback(self._validate)
         self.add_post_set_parameters_callback(self._submit)
 
@@ -135,16 +170,28 @@ class Simulation(ManagedNode):
     def _wanted(self) -> dict[str, float]:
         return {name: self.get_parameter(name).value for name in pt.TUNABLES}
 
+    def _affordable(self, begin: float) -> AffordableTolerance:
+        """What chooses the tolerance as the parameters want it, from `begin` on."""
+        ladder = ladder_of(self.get_parameter(_TOLERANCE.name).value)
+        period = 1.0 / (self._rate * self._rate_factor)
+        return AffordableTolerance(ladder, self._compute_share, period, begin)
+
     def _validate(self, parameters: list[Parameter]) -> SetParametersResult:
         try:
             self._scene.replace(**self._wanted() | _tunables(parameters))
+            for wanted in (p.value for p in parameters if p.name == _TOLERANCE.name):
+                ladder_of(wanted)
         except ValueError as refusal:
             return SetParametersResult(successful=False, reason=str(refusal))
         return SetParametersResult(successful=True)
 
     def _submit(self, parameters: list[Parameter]) -> None:
+        if self._live is None:
+            return
+        if any(p.name == _TOLERANCE.name for p in parameters):
+            self._live.affordable = self._affordable(self._running_twin().tolerance)
         values = _tunables(parameters)
-        if values and self._live is not None:
+        if values:
             self._submitted = self._live.submit(values)
 
     def _set_operating_point(
@@ -192,7 +239,9 @@ class Simulation(ManagedNode):
             return
         stamp = self.get_clock().now().nanoseconds
         message = self._telemetry.diagnose(
-            lambda published: report.message(live.progress, published, stamp, last=last)
+            lambda published: report.message(
+                live.progress, live.affordable, published, stamp, last=last
+            )
         )
         status = message.status[0]
         if status.level != self._level:

@@ -45,6 +45,8 @@ class Outcome:
     efficiency: float  # [-] over the whole run; NaN unless power went in
     real_time_factor: float
     overruns: int
+    tolerance: float  # in force at the end
+    tolerance_choice: str
 
     def figures(self) -> dict[str, Any]:
         """For machines."""
@@ -62,6 +64,7 @@ class Outcome:
             "duration_s": self.duration,
             "real_time_factor": self.real_time_factor,
             "overruns": self.overruns,
+            "tolerance": None if np.isnan(self.tolerance) else self.tolerance,
             "mean_power_loss_w": None if np.isnan(self.power_loss) else self.power_loss,
             "efficiency": None if np.isnan(self.efficiency) else self.efficiency,
             "file": str(self.file),
@@ -103,6 +106,8 @@ def read_outcome(file: Path, published: Mapping[str, int], figures: Mapping[str,
         efficiency=1.0 - float(np.sum(loss * span)) / put_in if put_in > 0 else float("nan"),
         real_time_factor=float(figures.get("real_time_factor_mean", "nan")),
         overruns=int(figures.get("overruns", 0)),
+        tolerance=float(figures.get("tolerance", "nan")),
+        tolerance_choice=figures.get("tolerance_choice", "unknown"),
     )
 
 
@@ -124,6 +129,7 @@ def print_outcome(console: Console, outcome: Outcome) -> None:
     rows = {
         "gearbox time": f"{outcome.duration:.2f} s",
         "real-time factor": f"{outcome.real_time_factor:.4f}, {outcome.overruns} overruns",
+        "tolerance": f"{outcome.tolerance:g}, {outcome.tolerance_choice}",
         "mean power loss": f"{outcome.power_loss:.2f} W",
         "efficiency": f"{outcome.efficiency:.3%}",
         "recording": str(outcome.file),

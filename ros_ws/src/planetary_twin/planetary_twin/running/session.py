@@ -11,6 +11,8 @@ from pathlib import Path
 
 from rich.console import Console
 
+from planetary_twin_py.tolerance import AUTOMATIC
+
 from .children import Child, RunError
 from .operator import Operator
 from .outcome import Outcome, read_outcome
@@ -31,6 +33,7 @@ class Plan:
     duration: float  # [s] simulated
     folder: Path
     rate_factor: float = 1.0
+    tolerance: float = AUTOMATIC
     values: Mapping[str, float] = field(default_factory=dict)
     stops: list[Stop] = field(default_factory=list)
     namespace: str = "/planetary_twin"
@@ -77,6 +80,7 @@ def _simulation_parameters(plan: Plan) -> dict[str, object]:
     return {
         "scene": plan.scene,
         "rate_factor": plan.rate_factor,
+        "tolerance": plan.tolerance,
         "autostart": "false",
         **plan.values,
     }
