@@ -17,6 +17,7 @@ SCENES = [
     PAPER.replace(input_torque=0.3, torque_ripple=3.0),
     pt.load_scene("differential"),
     pt.load_scene("wind_turbine_stage"),
+    PAPER.replace(dynamics="quasi_static"),
     *(PAPER.replace(lambda_ratio=x, input_torque=y) for x in (1.0, 1.5) for y in (20.0, 63.0)),
 ]
 # So small an addendum that a tooth pair leaves before the next one comes.
