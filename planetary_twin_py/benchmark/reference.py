@@ -90,10 +90,10 @@ class Reference:
         return np.concatenate([y[n : 2 * n], self._work.force[:n] / train.mass[:n], lag])
 
     def _events(self) -> list[Callable[[float, np.ndarray], float]]:
-        """A terminal event for every edge of a tooth pair and every flank."""
-        events: list[Any] = []
-        for i in range(int(self._engine.train.meshes)):
-            events.append(lambda t, y, i=i: self._departure(i, t, y))
+        """A terminal event for every flank, then one for every edge of a tooth pair."""
+        meshes = range(int(self._engine.train.meshes))
+        events: list[Any] = [lambda t, y, i=i: self._departure(i, t, y) for i in meshes]
+        for i in meshes:
             if self._march.begin.side[i] != OPEN:
                 events.append(lambda t, y, i=i: self._to_edge(i, t, y))
         for event in events:
@@ -140,9 +140,7 @@ class Reference:
         end.set_speed = begin.set_speed + self._march.moment.slew * length
         turn = begin.fraction + begin.speed * length / (2.0 * np.pi)
         end.turns, end.fraction = begin.turns + np.floor(turn), turn - np.floor(turn)
-        flank = -1
-        for i in range(int(self._engine.train.meshes)):
-            if stretch.status == 1 and abs(self._departure(i, length, y)) < 1e-18:
-                flank = i
-        accept(self._model, self._march, flank)
+        meshes = int(self._engine.train.meshes)
+        met = [i for i, times in enumerate(stretch.t_events[:meshes]) if len(times)]
+        accept(self._model, self._march, met[0] if met else -1)
         self._march.control.changed = True
