@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterable, Iterator, Sequence
+from functools import partial
 from typing import Any, NamedTuple
 
 from rich.table import Table
@@ -92,7 +93,7 @@ def _speeds() -> _Entries:
 def _durations() -> _Entries:
     scene = load_scene("paper")
     for duration in DURATIONS:
-        yield f"{duration:g} s", lambda d=duration: end_to_end(scene, d, TOLERANCE)
+        yield f"{duration:g} s", partial(end_to_end, scene, duration, TOLERANCE)
 
 
 TABLES: dict[str, Callable[[], _Entries]] = {

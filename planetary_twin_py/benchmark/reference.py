@@ -65,7 +65,7 @@ class Reference:
         tolerance = np.repeat([ABSOLUTE_X, ABSOLUTE_V, ABSOLUTE_X], [n, n, self._axes])
         return solve_ivp(
             self._derivative, (0.0, self._longest()), start, method="DOP853", rtol=RELATIVE,
-            atol=tolerance, events=self._events(), dense_output=True,
+            atol=tolerance, events=self._events(start), dense_output=True,
         )  # fmt: skip
 
     def _longest(self) -> float:
@@ -89,10 +89,15 @@ class Reference:
         ]
         return np.concatenate([y[n : 2 * n], self._work.force[:n] / train.mass[:n], lag])
 
-    def _events(self) -> list[Callable[[float, np.ndarray], float]]:
-        """A terminal event for every flank, then one for every edge of a tooth pair."""
+    def _events(self, start: np.ndarray) -> list[Callable[[float, np.ndarray], float]]:
+        """A terminal event for every flank, then one for every edge of a tooth pair.
+
+        A flank that rounding left beyond its event at the start must not go on unseen: SciPy looks
+        for changes of sign.
+        """
         meshes = range(int(self._engine.train.meshes))
-        events: list[Any] = [lambda t, y, i=i: self._departure(i, t, y) for i in meshes]
+        beyond = [max(0.0, -2.0 * self._departure(i, 0.0, start)) for i in meshes]
+        events: list[Any] = [lambda t, y, i=i: self._departure(i, t, y) + beyond[i] for i in meshes]
         for i in meshes:
             if self._march.begin.side[i] != OPEN:
                 events.append(lambda t, y, i=i: self._to_edge(i, t, y))

@@ -21,8 +21,8 @@ _TITLES = (
 
 _PAGE = Template("""# Speed against error
 
-Made by `make bench ARGS="--markdown docs/speed-and-accuracy.md --plot docs/work-precision.png --costs"`: one core of a shared machine, so
-read ratios. Kernels are compiled and cached before; scene, arrays and start take $setup ms more.
+Made by the command in `benchmarks/README.md`: one core of a shared machine, so read ratios.
+Kernels are compiled and cached before; scene, arrays and start take $setup ms more.
 
 - *speed*: simulated over processor time without samples, median of $rounds rounds, beside it the
   slowest and the fastest; *sampled*: the same with samples of all meshes at $rate kHz.
@@ -33,7 +33,7 @@ read ratios. Kernels are compiled and cached before; scene, arrays and start tak
   equations with the integrator, but no step, step control, interpolant or event location.
   `tests/reference_model.py` is a second one that shares no code with the model at all.
 $peers
-The method `auto` is exponential collocation at three Radau points in the modes of the meshes in contact,
+The method `auto` is exponential collocation at Radau points in the modes of the meshes in contact,
 from event to event; near standstill ROS34PW2, a linearly implicit Runge-Kutta method of order 3,
 takes over (`integrators/`). `tolerance` bounds the local error of a step relative to the static
 deflection of the meshes; in these cases the DTE error comes out at $least to $most times the
@@ -45,10 +45,10 @@ The cases: the scene `paper` with
 $cases
 """)
 
-_PEERS = f"""- Methods other than {" and ".join(f"`{name}`" for name in METHODS)} are off-the-shelf solvers and fixed steps, see
-  `benchmark/peers/`. They take the same equations as one compiled function of time and state, and
-  are not told of events. Their only time is that with samples, which they interpolate, but without
-  working losses out of the states.
+_PEERS = f"""- Methods other than {" and ".join(f"`{name}`" for name in METHODS)} are off-the-shelf
+  solvers and fixed steps, see `benchmark/peers/`. They take the same equations as one compiled
+  function of time and state, and are not told of events. Their only time is that with samples,
+  which they interpolate, but without working losses out of the states.
 """
 
 

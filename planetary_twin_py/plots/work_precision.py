@@ -29,9 +29,9 @@ def work_precision(rows: Sequence[Row]) -> Figure:
             _panel(axes, case, methods, [row for row in measured if row.case == case])
         figure.supxlabel("processor time per simulated second [s]")
         figure.supylabel("relative error of the transmission error")
-        lines = {line.get_label(): line for axes in panes for line in axes.get_lines()}
+        lines = {str(line.get_label()): line for axes in panes for line in axes.get_lines()}
         figure.legend(
-            list(lines.values()), list(lines), loc="outside lower center", ncols=min(4, len(lines))
+            handles=list(lines.values()), loc="outside lower center", ncols=min(4, len(lines))
         )
     return figure
 

@@ -44,8 +44,10 @@ def _rows(case: Case, name: str, tolerances: list[float], reference: np.ndarray)
             yield _row(case, name, tolerance, reference)
         except SolverError as error:
             slow = error if isinstance(error, TooSlow) else None
-            nothing = [math.nan] * 7
-            yield Row(case.name, name, tolerance, *nothing, note=str(error))
+            nan = math.nan
+            yield Row(
+                case.name, name, tolerance, nan, nan, nan, nan, nan, nan, nan, note=str(error)
+            )
 
 
 def _row(case: Case, name: str, tolerance: float, reference: np.ndarray) -> Row:
