@@ -15,7 +15,7 @@ SHORT = Case("short", {}, 0.002, 2)
 RUN_UP = Case("run-up", {"drive.speed_control.start_speed": 50.0}, 0.001, 3, {
     "drive.speed_control.start_speed": 100.0,
 })  # fmt: skip
-HITS = Case("flank hits", RESONANCE, 0.0006, 2)
+HITS = Case("flank hits", RESONANCE, 0.0004, 2)
 RATTLE = Case("rattle", {"input_torque": 0.3, "torque_ripple": 60.0}, 0.004, 2)
 
 
@@ -24,16 +24,21 @@ def _short_runs(monkeypatch):
     monkeypatch.setattr(table, "WHOLE", 0.002)
 
 
-@pytest.mark.parametrize("method", METHODS)
 @pytest.mark.parametrize("case", [SHORT, RATTLE, HITS], ids=lambda case: case.name)
-def test_the_error_against_the_reference_is_that_of_the_tolerance(case, method):
-    rows = measure([case], (1e-3, 1e-5), methods=[method])
+def test_the_error_against_the_reference_is_that_of_the_tolerance(case):
+    rows = measure([case], (1e-3, 1e-5), methods=METHODS[:1])
     assert rows[1].error_dte < rows[0].error_dte
     for row in rows:
         assert 0.0 < row.error_dte < 3.0 * row.tolerance
         assert row.error_ratio == row.error_dte / row.tolerance
         assert 0.0 < row.error_power_loss < 3.0 * row.tolerance
     assert all(row.rtf_low <= row.rtf <= row.rtf_high for row in rows)
+
+
+@pytest.mark.parametrize("case", [SHORT, RATTLE], ids=lambda case: case.name)
+def test_the_error_of_the_other_method_falls_with_the_tolerance(case):
+    rows = measure([case], (1e-3, 1e-5), methods=METHODS[1:])
+    assert 0.0 < 30.0 * rows[1].error_dte < rows[0].error_dte < 1e-2
 
 
 def test_every_method_has_its_rows_and_the_whole_run_is_that_of_simulate():
