@@ -41,7 +41,8 @@ RUN_UP = {
     "drive.speed_control.slew_rate": rpm(1000 - 5) / 0.5,
 }
 FROM_500_RPM = {"drive.speed_control.start_speed": rpm(500)}
-# Flanks part and meet 24 times in a mesh period.
+# On average flanks part and meet 24 times in a mesh period. They do so when the torque is least,
+# and chaotically: after two dozen impacts the paths of any two methods are apart.
 RATTLE_24 = {
     "input_torque": 0.3,
     "torque_ripple": 0.3,
@@ -67,12 +68,12 @@ CASES = (
     Case("steady 1000 rpm, rectangular stiffness", RECTANGULAR, 0.01, 40),
     Case("steady, rectangular, no friction", RECTANGULAR | FRICTIONLESS, 0.01, 40),
     Case("steady 3000 rpm", {"input_speed": rpm(3000)}, 0.01, 20),
-    Case("stiff 100 rpm", {"input_speed": rpm(100)}, 0.03, 70),
+    Case("stiff 100 rpm", {"input_speed": rpm(100)}, 0.02, 100),
     Case("rattle", {"input_torque": 0.3, "torque_ripple": 3.0}, 0.03, 20),
-    Case("rattle, 24 events per mesh period", RATTLE_24, 0.03, 20),
-    # At lower speeds the printed damping is so strong that an explicit reference takes hours.
+    Case("rattle, 24 events per mesh period", RATTLE_24, 0.0215, 20),
+    # At lower speeds the printed damping is so strong that an explicit reference takes minutes.
     Case("run-up 5 to 1000 rpm in 0.5 s", RUN_UP, 0.02, 25, FROM_500_RPM),
     Case("light damping 1000 rpm", {"mesh.damping.law": "viscous"}, 0.01, 20),
     Case("light damping zeta 0.04", ZETA_004, 0.01, 20),
-    Case("resonance 17 000 rpm", RESONANCE, 0.002, 50),
+    Case("resonance 17 000 rpm", RESONANCE, 0.001, 100),
 )

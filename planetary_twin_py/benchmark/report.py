@@ -76,7 +76,8 @@ def as_table(rows: Sequence[Row]) -> Table:
     table = Table(box=None, header_style="bold", pad_edge=False)
     for title in _TITLES:
         name = title in _TITLES[:2]
-        table.add_column(title, justify="left" if name else "right", no_wrap=not name)
+        narrow = title.replace(" ", "\n").replace("/", "/\n")
+        table.add_column(narrow, justify="left" if name else "right", no_wrap=not name)
     for row in rows:
         table.add_row(*_cells(row))
     return table
@@ -103,5 +104,5 @@ def as_markdown(rows: Sequence[Row], picture: str | None = None) -> str:
 
 
 def _described(case: Case) -> str:
-    said = f"{case.changes or 'as it is'}"
-    return said if case.stretch is None else f"{said}; compared with {case.stretch}"
+    stretch = "" if case.stretch is None else f", with {case.stretch}"
+    return f"{case.changes or 'as it is'}; {case.duration * 1e3:g} ms compared{stretch}"
