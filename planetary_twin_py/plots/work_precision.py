@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from matplotlib.ticker import LogLocator
 
 from ..benchmark.table import METHODS, Row
 from .style import CYCLE, applied, colour_of, panels
@@ -31,7 +33,7 @@ def work_precision(rows: Sequence[Row]) -> Figure:
         figure.supylabel("relative error of the transmission error")
         lines = {str(line.get_label()): line for axes in panes for line in axes.get_lines()}
         figure.legend(
-            handles=list(lines.values()), loc="outside lower center", ncols=min(4, len(lines))
+            handles=list(lines.values()), loc="outside upper center", ncols=min(4, len(lines))
         )
     return figure
 
@@ -48,3 +50,8 @@ def _panel(axes: Axes, case: str, methods: Sequence[str], rows: Sequence[Row]) -
             label=method,
         )
     axes.set_title(case)
+    axes.minorticks_off()  # a short axis has no room for their labels
+    for axis in (axes.xaxis, axes.yaxis):
+        axis.set_major_locator(LogLocator(numticks=9))
+    low, high = axes.get_xlim()
+    axes.set_xlim(10.0 ** math.floor(math.log10(low)), 10.0 ** math.ceil(math.log10(high)))
