@@ -65,7 +65,7 @@ class Reference:
         tolerance = np.repeat([ABSOLUTE_X, ABSOLUTE_V, ABSOLUTE_X], [n, n, self._axes])
         return solve_ivp(
             self._derivative, (0.0, self._longest()), start, method="DOP853", rtol=RELATIVE,
-            atol=tolerance, events=self._events(), dense_output=True,
+            atol=tolerance, events=self._events(start), dense_output=True,
         )  # fmt: skip
 
     def _longest(self) -> float:
@@ -89,11 +89,16 @@ class Reference:
         ]
         return np.concatenate([y[n : 2 * n], self._work.force[:n] / train.mass[:n], lag])
 
-    def _events(self) -> list[Callable[[float, np.ndarray], float]]:
-        """A terminal event for every edge of a tooth pair and every flank."""
-        events: list[Any] = []
-        for i in range(int(self._engine.train.meshes)):
-            events.append(lambda t, y, i=i: self._departure(i, t, y))
+    def _events(self, start: np.ndarray) -> list[Callable[[float, np.ndarray], float]]:
+        """A terminal event for every flank, then one for every edge of a tooth pair.
+
+        A flank that rounding left beyond its event at the start must not go on unseen: SciPy looks
+        for changes of sign.
+        """
+        meshes = range(int(self._engine.train.meshes))
+        beyond = [max(0.0, -2.0 * self._departure(i, 0.0, start)) for i in meshes]
+        events: list[Any] = [lambda t, y, i=i: self._departure(i, t, y) + beyond[i] for i in meshes]
+        for i in meshes:
             if self._march.begin.side[i] != OPEN:
                 events.append(lambda t, y, i=i: self._to_edge(i, t, y))
         for event in events:
@@ -139,9 +144,7 @@ class Reference:
         end.set_speed = begin.set_speed + self._march.moment.slew * length
         turn = begin.fraction + begin.speed * length / (2.0 * np.pi)
         end.turns, end.fraction = begin.turns + np.floor(turn), turn - np.floor(turn)
-        flank = -1
-        for i in range(int(self._engine.train.meshes)):
-            if stretch.status == 1 and abs(self._departure(i, length, y)) < 1e-18:
-                flank = i
-        accept(self._model, self._march, flank)
+        meshes = int(self._engine.train.meshes)
+        met = [i for i, times in enumerate(stretch.t_events[:meshes]) if len(times)]
+        accept(self._model, self._march, met[0] if met else -1)
         self._march.control.changed = True

@@ -9,40 +9,46 @@ from string import Template
 
 from rich.table import Table
 
-from .cases import CASES
+from .cases import CASES, Case
 from .reference import RELATIVE
-from .table import METHOD, ROUNDS, SAMPLE_RATE, Row
+from .table import METHOD, METHODS, WHOLE, Row
+from .timing import ROUNDS, SAMPLE_RATE
 
-_TITLES = ("case", "method", "tolerance", "DTE error", "loss error", "speed", "spread")
+_TITLES = (
+    "case", "method", "tolerance", "DTE error", "error/tolerance", "loss error", "speed", "spread",
+    "sampled", "end to end",
+)  # fmt: skip
 
 _PAGE = Template("""# Speed against error
 
-Made by `make bench ARGS="--markdown docs/speed-and-accuracy.md"`: one core of a shared machine, so
-read ratios. Kernels are compiled and cached before; scene, arrays and start take $setup ms more.
+Made by the command in `benchmarks/README.md`: one core of a shared machine, so read ratios.
+Kernels are compiled and cached before; scene, arrays and start take $setup ms more.
 
-- *speed*: simulated over processor time with samples of all meshes at $rate kHz, median of
-  $rounds rounds, beside it the slowest and the fastest.
+- *speed*: simulated over processor time without samples, median of $rounds rounds, beside it the
+  slowest and the fastest; *sampled*: the same with samples of all meshes at $rate kHz.
+- *end to end*: a run of `simulate` over $whole s by wall time, set-up and samples included.
 - *DTE error*: rms error of the dynamic transmission error over its rms, the worst mesh.
 - *loss error*: error of the mean power loss.
 - Reference: SciPy's DOP853 from event to event, relative tolerance $relative. It shares the
   equations with the integrator, but no step, step control, interpolant or event location.
   `tests/reference_model.py` is a second one that shares no code with the model at all.
 $peers
-The method is exponential collocation at three Radau points in the modes of the meshes in contact,
+The method `auto` is exponential collocation at Radau points in the modes of the meshes in contact,
 from event to event; near standstill ROS34PW2, a linearly implicit Runge-Kutta method of order 3,
 takes over (`integrators/`). `tolerance` bounds the local error of a step relative to the static
 deflection of the meshes; in these cases the DTE error comes out at $least to $most times the
 tolerance.
-
+$picture
 $table
 
 The cases: the scene `paper` with
 $cases
 """)
 
-_PEERS = f"""- Methods other than `{METHOD}` are off-the-shelf solvers and fixed steps, see
-  `benchmark/peers/`. They take the same equations as one compiled function of time and state, and
-  are not told of events. Their time leaves out working losses out of the states.
+_PEERS = f"""- Methods other than {" and ".join(f"`{name}`" for name in METHODS)} are off-the-shelf
+  solvers and fixed steps, see `benchmark/peers/`. They take the same equations as one compiled
+  function of time and state, and are not told of events. Their only time is that with samples,
+  which they interpolate, but without working losses out of the states.
 """
 
 
@@ -52,9 +58,12 @@ def _cells(row: Row) -> tuple[str, ...]:
         row.method,
         f"{row.tolerance:.0e}",
         _figure(row.error_dte, ".1e"),
+        _figure(row.error_ratio, ".2g"),
         _figure(row.error_power_loss, ".1e"),
         row.note or f"{row.rtf:.3g}",
         "" if row.note else f"{row.rtf_low:.3g}-{row.rtf_high:.3g}",
+        _figure(row.rtf_sampled, ".3g"),
+        _figure(row.end_to_end_rtf, ".3g"),
     )
 
 
@@ -67,17 +76,18 @@ def as_table(rows: Sequence[Row]) -> Table:
     table = Table(box=None, header_style="bold", pad_edge=False)
     for title in _TITLES:
         name = title in _TITLES[:2]
-        table.add_column(title, justify="left" if name else "right", no_wrap=not name)
+        narrow = title.replace(" ", "\n").replace("/", "/\n")
+        table.add_column(narrow, justify="left" if name else "right", no_wrap=not name)
     for row in rows:
         table.add_row(*_cells(row))
     return table
 
 
-def as_markdown(rows: Sequence[Row]) -> str:
-    """The page `docs/speed-and-accuracy.md`."""
+def as_markdown(rows: Sequence[Row], picture: str | None = None) -> str:
+    """The page `docs/speed-and-accuracy.md`; `picture` is that of the same rows, beside it."""
     lines = [_TITLES, ("---",) * len(_TITLES), *(_cells(row) for row in rows)]
     own = [row for row in rows if row.method == METHOD]
-    ratios = [row.error_dte / row.tolerance for row in own]
+    ratios = [row.error_ratio for row in own]
     return _PAGE.substitute(
         least=f"{min(ratios):.1f}",
         most=f"{max(ratios):.1f}",
@@ -85,7 +95,14 @@ def as_markdown(rows: Sequence[Row]) -> str:
         rate=f"{SAMPLE_RATE / 1e3:g}",
         rounds=ROUNDS,
         relative=f"{RELATIVE:g}",
-        peers="" if len(own) == len(rows) else _PEERS,
+        whole=f"{WHOLE:g}",
+        peers=_PEERS if any(row.method not in METHODS for row in rows) else "",
+        picture="" if picture is None else f"\n![Error against time]({picture})\n",
         table="\n".join("| " + " | ".join(cells) + " |" for cells in lines),
-        cases="\n".join(f"- {case.name}: {case.changes or 'as it is'}" for case in CASES),
+        cases="\n".join(f"- {case.name}: {_described(case)}" for case in CASES),
     )
+
+
+def _described(case: Case) -> str:
+    stretch = "" if case.stretch is None else f", with {case.stretch}"
+    return f"{case.changes or 'as it is'}; {case.duration * 1e3:g} ms compared{stretch}"

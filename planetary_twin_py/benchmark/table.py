@@ -3,21 +3,20 @@
 from __future__ import annotations
 
 import math
-import time
 from collections.abc import Callable, Iterable
 from typing import NamedTuple
 
 import numpy as np
 
 from ..dynamics.observe import DTE, POWER_LOSS
-from ..engine import Engine
 from .cases import Case
 from .reference import Reference
+from .timing import SAMPLE_RATE, end_to_end, run, speed
 
-SAMPLE_RATE = 50_000.0
-TOLERANCES = (1e-2, 1e-3, 1e-4, 1e-5)
+TOLERANCES = (1e-2, 1e-3, 1e-4, 1e-5, 1e-6)
 METHOD = "auto"
-ROUNDS = 3  # timed runs, of which the median counts
+METHODS = (METHOD, "rosenbrock")
+WHOLE = 1.0  # [s] simulated from the scene to the result, set-up included
 
 
 class Row(NamedTuple):
@@ -28,11 +27,18 @@ class Row(NamedTuple):
     tolerance: float
     error_dte: float  # rms error of the transmission error over its rms, the worst mesh [-]
     error_power_loss: float  # error of the mean power loss over its value [-]
-    rtf: float  # simulated over processor time, median
+    rtf: float  # simulated over processor time without samples, median; of peers, with them
     rtf_low: float  # the slowest round
     rtf_high: float  # the fastest
+    rtf_sampled: float  # with samples of all meshes, median
     setup_s: float  # building and starting the model, kernels compiled [s]
+    end_to_end_rtf: float = math.nan  # of WHOLE seconds over wall time, set-up and samples included
     note: str = ""  # why there are no figures (they are NaN)
+
+    @property
+    def error_ratio(self) -> float:
+        """Error of the transmission error over the tolerance."""
+        return self.error_dte / self.tolerance
 
     def figures(self) -> dict[str, str | float | None]:
         """For JSON, which knows no NaN."""
@@ -54,47 +60,42 @@ def measure(
     tolerances: Iterable[float] = TOLERANCES,
     progress: Callable[[str], None] = lambda text: None,
     beside: Beside = nothing,
+    methods: Iterable[str] = METHODS,
 ) -> list[Row]:
     """Measure all cases.
 
     Args:
         cases: what to measure.
-        tolerances: each gives a row.
+        tolerances: each gives a row of every method.
         progress: is told what is under way.
         beside: gives further rows.
+        methods: of `Engine`.
     """
-    rows = []
+    tolerances, methods, rows = list(tolerances), list(methods), []
     for case in cases:
         progress(f"{case.name}: reference")
-        reference = Reference(case.scene()).run(case.duration, SAMPLE_RATE)
-        for tolerance in tolerances:
-            progress(f"{case.name}: tolerance {tolerance:g}")
-            rows.append(_row(case, tolerance, reference))
+        reference = Reference(case.compared()).run(case.duration, SAMPLE_RATE)
+        for method in methods:
+            for tolerance in tolerances:
+                progress(f"{case.name}: {method}, tolerance {tolerance:g}")
+                rows.append(_row(case, method, tolerance, reference))
         rows += beside(case, reference)
     return rows
 
 
-def _row(case: Case, tolerance: float, reference: np.ndarray) -> Row:
-    samples = _run(case, tolerance, case.duration)[0]
-    rounds, setup = [], 0.0
-    for _ in range(ROUNDS):
-        _, seconds, setup = _run(case, tolerance, case.duration * case.repeats)
-        rounds.append(case.duration * case.repeats / seconds)
+def _row(case: Case, method: str, tolerance: float, reference: np.ndarray) -> Row:
+    scene = case.scene()
+    first = run(case.compared(), case.duration, method, tolerance, sampled=True)
+    timed = case.timed(first.seconds)
+    bare, sampled = (
+        speed(scene, timed, method, tolerance, sampled=sampled) for sampled in (False, True)
+    )
+    whole = end_to_end(scene, WHOLE, tolerance).median if method == METHOD else math.nan
     return Row(
-        case.name, METHOD, tolerance,
-        *errors(samples, reference),
-        float(np.median(rounds)), min(rounds), max(rounds), setup,
+        case.name, method, tolerance,
+        *errors(first.mesh, reference),
+        *bare, sampled.median, first.setup_s, whole,
     )  # fmt: skip
-
-
-def _run(case: Case, tolerance: float, duration: float) -> tuple[np.ndarray, float, float]:
-    """Samples, processor time of the run [s], wall time of the set-up [s]."""
-    begin = time.perf_counter()
-    engine = Engine(case.scene(), tolerance)
-    setup = time.perf_counter() - begin
-    begin = time.process_time()
-    samples = engine.advance(duration, 1, SAMPLE_RATE, round(duration * SAMPLE_RATE))
-    return samples.mesh, time.process_time() - begin, setup
 
 
 def errors(samples: np.ndarray, reference: np.ndarray) -> tuple[float, float]:

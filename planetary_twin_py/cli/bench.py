@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import json
+import os
 import sys
 from pathlib import Path
 from typing import Annotated
 
 import typer
 
-from ._fail import need_peers
+from ._fail import fail, need_peers, need_plots
 
 
 def bench(
@@ -19,6 +20,13 @@ def bench(
     markdown: Annotated[
         Path | None, typer.Option(help="Write the table as a page of the documentation.")
     ] = None,
+    plot: Annotated[
+        Path | None, typer.Option(metavar="FILE.png", help="Draw error against time.")
+    ] = None,
+    costs: Annotated[
+        bool,
+        typer.Option("--costs", help="Measure against terms, planets, speed, duration, too."),
+    ] = False,
     peers: Annotated[
         bool,
         typer.Option("--peers", help="Measure off-the-shelf solvers, too (a quarter of an hour)."),
@@ -27,10 +35,13 @@ def bench(
     """Measure speed against error, beside a converged reference by SciPy's DOP853."""
     if peers:
         need_peers()
+    if plot is not None:
+        need_plots()
     from rich.console import Console
 
     from ..benchmark.batch import batch_markdown, batch_table, measure_batch
     from ..benchmark.cases import CASES
+    from ..benchmark.costs import cost_markdown, cost_tables, measure_costs
     from ..benchmark.peers.problem import Problem
     from ..benchmark.peers.work_precision import peer_rows
     from ..benchmark.report import as_markdown, as_table
@@ -41,13 +52,24 @@ def bench(
         beside = peer_rows(status.update) if peers else nothing
         rows = measure(CASES, progress=status.update, beside=beside)
         batches = measure_batch(progress=status.update)
+        dear = measure_costs(progress=status.update) if costs else []
     console.print(as_table(rows))
-    console.print(batch_table(batches))
+    console.print(batch_table(batches), *cost_tables(dear), sep="\n\n")
     if peers:
         call = Problem(CASES[0].scene()).seconds_per_call()
         console.print(f"right-hand side of the peers: {call * 1e9:.0f} ns a call ({CASES[0].name})")
+    if plot is not None:
+        from ..plots.style import save
+        from ..plots.work_precision import work_precision
+
+        try:
+            save(work_precision(rows), str(plot))
+        except (OSError, ValueError) as error:
+            fail(f"--plot = {str(plot)!r}: {error}")
     if markdown is not None:
-        markdown.write_text(as_markdown(rows) + batch_markdown(batches), "utf-8")
+        picture = os.path.relpath(plot, markdown.parent) if plot is not None else None
+        page = as_markdown(rows, picture) + batch_markdown(batches)
+        markdown.write_text(page + (cost_markdown(dear) if dear else ""), "utf-8")
     if json_ is not None:
         text = json.dumps([row.figures() for row in rows], indent=2) + "\n"
         sys.stdout.write(text) if json_ == "-" else Path(json_).write_text(text, "utf-8")

@@ -41,11 +41,17 @@ def applied() -> AbstractContextManager[None]:
     return matplotlib.rc_context(_STYLE)
 
 
-def panels(count: int = 1, height: float = 2.9) -> tuple[Figure, list[Axes]]:
-    """A figure of `height` [in] with `count` axes side by side."""
-    figure = Figure(figsize=(WIDTH, height), layout="constrained")
-    axes = figure.subplots(1, count, squeeze=False)
-    return figure, list(axes[0])
+def panels(
+    count: int = 1, height: float = 2.9, columns: int | None = None
+) -> tuple[Figure, list[Axes]]:
+    """A figure with `count` axes in rows of `height` [in]: all side by side, or in `columns`."""
+    columns = columns or count
+    rows = -(-count // columns)
+    figure = Figure(figsize=(WIDTH, rows * height), layout="constrained")
+    axes = list(figure.subplots(rows, columns, squeeze=False).flat)
+    for spare in axes[count:]:
+        spare.remove()
+    return figure, axes[:count]
 
 
 def colour_of(names: Sequence[str], name: str) -> str:

@@ -5,32 +5,99 @@ import math
 
 import pytest
 
-from planetary_twin_py.benchmark.cases import Case
-from planetary_twin_py.benchmark.report import as_markdown
-from planetary_twin_py.benchmark.table import measure
+import planetary_twin_py as pt
+from planetary_twin_py.benchmark import table
+from planetary_twin_py.benchmark.cases import CASES, RATTLE_24, RESONANCE, Case
+from planetary_twin_py.benchmark.report import as_markdown, as_table
+from planetary_twin_py.benchmark.table import METHODS, measure
 
 SHORT = Case("short", {}, 0.002, 2)
+RUN_UP = Case("run-up", {"drive.speed_control.start_speed": 50.0}, 0.001, 3, {
+    "drive.speed_control.start_speed": 100.0,
+})  # fmt: skip
+HITS = Case("flank hits", RESONANCE, 0.0004, 2)
 RATTLE = Case("rattle", {"input_torque": 0.3, "torque_ripple": 60.0}, 0.004, 2)
 
 
-@pytest.mark.parametrize("case", [SHORT, RATTLE], ids=lambda case: case.name)
+@pytest.fixture(autouse=True)
+def _short_runs(monkeypatch):
+    monkeypatch.setattr(table, "WHOLE", 0.002)
+
+
+@pytest.mark.parametrize("case", [SHORT, RATTLE, HITS], ids=lambda case: case.name)
 def test_the_error_against_the_reference_is_that_of_the_tolerance(case):
-    rows = measure([case], (1e-3, 1e-5))
+    rows = measure([case], (1e-3, 1e-5), methods=METHODS[:1])
     assert rows[1].error_dte < rows[0].error_dte
     for row in rows:
         assert 0.0 < row.error_dte < 3.0 * row.tolerance
+        assert row.error_ratio == row.error_dte / row.tolerance
         assert 0.0 < row.error_power_loss < 3.0 * row.tolerance
     assert all(row.rtf_low <= row.rtf <= row.rtf_high for row in rows)
 
 
+@pytest.mark.parametrize("case", [SHORT, RATTLE], ids=lambda case: case.name)
+def test_the_error_of_the_other_method_falls_with_the_tolerance(case):
+    rows = measure([case], (1e-3, 1e-5), methods=METHODS[1:])
+    assert 0.0 < 30.0 * rows[1].error_dte < rows[0].error_dte < 1e-2
+
+
+def test_every_method_has_its_rows_and_the_whole_run_is_that_of_simulate():
+    """Set-up takes longer than so short a run: the speed from end to end is lower."""
+    rows = measure([SHORT], (1e-2, 1e-3))
+    assert [row.method for row in rows] == [METHODS[0]] * 2 + [METHODS[1]] * 2
+    assert all(0.0 < row.end_to_end_rtf < row.rtf for row in rows[:2])
+    assert all(math.isnan(row.end_to_end_rtf) for row in rows[2:])
+    assert rows[2].figures()["end_to_end_rtf"] is None
+
+
+def test_a_case_with_a_stretch_is_compared_there_and_timed_as_a_whole():
+    assert RUN_UP.timed(10.0) == pytest.approx(0.003)
+    assert RUN_UP.scene().drive.speed_control.start_speed == 50.0
+    assert RUN_UP.compared().drive.speed_control.start_speed == 100.0
+    (row,) = measure([RUN_UP], (1e-4,), methods=METHODS[:1])
+    assert row.error_dte < 3e-4
+    (row,) = measure([RUN_UP], (1e-4,), methods=METHODS[1:])
+    assert row.error_dte < 1e-3
+
+
+def test_a_slow_run_is_timed_once_and_a_fast_one_as_often_as_the_case_allows():
+    assert SHORT.timed(1e9) == SHORT.duration
+    assert SHORT.timed(0.0) == SHORT.duration * SHORT.repeats
+
+
+def test_names_of_cases_differ():
+    assert len({case.name for case in CASES}) == len(CASES)
+
+
+def test_rattle_has_24_contact_events_in_a_mesh_period():
+    scene = pt.load_scene("paper").replace(**RATTLE_24)
+    events = pt.simulate(scene, 0.12, tolerance=1e-4).stats.flank_events
+    periods = 0.12 * scene.operating_point.input_speed / (2.0 * math.pi) * scene.gearset.teeth.sun
+    assert events / periods == pytest.approx(24.0, abs=3.0)
+
+
+def test_at_resonance_flanks_part_and_hit_back():
+    result = pt.simulate(pt.load_scene("paper").replace(**RESONANCE), 0.01, tolerance=1e-3)
+    assert result.stats.flank_events > 500
+    assert (result.mesh_force == 0.0).any() and (result.mesh_force < 0.0).any()
+
+
 def test_the_page_of_the_documentation_shows_what_was_measured():
-    (row,) = measure([SHORT], (1e-3,))
-    errors = f"{row.error_dte:.1e} | {row.error_power_loss:.1e}"
+    (row,) = measure([SHORT], (1e-3,), methods=METHODS[:1])
+    errors = f"{row.error_dte:.1e} | {row.error_ratio:.2g} | {row.error_power_loss:.1e}"
     cells = f"| short | {row.method} | 1e-03 | {errors} | {row.rtf:.3g} |"
     assert cells in as_markdown([row]) and math.isfinite(row.rtf)
+    assert f"| {row.rtf_sampled:.3g} | {row.end_to_end_rtf:.3g} |" in as_markdown([row])
+    assert as_table([row]).row_count == 1
+
+
+def test_the_page_shows_a_picture_only_where_there_is_one():
+    rows = measure([SHORT], (1e-2,), methods=METHODS[:1])
+    assert "![" not in as_markdown(rows)
+    assert "](work-precision.png)" in as_markdown(rows, "work-precision.png")
 
 
 def test_figures_are_json_also_without_friction():
     case = Case("smooth", {"lubrication.friction": False}, 0.001, 1)
-    (row,) = measure([case], (1e-2,))
+    (row,) = measure([case], (1e-2,), methods=METHODS[:1])
     assert json.loads(json.dumps(row.figures(), allow_nan=False))["error_power_loss"] is None

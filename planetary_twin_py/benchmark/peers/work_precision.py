@@ -8,13 +8,14 @@ from collections.abc import Callable, Iterable, Iterator
 import numpy as np
 
 from ...dynamics.observe import DTE, POWER_LOSS
+from ...scene import Scene
 from ..cases import Case
-from ..table import ROUNDS, SAMPLE_RATE, TOLERANCES, Beside, Row, dte_error, loss_error
+from ..table import TOLERANCES, Beside, Row, dte_error, loss_error
+from ..timing import ROUNDS, SAMPLE_RATE, Speed
 from .solver import SolverError, TooSlow
 from .solvers import SOLVERS, Run, run
 
 LIMIT = 15.0  # [s] for one of the runs of a row
-ROUND = 0.5  # [s] that a timed run takes, about, where the case is long enough
 
 
 def peer_rows(
@@ -44,21 +45,23 @@ def _rows(case: Case, name: str, tolerances: list[float], reference: np.ndarray)
         except SolverError as error:
             slow = error if isinstance(error, TooSlow) else None
             nan = math.nan
-            yield Row(case.name, name, tolerance, nan, nan, nan, nan, nan, nan, str(error))
+            yield Row(
+                case.name, name, tolerance, nan, nan, nan, nan, nan, nan, nan, note=str(error)
+            )
 
 
 def _row(case: Case, name: str, tolerance: float, reference: np.ndarray) -> Row:
-    first = _run(case, name, tolerance, 1)
-    repeats = max(1, min(case.repeats, int(ROUND / first.seconds)))
-    runs = [_run(case, name, tolerance, repeats) for _ in range(ROUNDS)]
-    rtf = [case.duration * repeats / each.seconds for each in runs]
+    first = _run(case.compared(), case.duration, name, tolerance)
+    timed = case.timed(first.seconds)
+    runs = [_run(case.scene(), timed, name, tolerance) for _ in range(ROUNDS)]
+    rtf = Speed.of([timed / each.seconds for each in runs])
     return Row(
         case.name, name, tolerance,
         dte_error(first.dte, reference[:, DTE]),
         loss_error(first.power_loss * len(reference), reference[:, POWER_LOSS].sum()),
-        float(np.median(rtf)), min(rtf), max(rtf), first.setup_s,
+        *rtf, rtf.median, first.setup_s,
     )  # fmt: skip
 
 
-def _run(case: Case, name: str, tolerance: float, repeats: int) -> Run:
-    return run(name, case.scene(), case.duration * repeats, SAMPLE_RATE, tolerance, LIMIT)
+def _run(scene: Scene, duration: float, name: str, tolerance: float) -> Run:
+    return run(name, scene, duration, SAMPLE_RATE, tolerance, LIMIT)

@@ -1,0 +1,63 @@
+"""Order of collocation by regression on a smooth stretch: no event, equal steps, friction on."""
+
+import numpy as np
+import pytest
+
+from planetary_twin_py.engine import Engine
+from planetary_twin_py.integrators.collocation import _sweep
+from planetary_twin_py.integrators.march import _hold_friction, accept, begin_step, end_within
+from planetary_twin_py.integrators.propagation import enter, set_step, visit_nodes
+from planetary_twin_py.integrators.radau import radau
+from planetary_twin_py.scene import load_scene
+
+START, SPAN = 1e-5, 6e-5  # [s] within one segment of all meshes
+SWEEPS = 12  # they rest to the last digit
+DISPLACED = np.array([3.0, -2.0, 1.0, 2.0, -1.0]) * 1e-7  # [m] from balance
+# Friction that does not turn round within a step at the pitch point, but is as strong.
+SMOOTH = {"mesh.damping.law": "viscous", "lubrication.sliding_threshold": 1.0}
+
+
+def march(points, steps):
+    """Displaced bodies after SPAN in equal steps with so many nodes, and the events on the way."""
+    scene = load_scene("paper").replace(**SMOOTH)
+    engine = Engine(scene, 1e-4)
+    engine.advance(START, 1, 1.0, 0)
+    engine.change(scene.operating_point, START)
+    model, run, lanes = engine.model, engine.march, engine.train.lanes
+    run.run.nodes = radau(points)
+    run.end.x[: len(DISPLACED)] += DISPLACED
+    count = run.control
+    before = int(count.pair_events + count.flank_events)
+    for _ in range(steps):
+        begin_step(model, run)
+        _hold_friction(model, run)
+        enter(model, run)
+        set_step(run.run, lanes, SPAN / steps)
+        for n in range(points):
+            run.run.evaluation[n].rubbing[:] = run.first.rubbing
+        visit_nodes(model, run)
+        for _ in range(SWEEPS):
+            _sweep(model, run, True)
+            visit_nodes(model, run)
+        end_within(model, run, SPAN / steps)
+        accept(model, run, -1)
+    begin_step(model, run)  # in the frame of the motor
+    events = int(count.pair_events + count.flank_events) - before
+    return np.concatenate([run.begin.x, run.begin.v / 1e4]), events
+
+
+@pytest.fixture(scope="module")
+def exact():
+    return march(5, 32)
+
+
+def test_the_stretch_has_no_event(exact):
+    assert exact[1] == 0
+
+
+@pytest.mark.parametrize(("points", "counts"), [(3, [4, 6, 8, 12]), (4, [3, 4, 6, 8])])
+def test_global_error_falls_with_the_order_of_the_quadrature(points, counts, exact):
+    """Radau's points are exact for powers up to 2 s - 2, and collocation inherits their order."""
+    errors = [np.abs(march(points, count)[0] - exact[0]).max() for count in counts]
+    order = np.polyfit(np.log(SPAN / np.array(counts)), np.log(errors), 1)[0]
+    assert order == pytest.approx(2 * points - 1, abs=0.5)
