@@ -48,6 +48,7 @@ TERMS: dict[str, dict[str, Any]] = {
     "friction alone, rectangular stiffness": {"mesh.ramp": 0.0},
     "neither friction nor other losses": _NO_FRICTION,
     "neither, rectangular stiffness": _NO_FRICTION | {"mesh.ramp": 0.0},
+    "friction alone, without dynamics": {"dynamics": "quasi_static"},
     "friction, a crack and a spall": {"faults": _FAULTS},
     "friction, errors of form": _FORM_ERRORS,
 }

@@ -9,7 +9,7 @@ from typing import NamedTuple, Self
 
 import numpy as np
 
-from ..engine import Engine
+from ..run import start
 from ..scene import Scene
 from ..simulation import simulate
 
@@ -42,7 +42,7 @@ class Run(NamedTuple):
 def run(scene: Scene, duration: float, method: str, tolerance: float, *, sampled: bool) -> Run:
     """Run a scene from its start for `duration` [s], with samples of all meshes or without."""
     begin = time.perf_counter()
-    engine = Engine(scene, tolerance, method)
+    engine = start(scene, tolerance, method)
     setup = time.perf_counter() - begin
     room = round(duration * SAMPLE_RATE) if sampled else 0
     begin = time.process_time()
