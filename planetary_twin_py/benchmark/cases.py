@@ -41,7 +41,7 @@ RUN_UP = {
     "drive.speed_control.slew_rate": rpm(1000 - 5) / 0.5,
 }
 FROM_500_RPM = {"drive.speed_control.start_speed": rpm(500)}
-# On average flanks part and meet 24 times in a mesh period. They do so when the torque is least,
+# On average flanks part and meet 27 times in a mesh period. They do so when the torque is least,
 # and chaotically: after two dozen impacts the paths of any two methods are apart.
 DOUBLE_SIDED_RATTLE = {
     "input_torque": 0.3,
