@@ -7,7 +7,7 @@ import pytest
 
 import planetary_twin_py as pt
 from planetary_twin_py.benchmark import table
-from planetary_twin_py.benchmark.cases import CASES, RATTLE_24, RESONANCE, Case
+from planetary_twin_py.benchmark.cases import CASES, DOUBLE_SIDED_RATTLE, RESONANCE, Case
 from planetary_twin_py.benchmark.report import as_markdown, as_table
 from planetary_twin_py.benchmark.table import METHODS, measure
 
@@ -69,11 +69,13 @@ def test_names_of_cases_differ():
     assert len({case.name for case in CASES}) == len(CASES)
 
 
-def test_rattle_has_24_contact_events_in_a_mesh_period():
-    scene = pt.load_scene("paper").replace(**RATTLE_24)
+def test_rattle_has_27_contact_events_in_a_mesh_period():
+    scene = pt.load_scene("paper").replace(**DOUBLE_SIDED_RATTLE)
     events = pt.simulate(scene, 0.12, tolerance=1e-4).stats.flank_events
     periods = 0.12 * scene.operating_point.input_speed / (2.0 * math.pi) * scene.gearset.teeth.sun
-    assert events / periods == pytest.approx(24.0, abs=3.0)
+    assert events / periods == pytest.approx(
+        27.0, abs=3.0
+    )  # chaotic: 25.3 to 27.8 by tolerance and method
 
 
 def test_at_resonance_flanks_part_and_hit_back():
