@@ -22,7 +22,7 @@ def march(points, steps):
     scene = load_scene("paper").replace(**SMOOTH)
     engine = Engine(scene, 1e-4)
     engine.advance(START, 1, 1.0, 0)
-    engine.change(scene.operating_point, START)
+    engine.change(scene.operating_point, 1e-4, START)
     model, run, lanes = engine.model, engine.march, engine.train.lanes
     run.run.nodes = radau(points)
     run.end.x[: len(DISPLACED)] += DISPLACED
