@@ -107,7 +107,8 @@ def _sweep(model: Record, march: Record, rubbing: bool) -> None:
 
 @kernel
 def _difference(model: Record, march: Record) -> float:
-    """Largest motion of a mesh between the last sweep and the one before, over its tolerance."""
+    """Largest motion of a mesh, or change of the speed of a body, between the last sweep and the
+    one before, over its tolerance."""
     train, run, tau = model.train, march.run, march.moment.tau
     largest = total = 0.0  # NaN would get lost in a maximum
     last = run.nodes.count - 1
@@ -116,7 +117,11 @@ def _difference(model: Record, march: Record) -> float:
         rate = run.node_rate[last, i] - run.before_rate[i]
         largest = max(largest, abs(d), tau[train.kind[i]] * abs(rate))
         total += d + rate
-    return largest / march.control.tolerance_x if math.isfinite(total) else math.inf
+    largest /= march.control.tolerance_x
+    for j in range(train.bodies):
+        change = abs(run.node_v[last, j] - run.before_v[j])
+        largest = max(largest, change / march.control.tolerance_v)
+    return largest if math.isfinite(total) else math.inf
 
 
 @kernel

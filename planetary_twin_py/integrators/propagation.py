@@ -55,6 +55,7 @@ PROPAGATION = layout(
     node_rate=(REAL, (MOST, MESHES)),
     before_d=(REAL, (MESHES,)),  # at the last node, one sweep earlier
     before_rate=(REAL, (MESHES,)),
+    before_v=(REAL, (BODIES,)),
     evaluation=(EVALUATION, (MOST,)),
     now_q=(REAL, (BODIES,)),  # room to work in
     now_p=(REAL, (BODIES,)),
@@ -207,6 +208,7 @@ def visit_nodes(model: Record, march: Record) -> None:
     nodes, last = run.nodes, run.nodes.count - 1
     for i in range(lanes):
         run.before_d[i], run.before_rate[i] = run.node_d[last, i], run.node_rate[last, i]
+        run.before_v[i] = run.node_v[last, i]
     form, motion = run.known.form[run.modes], run.known.motion[run.modes]
     for n in range(nodes.count):
         t, q, p = nodes.abscissa[n], run.node_q[n], run.node_p[n]
