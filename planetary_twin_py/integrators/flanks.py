@@ -12,6 +12,7 @@ from ..dynamics.cycle import cycle_shift
 from ..dynamics.form_errors import form_error
 from ..dynamics.state import OPEN
 from .interpolant import interpolate
+from .progress import NO_MESH
 from .propagation import SCANNED, modes_at
 
 SLACK = 0.01  # share of the local tolerance by which flanks may pull or pass each other
@@ -41,8 +42,8 @@ def at_event(model: Record, march: Record, i: int) -> bool:
 
 @kernel
 def first_flank_event(model: Record, march: Record) -> tuple[int, float]:
-    """Mesh whose contact changes first within the step, and when; (-1, step) if none does."""
-    first, when = -1, march.control.step
+    """Mesh whose contact changes first within the step, and when; (NO_MESH, step) if none does."""
+    first, when = NO_MESH, march.control.step
     if not march.control.collocated:
         for i in range(model.train.meshes):
             if departure_at(model, march, i, when) < 0.0:

@@ -11,6 +11,9 @@ from .propagation import PROPAGATION
 from .rosenbrock import WORKSPACE
 
 AUTO, COLLOCATION, ROSENBROCK = 0, 1, 2
+NO_MESH = -1
+SHORTEST_STEP = 1e-13  # [s] below it two events count as one
+SAFETY, SHRINK, GROW = 0.8, 0.25, 2.0  # of steps
 
 # Step control and counters.
 CONTROL = layout(

@@ -4,8 +4,10 @@ import numpy as np
 import pytest
 
 from planetary_twin_py.engine import Engine
+from planetary_twin_py.integrators.collocated_step import end_within, hold_friction
 from planetary_twin_py.integrators.collocation import _sweep
-from planetary_twin_py.integrators.march import _hold_friction, accept, begin_step, end_within
+from planetary_twin_py.integrators.march import accept, begin_step
+from planetary_twin_py.integrators.progress import NO_MESH
 from planetary_twin_py.integrators.propagation import enter, set_step, visit_nodes
 from planetary_twin_py.integrators.radau import radau
 from planetary_twin_py.scene import load_scene
@@ -30,7 +32,7 @@ def march(points, steps):
     before = int(count.pair_events + count.flank_events)
     for _ in range(steps):
         begin_step(model, run)
-        _hold_friction(model, run)
+        hold_friction(model, run)
         enter(model, run)
         set_step(run.run, lanes, SPAN / steps)
         for n in range(points):
@@ -40,7 +42,7 @@ def march(points, steps):
             _sweep(model, run, True)
             visit_nodes(model, run)
         end_within(model, run, SPAN / steps)
-        accept(model, run, -1)
+        accept(model, run, NO_MESH)
     begin_step(model, run)  # in the frame of the motor
     events = int(count.pair_events + count.flank_events) - before
     return np.concatenate([run.begin.x, run.begin.v / 1e4]), events
