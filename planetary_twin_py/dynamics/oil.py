@@ -11,6 +11,7 @@ from ..lubrication.hertz import contact_modulus, half_width
 from ..lubrication.traction import Traction
 from ..lubrication.viscosity import viscosity_at
 from ..scene import OperatingPoint, Scene
+from ..scene.lubrication import Lubrication
 
 # Laws and constants of the tooth contacts.
 OIL = layout(
@@ -48,51 +49,13 @@ def build_oil(scene: Scene, point: OperatingPoint) -> Record:
         data.viscosity_slope,
         data.oil_density,
     )
-    printed_traction = data.traction == "printed"
-    roughness_squared = math.pi * data.roughness_parameter**2
-    asperities = Asperities(
-        area_factor=math.pi * roughness_squared,
-        pressure_factor=(
-            16.0
-            * math.sqrt(2.0)
-            / 15.0
-            * roughness_squared
-            * math.sqrt(data.asperity_slope)
-            * (2.0 * modulus if data.modulus == "printed" else modulus)
-        ),
-        shear_stress=data.shear_stress,
-        pressure_coefficient=data.pressure_coefficient,
-    )
+    asperities = _asperities(data, modulus)
     printed_asperities = data.asperities == "printed"
     return new_record(
         OIL,
         film=FILM_LAWS[data.film],
         asperities=asperities,
-        traction=Traction(
-            shear_stress=data.shear_stress,
-            pressure_viscosity=data.pressure_viscosity,
-            log_root=math.log(
-                (1.2 / data.shear_stress) ** 2
-                * 2.0
-                * data.oil_conductivity
-                * viscosity
-                / (1.0 if printed_traction else data.temperature_viscosity)
-            ),
-            least=-math.inf if printed_traction else 0.0,
-            log_heating=math.log(
-                9.6
-                * 4.0
-                / math.pi
-                * data.oil_conductivity
-                / math.sqrt(
-                    2.0
-                    * modulus
-                    * data.solid_conductivity
-                    * data.solid_density
-                    * data.solid_heat_capacity
-                )
-            ),
-        ),
+        traction=_traction(data, modulus, viscosity),
         contact_modulus=modulus,
         face_width=width,
         log_speed_group=math.log(viscosity / (2.0 * modulus)),
@@ -110,4 +73,38 @@ def build_oil(scene: Scene, point: OperatingPoint) -> Record:
         boundary_coefficient=data.boundary_coefficient,
         rolling=data.rolling == "goksem_hargreaves",
         sliding_threshold=data.sliding_threshold,
+    )
+
+
+def _asperities(data: Lubrication, modulus: float) -> Asperities:
+    """What roughness makes of them, from E* [Pa]."""
+    roughness_squared = math.pi * data.roughness_parameter**2
+    return Asperities(
+        area_factor=math.pi * roughness_squared,
+        pressure_factor=(
+            16.0
+            * math.sqrt(2.0)
+            / 15.0
+            * roughness_squared
+            * math.sqrt(data.asperity_slope)
+            * (2.0 * modulus if data.modulus == "printed" else modulus)
+        ),
+        shear_stress=data.shear_stress,
+        pressure_coefficient=data.pressure_coefficient,
+    )
+
+
+def _traction(data: Lubrication, modulus: float, viscosity: float) -> Traction:
+    """Constants of the plateau, from E* [Pa] and eta0 [Pa s]."""
+    printed = data.traction == "printed"
+    softening = 1.0 if printed else data.temperature_viscosity
+    root = (1.2 / data.shear_stress) ** 2 * 2.0 * data.oil_conductivity * viscosity / softening
+    solid = data.solid_conductivity * data.solid_density * data.solid_heat_capacity
+    heating = 9.6 * 4.0 / math.pi * data.oil_conductivity / math.sqrt(2.0 * modulus * solid)
+    return Traction(
+        shear_stress=data.shear_stress,
+        pressure_viscosity=data.pressure_viscosity,
+        log_root=math.log(root),
+        least=-math.inf if printed else 0.0,
+        log_heating=math.log(heating),
     )
