@@ -33,7 +33,7 @@ def pitch_point(mesh, rpm):
     return PitchPoint(radius, sun * rpm * math.pi / 30)
 
 
-def film(law, mesh, rpm, load=LOAD):
+def log_film(law, mesh, rpm, load=LOAD):
     point = pitch_point(mesh, rpm)
     sizes = (
         point.radius,
@@ -41,7 +41,11 @@ def film(law, mesh, rpm, load=LOAD):
         PRESSURE_VISCOSITY * MODULUS,
         load / (MODULUS * point.radius * FACE_WIDTH),
     )
-    return math.exp(log_film_thickness(FILM_LAWS[law], *map(math.log, sizes)))
+    return log_film_thickness(FILM_LAWS[law], *map(math.log, sizes))
+
+
+def film(law, mesh, rpm, load=LOAD):
+    return math.exp(log_film(law, mesh, rpm, load))
 
 
 def oil_of(scene):

@@ -1,5 +1,7 @@
 """Film laws against the printed eq. (15), against their scaling, and against computed films."""
 
+import math
+
 import pytest
 from lubrication.pitch_point import (
     CASES,
@@ -9,6 +11,7 @@ from lubrication.pitch_point import (
     PRESSURE_VISCOSITY,
     VISCOSITY,
     film,
+    log_film,
     pitch_point,
 )
 
@@ -49,4 +52,4 @@ def test_film_grows_with_speed_and_radius_and_thins_with_load(law):
 
 
 def test_film_never_vanishes():
-    assert film("salagianni", "sp", 1e-9) == pytest.approx(THINNEST_FILM, rel=1e-14)
+    assert log_film("salagianni", "sp", 1e-9) == math.log(THINNEST_FILM)

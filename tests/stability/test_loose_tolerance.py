@@ -24,9 +24,9 @@ ABSOLUTE = 1e-9  # [rad], [rad/s]
 class Rattle:
     """A stretch of rattle, and its solution by DOP853 near rounding, restarted at every switch."""
 
-    def __init__(self):
+    def __init__(self, begin=BEGIN):
         self.source = Engine(SCENE, 1e-6)
-        self.source.advance(BEGIN, 1, RATE, 0)
+        self.source.advance(begin, 1, RATE, 0)
         self.start = self.source.march.end.time
         self.first = math.floor(self.start * RATE) + 1
         self.count = round(SPAN * RATE)
@@ -76,11 +76,14 @@ def test_dop853_reports_success_and_returns_garbage(rattle, tolerance):
     assert not error < 1.0  # as large as the motion itself
 
 
-def test_dop853_is_wrong_a_thousand_times_a_tight_tolerance(rattle):
-    """How far beyond that, hangs on the last digits of where the stretch begins."""
-    success, error = rattle.peer("DOP853", 1e-4)
-    assert success
-    assert not error < 1000.0 * 1e-4
+@pytest.mark.slow
+def test_dop853_returns_garbage_at_a_tight_tolerance_too():
+    """From which start it does so hangs on the last digits; everywhere it is far off."""
+    outcomes = [Rattle(begin).peer("DOP853", 1e-4) for begin in (0.02, 0.021, 0.022, 0.023)]
+    assert all(success for success, _ in outcomes)
+    errors = [error for _, error in outcomes]
+    assert not max(errors) < 1.0
+    assert not min(errors) < 1000.0 * 1e-4
 
 
 @pytest.mark.parametrize("method", ["RK45", "LSODA", "BDF"])
