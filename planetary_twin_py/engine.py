@@ -11,6 +11,7 @@ from fractions import Fraction
 import numpy as np
 
 from ._records import AXES, Record, new_record
+from .dynamics.cycle import common_cycles, turns_per_cycle
 from .dynamics.energy import elastic, kinetic
 from .dynamics.equations import MODEL
 from .dynamics.oil import build_oil
@@ -30,6 +31,7 @@ METHODS = {"auto": AUTO, "collocation": COLLOCATION, "rosenbrock": ROSENBROCK}
 POINTS = ((3e-3, 3), (3e-4, 4), (0.0, 5))
 LONGEST_STEP = 1e-3  # [s]
 FIRST_STEP = 1e-6  # [s]
+SETTLING = 1.0  # of the period of the speed loop, for which steady running must last to count
 LIGHTEST_MESH_LOAD = 1.0  # [N] smaller mesh forces do not tighten the tolerance further
 
 
@@ -84,6 +86,17 @@ class Engine:
         control.quickness = np.sqrt(2.0 * stiffness / lightest)
         self.march.run.nodes = radau(next(n for least, n in POINTS if self.tolerance > least))
         control.changed = True
+        self._allow_repetition()
+
+    def _allow_repetition(self) -> None:
+        """Say in how many mesh cycles all is as before."""
+        repetition = self.march.repetition
+        period = common_cycles(self.train, self.model.load)
+        repetition.cycles = period if self.march.control.method == AUTO else 0
+        if repetition.cycles > 0:
+            turns = abs(period * turns_per_cycle(self.train))
+            repetition.numerator, repetition.denominator = turns.numerator, turns.denominator
+        repetition.pause = SETTLING / self.scene.drive.speed_control.bandwidth
 
     def _accelerating_torque(self) -> np.ndarray:
         """Torque of the first motor [N m] that loads the meshes as each input's acceleration does,
@@ -142,8 +155,8 @@ class Engine:
         They begin anew, so that what a window adds is not lost beside what a long run has added.
         """
         ledger = np.array(self.march.end.energy)
-        self.march.begin.energy -= ledger
-        self.march.end.energy -= ledger
+        for state in (self.march.begin, self.march.end, self.march.repetition.start):
+            state.energy -= ledger
         return ledger
 
     def stored(self) -> tuple[float, float]:

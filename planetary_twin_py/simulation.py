@@ -101,6 +101,7 @@ def _result(
         energy=_energy(engine, stored),
         stats=Stats(
             steps=int(count.steps),
+            repeated_steps=int(count.repeated),
             stiff_steps=int(count.stiff_steps),
             rejected_steps=int(count.rejected),
             evaluations=int(count.evaluations),
