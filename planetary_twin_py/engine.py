@@ -145,6 +145,11 @@ class Engine:
         return self.march.control
 
     @property
+    def repeats(self) -> bool:
+        """Whether steady running repeats itself, see `integrators.repetition`."""
+        return bool(self.march.repetition.playing)
+
+    @property
     def powers(self) -> np.ndarray:
         """By which the ledger grows at `reached`."""
         return np.array(self.march.last.power)

@@ -28,6 +28,10 @@ class Run(Protocol):
         """Counters of steps and events, see `integrators.progress`."""
 
     @property
+    def repeats(self) -> bool:
+        """Whether mesh cycles repeat and are not computed again."""
+
+    @property
     def powers(self) -> np.ndarray:
         """By which the ledger grows at `reached`."""
 

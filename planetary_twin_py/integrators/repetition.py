@@ -22,19 +22,27 @@ from ..dynamics.state import LEDGER, OPEN, STATE
 from .clock import Instant, delay, run_on
 from .propagation import MOTION
 
-TAPE = 1024  # steps of the longest cycle that is kept
-SHARE = 0.1  # of the tolerance, by which a train that repeats may miss where it was
+TAPE = 4096  # steps of the longest cycle that is kept
+SHARE = 0.3  # of the tolerance, by which a train that repeats may miss where it was
 SETTLED = 0.25  # of all cycles so far, for which the train must not stray
 PHASE = 20.0  # static deflections by which the teeth yield otherwise, a mesh cycle late
-PUNCTUAL = 1e-6  # of a cycle, by which it may differ from what the set-point says
 
-# A step of the cycle that repeats.
-STEP = layout(
-    begin=STATE,
+# A state within the cycle that repeats.
+PLACE = layout(
+    state=STATE,
     after=REAL,  # start of the cycle [s]
     turned=REAL,  # by the motor since then [turns]
     energy=(REAL, (LEDGER,)),  # growth of the ledger since then [J], [N m s]
-    power=(REAL, (LEDGER,)),  # at its end, see EVALUATION
+)
+
+# A step of it.
+STEP = layout(
+    begin=PLACE,
+    end=PLACE,
+    collocated=FLAG,
+    first_force=(REAL, (BODIES,)),  # see EVALUATION
+    last_force=(REAL, (BODIES,)),
+    power=(REAL, (LEDGER,)),
     rubbing=(REAL, (BODIES,)),
     motion=MOTION,
 )
@@ -56,7 +64,8 @@ REPETITION = layout(
     known=WHOLE,  # contact states known when the last step was put on the tape
     start=STATE,  # clock, turns and ledger where the present cycle starts; the fraction of the ...
     part=WHOLE,  # ... turn is that of the first cycle, and this many denominators
-    tape=(STEP, (TAPE + 1,)),  # the last one is where the cycle ends
+    whole=PLACE,  # end of the cycle
+    tape=(STEP, (TAPE,)),
 )
 
 
@@ -143,44 +152,51 @@ def _distance(model: Record, march: Record, a: Record, b: Record) -> float:
 
 @kernel
 def _record(march: Record) -> None:
-    """Put the step just made on the tape, unless it is not one that can be repeated."""
-    repetition, begin, known = march.repetition, march.begin, march.run.known
+    """Put the step just made on the tape, unless there is no room or its modes were lost."""
+    repetition, known = march.repetition, march.run.known
     place = repetition.steps
     if place == TAPE:
         repetition.cycles = 0
-    if place == TAPE or not march.control.collocated or known.count < repetition.known:
+    if place == TAPE or known.count < repetition.known:
         repetition.recording = False
         return
-    step, start = repetition.tape[place], repetition.start
     if place == 0:
-        overwrite(start, begin)
-    overwrite(step.begin, begin)
-    overwrite(step.motion, march.run.motion)
-    step.after = delay(start, _now(begin))
-    step.turned = begin.turns[0] - start.turns[0] + (begin.fraction[0] - start.fraction[0])
-    step.energy[:] = begin.energy - start.energy
+        overwrite(repetition.start, march.begin)
+    step = repetition.tape[place]
+    _keep(repetition.start, march.begin, step.begin)
+    _keep(repetition.start, march.end, step.end)
+    step.collocated = march.control.collocated
+    step.first_force[:] = march.first.force
+    step.last_force[:] = march.last.force
     step.power[:] = march.last.power
     step.rubbing[:] = march.last.rubbing
+    overwrite(step.motion, march.run.motion)
     repetition.steps = place + 1
     repetition.known = known.count
 
 
 @kernel
+def _keep(start: Record, state: Record, place: Record) -> None:
+    """Fill `place` with a state, as it lies after the start of the cycle."""
+    overwrite(place.state, state)
+    place.after = delay(start, _now(state))
+    place.turned = state.turns[0] - start.turns[0] + (state.fraction[0] - start.fraction[0])
+    place.energy[:] = state.energy - start.energy
+
+
+@kernel
 def _close(model: Record, march: Record) -> bool:
-    """Let the end of the tape be its start, a whole cycle later; whether they fit."""
+    """Let the cycle end as exactly as set-point and teeth say; whether it does."""
     repetition, end, train = march.repetition, march.end, model.train
-    start, last = repetition.start, repetition.tape[repetition.steps]
-    overwrite(last.begin, repetition.tape[0].begin)
-    last.energy[:] = end.energy - start.energy
-    motor = train.coupling[0, 0]
-    turned = end.turns[0] - start.turns[0] + (end.fraction[0] - start.fraction[0])
-    turned += end.x[motor] / train.radius[motor] / (2.0 * math.pi)
-    last.turned = math.copysign(repetition.numerator / repetition.denominator, turned)
-    last.after = last.turned * 2.0 * math.pi / model.load.target_speed[0]
-    took, allowed = delay(start, _now(end)), PUNCTUAL * abs(last.turned)
-    repetition.place = repetition.steps
-    repetition.part = 0
-    return abs(turned - last.turned) < allowed and abs(took / last.after - 1.0) < PUNCTUAL
+    whole, motor = repetition.whole, train.coupling[0, 0]
+    _keep(repetition.start, end, whole)
+    took = whole.after
+    turned = whole.turned + end.x[motor] / train.radius[motor] / (2.0 * math.pi)
+    whole.turned = math.copysign(repetition.numerator / repetition.denominator, turned)
+    whole.after = whole.turned * 2.0 * math.pi / model.load.target_speed[0]
+    repetition.place, repetition.part = repetition.steps, 0
+    late = max(abs(took / whole.after - 1.0), abs(turned / whole.turned - 1.0))
+    return late * repetition.cycles * PHASE <= SHARE * march.control.tolerance
 
 
 @kernel
@@ -189,45 +205,43 @@ def play(model: Record, march: Record, until: Instant) -> None:
     repetition = march.repetition
     while True:
         if repetition.place == repetition.steps:
-            _begin_cycle(march)
+            _begin_cycle(repetition)
+        step = repetition.tape[repetition.place]
         repetition.place += 1
         march.control.repeated += 1
-        step = repetition.tape[repetition.place]
-        if delay(repetition.start, until) <= step.after:
+        if delay(repetition.start, until) <= step.end.after:
             break
-    _stand(march, march.begin, repetition.place - 1)
-    _stand(march, march.end, repetition.place)
-    step = repetition.tape[repetition.place - 1]
-    overwrite(march.run.motion, step.motion)
+    _stand(repetition, step.begin, march.begin)
+    _stand(repetition, step.end, march.end)
+    march.control.collocated, march.control.step = step.collocated, step.end.after - step.begin.after
+    march.first.force[:] = step.first_force
+    march.last.force[:] = step.last_force
     march.last.power[:] = step.power
     march.last.rubbing[:] = step.rubbing
-    march.control.collocated = True
-    march.control.step = step.motion.step
+    overwrite(march.run.motion, step.motion)
     set_moment(model, march.begin, march.moment)
 
 
 @kernel
-def _begin_cycle(march: Record) -> None:
+def _begin_cycle(repetition: Record) -> None:
     """Move the start on by a cycle; the motor's turns are counted in whole parts."""
-    repetition = march.repetition
-    start, last = repetition.start, repetition.tape[repetition.steps]
-    run_on(start, start, last.after)
-    start.energy += last.energy
-    repetition.part += repetition.numerator if last.turned > 0.0 else -repetition.numerator
-    whole = repetition.part // repetition.denominator
-    repetition.part -= whole * repetition.denominator
-    start.turns[0] += whole
+    start, whole = repetition.start, repetition.whole
+    run_on(start, start, whole.after)
+    start.energy += whole.energy
+    repetition.part += repetition.numerator if whole.turned > 0.0 else -repetition.numerator
+    turns = repetition.part // repetition.denominator
+    repetition.part -= turns * repetition.denominator
+    start.turns[0] += turns
     repetition.place = 0
 
 
 @kernel
-def _stand(march: Record, state: Record, place: int) -> None:
-    """Let `state` be where a step on the tape begins, in the present cycle."""
-    repetition = march.repetition
-    step, start = repetition.tape[place], repetition.start
-    overwrite(state, step.begin)
-    run_on(start, state, step.after)
-    turns = start.fraction[0] + step.turned + repetition.part / repetition.denominator
+def _stand(repetition: Record, place: Record, state: Record) -> None:
+    """Let `state` be at a place in the present cycle."""
+    start = repetition.start
+    overwrite(state, place.state)
+    run_on(start, state, place.after)
+    turns = start.fraction[0] + place.turned + repetition.part / repetition.denominator
     state.turns[0] = start.turns[0] + math.floor(turns)
     state.fraction[0] = turns - math.floor(turns)
-    state.energy[:] = start.energy + step.energy
+    state.energy[:] = start.energy + place.energy
