@@ -10,13 +10,17 @@ from numba.extending import intrinsic
 
 
 @intrinsic
-def overwrite(typing: Any, target: Any, source: Any) -> Any:
-    """Let `target` hold what `source` holds, a record of the same layout."""
+def _overwrite(typingctx: Any, target: Any, source: Any) -> Any:
     if target != source or not isinstance(target, types.Record):
-        return None
+        return None  # there is no such function
 
-    def generate(context: Any, builder: ir.IRBuilder, signature: Any, records: Any) -> Any:
-        cgutils.raw_memcpy(builder, *records, ir.Constant(ir.IntType(64), target.size), 1)
+    def codegen(context: Any, builder: Any, signature: Any, args: Any) -> Any:
+        copy: Any = cgutils.raw_memcpy
+        copy(builder, *args, ir.IntType(64)(target.size), 1)
         return context.get_dummy_value()
 
-    return types.void(target, source), generate
+    return types.void(target, source), codegen
+
+
+# Lets its first argument hold what its second holds, a record of the same layout.
+overwrite: Any = _overwrite

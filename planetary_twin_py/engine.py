@@ -26,7 +26,7 @@ from .integrators.radau import radau
 from .scene import OperatingPoint, Scene
 from .tolerance import check_tolerance
 
-METHODS = {"auto": AUTO, "collocation": COLLOCATION, "rosenbrock": ROSENBROCK}
+METHODS = {"auto": AUTO, "march": AUTO, "collocation": COLLOCATION, "rosenbrock": ROSENBROCK}
 # Tolerances down to which so many points of a step are worth their cost, see docs.
 POINTS = ((3e-3, 3), (3e-4, 4), (0.0, 5))
 LONGEST_STEP = 1e-3  # [s]
@@ -41,7 +41,8 @@ class Engine:
     Args:
         scene: what to simulate.
         tolerance: local error of a step, relative to the static deflection of the meshes.
-        method: one of METHODS; "auto" makes steps by collocation wherever that is fit.
+        method: one of METHODS; "march" makes steps by collocation wherever that is fit, else by
+            Rosenbrock's method; "auto" makes none where steady running repeats itself.
 
     Raises:
         ValueError: the tolerance is out of range, or the scene cannot be built.
@@ -51,6 +52,7 @@ class Engine:
         check_tolerance(tolerance)
         self.scene = scene
         self.tolerance = tolerance
+        self._may_repeat = method == "auto"
         self.train = build_train(scene)
         self.model: Record = new_record(MODEL, train=self.train)
         self.march: Record = new_record(MARCH)
@@ -91,11 +93,11 @@ class Engine:
     def _allow_repetition(self) -> None:
         """Say in how many mesh cycles all is as before."""
         repetition = self.march.repetition
-        period = common_cycles(self.train, self.model.load)
-        repetition.cycles = period if self.march.control.method == AUTO else 0
-        if repetition.cycles > 0:
-            turns = abs(period * turns_per_cycle(self.train))
+        cycles = common_cycles(self.train, self.model.load) if self._may_repeat else 0
+        if cycles > 0:
+            turns = abs(cycles * turns_per_cycle(self.train))
             repetition.numerator, repetition.denominator = turns.numerator, turns.denominator
+        repetition.cycles = cycles
         repetition.pause = SETTLING / self.scene.drive.speed_control.bandwidth
 
     def _accelerating_torque(self) -> np.ndarray:

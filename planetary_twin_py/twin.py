@@ -139,9 +139,7 @@ class Twin:
         """Time reached, ledger since the last account and stored energy at that time."""
         return self._engine.reached, self._engine.take_ledger(), sum(self._engine.stored())
 
-    def _window(
-        self, step: Fraction, first: int, samples: Samples, repeated: bool
-    ) -> Window:
+    def _window(self, step: Fraction, first: int, samples: Samples, repeated: bool) -> Window:
         before, begin = self._books, self._end
         self._books, self._end = self._account(), self._engine.sample(self._clock)
         train, names = self._engine.train, self._names

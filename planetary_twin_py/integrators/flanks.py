@@ -140,7 +140,11 @@ def _left_without_waves(model: Record, march: Record, i: int, n: int, tau: float
 @law
 def _has_waves(run: Record, m: int) -> bool:
     """Whether mode m may turn round between two nodes."""
-    return run.motion.square[m] * run.motion.step * run.motion.step + run.motion.damping[m] * run.motion.step > TAME
+    return (
+        run.motion.square[m] * run.motion.step * run.motion.step
+        + run.motion.damping[m] * run.motion.step
+        > TAME
+    )
 
 
 @law

@@ -92,6 +92,12 @@ def enter(model: Record, march: Record) -> None:
     combine(share, march.first.force, train.bodies, run.force)
 
 
+@law
+def wave_of(motion: Record, m: int, t: float) -> tuple[float, float]:
+    """`wave` of mode m."""
+    return wave(motion.damping[m], motion.rate[m], motion.slow[m], motion.fast[m], t)
+
+
 @kernel
 def set_step(run: Record, lanes: int, h: float) -> None:
     """Free motions of all modes at the nodes of a step of h, and the rest as it is at the start."""
@@ -103,7 +109,7 @@ def set_step(run: Record, lanes: int, h: float) -> None:
     for n in range(run.nodes.count):
         t = run.nodes.abscissa[n] * h
         for m in range(lanes):
-            first, second = wave(run.motion.damping[m], run.motion.rate[m], run.motion.slow[m], run.motion.fast[m], t)
+            first, second = wave_of(run.motion, m, t)
             run.cosine[n, m], run.sine[n, m] = first, second
             rest = run.force[m] + run.damper[m] * run.p[m] + run.spring[m] * run.q[m]
             run.rest[n, m] = rest
@@ -180,7 +186,7 @@ def modes_at(run: Record, lanes: int, delay: float) -> None:
     """q and q' of all modes at any time within the step, in `now_q` and `now_p`."""
     t, per_step = delay / run.motion.step, 1.0 / run.motion.step
     for m in range(lanes):
-        first, second = wave(run.motion.damping[m], run.motion.rate[m], run.motion.slow[m], run.motion.fast[m], delay)
+        first, second = wave_of(run.motion, m, delay)
         run.now_q[m], run.now_p[m] = modal_state(run, m, t, per_step, first, second)
 
 
@@ -246,7 +252,7 @@ def integrate_powers(march: Record, lanes: int, h: float) -> None:
     for m in range(lanes):
         first, second = run.cosine[last, m], run.sine[last, m]
         if h != run.motion.step:
-            first, second = wave(run.motion.damping[m], run.motion.rate[m], run.motion.slow[m], run.motion.fast[m], h)
+            first, second = wave_of(run.motion, m, h)
         lost += _damped(run, m, h, first, second) if _swings(run, m) else 0.0
     end.energy[DAMPING] += lost
 

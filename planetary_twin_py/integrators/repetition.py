@@ -213,7 +213,10 @@ def play(model: Record, march: Record, until: Instant) -> None:
             break
     _stand(repetition, step.begin, march.begin)
     _stand(repetition, step.end, march.end)
-    march.control.collocated, march.control.step = step.collocated, step.end.after - step.begin.after
+    march.control.collocated, march.control.step = (
+        step.collocated,
+        step.end.after - step.begin.after,
+    )
     march.first.force[:] = step.first_force
     march.last.force[:] = step.last_force
     march.last.power[:] = step.power

@@ -55,7 +55,7 @@ class Settled:
 
 @EVERY_SCENE
 def test_what_repeats_is_what_would_have_been_computed(scene):
-    repeated, computed = Settled(scene, "auto"), Settled(scene, "collocation")
+    repeated, computed = Settled(scene, "auto"), Settled(scene, "march")
     assert repeated.engine.control.repeated > 0.2 * computed.engine.control.steps
     assert computed.engine.control.repeated == 0
     for name in ("dte", "force"):
@@ -94,7 +94,7 @@ def test_ten_minutes_later_the_gears_are_where_the_set_point_says():
 def test_a_change_acts_at_its_instant_on_what_repeats(change):
     """Its path is that of a run in which nothing ever repeats."""
     seen, end = [], PERIODS / PAPER.drive.speed_control.bandwidth
-    for method in ("auto", "collocation"):
+    for method in ("auto", "march"):
         engine = Engine(PAPER, TOLERANCE, method)
         engine.advance(end, 1, 1.0, 0)
         assert engine.repeats == (method == "auto")
