@@ -165,7 +165,8 @@ def cost_markdown(costs: Sequence[Cost]) -> str:
 
 The scene `paper` at tolerance {TOLERANCE:g}, method `{METHOD}`, without samples, set-up left out.
 Against planets: teeth {TEETH.sun}/{TEETH.planet}/{TEETH.ring} at the same meshing frequency
-and load of a planet. Against duration: `simulate` by wall time, with set-up and samples at {SAMPLE_RATE / 1e3:g} kHz.
+and load of a planet. Against duration: `simulate` by wall time, with set-up and samples at
+{SAMPLE_RATE / 1e3:g} kHz.
 
 {body}
 """

@@ -121,9 +121,9 @@ def steady_markdown(rows: Sequence[Steady]) -> str:
 
 What the default method, `auto`, makes of the same cases over {MINUTE:g} s: once mesh cycles
 come back to where they began, they are not computed again (`integrators/repetition.py`).
-*a minute*: simulated over processor time from the start, without samples, the time it takes to settle
-included. Errors are those of the last {COMPARED * 1e3:g} ms before {BY:g} s, against `{METHOD}` at
-tolerance {EXACT:g}.
+*a minute*: simulated over processor time from the start, without samples, the time it takes to
+settle included. Errors are those of the last {COMPARED * 1e3:g} ms before {BY:g} s, against
+`{METHOD}` at tolerance {EXACT:g}.
 
 {body}
 """
