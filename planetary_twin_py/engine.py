@@ -11,6 +11,7 @@ from fractions import Fraction
 import numpy as np
 
 from ._records import AXES, Record, new_record
+from .dynamics.cycle import common_cycles, turns_per_cycle
 from .dynamics.energy import elastic, kinetic
 from .dynamics.equations import MODEL
 from .dynamics.oil import build_oil
@@ -25,11 +26,12 @@ from .integrators.radau import radau
 from .scene import OperatingPoint, Scene
 from .tolerance import check_tolerance
 
-METHODS = {"auto": AUTO, "collocation": COLLOCATION, "rosenbrock": ROSENBROCK}
+METHODS = {"auto": AUTO, "march": AUTO, "collocation": COLLOCATION, "rosenbrock": ROSENBROCK}
 # Tolerances down to which so many points of a step are worth their cost, see docs.
 POINTS = ((3e-3, 3), (3e-4, 4), (0.0, 5))
 LONGEST_STEP = 1e-3  # [s]
 FIRST_STEP = 1e-6  # [s]
+SETTLING = 1.0  # of the period of the speed loop, for which steady running must last to count
 LIGHTEST_MESH_LOAD = 1.0  # [N] smaller mesh forces do not tighten the tolerance further
 
 
@@ -39,7 +41,8 @@ class Engine:
     Args:
         scene: what to simulate.
         tolerance: local error of a step, relative to the static deflection of the meshes.
-        method: one of METHODS; "auto" makes steps by collocation wherever that is fit.
+        method: one of METHODS; "march" makes steps by collocation wherever that is fit, else by
+            Rosenbrock's method; "auto" makes none where steady running repeats itself.
 
     Raises:
         ValueError: the tolerance is out of range, or the scene cannot be built.
@@ -49,6 +52,7 @@ class Engine:
         check_tolerance(tolerance)
         self.scene = scene
         self.tolerance = tolerance
+        self._may_repeat = method == "auto"
         self.train = build_train(scene)
         self.model: Record = new_record(MODEL, train=self.train)
         self.march: Record = new_record(MARCH)
@@ -84,6 +88,17 @@ class Engine:
         control.quickness = np.sqrt(2.0 * stiffness / lightest)
         self.march.run.nodes = radau(next(n for least, n in POINTS if self.tolerance > least))
         control.changed = True
+        self._allow_repetition()
+
+    def _allow_repetition(self) -> None:
+        """Say in how many mesh cycles all is as before."""
+        repetition = self.march.repetition
+        cycles = common_cycles(self.train, self.model.load) if self._may_repeat else 0
+        if cycles > 0:
+            turns = abs(cycles * turns_per_cycle(self.train))
+            repetition.numerator, repetition.denominator = turns.numerator, turns.denominator
+        repetition.cycles = cycles
+        repetition.pause = SETTLING / self.scene.drive.speed_control.bandwidth
 
     def _accelerating_torque(self) -> np.ndarray:
         """Torque of the first motor [N m] that loads the meshes as each input's acceleration does,
@@ -132,6 +147,11 @@ class Engine:
         return self.march.control
 
     @property
+    def repeats(self) -> bool:
+        """Whether steady running repeats itself, see `integrators.repetition`."""
+        return bool(self.march.repetition.playing)
+
+    @property
     def powers(self) -> np.ndarray:
         """By which the ledger grows at `reached`."""
         return np.array(self.march.last.power)
@@ -142,8 +162,8 @@ class Engine:
         They begin anew, so that what a window adds is not lost beside what a long run has added.
         """
         ledger = np.array(self.march.end.energy)
-        self.march.begin.energy -= ledger
-        self.march.end.energy -= ledger
+        for state in (self.march.begin, self.march.end, self.march.repetition.start):
+            state.energy -= ledger
         return ledger
 
     def stored(self) -> tuple[float, float]:

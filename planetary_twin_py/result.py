@@ -62,6 +62,9 @@ class Stats:
     """What a run took."""
 
     steps: int
+    """That were computed."""
+    repeated_steps: int
+    """That were not, because steady running repeats itself."""
     stiff_steps: int
     """Of them by Rosenbrock's method."""
     rejected_steps: int

@@ -28,6 +28,10 @@ class Run(Protocol):
         """Counters of steps and events, see `integrators.progress`."""
 
     @property
+    def repeats(self) -> bool:
+        """Whether mesh cycles repeat and are not computed again."""
+
+    @property
     def powers(self) -> np.ndarray:
         """By which the ledger grows at `reached`."""
 
@@ -61,8 +65,9 @@ def start(scene: Scene, tolerance: float, method: str = "auto") -> Run:
     """
     if scene.dynamics == "torsional":
         return Engine(scene, tolerance, method)
-    if method != "auto":
+    if method not in ("auto", "march"):
         raise ValueError(
-            f"method = {method!r}: must be auto, dynamics = {scene.dynamics!r} takes no steps"
+            f"method = {method!r}: must be auto or march, "
+            f"dynamics = {scene.dynamics!r} takes no steps"
         )
     return QuasiStaticEngine(scene, tolerance)

@@ -42,7 +42,8 @@ def simulate(
         scene: what to simulate.
         duration: simulated time [s].
         sample_rate: of the result [Hz]; samples lie at whole multiples of its period.
-        method: "collocation", "rosenbrock", or "auto": the first wherever it is fit.
+        method: "collocation", "rosenbrock", "march": the first wherever it is fit, or "auto": the
+            same, but steady running that repeats itself is not computed again.
         tolerance: relative local error of a step.
 
     Raises:
@@ -101,6 +102,7 @@ def _result(
         energy=_energy(engine, stored),
         stats=Stats(
             steps=int(count.steps),
+            repeated_steps=int(count.repeated),
             stiff_steps=int(count.stiff_steps),
             rejected_steps=int(count.rejected),
             evaluations=int(count.evaluations),

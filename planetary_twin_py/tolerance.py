@@ -98,9 +98,17 @@ class AffordableTolerance:
         self._calm = 0.0
         self._dearer = [1.0] * len(self._ladder)  # than the next looser; at first anything may do
 
-    def observe(self, cost: float) -> None:
-        """Learn from a window that took `cost` [s] to compute."""
+    def observe(self, cost: float, repeated: bool = False) -> None:
+        """Learn from a window that took `cost` [s] to compute.
+
+        One that was `repeated` says nothing of what a tolerance costs.
+        """
         load = cost / self._period
+        if repeated:
+            self.load = load
+            self._last = 0.0
+            self._loads.clear()
+            return
         late, self._last = min(load, self._last), load
         self._loads.append(load)
         if late > 1.0:

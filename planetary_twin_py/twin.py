@@ -119,8 +119,9 @@ class Twin:
         first = self._samples() + 1
         self._clock += step
         room = self._samples() - first + 1
+        repeated = self._engine.repeats
         samples = self._engine.advance(self._clock, first, self.sample_rate, room)
-        return self._window(step, first, samples)
+        return self._window(step, first, samples, repeated)
 
     def _change(self, point: OperatingPoint, tolerance: float) -> float:
         change = Change(self.time, point, tolerance)
@@ -138,7 +139,7 @@ class Twin:
         """Time reached, ledger since the last account and stored energy at that time."""
         return self._engine.reached, self._engine.take_ledger(), sum(self._engine.stored())
 
-    def _window(self, step: Fraction, first: int, samples: Samples) -> Window:
+    def _window(self, step: Fraction, first: int, samples: Samples, repeated: bool) -> Window:
         before, begin = self._books, self._end
         self._books, self._end = self._account(), self._engine.sample(self._clock)
         train, names = self._engine.train, self._names
@@ -156,6 +157,7 @@ class Twin:
         return Window(
             start=float(self._clock - step),
             end=self.time,
+            repeated=repeated,
             bodies=names.names,
             meshes=self.meshes,
             waveform=Waveform(

@@ -42,6 +42,8 @@ class Window:
     """[s]"""
     end: float
     """[s]"""
+    repeated: bool
+    """Whether it began in steady running that repeats itself and is not computed again."""
     bodies: tuple[str, ...]
     meshes: tuple[str, ...]
     waveform: Waveform

@@ -13,7 +13,7 @@ from ..gearset.kinematics import Teeth
 from ..gearset.phasing import nearest_assembly
 from ..scene import Scene, load_scene
 from ..units import rpm
-from .timing import SAMPLE_RATE, Speed, affordable, end_to_end, speed
+from .timing import METHOD, SAMPLE_RATE, Speed, affordable, end_to_end, speed
 
 TOLERANCE = 1e-4
 SHORTEST, LONGEST = 0.02, 10.0  # [s] simulated in a round
@@ -71,7 +71,7 @@ def _kernels(scene: Scene) -> Callable[[], Speed]:
 
     def measured() -> Speed:
         duration = affordable(scene, TOLERANCE, SHORTEST, LONGEST)
-        return speed(scene, duration, "auto", TOLERANCE, sampled=False)
+        return speed(scene, duration, METHOD, TOLERANCE, sampled=False)
 
     return measured
 
@@ -163,9 +163,10 @@ def cost_markdown(costs: Sequence[Cost]) -> str:
     return f"""
 ## What speed costs
 
-The scene `paper` at tolerance {TOLERANCE:g}, without samples, set-up left out. Against planets:
-teeth {TEETH.sun}/{TEETH.planet}/{TEETH.ring} at the same meshing frequency and load of a planet.
-Against duration: `simulate` by wall time, with set-up and samples at {SAMPLE_RATE / 1e3:g} kHz.
+The scene `paper` at tolerance {TOLERANCE:g}, method `{METHOD}`, without samples, set-up left out.
+Against planets: teeth {TEETH.sun}/{TEETH.planet}/{TEETH.ring} at the same meshing frequency
+and load of a planet. Against duration: `simulate` by wall time, with set-up and samples at
+{SAMPLE_RATE / 1e3:g} kHz.
 
 {body}
 """

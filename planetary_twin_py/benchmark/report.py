@@ -11,8 +11,8 @@ from rich.table import Table
 
 from .cases import CASES, Case
 from .reference import RELATIVE
-from .table import METHOD, METHODS, WHOLE, Row
-from .timing import ROUNDS, SAMPLE_RATE
+from .table import METHODS, WHOLE, Row
+from .timing import METHOD, ROUNDS, SAMPLE_RATE
 
 _TITLES = (
     "case", "method", "tolerance", "DTE error", "error/tolerance", "loss error", "speed", "spread",
@@ -33,11 +33,11 @@ Kernels are compiled and cached before; scene, arrays and start take $setup ms m
   equations with the integrator, but no step, step control, interpolant or event location.
   `tests/reference_model.py` is a second one that shares no code with the model at all.
 $peers
-The method `auto` is exponential collocation at Radau points in the modes of the meshes in contact,
+The method `march` is exponential collocation at Radau points in the modes of the meshes in contact,
 from event to event; near standstill ROS34PW2, a linearly implicit Runge-Kutta method of order 3,
 takes over (`integrators/`). `tolerance` bounds the local error of a step relative to the static
 deflection of the meshes; in these cases the DTE error comes out at $least to $most times the
-tolerance.
+tolerance. The default method, `auto`, does the same until steady running repeats itself, see below.
 $picture
 $table
 

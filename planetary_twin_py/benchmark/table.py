@@ -11,10 +11,9 @@ import numpy as np
 from ..dynamics.observe import DTE, POWER_LOSS
 from .cases import Case
 from .reference import Reference
-from .timing import SAMPLE_RATE, end_to_end, run, speed
+from .timing import METHOD, SAMPLE_RATE, end_to_end, run, speed
 
 TOLERANCES = (1e-2, 1e-3, 1e-4, 1e-5, 1e-6)
-METHOD = "auto"
 METHODS = (METHOD, "rosenbrock")
 WHOLE = 1.0  # [s] simulated from the scene to the result, set-up included
 

@@ -45,16 +45,18 @@ def bench(
     from ..benchmark.peers.problem import Problem
     from ..benchmark.peers.work_precision import peer_rows
     from ..benchmark.report import as_markdown, as_table
+    from ..benchmark.steady import measure_steady, steady_markdown, steady_table
     from ..benchmark.table import measure, nothing
 
     console = Console(stderr=json_ == "-")
     with console.status("starting") as status:
         beside = peer_rows(status.update) if peers else nothing
         rows = measure(CASES, progress=status.update, beside=beside)
+        steady = measure_steady(CASES, progress=status.update)
         batches = measure_batch(progress=status.update)
         dear = measure_costs(progress=status.update) if costs else []
     console.print(as_table(rows))
-    console.print(batch_table(batches), *cost_tables(dear), sep="\n\n")
+    console.print(steady_table(steady), batch_table(batches), *cost_tables(dear), sep="\n\n")
     if peers:
         call = Problem(CASES[0].scene()).seconds_per_call()
         console.print(f"right-hand side of the peers: {call * 1e9:.0f} ns a call ({CASES[0].name})")
@@ -68,8 +70,9 @@ def bench(
             fail(f"--plot = {str(plot)!r}: {error}")
     if markdown is not None:
         picture = os.path.relpath(plot, markdown.parent) if plot is not None else None
-        page = as_markdown(rows, picture) + batch_markdown(batches)
+        page = as_markdown(rows, picture) + steady_markdown(steady) + batch_markdown(batches)
         markdown.write_text(page + (cost_markdown(dear) if dear else ""), "utf-8")
     if json_ is not None:
-        text = json.dumps([row.figures() for row in rows], indent=2) + "\n"
+        kept = {"march": [row.figures() for row in rows], "steady": [r.figures() for r in steady]}
+        text = json.dumps(kept, indent=2) + "\n"
         sys.stdout.write(text) if json_ == "-" else Path(json_).write_text(text, "utf-8")

@@ -7,6 +7,7 @@ stay exact however long the gearbox turns; whole cycles are counted modulo the t
 from __future__ import annotations
 
 import math
+from fractions import Fraction
 
 import numpy as np
 
@@ -68,3 +69,23 @@ def nearest_to_segment(train: Record, kind: int, segment: int, cycle: float) -> 
     """The representative of `cycle` modulo 1 that lies in or next to a segment."""
     middle = 0.5 * (train.edge[kind, segment] + train.edge[kind, segment + 1])
     return cycle - math.floor(cycle - middle + 0.5)
+
+
+def turns_per_cycle(train: Record) -> Fraction:
+    """Turns of the first motor in a mesh cycle, the others at rest."""
+    return Fraction(int(train.cycles_denominator[0]), int(train.cycles_numerator[0]))
+
+
+def common_cycles(train: Record, load: Record) -> int:
+    """Mesh cycles until faulty teeth, errors of form and fluctuation come round all together.
+
+    0 if never: a train with two motors.
+    """
+    if train.axes > 1:
+        return 0
+    periods = [int(teeth) for teeth in train.fault_teeth[: train.faults]]
+    for kind, lines in enumerate(train.lines):
+        periods += [int(period) for period in train.line_period[kind, :lines]]
+    if load.ripple != 0.0:
+        periods.append((int(load.ripple_order) * turns_per_cycle(train)).denominator)
+    return math.lcm(*periods)

@@ -9,6 +9,7 @@ from __future__ import annotations
 import math
 
 from .._compile import kernel
+from .._overwrite import overwrite
 from .._records import Record
 from ..dynamics.equations import drive, squeeze
 from ..dynamics.mesh_force import move_meshes
@@ -17,7 +18,7 @@ from .edges import planned, time_to_edge
 from .flanks import at_event, first_flank_event
 from .frame import pass_time
 from .memory import remember
-from .progress import COLLOCATION, GROW, NO_MESH, SAFETY, SHORTEST_STEP, SHRINK, copy_state
+from .progress import COLLOCATION, GROW, NO_MESH, SAFETY, SHORTEST_STEP, SHRINK
 from .propagation import enter, integrate_powers, propagate, resolves, trim_at
 
 FAILED = -2  # no mesh, and no step
@@ -39,7 +40,7 @@ def collocated_step(model: Record, march: Record, longest: float, event: float, 
     hold_friction(model, march)
     enter(model, march)
     # Meshing returns to the same contacts: the step that did then, will do.
-    known, modes, fresh = run.known, run.modes, control.changed
+    known, modes, fresh = run.known, run.motion.modes, control.changed
     h = known.step[modes] if fresh and known.step[modes] > 0.0 else control.next_step
     h = min(planned(event, min(h, longest), STRETCH), longest)
     restless = 0
@@ -96,8 +97,8 @@ def hold_friction(model: Record, march: Record) -> None:
 def end_within(model: Record, march: Record, h: float) -> None:
     """Let the step of collocation end after h seconds, on its own motion."""
     begin, end = march.begin, march.end
-    copy_state(begin, end)
-    if h == march.run.step:
+    overwrite(end, begin)
+    if h == march.run.motion.step:
         last = march.run.nodes.count - 1
         end.x[:], end.v[:] = march.run.node_x[last], march.run.node_v[last]
         end.trim[:] = march.run.node_trim[last]

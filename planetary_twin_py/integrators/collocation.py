@@ -37,7 +37,7 @@ def collocate(model: Record, march: Record, h: float, fresh: bool) -> tuple[floa
     if fresh:
         recall(train, march)
     visit_nodes(model, march)
-    if run.known.varies[run.modes] == 1:
+    if run.known.varies[run.motion.modes] == 1:
         _settle_meshes(model, march)
         tail = _tail(model, march)
         if not tail <= 1.0:
@@ -49,7 +49,7 @@ def collocate(model: Record, march: Record, h: float, fresh: bool) -> tuple[floa
 def _settle_meshes(model: Record, march: Record) -> None:
     """Sweep with friction as it is: where stiffness changes fast, this saves evaluating it."""
     run, change = march.run, math.inf
-    pull = run.known.pull[run.modes, 0] * run.step
+    pull = run.known.pull[run.motion.modes, 0] * run.motion.step
     for sweep in range(MOST_SWEEPS):
         before = change
         _sweep(model, march, False)
@@ -57,7 +57,7 @@ def _settle_meshes(model: Record, march: Record) -> None:
         change = _difference(model, march)
         if sweep > 0 and before > 0.0:
             pull = change / before
-            run.known.pull[run.modes, 0] = pull / run.step
+            run.known.pull[run.motion.modes, 0] = pull / run.motion.step
         if change * pull <= SHARE:
             return
 
@@ -66,7 +66,7 @@ def _settle_meshes(model: Record, march: Record) -> None:
 def _settle_friction(model: Record, march: Record) -> tuple[float, bool]:
     """Sweep until what the next one would change is a share of the tolerance."""
     run, change, tail = march.run, math.inf, 0.0
-    pull = run.known.pull[run.modes, 1] * run.step
+    pull = run.known.pull[run.motion.modes, 1] * run.motion.step
     for sweep in range(MOST_SWEEPS):
         before = change
         _sweep(model, march, True)
@@ -77,7 +77,7 @@ def _settle_friction(model: Record, march: Record) -> tuple[float, bool]:
             tail = _tail(model, march)
         elif before > 0.0:
             pull = change / before
-            run.known.pull[run.modes, 1] = pull / run.step
+            run.known.pull[run.motion.modes, 1] = pull / run.motion.step
         if not tail <= 1.0 or change * pull <= SHARE:
             return (tail if math.isfinite(tail + change) else math.inf), True
         if sweep > 0 and not pull <= WEAKEST_PULL:
@@ -89,10 +89,10 @@ def _settle_friction(model: Record, march: Record) -> tuple[float, bool]:
 def _sweep(model: Record, march: Record, rubbing: bool) -> None:
     """Take the rest anew at all nodes, with friction as it was unless `rubbing`."""
     train, begin, moment, run = model.train, march.begin, march.moment, march.run
-    share, lanes = run.known.share[run.modes], train.lanes
+    share, lanes = run.known.share[run.motion.modes], train.lanes
     for n in range(run.nodes.count):
         out, x, v = run.evaluation[n], run.node_x[n], run.node_v[n]
-        delay = run.nodes.abscissa[n] * run.step
+        delay = run.nodes.abscissa[n] * run.motion.step
         for i in range(lanes):
             out.now.d[i], out.now.rate[i] = run.node_d[n, i], run.node_rate[n, i]
         squeeze(model, begin, moment, x, v, delay, out)
@@ -128,18 +128,18 @@ def _difference(model: Record, march: Record) -> float:
 def _tail(model: Record, march: Record) -> float:
     """Local error, what the highest power of the polynomial moves, over its tolerance."""
     train, run, largest = model.train, march.run, 0.0
-    h, lanes = run.step, train.lanes
+    h, lanes = run.motion.step, train.lanes
     highest = run.nodes.count - 1
     share = TAIL * run.nodes.smallest
     settling = 2.0 * (highest + 2) * (highest + 3)  # it moves a mode by such a part of that at rest
     for m in range(lanes):
         tail, below = abs(power(run, highest, m)), abs(power(run, highest - 1, m))
-        static = 1.0 / max(run.square[m], settling / (h * h))
+        static = 1.0 / max(run.motion.square[m], settling / (h * h))
         # Steps within the memory of a mode make errors that add up at random.
         lasting = math.sqrt(1.0 + 2.0 / (run.damper[m] * h + 1e-6))
         lasting = 1.0 if run.spring[m] == 0.0 else lasting
         run.now_q[m] = tail * tail / (tail + below + 1e-300) * share * static * lasting
-    combine(run.known.reach[run.modes], run.now_q, train.bodies, run.now_d)
+    combine(run.known.reach[run.motion.modes], run.now_q, train.bodies, run.now_d)
     for i in range(train.meshes):
         largest = max(largest, run.now_d[i])
     return largest / march.control.tolerance_x

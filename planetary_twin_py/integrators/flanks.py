@@ -94,7 +94,7 @@ def _suspect_flanks(model: Record, march: Record) -> bool:
     which are bounded by their amplitudes.
     """
     train, moment, run = model.train, march.moment, march.run
-    lanes, modes, found = train.lanes, run.modes, False
+    lanes, modes, found = train.lanes, run.motion.modes, False
     sun, ring = model.load.release * moment.tau[0], model.load.release * moment.tau[1]
     reach, motion = run.known.reach[modes], run.known.motion[modes]
     for m in range(lanes):
@@ -104,10 +104,10 @@ def _suspect_flanks(model: Record, march: Record) -> bool:
         run.least[i] = -(run.now_d[i] if train.kind[i] == 0 else run.now_rate[i])
     for n in range(run.nodes.count):
         for m in range(lanes):
-            u, w = run.free[0, m], run.free[1, m]
+            u, w = run.motion.free[0, m], run.motion.free[1, m]
             c, s = run.cosine[n, m], run.sine[n, m]
             waves = _has_waves(run, m)
-            rate = (c - run.damping[m] * s) * w - run.square[m] * s * u
+            rate = (c - run.motion.damping[m] * s) * w - run.motion.square[m] * s * u
             run.now_q[m], run.now_p[m] = (c * u + s * w if waves else 0.0), (rate if waves else 0.0)
         combine_both(motion, run.now_q, run.now_p, train.bodies, run.now_d, run.now_rate)
         if n == 0:
@@ -140,23 +140,27 @@ def _left_without_waves(model: Record, march: Record, i: int, n: int, tau: float
 @law
 def _has_waves(run: Record, m: int) -> bool:
     """Whether mode m may turn round between two nodes."""
-    return run.square[m] * run.step * run.step + run.damping[m] * run.step > TAME
+    return (
+        run.motion.square[m] * run.motion.step * run.motion.step
+        + run.motion.damping[m] * run.motion.step
+        > TAME
+    )
 
 
 @law
 def _amplitude(run: Record, m: int, tau: float) -> float:
     """Bound on the free motion of mode m and tau times its rate, together."""
-    half = 0.5 * run.damping[m]
-    swings = run.slow[m] == run.fast[m]
+    half = 0.5 * run.motion.damping[m]
+    swings = run.motion.slow[m] == run.motion.fast[m]
     # From (1, 0): C - tau w^2 S; from (0, 1): S + tau (C - c S); S never exceeds 1/w, nor C 1.
-    longest = 1.0 / math.sqrt(max(run.square[m], 1e-300))
-    inverse = 1.0 / max(run.rate[m], 1e-300)
+    longest = 1.0 / math.sqrt(max(run.motion.square[m], 1e-300))
+    inverse = 1.0 / max(run.motion.rate[m], 1e-300)
     longest = min(longest, inverse) if swings else longest
-    lean = half - tau * run.square[m]
+    lean = half - tau * run.motion.square[m]
     first = 1.0 + abs(lean) * longest
     ratio = lean * inverse
     first = min(first, math.sqrt(1.0 + ratio * ratio)) if swings else first
-    bound = first * abs(run.free[0, m]) + (longest + tau) * abs(run.free[1, m])
+    bound = first * abs(run.motion.free[0, m]) + (longest + tau) * abs(run.motion.free[1, m])
     return bound if _has_waves(run, m) else 0.0
 
 
@@ -164,7 +168,7 @@ def _amplitude(run: Record, m: int, tau: float) -> float:
 def _scan(model: Record, march: Record, end: float) -> None:
     """Transmission errors at even times up to `end` [s]."""
     train, run = model.train, march.run
-    motion = run.known.motion[run.modes]
+    motion = run.known.motion[run.motion.modes]
     for k in range(SCANNED):
         modes_at(run, train.lanes, (k + 1) * end / SCANNED)
         combine_both(motion, run.now_q, run.now_p, train.bodies, run.scan_d[k], run.scan_rate[k])
@@ -193,7 +197,7 @@ def _play_at(model: Record, march: Record, i: int, delay: float, slack: float) -
     modes_at(run, train.lanes, delay)
     d = rate = 0.0
     for m in range(train.bodies):
-        motion = run.known.motion[run.modes, m, i]
+        motion = run.known.motion[run.motion.modes, m, i]
         d += motion * run.now_q[m]
         rate += motion * run.now_p[m]
     tau = moment.tau[train.kind[i]]

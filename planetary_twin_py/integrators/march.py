@@ -6,6 +6,7 @@ a caller asks for never clips a step: samples come from the step's interpolant, 
 the end of the window is that of the last step begun. So the path does not depend on the windows.
 
 Steps are made by collocation; where that is unfit, Rosenbrock's method takes over for a while.
+Where nothing changes any more from one mesh cycle to the next, none are made.
 """
 
 from __future__ import annotations
@@ -13,6 +14,7 @@ from __future__ import annotations
 import math
 
 from .._compile import kernel
+from .._overwrite import overwrite
 from .._records import Record
 from ..dynamics.contact_events import change_contact
 from ..dynamics.moment import set_moment
@@ -21,14 +23,15 @@ from .collocated_step import DETOUR, FAILED, collocated_step
 from .edges import next_event, pass_edges
 from .frame import rebase
 from .interpolant import Samples, sample
-from .progress import COLLOCATION, NO_MESH, ROSENBROCK, SHORTEST_STEP, copy_state
+from .progress import COLLOCATION, NO_MESH, ROSENBROCK, SHORTEST_STEP
+from .repetition import forget, play, watch
 from .stiff_step import stiff_step
 
 
 @kernel
 def begin_step(model: Record, march: Record) -> None:
     """Start a new step where the last one ended."""
-    copy_state(march.end, march.begin)
+    overwrite(march.begin, march.end)
     rebase(model.train, march.begin)
     set_moment(model, march.begin, march.moment)
     _set_tolerances(model.train, march)
@@ -88,8 +91,12 @@ def advance(model: Record, march: Record, until: Instant, samples: Sampling, out
             taken += 1
         if taken == room and delay(march.end, until) <= 0.0:
             return
-        begin_step(model, march)
-        one_step(model, march, math.inf)
+        if march.repetition.playing:
+            play(model, march, due(samples) if taken < room else until)
+        else:
+            begin_step(model, march)
+            one_step(model, march, math.inf)
+            watch(model, march)
 
 
 @kernel
@@ -98,13 +105,14 @@ def cut(model: Record, march: Record, until: Instant) -> None:
 
     What changes from outside, changes there: the next step begins at it.
     """
+    forget(march)
     if delay(march.end, until) < 0.0:
         length = delay(march.begin, until)
         march.control.changed = True
         if length > SHORTEST_STEP:
             one_step(model, march, length)
         else:
-            copy_state(march.begin, march.end)
+            overwrite(march.end, march.begin)
         while delay(march.end, until) > SHORTEST_STEP:  # an event came before
             begin_step(model, march)
             one_step(model, march, delay(march.end, until))

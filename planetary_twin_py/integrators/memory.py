@@ -18,9 +18,9 @@ START = MOST  # row of what was at the start
 @kernel
 def recall(train: Record, march: Record) -> None:
     """Let rest and friction grow over the step as they did when it was last made."""
-    run, modes = march.run, march.run.modes
+    run, modes = march.run, march.run.motion.modes
     known = run.known
-    if not abs(known.past_step[modes] - run.step) < ALIKE * run.step:
+    if not abs(known.past_step[modes] - run.motion.step) < ALIKE * run.motion.step:
         return
     for n in range(run.nodes.count):
         out = run.evaluation[n]
@@ -33,9 +33,9 @@ def recall(train: Record, march: Record) -> None:
 @kernel
 def remember(train: Record, march: Record) -> None:
     """Keep how rest and friction grew over the first step in a contact state."""
-    run, modes = march.run, march.run.modes
+    run, modes = march.run, march.run.motion.modes
     known = run.known
-    known.past_step[modes] = run.step
+    known.past_step[modes] = run.motion.step
     for m in range(train.lanes):
         start = run.force[m] + run.damper[m] * run.p[m] + run.spring[m] * run.q[m]
         known.past_rest[modes, START, m] = start

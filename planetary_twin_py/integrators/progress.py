@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from .._compile import kernel
-from .._records import AXES, BODIES, FLAG, REAL, WHOLE, Record, layout
+from .._records import AXES, BODIES, FLAG, REAL, WHOLE, layout
 from ..dynamics.equations import EVALUATION
 from ..dynamics.moment import MOMENT
 from ..dynamics.state import STATE
 from .propagation import PROPAGATION
+from .repetition import REPETITION
 from .rosenbrock import WORKSPACE
 
 AUTO, COLLOCATION, ROSENBROCK = 0, 1, 2
@@ -32,6 +32,7 @@ CONTROL = layout(
     next_stiff=REAL,  # next step of that [s]
     changed=FLAG,  # contacts or loads are no longer those of the last evaluation
     steps=WHOLE,
+    repeated=WHOLE,  # steps of steady running that were not made again, see `repetition`
     stiff_steps=WHOLE,  # of them by Rosenbrock's method
     rejected=WHOLE,
     evaluations=WHOLE,
@@ -52,21 +53,5 @@ MARCH = layout(
     control=CONTROL,
     work=WORKSPACE,
     run=PROPAGATION,
+    repetition=REPETITION,
 )
-
-
-@kernel
-def copy_state(source: Record, target: Record) -> None:
-    """Overwrite `target`."""
-    target.x[:] = source.x
-    target.v[:] = source.v
-    target.side[:] = source.side
-    target.segment[:] = source.segment
-    target.seconds = source.seconds
-    target.time = source.time
-    target.turns[:] = source.turns
-    target.fraction[:] = source.fraction
-    target.speed[:] = source.speed
-    target.trim[:] = source.trim
-    target.set_speed[:] = source.set_speed
-    target.energy[:] = source.energy

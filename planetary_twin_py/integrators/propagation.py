@@ -25,10 +25,8 @@ LONGEST_MEMORY = 1e3  # c/(w^2 h) of a mode whose motion keeps ten digits
 SLOWEST_SWING = 30.0  # (1 + c h)/(w h)^2, to whose fourth power digits are lost
 SCANNED = 8  # times at which flanks are looked at
 
-# A step in the making, and what its dense output reads. q is in m sqrt(kg).
-PROPAGATION = layout(
-    nodes=NODES,
-    known=CONTACT_MODES,
+# How all modes move within a step: what dense output reads. q is in m sqrt(kg).
+MOTION = layout(
     modes=WHOLE,  # place in `known`
     step=REAL,  # [s]
     square=(REAL, (BODIES,)),  # w^2 [1/s^2]
@@ -36,14 +34,21 @@ PROPAGATION = layout(
     rate=(REAL, (BODIES,)),  # see `oscillator.decay_rates`
     slow=(REAL, (BODIES,)),
     fast=(REAL, (BODIES,)),
+    particular=(REAL, (POWERS, BODIES)),  # motion under the polynomial, of powers of t/h
+    free=(REAL, (2, BODIES)),  # q and q' of the free motion at the start
+)
+
+# A step in the making.
+PROPAGATION = layout(
+    nodes=NODES,
+    known=CONTACT_MODES,
+    motion=MOTION,
     spring=(REAL, (BODIES,)),  # w^2 and c, but 0 for what counts as a free mass
     damper=(REAL, (BODIES,)),
     q=(REAL, (BODIES,)),  # at the start
     p=(REAL, (BODIES,)),  # q' at the start
     force=(REAL, (BODIES,)),  # at the start, friction being as it was before
     rest=(REAL, (MOST, BODIES)),  # at the nodes
-    particular=(REAL, (POWERS, BODIES)),  # motion under the polynomial, of powers of t/h
-    free=(REAL, (2, BODIES)),  # q and q' of the free motion at the start
     cosine=(REAL, (MOST, BODIES)),  # `wave` at the nodes
     sine=(REAL, (MOST, BODIES)),
     node_q=(REAL, (MOST, BODIES)),
@@ -74,31 +79,37 @@ def enter(model: Record, march: Record) -> None:
     train, begin, moment, run = model.train, march.begin, march.moment, march.run
     known, lanes = run.known, train.lanes
     n = find_modes(train, begin, known)
-    run.modes = n
+    run.motion.modes = n
     for m in range(lanes):
         damping = known.shaft_damping[n, m] + moment.tau[0] * known.mesh_damping[n, 0, m]
         damping += moment.tau[1] * known.mesh_damping[n, 1, m]
         square = known.square[n, m]
-        run.square[m], run.damping[m] = square, damping
-        run.rate[m], run.slow[m], run.fast[m] = decay_rates(square, damping)
+        run.motion.square[m], run.motion.damping[m] = square, damping
+        run.motion.rate[m], run.motion.slow[m], run.motion.fast[m] = decay_rates(square, damping)
         run.now_q[m], run.now_p[m] = train.mass[m] * begin.x[m], train.mass[m] * begin.v[m]
     share = known.share[n]
     combine_both(share, run.now_q, run.now_p, train.bodies, run.q, run.p)
     combine(share, march.first.force, train.bodies, run.force)
 
 
+@law
+def wave_of(motion: Record, m: int, t: float) -> tuple[float, float]:
+    """`wave` of mode m."""
+    return wave(motion.damping[m], motion.rate[m], motion.slow[m], motion.fast[m], t)
+
+
 @kernel
 def set_step(run: Record, lanes: int, h: float) -> None:
     """Free motions of all modes at the nodes of a step of h, and the rest as it is at the start."""
-    run.step = h
+    run.motion.step = h
     for m in range(lanes):
-        free = is_free(run.square[m], run.damping[m], h)
-        run.spring[m] = 0.0 if free else run.square[m]
-        run.damper[m] = 0.0 if free else run.damping[m]
+        free = is_free(run.motion.square[m], run.motion.damping[m], h)
+        run.spring[m] = 0.0 if free else run.motion.square[m]
+        run.damper[m] = 0.0 if free else run.motion.damping[m]
     for n in range(run.nodes.count):
         t = run.nodes.abscissa[n] * h
         for m in range(lanes):
-            first, second = wave(run.damping[m], run.rate[m], run.slow[m], run.fast[m], t)
+            first, second = wave_of(run.motion, m, t)
             run.cosine[n, m], run.sine[n, m] = first, second
             rest = run.force[m] + run.damper[m] * run.p[m] + run.spring[m] * run.q[m]
             run.rest[n, m] = rest
@@ -112,7 +123,7 @@ def resolves(run: Record, bodies: int, h: float) -> bool:
     wave, both larger by the square of that ratio.
     """
     for m in range(bodies):
-        square, damping = run.square[m], run.damping[m]
+        square, damping = run.motion.square[m], run.motion.damping[m]
         if not is_free(square, damping, h) and damping > LONGEST_MEMORY * square * h:
             return False
     return True
@@ -129,7 +140,7 @@ def power(run: Record, k: int, m: int) -> float:
 @law
 def respond(run: Record, lanes: int) -> None:
     """The motion of all modes under the polynomial through `rest`."""
-    h = run.step
+    h = run.motion.step
     square, inertia = h * h, 1.0 / (h * h)
     for m in range(lanes):
         spring, loss = run.spring[m], run.damper[m] / h
@@ -144,15 +155,15 @@ def respond(run: Record, lanes: int) -> None:
         one = (b - 2.0 * loss * two - 6.0 * inertia * three) * inverse
         zero = (a - loss * one - 2.0 * inertia * two) * inverse
         q, p = run.q[m], run.p[m]
-        run.particular[0, m] = q if free else zero
-        run.particular[1, m] = h * p if free else one
-        run.particular[2, m] = square / 2.0 * a if free else two
-        run.particular[3, m] = square / 6.0 * b if free else three
-        run.particular[4, m] = square / 12.0 * c if free else four
-        run.particular[5, m] = square / 20.0 * d if free else 0.0
-        run.particular[6, m] = square / 30.0 * e if free else 0.0
-        run.free[0, m] = 0.0 if free else q - zero
-        run.free[1, m] = 0.0 if free else p - one / h
+        run.motion.particular[0, m] = q if free else zero
+        run.motion.particular[1, m] = h * p if free else one
+        run.motion.particular[2, m] = square / 2.0 * a if free else two
+        run.motion.particular[3, m] = square / 6.0 * b if free else three
+        run.motion.particular[4, m] = square / 12.0 * c if free else four
+        run.motion.particular[5, m] = square / 20.0 * d if free else 0.0
+        run.motion.particular[6, m] = square / 30.0 * e if free else 0.0
+        run.motion.free[0, m] = 0.0 if free else q - zero
+        run.motion.free[1, m] = 0.0 if free else p - one / h
 
 
 @law
@@ -160,22 +171,22 @@ def modal_state(
     run: Record, m: int, t: float, per_step: float, cosine: float, sine: float
 ) -> tuple[float, float]:
     """q and q' of mode m at t/h, from `wave` at that time and 1/h."""
-    y = run.particular
+    y = run.motion.particular
     a, b, c, d = y[0, m], y[1, m], y[2, m], y[3, m]
     e, f, g = y[4, m], y[5, m], y[6, m]
-    u, w = run.free[0, m], run.free[1, m]
+    u, w = run.motion.free[0, m], run.motion.free[1, m]
     value = a + t * (b + t * (c + t * (d + t * (e + t * (f + t * g)))))
     slope = b + t * (2.0 * c + t * (3.0 * d + t * (4.0 * e + t * (5.0 * f + t * 6.0 * g))))
-    rate = (cosine - run.damping[m] * sine) * w - run.square[m] * sine * u
+    rate = (cosine - run.motion.damping[m] * sine) * w - run.motion.square[m] * sine * u
     return value + cosine * u + sine * w, slope * per_step + rate
 
 
 @law
 def modes_at(run: Record, lanes: int, delay: float) -> None:
     """q and q' of all modes at any time within the step, in `now_q` and `now_p`."""
-    t, per_step = delay / run.step, 1.0 / run.step
+    t, per_step = delay / run.motion.step, 1.0 / run.motion.step
     for m in range(lanes):
-        first, second = wave(run.damping[m], run.rate[m], run.slow[m], run.fast[m], delay)
+        first, second = wave_of(run.motion, m, delay)
         run.now_q[m], run.now_p[m] = modal_state(run, m, t, per_step, first, second)
 
 
@@ -184,7 +195,7 @@ def propagate(model: Record, march: Record, delay: float, x: np.ndarray, v: np.n
     """x and v at any time within the step."""
     train, run = model.train, march.run
     modes_at(run, train.lanes, delay)
-    form = run.known.form[run.modes]
+    form = run.known.form[run.motion.modes]
     combine_both(form, run.now_q, run.now_p, train.bodies, x, v)
 
 
@@ -203,20 +214,20 @@ def trim_at(model: Record, march: Record, delay: float, x: np.ndarray, trim: np.
 def visit_nodes(model: Record, march: Record) -> None:
     """Answer the rest as it is now, and move on to where that takes the nodes."""
     train, run = model.train, march.run
-    lanes, bodies, per_step = train.lanes, train.bodies, 1.0 / run.step
+    lanes, bodies, per_step = train.lanes, train.bodies, 1.0 / run.motion.step
     respond(run, lanes)
     nodes, last = run.nodes, run.nodes.count - 1
     for i in range(lanes):
         run.before_d[i], run.before_rate[i] = run.node_d[last, i], run.node_rate[last, i]
         run.before_v[i] = run.node_v[last, i]
-    form, motion = run.known.form[run.modes], run.known.motion[run.modes]
+    form, motion = run.known.form[run.motion.modes], run.known.motion[run.motion.modes]
     for n in range(nodes.count):
         t, q, p = nodes.abscissa[n], run.node_q[n], run.node_p[n]
         for m in range(lanes):
             q[m], p[m] = modal_state(run, m, t, per_step, run.cosine[n, m], run.sine[n, m])
         combine_both(form, q, p, bodies, run.node_x[n], run.node_v[n])
         combine_both(motion, q, p, bodies, run.node_d[n], run.node_rate[n])
-        trim_at(model, march, t * run.step, run.node_x[n], run.node_trim[n])
+        trim_at(model, march, t * run.motion.step, run.node_x[n], run.node_trim[n])
 
 
 @kernel
@@ -227,21 +238,21 @@ def integrate_powers(march: Record, lanes: int, h: float) -> None:
     """
     run, end = march.run, march.end
     end.energy[:] = march.begin.energy
-    t, last, lost = h / run.step, run.nodes.count - 1, 0.0
+    t, last, lost = h / run.motion.step, run.nodes.count - 1, 0.0
     for n in range(run.nodes.count):
-        weight, u = 0.0, run.step
+        weight, u = 0.0, run.motion.step
         for k in range(run.nodes.count):
             u *= t
             weight += run.nodes.coefficient[k, n] * u / (k + 1)
         for e in range(LEDGER):
             end.energy[e] += weight * run.evaluation[n].power[e]
         for m in range(lanes):
-            damped = weight * run.damping[m] * run.node_p[n, m] ** 2
+            damped = weight * run.motion.damping[m] * run.node_p[n, m] ** 2
             lost -= damped if _swings(run, m) else 0.0
     for m in range(lanes):
         first, second = run.cosine[last, m], run.sine[last, m]
-        if h != run.step:
-            first, second = wave(run.damping[m], run.rate[m], run.slow[m], run.fast[m], h)
+        if h != run.motion.step:
+            first, second = wave_of(run.motion, m, h)
         lost += _damped(run, m, h, first, second) if _swings(run, m) else 0.0
     end.energy[DAMPING] += lost
 
@@ -253,7 +264,7 @@ def _swings(run: Record, m: int) -> bool:
     Not those that hardly move within the step: `_damped` would lose all its digits, quadrature
     none.
     """
-    stiff, loss = run.spring[m] * run.step * run.step, run.damper[m] * run.step
+    stiff, loss = run.spring[m] * run.motion.step * run.motion.step, run.damper[m] * run.motion.step
     return loss > 0.0 and 1.0 + loss < SLOWEST_SWING * stiff
 
 
@@ -265,12 +276,12 @@ def _damped(run: Record, m: int, h: float, first: float, second: float) -> float
     energy (u'^2 + w^2 u^2)/2 it has less at the end; int t^k u' and int t^k u follow from each
     other by u'' + c u' + w^2 u = 0.
     """
-    c, square = run.damping[m], run.square[m]
-    u0, w0 = run.free[0, m], run.free[1, m]
+    c, square = run.motion.damping[m], run.motion.square[m]
+    u0, w0 = run.motion.free[0, m], run.motion.free[1, m]
     u1, w1 = first * u0 + second * w0, (first - c * second) * w0 - square * second * u0
     lost = 0.5 * (w0 * w0 - w1 * w1 + square * (u0 * u0 - u1 * u1))
     # y' = (a + b s + d s^2 + e s^3)/h with s = t/h, from 0 to `part`
-    step, part, y = run.step, h / run.step, run.particular
+    step, part, y = run.motion.step, h / run.motion.step, run.motion.particular
     a, b, d, e = y[1, m], 2.0 * y[2, m], 3.0 * y[3, m], 4.0 * y[4, m]
     inverse = 1.0 / max(square * step, 1e-300)
     rate0 = u1 - u0  # integral of u', then of s^k u', and of s^k u over h

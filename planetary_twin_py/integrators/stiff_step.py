@@ -9,6 +9,7 @@ from __future__ import annotations
 import math
 
 from .._compile import kernel
+from .._overwrite import overwrite
 from .._records import Record
 from ..dynamics.equations import forces
 from ..dynamics.mesh_force import mesh_motion
@@ -16,7 +17,7 @@ from ..dynamics.tooth_friction import copy_friction
 from .edges import planned
 from .flanks import at_event, first_flank_event
 from .frame import pass_time
-from .progress import GROW, NO_MESH, SAFETY, SHORTEST_STEP, SHRINK, copy_state
+from .progress import GROW, NO_MESH, SAFETY, SHORTEST_STEP, SHRINK
 from .rosenbrock import ORDER, step
 
 NEAREST, FARTHEST = 0.1, 0.9  # by which a step is shortened at a time to meet a flank event
@@ -66,7 +67,7 @@ def _controlled(model: Record, march: Record, h: float) -> tuple[float, float]:
 def _try(model: Record, march: Record, h: float) -> None:
     """One step of h from `begin` into `end`, without regard to events."""
     begin, end = march.begin, march.end
-    copy_state(begin, end)
+    overwrite(end, begin)
     step(model, begin, march.moment, h, march.first, end, march.work)
     pass_time(model, march, h)
     end.energy[:] = begin.energy + march.work.energy

@@ -44,6 +44,7 @@ class QuasiStaticEngine:
         self.train = build_train(still)
         self.control: Record = new_record(CONTROL)
         self.reached = Fraction(0)
+        self.repeats = False  # there is nothing to compute again
         self._load(scene.operating_point, tolerance, self._start())
         self._compile()
 

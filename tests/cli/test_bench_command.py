@@ -5,7 +5,7 @@ import json
 import pytest
 from typer.testing import CliRunner
 
-from planetary_twin_py.benchmark import batch, cases, costs, table
+from planetary_twin_py.benchmark import batch, cases, costs, steady, table
 from planetary_twin_py.cli import build_app
 
 
@@ -13,6 +13,7 @@ from planetary_twin_py.cli import build_app
 def _short_runs(monkeypatch):
     monkeypatch.setattr(cases, "CASES", (cases.Case("short", {}, 0.001, 1),))
     monkeypatch.setattr(table, "WHOLE", 0.002)
+    monkeypatch.setattr(steady, "BY", 0.02)
     monkeypatch.setattr(costs, "SHORTEST", 0.001)
     monkeypatch.setattr(costs, "LONGEST", 0.001)
     monkeypatch.setattr(costs, "DURATIONS", (0.001,))
@@ -32,12 +33,15 @@ def test_page_figures_and_picture_are_of_one_run(tmp_path):
         "--costs", "--markdown", str(page), "--plot", str(picture), "--json", str(figures)
     )
     assert answer.exit_code == 0, answer.output
-    text, rows = page.read_text(), json.loads(figures.read_text())
+    text, kept = page.read_text(), json.loads(figures.read_text())
+    rows = kept["march"]
     assert [(row["method"], row["tolerance"]) for row in rows] == [
         (method, tolerance) for method in table.METHODS for tolerance in table.TOLERANCES
     ]
     for row in rows:
         assert f"| {row['rtf']:.3g} | {row['rtf_low']:.3g}-{row['rtf_high']:.3g} |" in text
+    assert [row["tolerance"] for row in kept["steady"]] == list(table.TOLERANCES)
+    assert "| short | 1e-02 | never |" in text
     assert "(work.png)" in text and picture.read_bytes().startswith(b"\x89PNG")
     assert all(f"| {against} | speed |" in text for against in costs.TABLES)
 

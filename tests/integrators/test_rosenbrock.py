@@ -8,7 +8,6 @@ from planetary_twin_py._records import new_record
 from planetary_twin_py.dynamics.equations import forces
 from planetary_twin_py.engine import Engine
 from planetary_twin_py.integrators.march import begin_step
-from planetary_twin_py.integrators.progress import copy_state
 from planetary_twin_py.integrators.rosenbrock import WORKSPACE, step
 from planetary_twin_py.scene import load_scene
 
@@ -30,7 +29,7 @@ def march(steps):
         moment.start[:] = start + moment.cycle_rate * i * h
         forces(model, state, moment, state.x, state.v, 0.0, state.trim, run.first)
         step(model, state, moment, h, run.first, new, work)
-        copy_state(new, state)
+        state = new.copy()
         state.fraction[:] = run.begin.fraction + run.begin.speed * h * (i + 1) / (2 * np.pi)
     return np.concatenate([state.x, state.v / 1e4])
 

@@ -41,6 +41,7 @@ class Progress(NamedTuple):
     wall: float  # [s] steady clock
     cpu: float  # [s] processor time of the thread
     overruns: int
+    repeats: bool  # steady running, which is not computed again
 
 
 class LiveTwin:
@@ -67,12 +68,13 @@ class LiveTwin:
         )
         self._stop = threading.Event()
         self._thread = threading.Thread(target=self._run, name="twin", daemon=True)
-        self.progress = Progress(twin.time, time.monotonic(), 0.0, 0)
+        self._repeated = False
+        self.progress = self._standing()
 
     def start(self) -> Progress:
         """Begin at the twin's present time; returns where that is."""
         self._pace.start()
-        begun = self.progress = Progress(self._twin.time, time.monotonic(), 0.0, 0)
+        begun = self.progress = self._standing()._replace(cpu=0.0)
         self._thread.start()
         return begun
 
@@ -106,7 +108,8 @@ class LiveTwin:
             self._listener.retuned(instant, affordable)
         begin = time.monotonic()
         window = self._twin.advance(self._interval)
-        affordable.observe(time.monotonic() - begin)
+        affordable.observe(time.monotonic() - begin, window.repeated)
+        self._repeated = window.repeated
         return window
 
     def _apply_changes(self) -> None:
@@ -122,4 +125,10 @@ class LiveTwin:
             future.set_result(instant)
 
     def _standing(self) -> Progress:
-        return Progress(self._twin.time, time.monotonic(), time.thread_time(), self._pace.overruns)
+        return Progress(
+            self._twin.time,
+            time.monotonic(),
+            time.thread_time(),
+            self._pace.overruns,
+            self._repeated,
+        )

@@ -67,6 +67,7 @@ class RealTimeReport:
             "overruns": now.overruns,
             **self._cpu(now),
             "computing": f"{affordable.load:.3f}",
+            "mesh_cycles": "repeated" if now.repeats else "computed",
             "tolerance_choice": "automatic" if affordable.automatic else "fixed",
             **self._tolerances(),
             **{f"published.{topic}": count for topic, count in published.items()},

@@ -1,0 +1,129 @@
+"""What steady running costs once it repeats itself, and how wrong it is then."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterable, Sequence
+from typing import NamedTuple
+
+import numpy as np
+from rich.table import Table
+
+from ..engine import Engine
+from ..scene import Scene
+from .cases import Case
+from .table import TOLERANCES, errors
+from .timing import METHOD, SAMPLE_RATE, Speed, speed
+
+MINUTE = 60.0  # [s]
+BY = 4.0  # [s] by which it is to repeat
+COMPARED = 0.02  # [s] before that, compared with what is computed ...
+EXACT = 1e-7  # ... at this tolerance
+LOOKED = 0.01  # [s] between two looks at whether it repeats
+
+
+class Steady(NamedTuple):
+    """A minute of one case."""
+
+    case: str
+    tolerance: float
+    repeats_from: float  # [s], NaN: it does not
+    error_dte: float
+    error_power_loss: float
+    speed: Speed  # from the start, without samples
+
+    def figures(self) -> dict[str, str | float | None]:
+        """For JSON, which knows no NaN."""
+        values = self._asdict()
+        speeds = values.pop("speed")._asdict()
+        values |= {f"rtf_{name}": value for name, value in speeds.items()}
+        return {name: None if value != value else value for name, value in values.items()}
+
+
+def measure_steady(
+    cases: Iterable[Case],
+    tolerances: Iterable[float] = TOLERANCES,
+    progress: Callable[[str], None] = lambda text: None,
+) -> list[Steady]:
+    """Measure all cases; one that does not repeat has no figures."""
+    found, tolerances = [], list(tolerances)
+    for case in cases:
+        exact = None
+        for tolerance in tolerances:
+            progress(f"{case.name}: a minute, tolerance {tolerance:g}")
+            scene = case.scene()
+            begin = repeats_from(scene, tolerance)
+            if math.isnan(begin):
+                nothing = Speed(math.nan, math.nan, math.nan)
+                found.append(Steady(case.name, tolerance, begin, math.nan, math.nan, nothing))
+                continue
+            exact = _settled(scene, EXACT, METHOD) if exact is None else exact
+            error = errors(_settled(scene, tolerance, "auto"), exact)
+            timed = speed(scene, MINUTE, "auto", tolerance, sampled=False)
+            found.append(Steady(case.name, tolerance, begin, *error, timed))
+    return found
+
+
+def repeats_from(scene: Scene, tolerance: float) -> float:
+    """Simulated time [s] from which the scene repeats itself; NaN if not by then."""
+    engine = Engine(scene, tolerance)
+    for look in range(1, round(BY / LOOKED) + 1):
+        engine.advance(look * LOOKED, 1, SAMPLE_RATE, 0)
+        if engine.repeats:
+            return look * LOOKED
+    return math.nan
+
+
+def _settled(scene: Scene, tolerance: float, method: str) -> np.ndarray:
+    """Samples (samples, QUANTITIES, meshes) of the stretch that is compared."""
+    first = round((BY - COMPARED) * SAMPLE_RATE) + 1
+    room = round(COMPARED * SAMPLE_RATE)
+    return Engine(scene, tolerance, method).advance(BY, first, SAMPLE_RATE, room).mesh
+
+
+_TITLES = ("case", "tolerance", "repeats from", "DTE error", "error/tolerance", "loss error",
+           "a minute", "spread")  # fmt: skip
+
+
+def _cells(row: Steady) -> tuple[str, ...]:
+    if math.isnan(row.repeats_from):
+        return row.case, f"{row.tolerance:.0e}", "never", *["-"] * 5
+    median, low, high = row.speed
+    loss = row.error_power_loss
+    return (
+        row.case,
+        f"{row.tolerance:.0e}",
+        f"{row.repeats_from:.2f} s",
+        f"{row.error_dte:.1e}",
+        f"{row.error_dte / row.tolerance:.2g}",
+        "-" if math.isnan(loss) else f"{loss:.1e}",
+        f"{median:.3g}",
+        f"{low:.3g}-{high:.3g}",
+    )
+
+
+def steady_table(rows: Sequence[Steady]) -> Table:
+    """For the terminal."""
+    table = Table(box=None, header_style="bold", pad_edge=False)
+    for title in _TITLES:
+        table.add_column(title, justify="left" if title == "case" else "right")
+    for row in rows:
+        table.add_row(*_cells(row))
+    return table
+
+
+def steady_markdown(rows: Sequence[Steady]) -> str:
+    """A section for the page `docs/speed-and-accuracy.md`."""
+    lines = [_TITLES, ("---",) * len(_TITLES), *(_cells(row) for row in rows)]
+    body = "\n".join("| " + " | ".join(cells) + " |" for cells in lines)
+    return f"""
+## Steady running
+
+What the default method, `auto`, makes of the same cases over {MINUTE:g} s: once mesh cycles
+come back to where they began, they are not computed again (`integrators/repetition.py`).
+*a minute*: simulated over processor time from the start, without samples, the time it takes to
+settle included. Errors are those of the last {COMPARED * 1e3:g} ms before {BY:g} s, against
+`{METHOD}` at tolerance {EXACT:g}.
+
+{body}
+"""

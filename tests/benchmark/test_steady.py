@@ -1,0 +1,31 @@
+"""A minute of steady running: what repeats has an error, too."""
+
+import math
+
+import pytest
+
+from planetary_twin_py.benchmark import steady
+from planetary_twin_py.benchmark.cases import FRICTIONLESS, RECTANGULAR, Case
+from planetary_twin_py.benchmark.steady import measure_steady, steady_markdown, steady_table
+
+
+@pytest.fixture(autouse=True)
+def _settle_soon(monkeypatch):
+    monkeypatch.setattr(steady, "BY", 0.8)
+
+
+def test_what_repeats_is_within_the_tolerance_and_a_minute_of_it_costs_little():
+    (row,) = measure_steady([Case("smooth", RECTANGULAR | FRICTIONLESS, 0.01, 1)], [1e-3])
+    assert 0.3 < row.repeats_from < 0.8
+    assert 0.0 < row.error_dte < 1e-3
+    assert row.speed.low <= row.speed.median <= row.speed.high
+    cells = f"| smooth | 1e-03 | {row.repeats_from:.2f} s | {row.error_dte:.1e} |"
+    assert cells in steady_markdown([row])
+    assert row.figures()["error_power_loss"] is None
+
+
+def test_what_does_not_repeat_has_no_figures():
+    (row,) = measure_steady([Case("standstill", {"input_speed": 0.0}, 0.01, 1)], [1e-2])
+    assert math.isnan(row.repeats_from) and math.isnan(row.speed.median)
+    assert "| never | - |" in steady_markdown([row])
+    assert steady_table([row]).row_count == 1

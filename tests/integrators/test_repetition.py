@@ -1,0 +1,164 @@
+"""Steady running that is not computed again is the steady running that would be computed."""
+
+import math
+
+import numpy as np
+import pytest
+from stability.sound import PAPER
+
+import planetary_twin_py as pt
+from planetary_twin_py.dynamics.cycle import common_cycles
+from planetary_twin_py.dynamics.observe import DTE, MESH_FORCE
+from planetary_twin_py.dynamics.start import build_load
+from planetary_twin_py.dynamics.state import (
+    BEARING,
+    CHURNING,
+    DAMPING,
+    FRICTION,
+    STIFFNESS_WORK,
+    WORK,
+)
+from planetary_twin_py.dynamics.train import build_train
+from planetary_twin_py.engine import Engine
+
+TOLERANCE = 1e-3
+RUNOUT = {"mesh.runout": {"sun": 2e-6}, "mesh.sun_planet_error": {"amplitudes": [1e-6]}}
+RUNNING = {
+    "paper": PAPER,
+    "backwards": PAPER.replace(input_speed=-pt.rpm(1000)),
+    "carrier turns": pt.load_scene("wind_turbine_stage"),
+    "cracked tooth": pt.load_scene("cracked_tooth"),
+    "runout": PAPER.replace(**RUNOUT),
+    "fluctuating torque": PAPER.replace(torque_ripple=5.0),
+    "lightly loaded, flanks part": pt.load_scene("lightly_loaded"),
+    "without friction": PAPER.replace(**{"lubrication.friction": False}),
+}
+PERIODS = 12.0  # of the speed loop, by which each of them has settled
+EVERY_SCENE = pytest.mark.parametrize("scene", RUNNING.values(), ids=RUNNING)
+
+
+class Settled:
+    """A run of a scene until it has settled, and what is seen just before."""
+
+    def __init__(self, scene, method):
+        end = PERIODS / scene.drive.speed_control.bandwidth
+        first = math.floor(end * 20_000) - 19
+        self.engine = Engine(scene, TOLERANCE, method)
+        stored = sum(self.engine.stored())
+        samples = self.engine.advance((first + 19) / 20_000, first, 20_000.0, 20)
+        self.dte, self.force = samples.mesh[:, DTE], samples.mesh[:, MESH_FORCE]
+        ratio = self.engine.train.ratio[: self.engine.train.bodies]
+        self.angle = math.tau * samples.turns @ ratio.T + samples.angle
+        self.ledger = self.engine.take_ledger()
+        self.gain = sum(self.engine.stored()) - stored
+
+
+@EVERY_SCENE
+def test_what_repeats_is_what_would_have_been_computed(scene):
+    repeated, computed = Settled(scene, "auto"), Settled(scene, "march")
+    assert repeated.engine.control.repeated > 0.2 * computed.engine.control.steps
+    assert computed.engine.control.repeated == 0
+    for name in ("dte", "force"):
+        found, exact = getattr(repeated, name), getattr(computed, name)
+        assert np.abs(found - exact).max() < TOLERANCE * np.abs(exact).max()
+    cycles = abs(repeated.angle - computed.angle).max() * scene.gearset.teeth.sun / math.tau
+    assert cycles < 0.1 * TOLERANCE
+    assert repeated.ledger[[WORK, FRICTION]] == pytest.approx(
+        computed.ledger[[WORK, FRICTION]], rel=0.1 * TOLERANCE
+    )
+
+
+@EVERY_SCENE
+def test_energy_closes_over_what_repeats(scene):
+    run = Settled(scene, "auto")
+    lost = run.ledger[[FRICTION, DAMPING, BEARING, CHURNING]].sum() - run.ledger[STIFFNESS_WORK]
+    machines = run.ledger[WORK : WORK + 2]
+    assert abs(machines.sum() - lost - run.gain) < 1e-5 * np.abs(machines).sum()
+
+
+def test_ten_minutes_later_the_gears_are_where_the_set_point_says():
+    twin = pt.Twin(PAPER, 1.0)
+    twin.advance(10.0)
+    begin = twin.advance(1.0)
+    assert begin.repeated
+    for _ in range(10):
+        end = twin.advance(60.0)
+    turned = PAPER.operating_point.input_speed * 600.0
+    sun = end.bodies.index("sun")
+    drift = (end.angle[sun] - begin.angle[sun] - turned + math.pi) % math.tau - math.pi
+    assert abs(drift) < 1e-9
+    assert end.power_loss == pytest.approx(begin.power_loss, rel=1e-9)
+
+
+@pytest.mark.parametrize("change", [{"lambda_ratio": 2.0}, {"input_torque": 20.0}])
+def test_a_change_acts_at_its_instant_on_what_repeats(change):
+    """Its path is that of a run in which nothing ever repeats."""
+    seen, end = [], PERIODS / PAPER.drive.speed_control.bandwidth
+    for method in ("auto", "march"):
+        engine = Engine(PAPER, TOLERANCE, method)
+        engine.advance(end, 1, 1.0, 0)
+        assert engine.repeats == (method == "auto")
+        engine.change(PAPER.replace(**change).operating_point, TOLERANCE, end)
+        assert not engine.repeats
+        first = round(end * 20_000) + 1
+        seen.append(engine.advance(end + 0.02, first, 20_000.0, 400).mesh)
+    dte = [samples[:, 0] for samples in seen]
+    assert np.abs(dte[0] - dte[1]).max() < TOLERANCE * np.abs(dte[1]).max()
+
+
+def test_windows_do_not_decide_what_repeats():
+    def path(window):
+        twin, parts = pt.Twin(PAPER, 2e3), []
+        for _ in range(round(2.5 / window)):
+            end = twin.advance(window)
+            parts.append(np.hstack([end.waveform.dte, end.waveform.mesh_force]))
+        assert twin.advance(1e-3).repeated
+        return np.vstack(parts), end.angle
+
+    samples, angle = path(2.5)
+    for window in (0.1, 2.5e-3):
+        others, other_angle = path(window)
+        assert np.array_equal(others, samples)
+        assert np.array_equal(other_angle, angle)
+
+
+@pytest.mark.parametrize(
+    "changes",
+    [
+        {
+            "input_speed": 1100.0,
+            "input_torque": 5.0,
+            "backlash": 1e-6,
+            "mesh.damping.law": "viscous",
+            "mesh.damping.damping_ratio": 0.01,
+        },
+        {"input_speed": 0.0},
+    ],
+    ids=["chaotic rattle", "standstill"],
+)
+def test_what_does_not_come_round_is_computed(changes):
+    run = pt.simulate(PAPER.replace(**changes), 3.0, 1000.0, tolerance=TOLERANCE)
+    assert run.stats.repeated_steps == 0
+
+
+@pytest.mark.parametrize(
+    ("changes", "cycles"),
+    [
+        ({}, 1),
+        (RUNOUT, PAPER.gearset.teeth.sun),
+        ({"mesh.runout": {"planet": 1e-6}}, PAPER.gearset.teeth.planet),
+        ({"faults": [{"kind": "crack", "gear": "ring", "stiffness_loss": 0.1}]}, 70),
+        ({"torque_ripple": 1.0, "drive.speed_control.ripple_order": 4}, 15),
+        ({"torque_ripple": 1.0, "drive.speed_control.ripple_order": 30}, 1),
+    ],
+)
+def test_all_is_as_before_when_all_teeth_and_the_fluctuation_have_come_round(changes, cycles):
+    scene = PAPER.replace(**changes)
+    train = build_train(scene)
+    assert common_cycles(train, build_load(scene, scene.operating_point, train)) == cycles
+
+
+def test_with_two_motors_nothing_comes_round():
+    scene = pt.load_scene("differential")
+    train = build_train(scene)
+    assert common_cycles(train, build_load(scene, scene.operating_point, train)) == 0
