@@ -110,10 +110,11 @@ TABLES: dict[str, Callable[[], _Entries]] = {
 def teeth_in_phase(count: int) -> Teeth:
     """Numbers next to TEETH with which `count` planets in equal distances mesh in phase.
 
-    Those of sun and ring are then multiples of `count`.
+    Those of sun and ring are then multiples of `count`. Planets get no fewer, or teeth would touch
+    below the base circle.
     """
     half = count // math.gcd(count, 2)
-    sun, planet = count * round(TEETH.sun / count), half * round(TEETH.planet / half)
+    sun, planet = count * round(TEETH.sun / count), half * math.ceil(TEETH.planet / half)
     return Teeth(sun, planet, sun + 2 * planet)
 
 
