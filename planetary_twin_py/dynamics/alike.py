@@ -2,7 +2,8 @@
 
 Planets start alike and carry alike. What can tell them apart is where their meshes stand in the
 cycle, and which teeth are there if teeth differ. Mesh phases are exact fractions, so it is decided
-exactly. (Planets in phase: Kahraman 1994, Planetary gear train dynamics; Parker and Lin 2004.)
+exactly; what else tells real planets apart has to be in the scene. (Planets in phase: Kahraman
+1994, Planetary gear train dynamics; Parker and Lin 2004.)
 """
 
 from __future__ import annotations
