@@ -42,7 +42,7 @@ class Bodies(NamedTuple):
 
     place: dict[str, int]  # of every body; a held one is the ground
     copies: np.ndarray  # bodies that move alike, of which an entry is one
-    mass: np.ndarray  # J/r^2 of all of them [kg]
+    mass: np.ndarray  # J/r^2 of one of them [kg]
     radius: np.ndarray  # r of x = r theta [m]
     ratio: np.ndarray  # (bodies, AXES) rigid speed per speed of each input [-]
 
@@ -120,7 +120,7 @@ def build_bodies(scene: Scene) -> Bodies:
     return Bodies(
         _places(scene),
         copies,
-        copies * np.array([masses[kind] for kind in kinds] + [1.0]),
+        np.array([masses[kind] for kind in kinds] + [1.0]),
         np.array([radii[kind] for kind in kinds] + [1.0]),
         ratio,
     )
@@ -146,6 +146,7 @@ def _order(scene: Scene) -> list[str]:
 
 def _places(scene: Scene) -> dict[str, int]:
     order = _order(scene)
-    every = ["sun", "ring", "carrier", *machines(scene)]
-    place = {name: order.index(name) if name in order else len(order) for name in every}
-    return place | dict(zip(_planets(scene), planet_groups(scene).group, strict=True))
+    place = dict(zip(_planets(scene), planet_groups(scene).group, strict=True))
+    place |= {name: n for n, name in enumerate(order) if name not in place}
+    every = ["sun", *_planets(scene), "ring", "carrier", *machines(scene)]
+    return {name: place.get(name, len(order)) for name in every}

@@ -89,7 +89,7 @@ def _built(scene: Scene) -> Record:
         lanes=_whole_registers(max(len(bodies.mass) - 1, len(meshes["phase"]))),
         axes=len(scene.drive.inputs),
         body_copies=bodies.copies,
-        mass=bodies.mass,
+        mass=bodies.copies * bodies.mass,
         radius=bodies.radius,
         inverse_radius=1.0 / bodies.radius,
         ratio=bodies.ratio,
