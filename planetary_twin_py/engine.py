@@ -17,7 +17,7 @@ from .dynamics.equations import MODEL
 from .dynamics.oil import build_oil
 from .dynamics.start import build_load, start_state
 from .dynamics.static_load import mesh_force, static_torques
-from .dynamics.train import build_train
+from .dynamics.train import build_train, lightest_body
 from .integrators.clock import delay, instant, sampling
 from .integrators.interpolant import Samples, new_samples, sample
 from .integrators.march import advance, begin_step, cut
@@ -79,7 +79,7 @@ class Engine:
         strongest = abs(point.input_torque) + point.torque_ripple
         per_torque = abs(mesh_force(self.scene, 1.0))
         stiffness = float(self.train.stiffness.min())
-        lightest = float(self.train.mass[: self.train.bodies].min())
+        lightest = lightest_body(self.train)
         control = self.march.control
         control.tolerance = self.tolerance
         control.deflection = max(per_torque * strongest, LIGHTEST_MESH_LOAD) / stiffness

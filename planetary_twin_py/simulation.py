@@ -79,14 +79,14 @@ def _result(
     stored: tuple[float, float],
     wall: float,
 ) -> Result:
-    names = body_names(scene)
-    mesh, count = samples.mesh, engine.control
+    names, meshes = body_names(scene), mesh_names(scene)
+    mesh, count = samples.mesh[:, :, meshes.place], engine.control
     ground = np.zeros((len(mesh), 1))
     turned = 2.0 * math.pi * samples.turns @ engine.train.ratio[: engine.train.bodies].T
     return Result(
         time=np.arange(1, len(mesh) + 1) / sample_rate,
         bodies=names.names,
-        meshes=mesh_names(scene),
+        meshes=meshes.names,
         angle=np.hstack([turned + samples.angle, ground])[:, names.place],
         speed=np.hstack([samples.speed, ground])[:, names.place],
         dte=mesh[:, DTE],

@@ -50,8 +50,7 @@ class Twin:
         self.scene = scene
         self.sample_rate = float(sample_rate)
         self._exact_rate = Fraction(self.sample_rate)
-        self.meshes = mesh_names(scene)
-        self._names = body_names(scene)
+        self._names, self._mesh_names = body_names(scene), mesh_names(scene)
         self._engine = start(scene, tolerance)
         self._clock = Fraction(0)
         self.log = [Change(0.0, scene.operating_point, tolerance)]
@@ -63,6 +62,11 @@ class Twin:
     def bodies(self) -> tuple[str, ...]:
         """Names of the bodies, in the order of all arrays over bodies."""
         return self._names.names
+
+    @property
+    def meshes(self) -> tuple[str, ...]:
+        """Names of the meshes, in the order of all arrays over meshes."""
+        return self._mesh_names.names
 
     @property
     def time(self) -> float:
@@ -153,7 +157,7 @@ class Twin:
         speed = ((turned + self._end.angle - begin.angle) / float(step))[0]
         mean_speed = np.append(speed, 0.0)[names.place]
         sun, carrier = mean_speed[names.names.index("sun")], mean_speed[-1]
-        mesh = samples.mesh
+        mesh = samples.mesh[:, :, self._mesh_names.place]
         return Window(
             start=float(self._clock - step),
             end=self.time,

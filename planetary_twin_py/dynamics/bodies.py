@@ -13,6 +13,7 @@ from ..gearset.geometry import pitch_radius
 from ..gearset.kinematics import speeds_per_input
 from ..scene import Scene
 from ..scene.drive import Machine
+from .alike import planet_groups
 
 # Places of the machines. The motor of input 0 is machine 0, that of input 1 machine 2, if any.
 MOTOR, LOAD_MACHINE, SECOND_MOTOR = 0, 1, 2
@@ -29,11 +30,19 @@ class BodyNames(NamedTuple):
     ratio: tuple[Ratios, ...]
 
 
+class MeshNames(NamedTuple):
+    """How the meshes that are reported map to the meshes that are integrated."""
+
+    names: tuple[str, ...]  # ("sun_planet_1", ..., "planet_ring_1", ...)
+    place: np.ndarray  # (meshes,) in the arrays of `TRAIN`
+
+
 class Bodies(NamedTuple):
     """Arrays over the bodies that can turn, and the ground as the last entry."""
 
     place: dict[str, int]  # of every body; a held one is the ground
-    mass: np.ndarray  # J/r^2 [kg]
+    copies: np.ndarray  # bodies that move alike, of which an entry is one
+    mass: np.ndarray  # J/r^2 of one of them [kg]
     radius: np.ndarray  # r of x = r theta [m]
     ratio: np.ndarray  # (bodies, AXES) rigid speed per speed of each input [-]
 
@@ -88,10 +97,12 @@ def body_names(scene: Scene) -> BodyNames:
     return BodyNames(names, index, tuple(ratios[_kind(name)] for name in names))
 
 
-def mesh_names(scene: Scene) -> tuple[str, ...]:
-    """("sun_planet_1", ..., "planet_ring_1", ...)."""
-    numbers = range(1, scene.gearset.planets + 1)
-    return tuple(f"sun_planet_{i}" for i in numbers) + tuple(f"planet_ring_{i}" for i in numbers)
+def mesh_names(scene: Scene) -> MeshNames:
+    """Names and places of the meshes a result reports."""
+    numbers, groups = range(1, scene.gearset.planets + 1), planet_groups(scene)
+    names = (*(f"sun_planet_{i}" for i in numbers), *(f"planet_ring_{i}" for i in numbers))
+    place = np.array(groups.group)
+    return MeshNames(names, np.concatenate([place, place + len(groups.leaders)]))
 
 
 def build_bodies(scene: Scene) -> Bodies:
@@ -101,11 +112,14 @@ def build_bodies(scene: Scene) -> Bodies:
         radii[name] = radii[machine.member]
         masses[name] = machine.inertia / radii[name] ** 2
     kinds = [_kind(name) for name in _order(scene)]
+    sizes = planet_groups(scene).sizes
+    copies = np.array([*sizes, *[1] * (len(kinds) + 1 - len(sizes))])
     ratio = np.zeros((len(kinds) + 1, AXES))
     axes = len(ratios["motor"])
     ratio[:-1, :axes] = [[float(r) for r in ratios[kind]] for kind in kinds]
     return Bodies(
         _places(scene),
+        copies,
         np.array([masses[kind] for kind in kinds] + [1.0]),
         np.array([radii[kind] for kind in kinds] + [1.0]),
         ratio,
@@ -121,12 +135,18 @@ def _kind(name: str) -> str:
 
 
 def _order(scene: Scene) -> list[str]:
-    """Bodies that can turn: planets, then what is free of the members, then the machines."""
+    """Bodies that can turn: planets, then what is free of the members, then the machines.
+
+    Of planets that move alike, the first.
+    """
     free = [member for member in ("sun", "ring", "carrier") if member != scene.gearset.held]
-    return [*_planets(scene), *free, *machines(scene)]
+    planets = [_planets(scene)[leader] for leader in planet_groups(scene).leaders]
+    return [*planets, *free, *machines(scene)]
 
 
 def _places(scene: Scene) -> dict[str, int]:
     order = _order(scene)
+    place = dict(zip(_planets(scene), planet_groups(scene).group, strict=True))
+    place |= {name: n for n, name in enumerate(order) if name not in place}
     every = ["sun", *_planets(scene), "ring", "carrier", *machines(scene)]
-    return {name: order.index(name) if name in order else len(order) for name in every}
+    return {name: place.get(name, len(order)) for name in every}

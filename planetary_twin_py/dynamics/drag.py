@@ -11,6 +11,7 @@ from .._records import BODIES, REAL, WHOLE, Record
 from ..losses.bearing import bearing_torque
 from ..losses.churning import disc_torque
 from ..scene import Scene
+from .alike import planet_groups
 from .bodies import Bodies
 from .body_speed import body_speed
 from .state import BEARING, CHURNING
@@ -38,8 +39,8 @@ def build_drag(scene: Scene, bodies: Bodies) -> dict[str, object]:
     """Fields of `DRAG_LAYOUT`."""
     losses, place, ground, rows = scene.losses, bodies.place, len(bodies.mass) - 1, []
     if losses.planet_bearing is not None:
-        for i in range(scene.gearset.planets):
-            rings = (place[f"planet_{i + 1}"], place["carrier"])
+        for i, leader in enumerate(planet_groups(scene).leaders):
+            rings = (place[f"planet_{leader + 1}"], place["carrier"])
             rows.append((losses.planet_bearing, rings, i))
     for member in MEMBERS:
         bearing = getattr(losses, f"{member}_bearing")
@@ -88,6 +89,7 @@ def apply_drag(model: Record, state: Record, v: np.ndarray, out: Record) -> None
         torque = bearing_torque(
             train.bearing_idle[b], train.bearing_rubbing[b], oil.kinematic, speed, load
         ) * _sense(speed)
+        torque *= train.body_copies[inner]
         out.rubbing[inner] -= torque / train.radius[inner]
         out.rubbing[outer] += torque / train.radius[outer]
         out.power[BEARING] += torque * speed

@@ -105,9 +105,11 @@ def rub(model: Record, state: Record, moment: Record, v: np.ndarray, out: Record
         else:
             collect(train, pairs, dragging)
         for i in range(train.meshes):
-            out.power[FRICTION] += dragging.power[i]
+            copies = train.copies[i]
+            out.power[FRICTION] += copies * dragging.power[i]
             for j in range(3):
-                out.rubbing[train.body[i, j]] += dragging.torque[j, i] * train.lever[j, i]
+                force = dragging.torque[j, i] * train.lever[j, i]
+                out.rubbing[train.body[i, j]] += copies * force
     if train.bearings + train.discs > 0:
         apply_drag(model, state, v, out)
 
@@ -127,7 +129,7 @@ def drive(
     train = model.train
     out.force[:] = out.rubbing
     for i in range(train.meshes):
-        push = state.side[i] * out.now.push[i]
+        push = train.copies[i] * state.side[i] * out.now.push[i]
         for j in range(3):
             out.force[train.body[i, j]] -= push * train.sign[i, j]
     _couplings(model.train, x, v, out)

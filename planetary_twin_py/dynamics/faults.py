@@ -7,6 +7,8 @@ is mirrored and half a pitch late, it is tooth -n of the first gear and tooth 1 
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 
 from .._compile import kernel
@@ -40,15 +42,18 @@ def fault_kinks(scene: Scene, kind: int) -> tuple[float, ...]:
 
 
 def build_faults(
-    scene: Scene, tables: list[PairTable], phases: np.ndarray
+    scene: Scene, tables: list[PairTable], planets: Sequence[int], phases: np.ndarray
 ) -> dict[str, np.ndarray | int]:
-    """Fields of `FAULTS_LAYOUT`; `phases` (meshes,) count whole cycles, too."""
+    """Fields of `FAULTS_LAYOUT`, for the sun meshes of `planets` and then their ring meshes, whose
+    `phases` (meshes,) count whole cycles, too."""
     teeth = scene.gearset.tooth_numbers._asdict()
     pairs = np.full((FAULTS, MESHES, 2), NOWHERE)
     factors = np.zeros((FAULTS, 2, SEGMENTS, PAIRS, TERMS))
     for f, fault in enumerate(scene.faults):
-        for i in range(2 * scene.gearset.planets):
-            pairs[f, i] = _pairs(scene, fault, i, phases)
+        for i in range(len(phases)):
+            kind, n = divmod(i, len(planets))
+            if kind in _kinds(fault) and (fault.gear != "planet" or fault.planet - 1 == planets[n]):
+                pairs[f, i] = _pairs(scene, fault, kind, phases[n] - phases[i])
         for kind, table in enumerate(tables):
             if kind in _kinds(fault):
                 factors[f, kind] = along(table, _factor(scene, fault, kind))
@@ -70,16 +75,15 @@ def _kinds(fault: Fault) -> tuple[int, ...]:
     return (0,) if fault.mesh == "sun" else (1,)
 
 
-def _pairs(scene: Scene, fault: Fault, i: int, phases: np.ndarray) -> tuple[int, int]:
-    """Numbers of the faulty pair in mesh i, on the drive and on the coast side."""
-    planets, teeth = scene.gearset.planets, scene.gearset.tooth_numbers
-    kind, planet = divmod(i, planets)
-    if kind not in _kinds(fault) or (fault.gear == "planet" and planet != fault.planet - 1):
-        return NOWHERE, NOWHERE
-    number = fault.tooth
+def _pairs(scene: Scene, fault: Fault, kind: int, lead: float) -> tuple[int, int]:
+    """Numbers of the faulty pair in a mesh, on the drive and on the coast side.
+
+    The sun mesh of the same planet is `lead` mesh cycles later.
+    """
+    teeth, number = scene.gearset.tooth_numbers, fault.tooth
     if fault.gear == "planet" and kind == 1:
         # A tooth comes to the ring half a turn after the sun, with its other flank.
-        number += round(phases[planet] - phases[i] + 0.5 * teeth.planet - 0.5)
+        number += round(lead + 0.5 * teeth.planet - 0.5)
     first = fault.gear == ("sun", "planet")[kind]
     modulus = teeth._asdict()[fault.gear]
     drive, coast = number % modulus, (-number if first else 1 - number) % modulus

@@ -157,8 +157,8 @@ def press(model: Record, moment: Record, now: Record, power: np.ndarray) -> None
 def _book(train: Record, now: Record, power: np.ndarray) -> None:
     lost = work = 0.0
     for i in range(train.meshes):
-        lost += now.lost[i]
-        work += now.work[i]
+        lost += train.copies[i] * now.lost[i]
+        work += train.copies[i] * now.work[i]
     power[DAMPING], power[STIFFNESS_WORK] = lost, work
 
 
@@ -259,7 +259,7 @@ def push_drift(model: Record, state: Record, moment: Record, i: int, pace: float
 
 @kernel
 def stored_energy(model: Record, state: Record, moment: Record, i: int) -> float:
-    """Elastic energy [J] of mesh i; `moment` is room for where it stands."""
+    """Elastic energy [J] of mesh i and its copies; `moment` is room for where it stands."""
     side = state.side[i]
     if side == OPEN:
         return 0.0
@@ -280,4 +280,4 @@ def stored_energy(model: Record, state: Record, moment: Record, i: int) -> float
         if gap == 0.0 or q > 0.0:
             k = per_weight * weight * factor
             energy += 0.5 * k * (q * q - model.load.inner_squared)
-    return energy
+    return train.copies[i] * energy

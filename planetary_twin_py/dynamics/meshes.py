@@ -1,7 +1,7 @@
 """The meshes of a scene as arrays: tables of tooth pairs, phases, errors of form.
 
-Order of the meshes: sun meshes of all planets, then their ring meshes. Arrays with a first length
-of 2 hold the sun-planet mesh at 0 and the planet-ring mesh at 1.
+Order of the meshes: sun meshes of the planets that are integrated, then their ring meshes. Arrays
+with a first length of 2 hold the sun-planet mesh at 0 and the planet-ring mesh at 1.
 """
 
 from __future__ import annotations
@@ -17,7 +17,8 @@ from ..gearset.kinematics import mesh_cycles_per_turn
 from ..gearset.phasing import mesh_phases
 from ..mesh.tooth_pairs import PAIRS, SEGMENTS, TERMS, pair_table, terms_in_use
 from ..scene import Scene
-from .bodies import rigid_ratios, rim_masses
+from .alike import PlanetGroups, planet_groups
+from .bodies import Bodies, rigid_ratios, rim_masses
 from .faults import FAULTS_LAYOUT, build_faults, fault_kinks
 from .form_errors import FORM_ERRORS_LAYOUT, build_form_errors
 from .stiffness_laws import GEARS, stiffness_laws
@@ -26,6 +27,7 @@ MESHES_LAYOUT: dict[str, Any] = {
     "meshes": WHOLE,
     "body": (WHOLE, (MESHES, 3)),  # first gear, second gear, carrier
     "sign": (REAL, (MESHES, 3)),  # of their x in d
+    "copies": (REAL, (MESHES,)),  # meshes alike that count in forces and powers on the train
     "kind": (WHOLE, (MESHES,)),
     "phase": (REAL, (MESHES,)),  # delay in mesh cycles; whole cycles count teeth
     "stiffness": (REAL, (2,)),  # of one tooth pair, about [N/m]
@@ -49,7 +51,7 @@ MESHES_LAYOUT: dict[str, Any] = {
 }
 
 
-def build_meshes(scene: Scene, place: dict[str, int]) -> dict[str, object]:
+def build_meshes(scene: Scene, bodies: Bodies) -> dict[str, Any]:
     """Fields of `MESHES_LAYOUT`.
 
     Raises:
@@ -68,18 +70,23 @@ def build_meshes(scene: Scene, place: dict[str, int]) -> dict[str, object]:
         )
         for kind, path in enumerate((sun_planet_path, planet_ring_path))
     ]
-    body, sign = _rows(gearset.planets, place)
-    phases = np.concatenate(mesh_phases(teeth, gearset.planet_angles))
+    groups = planet_groups(scene)
+    body, sign = _rows(groups, bodies.place)
+    phases = np.array(
+        [float(phases[i]) for phases in mesh_phases(teeth, gearset.planet_angles)
+         for i in groups.leaders]
+    )  # fmt: skip
     curvature = {
         name: pitch_radius(z, gearset.module) * math.sin(angle)
         for name, z in teeth._asdict().items()
     }
     stiffness = np.array([law.single for law in laws])
     return {
-        "meshes": 2 * gearset.planets,
+        "meshes": len(phases),
         "body": body,
         "sign": sign,
-        "kind": np.repeat([0, 1], gearset.planets),
+        "copies": np.tile(groups.sizes, 2),
+        "kind": np.repeat([0, 1], len(groups.leaders)),
         "phase": phases,
         "stiffness": stiffness,
         "stiffness_base": np.array([law.base for law in laws]),
@@ -98,17 +105,17 @@ def build_meshes(scene: Scene, place: dict[str, int]) -> dict[str, object]:
         "terms": max(terms_in_use(table) for table in tables),
         "weight": np.array([table.weight for table in tables]),
         **build_form_errors(scene),
-        **build_faults(scene, tables, phases),
+        **build_faults(scene, tables, groups.leaders, phases),
     }
 
 
-def _rows(planets: int, place: dict[str, int]) -> tuple[np.ndarray, np.ndarray]:
+def _rows(groups: PlanetGroups, place: dict[str, int]) -> tuple[np.ndarray, np.ndarray]:
     """Bodies of each mesh and the signs of their x in its transmission error."""
-    numbers = range(1, planets + 1)
+    numbers = [leader + 1 for leader in groups.leaders]
     sun = [[place["sun"], place[f"planet_{i}"], place["carrier"]] for i in numbers]
     ring = [[place[f"planet_{i}"], place["ring"], place["carrier"]] for i in numbers]
-    signs = [[1.0, 1.0, -1.0]] * planets + [[-1.0, 1.0, -1.0]] * planets
-    return np.array(sun + ring), np.array(signs)
+    signs = np.repeat([[1.0, 1.0, -1.0], [-1.0, 1.0, -1.0]], len(numbers), axis=0)
+    return np.array(sun + ring), signs
 
 
 def _damping_times(scene: Scene, stiffness: np.ndarray) -> np.ndarray:

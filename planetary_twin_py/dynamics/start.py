@@ -162,12 +162,12 @@ def _balance(model: Record, state: Record, moment: Record, mean: float) -> None:
     for i in range(train.meshes):
         k = mesh_stiffness(train, train.kind[i], state.segment[i], moment.start[i])
         d = deflection(train, moment, i, state.x, state.v, 0.0, 0.0)[0]
-        push = mean + k * (state.side[i] * load.offset - d)
+        push, copies = mean + k * (state.side[i] * load.offset - d), train.copies[i]
         for a in range(3):
             body, sign = train.body[i, a], train.sign[i, a]
-            force[body] += sign * push
+            force[body] += copies * sign * push
             for b in range(3):
-                stiffness[body, train.body[i, b]] += k * sign * train.sign[i, b]
+                stiffness[body, train.body[i, b]] += copies * k * sign * train.sign[i, b]
     for c in range(train.machines):
         machine, member = train.coupling[c, 0], train.coupling[c, 1]
         k = train.coupling_stiffness[c]

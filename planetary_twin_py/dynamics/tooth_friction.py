@@ -148,7 +148,7 @@ def friction_damping(train: Record, pairs: Record, matrix: np.ndarray) -> None:
         row[0] = rho1 * train.lever[0, i]
         row[1] = rho2 * train.lever[1, i]
         row[2] = -(rho1 + rho2) * train.lever[2, i]
-        add_outer(matrix, train.body[i], row, pairs.slope[k])
+        add_outer(matrix, train.body[i], row, train.copies[i] * pairs.slope[k])
 
 
 @kernel

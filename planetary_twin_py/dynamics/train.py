@@ -41,7 +41,8 @@ TRAIN = layout(
     bodies=WHOLE,
     lanes=WHOLE,  # bodies or meshes, in whole registers
     axes=WHOLE,  # inputs, each with its rigid motion of the train
-    mass=(REAL, (BODIES,)),  # J/r^2 [kg]
+    body_copies=(REAL, (BODIES,)),  # bodies that move alike, of which an entry is one
+    mass=(REAL, (BODIES,)),  # J/r^2 of all of them [kg]
     radius=(REAL, (BODIES,)),  # r of x = r theta [m]
     inverse_radius=(REAL, (BODIES,)),  # 1/r [1/m]
     ratio=(REAL, (BODIES, AXES)),  # rigid speed per speed of each input [-]
@@ -80,14 +81,15 @@ def build_train(scene: Scene) -> Record:
 def _built(scene: Scene) -> Record:
     bodies = build_bodies(scene)
     radii = base_radii(scene)
-    meshes = build_meshes(scene, bodies.place)
+    meshes = build_meshes(scene, bodies)
     pitch = base_pitch(scene.gearset.module, scene.gearset.pressure_angle)
     return new_record(
         TRAIN,
         bodies=len(bodies.mass) - 1,
-        lanes=_whole_registers(max(len(bodies.mass) - 1, 2 * scene.gearset.planets)),
+        lanes=_whole_registers(max(len(bodies.mass) - 1, len(meshes["phase"]))),
         axes=len(scene.drive.inputs),
-        mass=bodies.mass,
+        body_copies=bodies.copies,
+        mass=bodies.copies * bodies.mass,
         radius=bodies.radius,
         inverse_radius=1.0 / bodies.radius,
         ratio=bodies.ratio,
@@ -103,6 +105,12 @@ def _built(scene: Scene) -> Record:
         **meshes,
         **build_drag(scene, bodies),
     )
+
+
+def lightest_body(train: Record) -> float:
+    """Least J/r^2 [kg] of a single body."""
+    own = slice(train.bodies)
+    return float((train.mass[own] / train.body_copies[own]).min())
 
 
 def _whole_registers(count: int) -> int:

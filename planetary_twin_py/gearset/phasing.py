@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from fractions import Fraction
 
 from .kinematics import Teeth
 
@@ -22,8 +23,12 @@ def least_mesh_angle(teeth: Teeth) -> float:
 def nearest_assembly(teeth: Teeth, angles: Sequence[float]) -> tuple[float, ...]:
     """The angles [rad] nearest to `angles` at which the planets can be put in."""
     step = least_mesh_angle(teeth)
-    first = angles[0]
-    return tuple(first + step * round((angle - first) / step) for angle in angles)
+    return tuple(angles[0] + step * place for place in _places(teeth, angles))
+
+
+def _places(teeth: Teeth, angles: Sequence[float]) -> list[int]:
+    """Positions at which planets can be put in, counted from that of the first planet."""
+    return [round((angle - angles[0]) / least_mesh_angle(teeth)) for angle in angles]
 
 
 def check_assembly(teeth: Teeth, angles: Sequence[float]) -> None:
@@ -43,15 +48,14 @@ def check_assembly(teeth: Teeth, angles: Sequence[float]) -> None:
         )
 
 
-def mesh_phases(teeth: Teeth, angles: Sequence[float]) -> tuple[list[float], list[float]]:
-    """Phases of the sun meshes and of the ring meshes [cycles].
+def mesh_phases(teeth: Teeth, angles: Sequence[float]) -> tuple[list[Fraction], list[Fraction]]:
+    """Phases of the sun meshes and of the ring meshes [cycles], exact: planets at `angles` [rad]
+    stand where they can be put in (see `check_assembly`).
 
     Whole cycles count teeth: tooth n of the sun is at planet i once `n` + phase cycles have
     passed, and so is tooth n of the ring. Pitch point to pitch point across one planet: half a
     cycle between its sun mesh and its ring mesh if it has an even number of teeth, none if odd.
     """
-    offset = 0.5 if teeth.planet % 2 == 0 else 0.0
-    turns = [(angle - angles[0]) / (2.0 * math.pi) for angle in angles]
-    sun = [round(teeth.sun * turn, 9) for turn in turns]
-    ring = [round(-teeth.ring * turn + offset, 9) for turn in turns]
-    return sun, ring
+    offset = Fraction(1 - teeth.planet % 2, 2)
+    turns = [Fraction(place, teeth.sun + teeth.ring) for place in _places(teeth, angles)]
+    return [teeth.sun * turn for turn in turns], [offset - teeth.ring * turn for turn in turns]

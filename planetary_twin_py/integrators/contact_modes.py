@@ -30,7 +30,7 @@ CONTACT_MODES = layout(
     key=(WHOLE, (ROOM, 2)),  # see `contact_key`
     follower=(WHOLE, (ROOM,)),  # the state that came next last time
     last=WHOLE,  # state found last
-    stiffness=(REAL, (ROOM, MESHES)),  # of every mesh [N/m]
+    stiffness=(REAL, (ROOM, MESHES)),  # of every mesh with its copies [N/m]
     form=(REAL, (ROOM, BODIES, BODIES)),
     share=(REAL, (ROOM, BODIES, BODIES)),
     motion=(REAL, (ROOM, BODIES, MESHES)),
@@ -136,6 +136,7 @@ def _stiffness_matrix(
             k = mesh_stiffness(train, kind, segment, middle)
             if mesh_stiffness(train, kind, segment, train.edge[kind, segment]) != k:
                 known.varies[n] = 1
+            k *= train.copies[i]
         known.stiffness[n, i] = k
         for a in range(3):
             for b in range(3):

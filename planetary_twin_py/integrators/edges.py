@@ -87,7 +87,7 @@ def _pass_edge(model: Record, march: Record, i: int, direction: int) -> None:
         if side == OPEN or not _at_edge(train, end, i, direction):
             return
         change_segment(model, end, march.aside, i, direction)
-        march.control.pair_events += 1
+        march.control.pair_events += int(model.train.copies[i])
         march.control.changed = True
 
 

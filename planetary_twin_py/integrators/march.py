@@ -69,7 +69,7 @@ def accept(model: Record, march: Record, mesh: int) -> None:
     """Let the step stand; `mesh` changes its contact at its end (NO_MESH: none)."""
     if mesh != NO_MESH:
         change_contact(model, march.end, march.aside, mesh)
-        march.control.flank_events += 1
+        march.control.flank_events += int(model.train.copies[mesh])
         march.control.changed = True
     pass_edges(model, march)
     for a in range(model.train.axes):

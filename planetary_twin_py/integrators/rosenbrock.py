@@ -103,11 +103,12 @@ def _assemble(
         if side == OPEN:
             continue
         kind = train.kind[i]
-        drift = push_drift(model, state, moment, i, pace)
+        copies = train.copies[i]
+        drift = copies * push_drift(model, state, moment, i, pace)
         for j in range(3):
             work.drift[train.body[i, j]] -= side * drift * train.sign[i, j]
         cycle = moment.start[i] + side * pace * 0.5 * h
-        k = mesh_stiffness(train, kind, state.segment[i], cycle)
+        k = copies * mesh_stiffness(train, kind, state.segment[i], cycle)
         add_outer(work.stiffness, train.body[i], train.sign[i], k)
         add_outer(work.system, train.body[i], train.sign[i], k * (moment.tau[kind] + step))
     for c in range(train.machines):

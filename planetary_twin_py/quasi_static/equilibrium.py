@@ -186,8 +186,8 @@ def _carry(model: Record, run: Record) -> float:
     total = run.external[sun] if sun != train.bodies else run.external[ring]
     for p in range(planets):
         s, r = p, planets + p
-        rub = run.external[train.body[p, 1]]
-        springs.rub[p] = rub
+        springs.copies[p] = train.copies[p]
+        rub = springs.rub[p] = run.external[train.body[p, 1]] / train.copies[p]
         springs.compliance[p] = 1.0 / run.stiffness[s] + 1.0 / run.stiffness[r]
         springs.error[p] = run.error[s] + run.error[r] + rub / run.stiffness[s]
         springs.steps[p, 0] = -run.play[s, COAST_PLAY] - run.play[r, COAST_PLAY]
@@ -197,7 +197,7 @@ def _carry(model: Record, run: Record) -> float:
         else:
             springs.steps[p, 1] = run.play[r, DRIVE_PLAY] - run.play[s, COAST_PLAY]
         if sun != train.bodies:
-            total -= rub
+            total -= train.copies[p] * rub
     w = share(total, planets, springs)
     for p in range(planets):
         run.force[planets + p] = planet_force(springs, p, w)[0]
@@ -209,7 +209,7 @@ def _carry(model: Record, run: Record) -> float:
         if run.state.side[i] != run.moment.side[i]:
             take_segment(train, run.state, run.moment, i)
     _wind(train, run, w)
-    return abs(total) / planets
+    return abs(total) / np.sum(train.copies[:planets])
 
 
 @kernel
@@ -274,7 +274,8 @@ def _rubs_as_before(model: Record, run: Record, shown: np.ndarray, slack: float)
         evaluation.now.push[i] = abs(run.force[i])
     rub(model, run.state, run.moment, run.state.v, evaluation)
     for j in range(model.train.bodies):
-        still = still and abs(evaluation.rubbing[j] - run.before[j]) <= slack
+        change = abs(evaluation.rubbing[j] - run.before[j])
+        still = still and change <= slack * model.train.body_copies[j]
     return still
 
 

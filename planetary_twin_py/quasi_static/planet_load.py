@@ -9,6 +9,8 @@ from __future__ import annotations
 
 import math
 
+import numpy as np
+
 from .._compile import kernel, law
 from .._records import MESHES, REAL, Record, layout
 
@@ -17,6 +19,7 @@ CLOSED = 1e-14  # of the forces, to which they add up
 
 # Every planet as a spring.
 SPRINGS = layout(
+    copies=(REAL, (MESHES,)),  # planets that move alike, of which it is one
     error=(REAL, (MESHES,)),  # errors of form, and what `rub` squeezes the sun mesh by [m]
     compliance=(REAL, (MESHES,)),  # of both meshes in series [m/N]
     rub=(REAL, (MESHES,)),  # what rubs on the planet [N]
@@ -87,26 +90,27 @@ def planet_force(springs: Record, p: int, w: float) -> tuple[float, float]:
 
 @kernel
 def share(total: float, planets: int, springs: Record) -> float:
-    """The wind-up w [m] at which the planets have `total` [N] on the ring together.
+    """The wind-up w [m] at which the planets with their copies have `total` [N] on the ring.
 
     Newton's method on a sum of rising lines, within a bracket.
     """
     low, high, stiffness, w = math.inf, -math.inf, 0.0, 0.0
+    mean = total / np.sum(springs.copies[:planets])
     for p in range(planets):
         compliance = springs.compliance[p]
-        alone = wind_up_at(total / planets, compliance, springs.rub[p], _steps(springs, p))
+        alone = wind_up_at(mean, compliance, springs.rub[p], _steps(springs, p))
         alone += springs.error[p]
         low, high = min(low, alone), max(high, alone)
-        w += alone / compliance
-        stiffness += 1.0 / compliance
+        w += springs.copies[p] * alone / compliance
+        stiffness += springs.copies[p] / compliance
     w = min(max(w / stiffness, low), high)
     for _ in range(MOST_TRIALS):
         force, growth, size = 0.0, 0.0, abs(total)
         for p in range(planets):
             one, slope = planet_force(springs, p, w)
-            force += one
-            growth += slope
-            size += abs(one)
+            force += springs.copies[p] * one
+            growth += springs.copies[p] * slope
+            size += springs.copies[p] * abs(one)
         if abs(force - total) <= CLOSED * size:
             break
         if force < total:

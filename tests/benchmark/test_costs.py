@@ -6,26 +6,39 @@ import pytest
 
 from planetary_twin_py.benchmark import costs
 from planetary_twin_py.benchmark.timing import Speed, affordable
+from planetary_twin_py.engine import Engine
 from planetary_twin_py.gearset.phasing import mesh_phases
 from planetary_twin_py.scene import load_scene
 
 
 @pytest.mark.parametrize("count", costs.PLANETS)
 def test_planets_mesh_at_the_same_frequency_under_the_same_load_and_out_of_step(count):
-    scene, paper = costs.with_planets(count), load_scene("paper")
+    phases = checked_phases(count, costs.TEETH)
+    assert len({phase % 1 for phase in phases}) == count
+
+
+@pytest.mark.parametrize("count", costs.PLANETS)
+def test_planets_in_phase_differ_from_them_in_nothing_but_teeth(count):
+    teeth = costs.teeth_in_phase(count)
+    assert {phase % 1 for phase in checked_phases(count, teeth)} == {0}
+    assert max(abs(a - b) for a, b in zip(teeth, costs.TEETH, strict=True)) <= 2 * count
+    assert Engine(costs.with_planets(count, teeth), 1e-3).train.meshes == 2
+
+
+def checked_phases(count, teeth):
+    scene, paper = costs.with_planets(count, teeth), load_scene("paper")
     assert scene.gearset.planets == count
     turn = scene.operating_point.input_speed / (2.0 * math.pi)
     assert turn * scene.gearset.teeth.sun == pytest.approx(costs.MESH_FREQUENCY)
     load = paper.operating_point.input_torque / paper.gearset.planets
     assert scene.operating_point.input_torque / count == pytest.approx(load)
-    phases, _ = mesh_phases(scene.gearset.tooth_numbers, scene.gearset.planet_angles)
-    assert len({round(phase % 1.0, 6) for phase in phases}) == count
+    return mesh_phases(scene.gearset.tooth_numbers, scene.gearset.planet_angles)[0]
 
 
 def test_every_table_has_a_line_for_every_value():
     lines = {name: [value for value, _ in entries()] for name, entries in costs.TABLES.items()}
     assert lines["terms"] == list(costs.TERMS)
-    assert len(lines["planets"]) == 6 and len(lines["speed"]) == len(costs.SPEEDS)
+    assert len(lines["planets"]) == 12 and len(lines["speed"]) == len(costs.SPEEDS)
     assert lines["duration"] == ["0.1 s", "1 s", "10 s"]
     assert all(len(set(values)) == len(values) for values in lines.values())
 

@@ -35,7 +35,7 @@ class Oscillator:
         train, load = self.model.train, self.model.load
         train.bodies, train.meshes, train.axes, train.machines = 2, 1, 1, 2
         train.mass[:3] = 1.0, 1e30, 1.0
-        train.lanes, train.slots = 4, 1
+        train.lanes, train.slots, train.copies[0] = 4, 1, 1.0
         train.radius[:3] = train.inverse_radius[:3] = 1.0
         train.ratio[MOTOR, 0] = 1.0
         train.body[0] = MASS, GROUND, GROUND

@@ -1,6 +1,7 @@
 """Mesh phases and assembly of the paper's gearset."""
 
 import math
+from fractions import Fraction
 
 import numpy as np
 import pytest
@@ -13,18 +14,22 @@ FITTING = np.radians([90.0, -28.8, 208.8])
 
 
 def test_phases_of_the_papers_planets():
-    sun, ring = np.mod(mesh_phases(PAPER, FITTING), 1.0)
-    assert sun == pytest.approx([0.0, 0.1, 0.9], abs=1e-9)
-    assert ring == pytest.approx([0.5, 0.6, 0.4], abs=1e-9)
+    sun, ring = ([phase % 1 for phase in phases] for phases in mesh_phases(PAPER, FITTING))
+    assert sun == [0, Fraction(1, 10), Fraction(9, 10)]
+    assert ring == [Fraction(1, 2), Fraction(3, 5), Fraction(2, 5)]
+
+
+def test_phases_are_those_of_the_position_a_planet_can_be_put_in():
+    angles = [90.0, -28.8000001, 208.7999999]
+    assert mesh_phases(PAPER, np.radians(angles)) == mesh_phases(PAPER, FITTING)
 
 
 def test_sun_and_ring_mesh_of_a_planet_keep_their_distance_in_any_position_that_fits():
     """The planet's own teeth tie its two meshes together: half a cycle, or none if odd."""
-    for teeth, offset in ((PAPER, 0.5), (Teeth(21, 39, 99), 0.0)):
+    for teeth, offset in ((PAPER, Fraction(1, 2)), (Teeth(21, 39, 99), Fraction(0))):
         angles = [2 * math.pi * k / (teeth.sun + teeth.ring) for k in (0, 17, 41, 66)]
-        sun, ring = np.array(mesh_phases(teeth, angles))
-        beyond = ring - sun - offset
-        assert beyond == pytest.approx(np.round(beyond), abs=1e-9)
+        pairs = zip(*mesh_phases(teeth, angles), strict=True)
+        assert all((ring - sun - offset).denominator == 1 for sun, ring in pairs)
 
 
 def test_three_planets_at_120_degrees_are_refused_with_the_nearest_that_fit():

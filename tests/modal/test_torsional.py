@@ -71,3 +71,12 @@ def test_an_unknown_model_and_a_scene_without_supports_end_in_one_line():
         pt.natural_modes(scene, "flat")
     with pytest.raises(pt.SceneError, match="supports: missing"):
         pt.natural_modes(scene, "planar")
+
+
+def test_planets_in_phase_have_modes_of_their_own_all_the_same():
+    """The twin integrates one for all; modes in which one moves against another are not lost."""
+    angles = tuple(2 * math.pi * k / 5 for k in range(5))
+    modes = pt.natural_modes(scene_of(FLOWS[0], **{"gearset.planet_angles": angles}))
+    bodies = [name.removesuffix(".u") for name in modes.coordinates]
+    assert bodies == ["sun", *(f"planet_{i}" for i in range(1, 6)), "ring"]
+    assert modes.kinds.count("planet") == 4

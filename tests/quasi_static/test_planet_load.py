@@ -54,12 +54,13 @@ def test_wind_up_at_a_force_gives_that_force():
 
 @pytest.mark.parametrize("total", [-500.0, -1.0, 0.0, 1e-3, 1.0, 80.0, 1e5])
 @pytest.mark.parametrize("play", [0.0, 1e-12, 1e-7, 1e-3])
-def test_planets_carry_the_total_together(total, play):
+def test_planets_and_their_copies_carry_the_total_together(total, play):
     random = np.random.default_rng(7)
     for _ in range(200):
         planets = int(random.integers(2, 8))
         springs = new_record(
             SPRINGS,
+            copies=random.integers(1, 4, size=planets),
             error=random.normal(scale=random.choice([0.0, 1e-7, 1e-4]), size=planets),
             compliance=10.0 ** random.uniform(-12.0, -6.0, size=planets),
             rub=random.normal(scale=random.choice([0.0, 1e-3, 5.0]), size=planets),
@@ -67,9 +68,13 @@ def test_planets_carry_the_total_together(total, play):
         for p in range(planets):
             springs.steps[p] = steps_of(springs.rub[p], (play, play), (play, play))
         w = share(total, planets, springs)
-        forces = [planet_force(springs, p, w)[0] for p in range(planets)]
+        forces = [
+            force
+            for p in range(planets)
+            for force in [planet_force(springs, p, w)[0]] * int(springs.copies[p])
+        ]
         size = abs(total) + sum(map(abs, forces))
         # w and the errors are known to their last digits only
         digits = 2e-16 * (abs(w) + np.abs(springs.error[:planets]))
-        last = float((digits / springs.compliance[:planets]).sum())
+        last = float((springs.copies[:planets] * digits / springs.compliance[:planets]).sum())
         assert math.fsum(forces) == pytest.approx(total, abs=1e-12 * size + 2.0 * last)

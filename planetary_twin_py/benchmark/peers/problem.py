@@ -13,7 +13,7 @@ from ...dynamics.moment import frame_cycle_rate
 from ...dynamics.oil import build_oil
 from ...dynamics.start import build_load, start_state
 from ...dynamics.static_load import mesh_force
-from ...dynamics.train import build_train
+from ...dynamics.train import build_train, lightest_body
 from ...engine import LIGHTEST_MESH_LOAD
 from ...scene import Scene
 from .equations import PROBLEM, rate, repeat, show
@@ -45,7 +45,7 @@ class Problem:
         force = abs(mesh_force(scene, abs(point.input_torque) + point.torque_ripple))
         stiffness = float(train.stiffness.min())
         deflection = max(force, LIGHTEST_MESH_LOAD) / stiffness + 0.5 * point.backlash
-        fastest = np.sqrt(2.0 * stiffness / float(train.mass[: self.bodies].min()))
+        fastest = np.sqrt(2.0 * stiffness / lightest_body(train))
         motor = deflection / float(train.radius[train.coupling[0, 0]])
         sizes = [deflection, deflection * fastest, motor]
         return np.repeat(sizes, [self.bodies, self.bodies, self.axes])
