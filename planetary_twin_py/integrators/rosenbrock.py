@@ -116,7 +116,7 @@ def _assemble(
         add_outer(work.stiffness, train.coupling[c], _ENDS, k)
         add_outer(work.system, train.coupling[c], _ENDS, train.coupling_damping[c] + step * k)
     if train.friction:
-        friction_damping(train, first.pairs, work.system)
+        friction_damping(train, first.pairs, first.force, h, work.system)
     for j in range(train.bodies + 1):
         work.system[j, j] += train.mass[j] / step
 
