@@ -53,8 +53,8 @@ def _on_involute(reach: float, teeth: int, angle: float, tip: str, flank: str) -
     """
     if reach >= teeth / 2 * math.sin(angle):
         raise ValueError(
-            f"gearset.teeth: tips of the {tip} reach below the base circle of the {flank}, whose "
-            f"{teeth} teeth have no involute there: it takes more teeth or a shorter addendum"
+            f"gearset.teeth.{flank} = {teeth}: tips of the {tip} reach below its base circle, "
+            "where there is no involute: it takes more teeth or a shorter addendum"
         )
     return reach
 
@@ -70,7 +70,7 @@ def sun_planet_path(teeth: Teeth, pressure_angle: float, addendum: float) -> Pat
     planet = _external_tip_reach(teeth.planet, pressure_angle, addendum)
     return PathOfContact(
         _on_involute(planet, teeth.sun, pressure_angle, "planets", "sun") / pitch,
-        _on_involute(sun, teeth.planet, pressure_angle, "sun", "planets") / pitch,
+        _on_involute(sun, teeth.planet, pressure_angle, "sun", "planet") / pitch,
     )
 
 
@@ -88,6 +88,6 @@ def planet_ring_path(teeth: Teeth, pressure_angle: float, addendum: float) -> Pa
     pitch = math.pi * math.cos(pressure_angle)
     ring = _internal_tip_reach(teeth.ring, pressure_angle, addendum)
     return PathOfContact(
-        _on_involute(ring, teeth.planet, pressure_angle, "ring", "planets") / pitch,
+        _on_involute(ring, teeth.planet, pressure_angle, "ring", "planet") / pitch,
         _external_tip_reach(teeth.planet, pressure_angle, addendum) / pitch,
     )
