@@ -8,6 +8,7 @@ step, nor step control, nor interpolant, nor the way events are found.
 from __future__ import annotations
 
 from collections.abc import Callable
+from itertools import pairwise
 from typing import Any
 
 import numpy as np
@@ -27,6 +28,26 @@ from ..scene import Scene
 
 RELATIVE, ABSOLUTE_X, ABSOLUTE_V = 1e-11, 1e-16, 1e-12
 LONGEST = 1e-3  # [s] stretch between two restarts
+LOOKS = 6  # between two steps, at flanks that may meet and part within one
+
+
+Event = Callable[[float, np.ndarray], float]
+
+
+def _ending(event: Any) -> Event:
+    """Where an event falls below zero, a stretch ends."""
+    event.terminal, event.direction = True, -1.0
+    return event
+
+
+def _missed(stretch: Any, flanks: list[Event]) -> float | None:
+    """A time within the stretch at which a flank is beyond its event, or None."""
+    for begin, end in pairwise(stretch.t):
+        for t in np.linspace(begin, end, LOOKS + 2)[1:-1]:
+            y = stretch.sol(t)
+            if any(flank(t, y) < -ABSOLUTE_X for flank in flanks):
+                return float(t)
+    return None
 
 
 class Reference:
@@ -59,13 +80,26 @@ class Reference:
         return samples
 
     def _stretch(self) -> Any:
-        """Integrate from `begin` to the next event."""
+        """Integrate from `begin` to the next event.
+
+        SciPy looks at flanks where its steps end, and misses those that meet and part within one;
+        a stretch that ends between is one it sees.
+        """
         begin, n = self._march.begin, self._bodies
         start = np.concatenate([begin.x[:n], begin.v[:n], begin.trim[: self._axes]])
+        flanks, edges = self._flanks(start), self._edges()
+        end: float | None = self._longest()
+        while end is not None:
+            stretch = self._integrate(start, end, flanks + edges)
+            end = _missed(stretch, flanks)
+        return stretch
+
+    def _integrate(self, start: np.ndarray, end: float, events: list[Event]) -> Any:
+        n = self._bodies
         tolerance = np.repeat([ABSOLUTE_X, ABSOLUTE_V, ABSOLUTE_X], [n, n, self._axes])
         return solve_ivp(
-            self._derivative, (0.0, self._longest()), start, method="DOP853", rtol=RELATIVE,
-            atol=tolerance, events=self._events(start), dense_output=True,
+            self._derivative, (0.0, end), start, method="DOP853", rtol=RELATIVE, atol=tolerance,
+            events=events, dense_output=True,
         )  # fmt: skip
 
     def _longest(self) -> float:
@@ -89,22 +123,20 @@ class Reference:
         ]
         return np.concatenate([y[n : 2 * n], self._work.force[:n] / train.mass[:n], lag])
 
-    def _events(self, start: np.ndarray) -> list[Callable[[float, np.ndarray], float]]:
-        """A terminal event for every flank, then one for every edge of a tooth pair.
+    def _flanks(self, start: np.ndarray) -> list[Event]:
+        """An event for every flank.
 
-        A flank that rounding left beyond its event at the start must not go on unseen: SciPy looks
+        One that rounding left beyond its event at the start must not go on unseen: SciPy looks
         for changes of sign.
         """
         meshes = range(int(self._engine.train.meshes))
         beyond = [max(0.0, -2.0 * self._departure(i, 0.0, start)) for i in meshes]
-        events: list[Any] = [lambda t, y, i=i: self._departure(i, t, y) + beyond[i] for i in meshes]
-        for i in meshes:
-            if self._march.begin.side[i] != OPEN:
-                events.append(lambda t, y, i=i: self._to_edge(i, t, y))
-        for event in events:
-            event.terminal = True
-            event.direction = -1.0
-        return events
+        return [_ending(lambda t, y, i=i: self._departure(i, t, y) + beyond[i]) for i in meshes]
+
+    def _edges(self) -> list[Event]:
+        """An event for every closed mesh, whose next tooth pair enters or leaves."""
+        closed = np.flatnonzero(self._march.begin.side[: int(self._engine.train.meshes)] != OPEN)
+        return [_ending(lambda t, y, i=i: self._to_edge(i, t, y)) for i in closed]
 
     def _departure(self, i: int, t: float, y: np.ndarray) -> float:
         advance, pace = self._stand(t, y)

@@ -136,10 +136,14 @@ def collect_printed(
 
 
 @kernel
-def friction_damping(train: Record, pairs: Record, matrix: np.ndarray) -> None:
+def friction_damping(
+    train: Record, pairs: Record, force: np.ndarray, h: float, matrix: np.ndarray
+) -> None:
     """Add to `matrix` what friction adds to the damping matrix: slope dVs/dv dVs/dv^T.
 
-    Large where little slides: at the pitch point, and for everything near standstill.
+    Large where little slides: at the pitch point, and for everything near standstill. Where the
+    forces on the bodies would turn the sliding round within h seconds, the slope is that of the
+    chord to rest: beside it the tangent is flat, and steps would throw the sliding to and fro.
     """
     row = np.empty(3)
     for k in range(pairs.count):
@@ -148,7 +152,13 @@ def friction_damping(train: Record, pairs: Record, matrix: np.ndarray) -> None:
         row[0] = rho1 * train.lever[0, i]
         row[1] = rho2 * train.lever[1, i]
         row[2] = -(rho1 + rho2) * train.lever[2, i]
-        add_outer(matrix, train.body[i], row, train.copies[i] * pairs.slope[k])
+        sliding, slope, gain = pairs.sliding[k], pairs.slope[k], 0.0
+        for j in range(3):
+            body = train.body[i, j]
+            gain += h * row[j] * force[body] / train.mass[body]
+        if sliding * (sliding + gain) < 0.0:
+            slope = max(slope, pairs.friction[k] / sliding)
+        add_outer(matrix, train.body[i], row, train.copies[i] * slope)
 
 
 @kernel
@@ -167,4 +177,6 @@ def copy_friction(source: Record, target: Record) -> None:
         target.rho1[k] = source.rho1[k]
         target.rho2[k] = source.rho2[k]
         target.external[k] = source.external[k]
+        target.friction[k] = source.friction[k]
+        target.sliding[k] = source.sliding[k]
         target.slope[k] = source.slope[k]

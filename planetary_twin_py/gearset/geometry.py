@@ -45,12 +45,32 @@ def _internal_tip_reach(teeth: int, angle: float, addendum: float) -> float:
     return pitch * math.sin(angle) - math.sqrt(tip**2 - base**2)
 
 
+def _on_involute(reach: float, teeth: int, angle: float, tip: str, flank: str) -> float:
+    """`reach` of the mate's tip, unless it passes where the involute of `flank` begins.
+
+    The line of action touches the base circle there (Buckingham 1949, Analytical Mechanics of
+    Gears, ch. 4: involute interference).
+    """
+    if reach >= teeth / 2 * math.sin(angle):
+        raise ValueError(
+            f"gearset.teeth.{flank} = {teeth}: tips of the {tip} reach below its base circle, "
+            "where there is no involute: it takes more teeth or a shorter addendum"
+        )
+    return reach
+
+
 def sun_planet_path(teeth: Teeth, pressure_angle: float, addendum: float) -> PathOfContact:
-    """Path of contact of the external mesh; `addendum` in modules, `pressure_angle` in rad."""
+    """Path of contact of the external mesh; `addendum` in modules, `pressure_angle` in rad.
+
+    Raises:
+        ValueError: a tip reaches below the base circle of its mate.
+    """
     pitch = math.pi * math.cos(pressure_angle)
+    sun = _external_tip_reach(teeth.sun, pressure_angle, addendum)
+    planet = _external_tip_reach(teeth.planet, pressure_angle, addendum)
     return PathOfContact(
-        _external_tip_reach(teeth.planet, pressure_angle, addendum) / pitch,
-        _external_tip_reach(teeth.sun, pressure_angle, addendum) / pitch,
+        _on_involute(planet, teeth.sun, pressure_angle, "planets", "sun") / pitch,
+        _on_involute(sun, teeth.planet, pressure_angle, "sun", "planet") / pitch,
     )
 
 
@@ -58,14 +78,16 @@ def planet_ring_path(teeth: Teeth, pressure_angle: float, addendum: float) -> Pa
     """Path of contact of the internal mesh; `addendum` in modules, `pressure_angle` in rad.
 
     Raises:
-        ValueError: the ring's tip circle lies inside its base circle, where there is no flank.
+        ValueError: the ring's tip circle lies inside its base circle, where there is no flank, or
+            its tips reach below the base circle of the planets.
     """
     if teeth.ring / 2 - addendum <= teeth.ring / 2 * math.cos(pressure_angle):
         raise ValueError(
             f"addendum = {addendum:g} module: the ring's tip circle lies inside its base circle"
         )
     pitch = math.pi * math.cos(pressure_angle)
+    ring = _internal_tip_reach(teeth.ring, pressure_angle, addendum)
     return PathOfContact(
-        _internal_tip_reach(teeth.ring, pressure_angle, addendum) / pitch,
+        _on_involute(ring, teeth.planet, pressure_angle, "ring", "planet") / pitch,
         _external_tip_reach(teeth.planet, pressure_angle, addendum) / pitch,
     )

@@ -26,7 +26,7 @@ def departure_at(model: Record, march: Record, i: int, delay: float) -> float:
     if march.control.collocated and model.train.lines[model.train.kind[i]] == 0:
         return _play_at(model, march, i, delay, SLACK * march.control.tolerance_x)
     interpolate(model, march, delay)
-    train, moment, x, v = model.train, march.moment, march.dense_x, march.dense_v
+    train, moment, x, v = model.train, march.moment, march.dense.x, march.dense.v
     advance = moment.cycle_rate * delay + cycle_shift(train, x) - cycle_shift(train, march.begin.x)
     pace = moment.cycle_rate + cycle_shift(train, v)
     slack = SLACK * march.control.tolerance_x

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from .._records import AXES, BODIES, FLAG, REAL, WHOLE, layout
+from .._records import AXES, FLAG, REAL, WHOLE, layout
 from ..dynamics.equations import EVALUATION
 from ..dynamics.moment import MOMENT
 from ..dynamics.state import STATE
@@ -48,8 +48,7 @@ MARCH = layout(
     aside=MOMENT,  # room for where a mesh stands at an event
     first=EVALUATION,  # forces at `begin`
     last=EVALUATION,  # forces at `end`, with the contacts of `begin`
-    dense_x=(REAL, (BODIES,)),  # interpolated
-    dense_v=(REAL, (BODIES,)),
+    dense=STATE,  # x and v within the step
     control=CONTROL,
     work=WORKSPACE,
     run=PROPAGATION,

@@ -16,6 +16,7 @@ from .._compile import kernel
 from .._overwrite import overwrite
 from .._records import BODIES, FLAG, REAL, WHOLE, Record, layout
 from ..dynamics.body_speed import body_speed
+from ..dynamics.equations import forces
 from ..dynamics.mesh_force import mesh_motion
 from ..dynamics.moment import set_moment
 from ..dynamics.state import LEDGER, OPEN, STATE
@@ -40,9 +41,7 @@ STEP = layout(
     begin=PLACE,
     end=PLACE,
     collocated=FLAG,
-    first_force=(REAL, (BODIES,)),  # see EVALUATION
-    last_force=(REAL, (BODIES,)),
-    power=(REAL, (LEDGER,)),
+    power=(REAL, (LEDGER,)),  # at its end, see EVALUATION
     rubbing=(REAL, (BODIES,)),
     motion=MOTION,
 )
@@ -165,8 +164,6 @@ def _record(march: Record) -> None:
     _keep(repetition.start, march.begin, step.begin)
     _keep(repetition.start, march.end, step.end)
     step.collocated = march.control.collocated
-    step.first_force[:] = march.first.force
-    step.last_force[:] = march.last.force
     step.power[:] = march.last.power
     step.rubbing[:] = march.last.rubbing
     overwrite(step.motion, march.run.motion)
@@ -216,12 +213,13 @@ def play(model: Record, march: Record, until: Instant) -> None:
         step.collocated,
         step.end.after - step.begin.after,
     )
-    march.first.force[:] = step.first_force
-    march.last.force[:] = step.last_force
     march.last.power[:] = step.power
     march.last.rubbing[:] = step.rubbing
     overwrite(march.run.motion, step.motion)
-    set_moment(model, march.begin, march.moment)
+    begin, moment = march.begin, march.moment
+    set_moment(model, begin, moment)
+    if not step.collocated:  # dense output makes the step anew
+        forces(model, begin, moment, begin.x, begin.v, 0.0, begin.trim, march.first)
 
 
 @kernel

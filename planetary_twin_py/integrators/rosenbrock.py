@@ -17,12 +17,12 @@ import math
 import numpy as np
 
 from .._compile import kernel
-from .._records import AXES, BODIES, REAL, Record, layout
+from .._records import AXES, BODIES, MACHINES, REAL, Record, layout
 from ..dynamics.body_speed import body_speed
 from ..dynamics.cycle import cycle_shift
 from ..dynamics.equations import EVALUATION, forces
 from ..dynamics.mesh_force import mesh_stiffness, push_drift
-from ..dynamics.state import LEDGER, OPEN
+from ..dynamics.state import IMPULSE, LEDGER, OPEN, WORK
 from ..dynamics.tooth_friction import add_outer, friction_damping
 
 ORDER = 3
@@ -81,6 +81,7 @@ WORKSPACE = layout(
     error_x=(REAL, (BODIES,)),  # local error of x [m]
     error_v=(REAL, (BODIES,)),  # local error of v [m/s]
     energy=(REAL, (LEDGER,)),  # growth of the ledger in this step [J]
+    way=(REAL, (MACHINES,)),  # of the machines, by the quadrature that fills the ledger [m]
 )
 
 
@@ -116,7 +117,7 @@ def _assemble(
         add_outer(work.stiffness, train.coupling[c], _ENDS, k)
         add_outer(work.system, train.coupling[c], _ENDS, train.coupling_damping[c] + step * k)
     if train.friction:
-        friction_damping(train, first.pairs, work.system)
+        friction_damping(train, first.pairs, first.force, h, work.system)
     for j in range(train.bodies + 1):
         work.system[j, j] += train.mass[j] / step
 
@@ -188,6 +189,8 @@ def _stage(
         work.trim_rate[i, a] = set_speed - speed
     for e in range(LEDGER):
         work.energy[e] += h * B[i] * out.power[e]
+    for c in range(train.machines):
+        work.way[c] += h * B[i] * work.v[train.coupling[c, 0]]
     right = work.uv[i]
     for j in range(bodies):
         value = out.force[j] + work.rv[j] + h * DRIFT_WEIGHT[i] * work.drift[j]
@@ -218,7 +221,7 @@ def step(
     """
     _assemble(model, state, moment, h, first, work)
     _factorise(work.system, model.train.bodies)
-    work.energy[:] = 0.0
+    work.energy[:] = work.way[:] = 0.0
     new.x[:] = state.x
     new.v[:] = state.v
     work.error_x[:] = 0.0
@@ -233,3 +236,17 @@ def step(
             new.v[j] += WEIGHT[i] * work.uv[i, j]
             work.error_x[j] += ERROR_WEIGHT[i] * work.ux[i, j]
             work.error_v[j] += ERROR_WEIGHT[i] * work.uv[i, j]
+    _work_over_the_way(model.train, state, h, new, work)
+
+
+@kernel
+def _work_over_the_way(train: Record, state: Record, h: float, new: Record, work: Record) -> None:
+    """Let the machines do their work over the way that the step makes.
+
+    A shaft is wound up by far more than it swings: what its end is wrong by, times all of its
+    torque, would be missing in the ledger, though both ends of the shaft agree on it.
+    """
+    for c in range(train.machines):
+        body = train.coupling[c, 0]
+        force = work.energy[IMPULSE + c] / (h * train.radius[body])
+        work.energy[WORK + c] += force * (new.x[body] - state.x[body] - work.way[c])

@@ -20,7 +20,6 @@ from .frame import pass_time
 from .progress import GROW, NO_MESH, SAFETY, SHORTEST_STEP, SHRINK
 from .rosenbrock import ORDER, step
 
-NEAREST, FARTHEST = 0.1, 0.9  # by which a step is shortened at a time to meet a flank event
 STIFF = 3.0  # by which errors count more
 ROUNDING = 1e-15  # [m/s] errors of a speed below it are none
 
@@ -98,18 +97,8 @@ def _error_norm(model: Record, march: Record) -> float:
 
 @kernel
 def _end_on_flank_event(model: Record, march: Record, h: float) -> int:
-    """Shorten the step until it ends where a mesh changes its contact; that mesh, or NO_MESH.
-
-    The interpolant of a long stiff step may put the event anywhere, so each shorter step is
-    looked at afresh; one that turns out to end before the event is as good as any.
-    """
-    target = NO_MESH
-    while True:
-        mesh, when = first_flank_event(model, march)
-        if mesh == NO_MESH and target != NO_MESH and at_event(model, march, target):
-            return target
-        if mesh == NO_MESH or h <= SHORTEST_STEP or at_event(model, march, mesh):
-            return mesh
-        target = mesh
-        h = max(min(max(when, NEAREST * h), FARTHEST * h), SHORTEST_STEP)
-        _try(model, march, h)
+    """Let the step end where a mesh changes its contact first; that mesh, or NO_MESH."""
+    mesh, when = first_flank_event(model, march)
+    if mesh != NO_MESH and h > SHORTEST_STEP and not at_event(model, march, mesh):
+        _try(model, march, max(when, SHORTEST_STEP))
+    return mesh

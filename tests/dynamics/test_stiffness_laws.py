@@ -78,6 +78,6 @@ def test_teeth_that_cannot_be_are_refused_in_one_line():
     scene = INVOLUTE.replace(
         **{"gearset.teeth": teeth, "gearset.planet_angles": (0.0, 3.141592653589793)}
     )
-    with pytest.raises(ValueError, match="teeth = 12") as error:
+    with pytest.raises(ValueError, match="sun = 12") as error:
         pt.simulate(scene, 0.01)
     assert "\n" not in str(error.value)

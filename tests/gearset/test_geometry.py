@@ -35,3 +35,21 @@ def test_contact_ratios_at_twenty_degrees():
 def test_a_ring_without_flanks_at_its_tip_is_refused():
     with pytest.raises(ValueError, match="inside its base circle"):
         planet_ring_path(Teeth(12, 12, 36), math.radians(20), 1.2)
+
+
+@pytest.mark.parametrize("addendum", [0.8, 1.0, 1.2])
+@pytest.mark.parametrize("angle", [20.0, 25.0])
+def test_a_pinion_needs_the_teeth_that_interference_with_a_mate_asks_for(angle, addendum):
+    """The least number by the closed form of Buckingham (1949), ch. 4, for a gear of 40 teeth."""
+    sine, mate = math.sin(math.radians(angle)), 40
+    square = mate**2 + 4.0 * addendum * (mate + addendum) / sine**2
+    least = math.ceil(math.sqrt(square) - mate)
+    sun_planet_path(Teeth(mate, least, mate + 2 * least), math.radians(angle), addendum)
+    with pytest.raises(ValueError, match=f"^gearset.teeth.planet = {least - 1}: tips of the sun"):
+        sun_planet_path(Teeth(mate, least - 1, mate), math.radians(angle), addendum)
+
+
+def test_tips_of_the_ring_may_not_reach_below_the_base_circle_of_the_planets():
+    planet_ring_path(Teeth(44, 17, 78), ANGLE, 1.0)
+    with pytest.raises(ValueError, match=r"^gearset.teeth.planet = 16: tips of the ring"):
+        planet_ring_path(Teeth(44, 16, 76), ANGLE, 1.0)

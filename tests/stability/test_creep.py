@@ -36,7 +36,8 @@ def test_creeping_costs_the_longest_steps_and_nothing_else():
     assert np.ptp(run.dte[-10:], axis=0).max() < 1e-12
 
 
-@pytest.mark.xfail(strict=True, reason="what stiff friction takes is not held to the tolerance")
-def test_energy_closes_where_friction_resists_a_creep():
-    """The motion is right; the work booked over long steps is not."""
-    sound_run(PAPER.replace(input_speed=1e-3), 0.02)
+@pytest.mark.parametrize("tolerance", [1e-4, 1e-6])
+def test_energy_closes_where_a_creep_winds_up_the_shafts(tolerance):
+    """They store 4 J, of which thousandths are turned over: the torque's work over the last digits
+    of the twist counts."""
+    sound_run(PAPER.replace(input_speed=1e-3), 0.02, tolerance=tolerance)
