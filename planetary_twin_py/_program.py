@@ -37,9 +37,10 @@ class _Program(JITCodeLibrary):
     """Code of a function with all that it calls."""
 
     def _optimize_final_module(self) -> None:
+        """Hide the parts, which others would else take for theirs, and optimise the whole."""
         for function in self._final_module.functions:
             if function.linkage == Linkage.linkonce_odr and not function.is_declaration:
-                function.linkage = Linkage.internal
+                function.linkage = Linkage.private
         super()._optimize_final_module()
 
     def _finalize_specific(self) -> None:
