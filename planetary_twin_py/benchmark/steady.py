@@ -56,7 +56,7 @@ def measure_steady(
             scene = case.scene()
             begin = repeats_from(scene, tolerance)
             if math.isnan(begin):
-                found.append(Steady(case.name, tolerance, begin, *[math.nan] * 2, NOT, math.nan))
+                found.append(Steady(case.name, tolerance, begin, math.nan, math.nan, NOT, math.nan))
                 continue
             exact = _settled(scene, EXACT, METHOD) if exact is None else exact
             error = errors(_settled(scene, tolerance, AUTO), exact)

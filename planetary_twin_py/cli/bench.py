@@ -75,5 +75,6 @@ def bench(
         markdown.write_text(page + (cost_markdown(dear) if dear else ""), "utf-8")
     if json_ is not None:
         minutes = [row for row in steady if not math.isnan(row.repeats_from)]
-        text = json.dumps([row.figures() for row in [*rows, *minutes]], indent=2) + "\n"
+        figures = [row.figures() for row in rows] + [row.figures() for row in minutes]
+        text = json.dumps(figures, indent=2) + "\n"
         sys.stdout.write(text) if json_ == "-" else Path(json_).write_text(text, "utf-8")
