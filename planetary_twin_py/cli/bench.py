@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import math
 import os
 import sys
 from pathlib import Path
@@ -73,6 +74,7 @@ def bench(
         page = as_markdown(rows, picture) + steady_markdown(steady) + batch_markdown(batches)
         markdown.write_text(page + (cost_markdown(dear) if dear else ""), "utf-8")
     if json_ is not None:
-        kept = {"march": [row.figures() for row in rows], "steady": [r.figures() for r in steady]}
-        text = json.dumps(kept, indent=2) + "\n"
+        minutes = [row for row in steady if not math.isnan(row.repeats_from)]
+        figures = [row.figures() for row in rows] + [row.figures() for row in minutes]
+        text = json.dumps(figures, indent=2) + "\n"
         sys.stdout.write(text) if json_ == "-" else Path(json_).write_text(text, "utf-8")

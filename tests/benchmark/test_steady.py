@@ -21,7 +21,9 @@ def test_what_repeats_is_within_the_tolerance_and_a_minute_of_it_costs_little():
     assert row.speed.low <= row.speed.median <= row.speed.high
     cells = f"| smooth | 1e-03 | {row.repeats_from:.2f} s | {row.error_dte:.1e} |"
     assert cells in steady_markdown([row])
-    assert row.figures()["error_power_loss"] is None
+    figures = row.figures()
+    assert figures["method"] == "auto" and figures["error_power_loss"] is None
+    assert figures["rtf_low"] <= figures["rtf"] <= figures["rtf_high"] and figures["setup_s"] > 0.0
 
 
 def test_what_does_not_repeat_has_no_figures():
