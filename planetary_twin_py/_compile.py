@@ -14,6 +14,8 @@ from typing import Any, TypeVar, cast
 
 import numba
 
+from ._program import Kernel
+
 F = TypeVar("F", bound=Callable[..., Any])
 
 # Reassociation and fused multiplies change the last bits only; NaN and infinity stay visible.
@@ -62,9 +64,11 @@ def law(function: F) -> F:
 
 
 def _compiled(function: F, inline: bool) -> F:
-    return cast(
-        F,
-        numba.njit(cache=True, nogil=True, error_model="numpy", fastmath=_FAST, forceinline=inline)(
-            function
-        ),
-    )
+    options = {
+        "nopython": True,
+        "nogil": True,
+        "error_model": "numpy",
+        "fastmath": _FAST,
+        "forceinline": inline,
+    }
+    return cast(F, Kernel(function, options))

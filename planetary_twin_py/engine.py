@@ -18,7 +18,7 @@ from .dynamics.oil import build_oil
 from .dynamics.start import build_load, start_state
 from .dynamics.static_load import mesh_force, static_torques
 from .dynamics.train import build_train, lightest_body
-from .integrators.clock import delay, instant, sampling
+from .integrators.clock import NEVER, delay, instant, sampling
 from .integrators.interpolant import Samples, new_samples, sample
 from .integrators.march import advance, begin_step, cut
 from .integrators.progress import AUTO, COLLOCATION, MARCH, ROSENBROCK
@@ -120,7 +120,7 @@ class Engine:
         """
         samples = new_samples(self.train, room)
         at = sampling(first_sample, sample_rate)
-        advance(self.model, self.march, instant(until), at, samples)
+        advance(self.model, self.march, instant(until), NEVER, at, samples)
         return samples
 
     def sample(self, time: float | Fraction) -> Samples:

@@ -10,8 +10,8 @@ import pytest
 SET_UP = 'import planetary_twin_py as pt; pt.Twin(pt.load_scene("paper"))'
 USE = """
 import json, sys
-from numba.core.dispatcher import Dispatcher
 import planetary_twin_py as pt
+from planetary_twin_py._program import Kernel
 
 for name in pt.packaged_scenes():
     twin = pt.Twin(pt.load_scene(name), sample_rate=10000)
@@ -24,10 +24,10 @@ pt.simulate(scene, duration=0.001)
 pt.simulate(scene.replace(input_speed=5), duration=1, sample_rate=1000, method="auto")
 
 modules = [m for name, m in sys.modules.items() if name.startswith("planetary_twin_py")]
-kernels = {k for m in modules for k in vars(m).values() if isinstance(k, Dispatcher)}
+programs = {k.program for m in modules for k in vars(m).values() if isinstance(k, Kernel)}
 print(json.dumps({
-    "loaded": sum(sum(k.stats.cache_hits.values()) for k in kernels),
-    "compiled": sorted(k.__name__ for k in kernels if k.stats.cache_misses),
+    "loaded": sum(sum(p.stats.cache_hits.values()) for p in programs),
+    "compiled": sorted(p.__name__ for p in programs if p.stats.cache_misses),
 }))
 """
 

@@ -78,14 +78,23 @@ def start_state(scene: Scene, model: Record) -> Record:
     steady = model.copy()
     steady.load.ripple = 0.0
     steady.load.proportional[:] = 0.0
-    drag = _mean_drag(steady, state, moment, mean, new_record(EVALUATION))
-    _settle(model, state, moment, mean)
-    _choose_sides(model, state, moment)
+    drag = _equilibrium(model, steady, state, moment, mean, new_record(EVALUATION))
     # In steady running the machines give what friction takes along each rigid motion.
     bodies = train.coupling[: train.machines, 0]
     effect = train.ratio[bodies, :axes].T @ load.trim_gain[: train.machines, :axes]
     state.trim[:axes] = np.linalg.solve(effect, drag[:axes])
     return state
+
+
+@kernel
+def _equilibrium(
+    model: Record, steady: Record, state: Record, moment: Record, mean: float, work: Record
+) -> np.ndarray:
+    """Put `state` into balance; return the mean drag of the `steady` model."""
+    drag = _mean_drag(steady, state, moment, mean, work)
+    _settle(model, state, moment, mean)
+    _choose_sides(model, state, moment)
+    return drag
 
 
 @kernel

@@ -23,6 +23,9 @@ class Instant(NamedTuple):
     time: float  # since then [s]
 
 
+NEVER = Instant(0, math.inf)
+
+
 class Sampling(NamedTuple):
     """Where the next sample lies, and the distance between samples."""
 

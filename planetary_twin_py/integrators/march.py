@@ -11,18 +11,16 @@ Where nothing changes any more from one mesh cycle to the next, none are made.
 
 from __future__ import annotations
 
-import math
-
 from .._compile import kernel
 from .._overwrite import overwrite
 from .._records import Record
 from ..dynamics.contact_events import change_contact
 from ..dynamics.moment import set_moment
-from .clock import Instant, Sampling, after, delay, due
+from .clock import Instant, Sampling, after, delay, due, sampling
 from .collocated_step import DETOUR, FAILED, collocated_step
 from .edges import next_event, pass_edges
 from .frame import rebase
-from .interpolant import Samples, sample
+from .interpolant import Samples, new_samples, sample
 from .progress import COLLOCATION, NO_MESH, ROSENBROCK, SHORTEST_STEP
 from .repetition import forget, play, watch
 from .stiff_step import stiff_step
@@ -81,8 +79,13 @@ def accept(model: Record, march: Record, mesh: int) -> None:
 
 
 @kernel
-def advance(model: Record, march: Record, until: Instant, samples: Sampling, out: Samples) -> None:
-    """Integrate to `until`, and fill `out` with `samples`, none of them later."""
+def advance(
+    model: Record, march: Record, until: Instant, bound: Instant, samples: Sampling, out: Samples
+) -> None:
+    """Integrate to `until`, and fill `out` with `samples`, none of them later.
+
+    No step that is made passes `bound`.
+    """
     taken, room = 0, len(out.turns)
     while True:
         while taken < room and delay(march.end, due(samples)) <= 0.0:
@@ -95,11 +98,10 @@ def advance(model: Record, march: Record, until: Instant, samples: Sampling, out
             play(model, march, due(samples) if taken < room else until)
         else:
             begin_step(model, march)
-            one_step(model, march, math.inf)
+            one_step(model, march, delay(march.begin, bound))
             watch(model, march)
 
 
-@kernel
 def cut(model: Record, march: Record, until: Instant) -> None:
     """Take back what lies beyond `until`, which is within the last step.
 
@@ -107,14 +109,10 @@ def cut(model: Record, march: Record, until: Instant) -> None:
     """
     forget(march)
     if delay(march.end, until) < 0.0:
-        length = delay(march.begin, until)
+        march.end = march.begin
         march.control.changed = True
-        if length > SHORTEST_STEP:
-            one_step(model, march, length)
-        else:
-            overwrite(march.end, march.begin)
-        while delay(march.end, until) > SHORTEST_STEP:  # an event came before
-            begin_step(model, march)
-            one_step(model, march, delay(march.end, until))
+        close = Instant(until.seconds, until.time - SHORTEST_STEP)
+        advance(model, march, close, until, sampling(0, 1.0), new_samples(model.train, 0))
+        forget(march)
     march.end.seconds, march.end.time = until.seconds, until.time
     march.control.changed = True

@@ -85,7 +85,6 @@ def watch(model: Record, march: Record) -> None:
     _look(model, march)
 
 
-@kernel
 def forget(march: Record) -> None:
     """Something acts on the train from outside: it must settle anew."""
     repetition = march.repetition

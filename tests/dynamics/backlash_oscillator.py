@@ -15,7 +15,7 @@ from planetary_twin_py._records import new_record
 from planetary_twin_py.dynamics.bodies import LOAD_MACHINE
 from planetary_twin_py.dynamics.equations import MODEL
 from planetary_twin_py.dynamics.state import DRIVE_SIDE
-from planetary_twin_py.integrators.clock import Instant, instant, sampling
+from planetary_twin_py.integrators.clock import NEVER, Instant, instant, sampling
 from planetary_twin_py.integrators.interpolant import new_samples
 from planetary_twin_py.integrators.march import advance, cut
 from planetary_twin_py.integrators.progress import MARCH
@@ -81,7 +81,7 @@ class Oscillator:
         count = periods * PER_PERIOD
         samples = new_samples(self.model.train, count)
         until = instant((first + count) / rate)
-        advance(self.model, self.march, until, sampling(first, rate), samples)
+        advance(self.model, self.march, until, NEVER, sampling(first, rate), samples)
         angle = 2.0 * math.pi * samples.turns[:, 0] + samples.angle[:, MOTOR]
         return samples.mesh[:, 0, 0] - self.error * np.sin(angle)
 
