@@ -1,18 +1,22 @@
-"""Runs a twin in real time, in a thread of its own, and changes it between two intervals."""
+"""Runs a twin in real time, in a thread of its own, and gives it orders between two intervals."""
 
 from __future__ import annotations
 
+import math
 import queue
 import threading
 import time
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from concurrent.futures import Future
 from typing import NamedTuple, Protocol
 
-from planetary_twin_py import Twin, Window
+from planetary_twin_py import OperatingPoint, Twin, Window
 from planetary_twin_py.tolerance import AffordableTolerance
 
 from .pacing import Pace
+
+LONGEST_STEP = 10.0  # [s] that a paused twin makes at a time
+_ALERTNESS = 0.1  # [s] after which a paused twin looks whether it is to end
 
 
 class Listener(Protocol):
@@ -24,11 +28,14 @@ class Listener(Protocol):
     def publish(self) -> None:
         """The wall instant of the prepared interval's end is now."""
 
-    def changed(self, instant: float) -> None:
+    def changed(self, point: OperatingPoint, instant: float) -> None:
         """The operating point in force from simulated time `instant` [s] is a new one."""
 
     def retuned(self, instant: float, affordable: AffordableTolerance) -> None:
         """From simulated time `instant` [s] the tolerance is the one that is `affordable`."""
+
+    def goes_on(self, instant: float) -> None:
+        """After a stop, or from a new start, simulated time `instant` [s] is now."""
 
     def stopped(self, defect: Exception) -> None:
         """The thread ends because of `defect`."""
@@ -42,12 +49,14 @@ class Progress(NamedTuple):
     cpu: float  # [s] processor time of the thread
     overruns: int
     repeats: bool  # steady running, which is not computed again
+    paused: bool
 
 
 class LiveTwin:
     """Advances `twin` by `interval` [s] at a time, `rate_factor` simulated seconds per second.
 
-    `affordable` chooses the tolerance, and may be replaced at any time, from any thread.
+    `affordable` chooses the tolerance, and may be replaced at any time, from any thread. Orders
+    are carried out between two intervals; their futures give the simulated instant [s] of that.
     """
 
     def __init__(
@@ -63,9 +72,10 @@ class LiveTwin:
         self._pace = Pace(interval / rate_factor)
         self.affordable = affordable
         self._listener = listener
-        self._changes: queue.SimpleQueue[tuple[Mapping[str, float], Future[float]]] = (
+        self._orders: queue.SimpleQueue[tuple[Callable[[], float], Future[float]]] = (
             queue.SimpleQueue()
         )
+        self._paused = False
         self._stop = threading.Event()
         self._thread = threading.Thread(target=self._run, name="twin", daemon=True)
         self._repeated = False
@@ -84,45 +94,97 @@ class LiveTwin:
         self._thread.join()
 
     def submit(self, values: Mapping[str, float]) -> Future[float]:
-        """Have `values` set between two intervals; the future gives the simulated instant [s]."""
+        """Have `values` of the operating point set."""
+        return self._order(lambda: self._set(values))
+
+    def pause(self, paused: bool) -> Future[float]:
+        """Have simulated time stand still, or go on."""
+        return self._order(lambda: self._pause(paused))
+
+    def step(self, duration: float) -> Future[float]:
+        """Have a paused twin make `duration` [s], as fast as it goes."""
+        return self._order(lambda: self._step(duration))
+
+    def restart(self, twin: Twin) -> Future[float]:
+        """Have another twin take the place of this one."""
+        return self._order(lambda: self._restart(twin))
+
+    def _order(self, order: Callable[[], float]) -> Future[float]:
         future: Future[float] = Future()
-        self._changes.put((values, future))
+        self._orders.put((order, future))
         return future
 
     def _run(self) -> None:
         try:
             while not self._stop.is_set():
-                self._apply_changes()
-                self._listener.prepare(self._advance())
-                self._pace.wait()
-                self._listener.publish()
+                self._obey()
+                if not self._paused:
+                    self._listener.prepare(self._advance(self._interval))
+                    self._pace.wait()
+                    self._listener.publish()
                 self.progress = self._standing()
         except Exception as defect:
             self._listener.stopped(defect)
 
-    def _advance(self) -> Window:
+    def _obey(self) -> None:
+        """Carry out what was ordered; a paused twin waits for it."""
+        while True:
+            try:
+                order, future = self._orders.get(block=self._paused, timeout=_ALERTNESS)
+            except queue.Empty:
+                return
+            try:
+                future.set_result(order())
+            except ValueError as refusal:
+                future.set_exception(refusal)
+
+    def _advance(self, duration: float) -> Window:
         """The next interval, at the tolerance that is affordable as far as is known."""
         affordable = self.affordable
         if affordable.tolerance != self._twin.tolerance:
             instant = self._twin.set_tolerance(affordable.tolerance)
             self._listener.retuned(instant, affordable)
         begin = time.monotonic()
-        window = self._twin.advance(self._interval)
+        window = self._twin.advance(duration)
         affordable.observe(time.monotonic() - begin, window.repeated)
         self._repeated = window.repeated
         return window
 
-    def _apply_changes(self) -> None:
-        while not self._changes.empty():
-            values, future = self._changes.get()
-            try:
-                instant = self._twin.set(**values)
-            except ValueError as refusal:
-                future.set_exception(refusal)
-                continue
-            self.affordable.relearn()
-            self._listener.changed(instant)
-            future.set_result(instant)
+    def _set(self, values: Mapping[str, float]) -> float:
+        instant = self._twin.set(**values)
+        self.affordable.relearn()
+        self._listener.changed(self._twin.operating_point, instant)
+        return instant
+
+    def _pause(self, paused: bool) -> float:
+        if self._paused and not paused:
+            self._listener.goes_on(self._twin.time)
+            self._pace.start()
+        self._paused = paused
+        return self._twin.time
+
+    def _step(self, duration: float) -> float:
+        if not self._paused:
+            raise ValueError(f"duration = {duration:g} s: the twin runs; pause it first")
+        if not 0.0 < duration <= LONGEST_STEP:
+            raise ValueError(
+                f"duration = {duration:g} s: must be above 0 and at most {LONGEST_STEP:g}"
+            )
+        self._listener.goes_on(self._twin.time)
+        count = math.ceil(duration / self._interval - 1e-9)
+        for n in range(count):
+            left = duration - n * self._interval
+            self._listener.prepare(self._advance(min(self._interval, left)))
+            self._listener.publish()
+        return self._twin.time
+
+    def _restart(self, twin: Twin) -> float:
+        twin.set_tolerance(self._twin.tolerance)
+        self._twin = twin
+        self._pace.start()
+        self._listener.goes_on(twin.time)
+        self._listener.changed(twin.operating_point, twin.time)
+        return twin.time
 
     def _standing(self) -> Progress:
         return Progress(
@@ -131,4 +193,5 @@ class LiveTwin:
             time.thread_time(),
             self._pace.overruns,
             self._repeated,
+            self._paused,
         )

@@ -49,7 +49,8 @@ class RealTimeReport:
         recent = _rate(self._last, now, self._rate_factor)
         overruns = now.overruns - self._last.overruns
         lags = recent < (1.0 - _TOLERATED_LAG) * self._rate_factor
-        late = overruns > 0 or (lags and now.wall - self._last.wall >= _SHORTEST)
+        stood = now.paused or self._last.paused
+        late = overruns > 0 or (lags and not stood and now.wall - self._last.wall >= _SHORTEST)
         status = DiagnosticStatus(
             level=DiagnosticStatus.WARN if late else DiagnosticStatus.OK,
             name="simulation: real time",
@@ -59,7 +60,7 @@ class RealTimeReport:
             hardware_id=self._hardware,
         )
         figures: dict[str, object] = {
-            "state": "stopped" if last else "running",
+            "state": "stopped" if last else "paused" if now.paused else "running",
             "real_time_factor": f"{recent:.4f}",
             "real_time_factor_mean": f"{_rate(self._begun, now, self._rate_factor):.4f}",
             "rate_factor": f"{self._rate_factor:g}",

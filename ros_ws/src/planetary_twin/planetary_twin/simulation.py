@@ -8,7 +8,7 @@ import traceback
 from concurrent.futures import Future
 
 from diagnostic_msgs.msg import DiagnosticStatus
-from planetary_twin_msgs.srv import SetOperatingPoint
+from planetary_twin_msgs.srv import NaturalModes, SetOperatingPoint
 from rcl_interfaces.msg import SetParametersResult
 from rclpy.parameter import Parameter
 
@@ -21,11 +21,12 @@ from planetary_twin_py.tolerance import (
     ladder_of,
 )
 
-from .live import LiveTwin
+from .live import LiveTwin, Progress
 from .managed import ManagedNode, NodeError, run_node
 from .parameters import coerce, declare_bounded, declare_fixed, declare_tunable
 from .real_time import RealTimeReport
 from .telemetry import Telemetry
+from .time_services import TimeServices
 
 _REPORT_PERIOD = 1.0  # [s]
 _TOLERANCE = pt.Tunable(
@@ -49,14 +50,18 @@ class Simulation(ManagedNode):
         self._level = DiagnosticStatus.OK
         self._submitted: Future[float] | None = None
         self._declare()
-        self._telemetry = Telemetry(self, self._scene, self._frame, self._sample_rate)
+        self._telemetry = Telemetry(
+            self, self._scene, self._frame, self._sample_rate, self._with_clock
+        )
         self._timer = self.create_timer(_REPORT_PERIOD, self._diagnose)
         self.create_service(SetOperatingPoint, "~/set_operating_point", self._set_operating_point)
+        self.create_service(NaturalModes, "~/natural_modes", self._natural_modes)
+        TimeServices(self, self)
 
     def configure(self) -> None:
         """Build and compile the model at the operating point the parameters give."""
         self._urdf = self._robot_description()
-        self._twin = pt.Twin(self._scene.replace(**self._wanted()), sample_rate=self._sample_rate)
+        self._twin = self._new_twin()
 
     def activate(self) -> None:
         """Run from where the twin stands, with what was set while it stood."""
@@ -72,7 +77,7 @@ class Simulation(ManagedNode):
         begun = self._live.start()
         self._telemetry.announce(point, instant)
         self._telemetry.describe(self._urdf)
-        self._report = RealTimeReport(self.get_namespace(), self._rate_factor, twin.log, begun)
+        self._report = self._new_report(twin, begun)
 
     def deactivate(self) -> None:
         """Stop after the interval in progress; the last report counts every message."""
@@ -98,9 +103,13 @@ class Simulation(ManagedNode):
         """Send them at that instant."""
         self._telemetry.publish()
 
-    def changed(self, instant: float) -> None:
+    def changed(self, point: pt.OperatingPoint, instant: float) -> None:
         """Tell of a new operating point."""
-        self._telemetry.announce(self._running_twin().operating_point, instant)
+        self._telemetry.announce(point, instant)
+
+    def goes_on(self, instant: float) -> None:
+        """Let simulated time `instant` [s] be now."""
+        self._telemetry.begin(self.get_clock().now().nanoseconds, instant)
 
     def retuned(self, instant: float, affordable: AffordableTolerance) -> None:
         """Say which tolerance holds, and why."""
@@ -119,6 +128,27 @@ class Simulation(ManagedNode):
             self.get_logger().error("".join(traceback.format_exception(defect)))
         self.fail(f"the twin stopped: {defect}")
 
+    # Time, see `time_services`.
+
+    def running(self) -> LiveTwin:
+        """The live twin."""
+        if self._live is None:
+            raise ValueError("the simulation is not active, so its time stands still")
+        return self._live
+
+    def reset(self) -> Future[float]:
+        """Begin anew, at the operating point that the parameters give."""
+        live, twin = self.running(), self._new_twin()
+        instant = live.restart(twin)
+        instant.result(timeout=self._longest_wait)
+        self._twin = twin
+        self._report = self._new_report(twin, live.progress)
+        return instant
+
+    def stamp(self, instant: float) -> int:
+        """ROS time [ns] of a simulated instant [s]."""
+        return self._telemetry.stamp(instant)
+
     # Parameters.
 
     def _declare(self) -> None:
@@ -126,6 +156,9 @@ class Simulation(ManagedNode):
         self._frame = declare_fixed(self, "frame_id", "gearbox", "frame of the gearbox's base")
         self._rate = declare_bounded(
             self, "publish_rate", 100.0, (10.0, 1000.0), "messages per simulated second [Hz]"
+        )
+        self._with_clock = bool(
+            declare_fixed(self, "clock", False, "publish simulated time on /clock")
         )
         self._sample_rate = declare_bounded(
             self, "sample_rate", 50e3, (1e3, 1e6), "samples of mesh_waveform [Hz]"
@@ -227,9 +260,20 @@ class Simulation(ManagedNode):
         result = self.set_parameters_atomically(parameters)
         if not result.successful or self._submitted is None:
             raise ValueError(result.reason)
-        # The loop takes changes up between two intervals, so this wait is one interval long.
-        longest = 2.0 / (self._rate * self._rate_factor) + 1.0
-        return self._submitted.result(timeout=longest)
+        return self._submitted.result(timeout=self._longest_wait)
+
+    @property
+    def _longest_wait(self) -> float:
+        """The loop takes orders up between two intervals, so this wait [s] is one interval long."""
+        return 2.0 / (self._rate * self._rate_factor) + 1.0
+
+    def _natural_modes(
+        self, request: NaturalModes.Request, response: NaturalModes.Response
+    ) -> NaturalModes.Response:
+        modes = pt.natural_modes(self._scene)
+        response.frequencies = [float(frequency) for frequency in modes.frequencies]
+        response.kinds = list(modes.kinds)
+        return response
 
     # Diagnostics.
 
@@ -250,6 +294,12 @@ class Simulation(ManagedNode):
                 self.get_logger().info(status.message)
             else:  # not the line above with another level: rclpy refuses that
                 self.get_logger().warning(status.message)
+
+    def _new_twin(self) -> pt.Twin:
+        return pt.Twin(self._scene.replace(**self._wanted()), sample_rate=self._sample_rate)
+
+    def _new_report(self, twin: pt.Twin, begun: Progress) -> RealTimeReport:
+        return RealTimeReport(self.get_namespace(), self._rate_factor, twin.log, begun)
 
     def _running_twin(self) -> pt.Twin:
         if self._twin is None:

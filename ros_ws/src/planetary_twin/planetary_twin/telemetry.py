@@ -9,7 +9,9 @@ from diagnostic_msgs.msg import DiagnosticArray
 from planetary_twin_msgs import msg
 from rclpy.node import Node
 from rclpy.publisher import Publisher
-from rclpy.qos import DurabilityPolicy, QoSProfile
+from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
+from rclpy.time import Time
+from rosgraph_msgs.msg import Clock
 from sensor_msgs.msg import JointState
 from std_msgs.msg import String
 
@@ -18,19 +20,24 @@ from planetary_twin_py import OperatingPoint, Scene, Window
 from .messages import JointsMessage, OperatingPointMessage, StateMessage, WaveformMessage
 
 _LATCHED = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
+# As `use_sim_time` listens.
+_CLOCK = QoSProfile(depth=1, reliability=ReliabilityPolicy.BEST_EFFORT)
 _DEPTH = 10
 
 
 class Telemetry:
     """Publishes windows, operating points and diagnostics, stamped with their own ROS time."""
 
-    def __init__(self, node: Node, scene: Scene, frame: str, sample_rate: float) -> None:
+    def __init__(
+        self, node: Node, scene: Scene, frame: str, sample_rate: float, clock: bool
+    ) -> None:
         self._state = node.create_publisher(msg.GearboxState, "gearbox_state", _DEPTH)
         self._waveform = node.create_publisher(msg.MeshWaveform, "mesh_waveform", _DEPTH)
         self._joints = node.create_publisher(JointState, "joint_states", _DEPTH)
         self._point = node.create_publisher(msg.OperatingPoint, "operating_point", _LATCHED)
         self._description = node.create_publisher(String, "robot_description", _LATCHED)
         self._diagnostics = node.create_publisher(DiagnosticArray, "/diagnostics", _DEPTH)
+        self._clock = node.create_publisher(Clock, "/clock", _CLOCK) if clock else None
         self._state_message = StateMessage(scene, frame)
         self._waveform_message = WaveformMessage(scene, frame, sample_rate)
         self._joints_message: JointsMessage | None = None
@@ -45,8 +52,9 @@ class Telemetry:
             self._point,
             self._description,
             self._diagnostics,
+            self._clock,
         )
-        self._published = dict.fromkeys(publishers, 0)
+        self._published = {publisher: 0 for publisher in publishers if publisher is not None}
 
     def describe(self, urdf: str) -> None:
         """Publish what the gearbox looks like."""
@@ -68,8 +76,12 @@ class Telemetry:
         self._prepared = [
             (self._state, self._state_message.fill(window, end)),
             (self._joints, self._joints_message.fill(window, end)),
-            (self._waveform, self._waveform_message.fill(window, self._origin)),
         ]
+        if len(window.waveform.time):  # a single step may be shorter than the sample period
+            wave = self._waveform_message.fill(window, self._origin)
+            self._prepared.append((self._waveform, wave))
+        if self._clock is not None:
+            self._prepared.append((self._clock, Clock(clock=Time(nanoseconds=end).to_msg())))
 
     def publish(self) -> None:
         """Send what is prepared."""

@@ -1,0 +1,70 @@
+"""Services that stop simulated time, make it go step by step, and begin it anew."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from concurrent.futures import Future
+from typing import Any, Protocol
+
+from planetary_twin_msgs.srv import Step
+from rclpy.node import Node
+from std_srvs.srv import SetBool, Trigger
+
+from .live import LiveTwin
+
+_PATIENCE = 60.0  # [s] longest wait for an order to be carried out
+
+
+class Clockwork(Protocol):
+    """The simulation, as far as its time is concerned."""
+
+    def running(self) -> LiveTwin:
+        """The live twin; raises `ValueError` where there is none."""
+
+    def reset(self) -> Future[float]:
+        """Begin anew at simulated time zero."""
+
+    def stamp(self, instant: float) -> int:
+        """ROS time [ns] of a simulated instant [s]."""
+
+
+class TimeServices:
+    """`~/pause`, `~/step` and `~/reset` of a node."""
+
+    def __init__(self, node: Node, clockwork: Clockwork) -> None:
+        self._clockwork = clockwork
+        node.create_service(SetBool, "~/pause", self._pause)
+        node.create_service(Step, "~/step", self._step)
+        node.create_service(Trigger, "~/reset", self._reset)
+
+    def _pause(self, request: SetBool.Request, response: SetBool.Response) -> SetBool.Response:
+        word = "paused" if request.data else "runs"
+        return _answer(
+            response,
+            lambda: self._clockwork.running().pause(request.data),
+            lambda instant: f"{word} from {instant:.9g} s",
+        )
+
+    def _step(self, request: Step.Request, response: Step.Response) -> Step.Response:
+        def told(instant: float) -> str:
+            response.simulated_time = instant
+            stamp = divmod(self._clockwork.stamp(instant), 1_000_000_000)
+            response.stamp.sec, response.stamp.nanosec = stamp
+            return ""
+
+        return _answer(response, lambda: self._clockwork.running().step(request.duration), told)
+
+    def _reset(self, request: Trigger.Request, response: Trigger.Response) -> Trigger.Response:
+        return _answer(
+            response, self._clockwork.reset, lambda instant: f"begins anew at {instant:.9g} s"
+        )
+
+
+def _answer(response: Any, order: Callable[[], Future[float]], told: Callable[[float], str]) -> Any:
+    """Fill in what came of an order."""
+    try:
+        response.message = told(order().result(timeout=_PATIENCE))
+        response.success = True
+    except (ValueError, TimeoutError) as refusal:
+        response.success, response.message = False, str(refusal)
+    return response

@@ -1,0 +1,151 @@
+"""Simulated time stands still, goes step by step, begins anew, and never confuses who listens."""
+
+from __future__ import annotations
+
+import itertools
+import math
+
+import pytest
+from diagnostic_msgs.msg import DiagnosticArray
+from planetary_twin_msgs.msg import GearboxState, MeshWaveform, OperatingPoint
+from planetary_twin_msgs.srv import NaturalModes, Step
+from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
+from rosgraph_msgs.msg import Clock
+from std_srvs.srv import SetBool, Trigger
+
+import planetary_twin_py as pt
+
+from .conftest import Start
+from .peer import TWIN, Peer
+
+NODE = f"{TWIN}/simulation"
+INTERVAL = 0.01  # [s]
+LATCHED = QoSProfile(depth=100, durability=DurabilityPolicy.TRANSIENT_LOCAL)
+BEST_EFFORT = QoSProfile(depth=100, reliability=ReliabilityPolicy.BEST_EFFORT)
+
+
+def nanoseconds(stamp) -> int:
+    return stamp.sec * 1_000_000_000 + stamp.nanosec
+
+
+class Heard:
+    """What a running simulation has published since it was heard first."""
+
+    def __init__(self, peer: Peer) -> None:
+        self.states = peer.listen(GearboxState, f"{TWIN}/gearbox_state")
+        self.waves = peer.listen(MeshWaveform, f"{TWIN}/mesh_waveform")
+        self.points = peer.listen(OperatingPoint, f"{TWIN}/operating_point", LATCHED)
+        peer.until(lambda: self.states and self.points, 120.0)
+
+    def check(self) -> None:
+        """Numbers without gaps, stamps that only rise."""
+        for messages in (self.states, self.waves):
+            for before, after in itertools.pairwise(messages):
+                assert after.sequence == before.sequence + 1
+                assert nanoseconds(after.header.stamp) > nanoseconds(before.header.stamp)
+
+
+@pytest.fixture
+def heard(peer: Peer, start: Start) -> Heard:
+    start("planetary_twin.simulation")
+    return Heard(peer)
+
+
+def pause(peer: Peer, paused: bool) -> str:
+    answer = peer.call(SetBool, f"{NODE}/pause", SetBool.Request(data=paused))
+    assert answer.success
+    return answer.message
+
+
+def step(peer: Peer, duration: float) -> Step.Response:
+    return peer.call(Step, f"{NODE}/step", Step.Request(duration=duration))
+
+
+def settle(peer: Peer) -> None:
+    """Let what is under way arrive."""
+    ticks = iter(range(10))
+    peer.until(lambda: next(ticks, 10) == 9)
+
+
+def test_a_paused_twin_publishes_nothing_and_goes_on_where_it_stood(
+    peer: Peer, heard: Heard
+) -> None:
+    reports = peer.listen(DiagnosticArray, "/diagnostics")
+    assert pause(peer, True).startswith("paused from ")
+    settle(peer)
+    stood = len(heard.states)
+    peer.until(lambda: any(v.value == "paused" for r in reports for v in r.status[0].values), 10.0)
+    assert len(heard.states) == stood
+    assert all(ord(report.status[0].level) == 0 for report in reports)
+    pause(peer, False)
+    peer.until(lambda: len(heard.states) > stood + 20)
+    times = [state.simulated_time for state in heard.states]
+    assert all(math.isclose(b - a, INTERVAL, abs_tol=1e-9) for a, b in itertools.pairwise(times))
+    heard.check()
+
+
+def test_a_paused_twin_makes_steps_of_just_the_time_asked_for(peer: Peer, heard: Heard) -> None:
+    pause(peer, True)
+    settle(peer)
+    before, count = heard.states[-1].simulated_time, len(heard.states)
+    for duration, messages in ((INTERVAL, 1), (0.025, 3), (1e-6, 1)):
+        answer = step(peer, duration)
+        assert answer.success, answer.message
+        assert answer.simulated_time == pytest.approx(before + duration, abs=1e-9)
+        count += messages
+        peer.until(lambda n=count: len(heard.states) == n)
+        assert heard.states[-1].simulated_time == answer.simulated_time
+        assert heard.states[-1].header.stamp == answer.stamp
+        before = answer.simulated_time
+    heard.check()
+
+
+@pytest.mark.parametrize("duration", [0.0, -1.0, math.nan, 1e9])
+def test_a_step_that_cannot_be_is_refused(peer: Peer, heard: Heard, duration: float) -> None:
+    pause(peer, True)
+    answer = step(peer, duration)
+    assert not answer.success
+    assert answer.message.startswith("duration = ")
+
+
+def test_a_running_twin_makes_no_steps(peer: Peer, heard: Heard) -> None:
+    answer = step(peer, 0.1)
+    assert not answer.success and "pause it first" in answer.message
+
+
+def test_reset_begins_anew_with_the_parameters_in_force(peer: Peer, heard: Heard) -> None:
+    assert peer.set(NODE, backlash=3e-7).successful
+    peer.until(lambda: len(heard.points) == 2 and heard.states[-1].simulated_time > 0.3)
+    assert peer.call(Trigger, f"{NODE}/reset", Trigger.Request()).success
+    peer.until(lambda: len(heard.points) == 3)
+    assert heard.points[-1].simulated_time == 0.0 and heard.points[-1].backlash == 3e-7
+    peer.until(
+        lambda: any(
+            a.simulated_time > b.simulated_time for a, b in itertools.pairwise(heard.states)
+        )
+    )
+    first = next(
+        b for a, b in itertools.pairwise(heard.states) if a.simulated_time > b.simulated_time
+    )
+    assert first.simulated_time == pytest.approx(INTERVAL)
+    heard.check()
+    assert peer.set(NODE, backlash=2e-7).successful
+    peer.until(lambda: heard.points[-1].backlash == 2e-7)
+
+
+def test_the_clock_tells_the_time_of_the_messages(peer: Peer, start: Start) -> None:
+    start("planetary_twin.simulation", "--ros-args", "-p", "clock:=true", "-p", "rate_factor:=0.1")
+    clocks = peer.listen(Clock, "/clock", BEST_EFFORT)
+    states = peer.listen(GearboxState, f"{TWIN}/gearbox_state")
+    peer.until(lambda: len(clocks) > 5 and len(states) > 5, 120.0)
+    stamps = {nanoseconds(state.header.stamp) for state in states}
+    told = [nanoseconds(clock.clock) for clock in clocks]
+    assert all(after > before for before, after in itertools.pairwise(told))
+    assert len(stamps & set(told)) >= 4
+
+
+def test_natural_modes_are_those_of_the_scene(peer: Peer, heard: Heard) -> None:
+    answer = peer.call(NaturalModes, f"{NODE}/natural_modes", NaturalModes.Request())
+    modes = pt.natural_modes(pt.load_scene("paper"))
+    assert list(answer.frequencies) == pytest.approx(list(modes.frequencies))
+    assert list(answer.kinds) == list(modes.kinds)
