@@ -28,8 +28,7 @@ Floats = NDArray[np.float64]
 class ToothPair:
     """Two teeth in mesh: `first` (sun, or planet at the ring) drives, on the given path.
 
-    Raises:
-        ValueError: the path leaves the line of action between the base circles (interference).
+    The path stays on the line of action between the base circles, see `gearset.geometry`.
     """
 
     first: Tooth
@@ -37,13 +36,6 @@ class ToothPair:
     path: PathOfContact
     contact: ContactLaw
     spall: Spall = NO_SPALL
-
-    def __post_init__(self) -> None:
-        for gear, string in zip(self._gears, self._strings(np.array(self._ends)), strict=True):
-            if string.min() <= 0.0:
-                raise ValueError(
-                    f"teeth = {gear.teeth}: the mating tip reaches inside its base circle"
-                )
 
     @property
     def _gears(self) -> tuple[SpurGear, SpurGear]:

@@ -210,7 +210,7 @@ def test_path_reaches_from_tip_to_tip():
 
 
 def test_interference_and_a_body_held_at_the_wrong_edge_are_refused_in_one_line():
-    with pytest.raises(ValueError, match="teeth = 12: the mating tip reaches inside"):
+    with pytest.raises(ValueError, match=r"teeth\.sun = 12: tips of the planets reach below"):
         pair_of(sun_planet_pair, Teeth(12, 60, 132))
     gear = SpurGear(30, MODULE, ALPHA)
     for held in (-0.5, 0.0, 1.0, 1.2):
