@@ -32,7 +32,11 @@ def build_app() -> typer.Typer:
             command = getattr(importlib.import_module(f"{__name__}.{module.name}"), module.name)
             app.command(name=module.name)(command)
     for entry in sorted(entry_points(group=GROUP), key=lambda entry: entry.name):
-        app.command(name=entry.name)(entry.load())
+        command = entry.load()
+        if isinstance(command, typer.Typer):
+            app.add_typer(command, name=entry.name)
+        else:
+            app.command(name=entry.name)(command)
     return app
 
 

@@ -27,6 +27,9 @@ setup(
         "planetary_twin.commands": [
             "run = planetary_twin.commands:run",
             "replay = planetary_twin.commands:replay",
+            "monitor = planetary_twin.steering:monitor",
+            "param = planetary_twin.steering:param",
+            "op = planetary_twin.steering:op",
         ],
     },
 )

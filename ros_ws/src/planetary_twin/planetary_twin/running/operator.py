@@ -2,86 +2,48 @@
 
 from __future__ import annotations
 
-import contextlib
-import threading
 import time
 from collections.abc import Callable, Mapping
-from types import TracebackType
-from typing import Any, Self
+from typing import Any
 
 import rclpy
 from diagnostic_msgs.msg import DiagnosticArray
 from lifecycle_msgs.srv import ChangeState, GetState
 from planetary_twin_msgs.msg import GearboxState, RecorderStatus
 from rcl_interfaces.srv import SetParametersAtomically
-from rclpy.client import Client
-from rclpy.executors import ExternalShutdownException, SingleThreadedExecutor
+from rclpy.client import Client as Service
 from rclpy.parameter import Parameter
-from rclpy.signals import SignalHandlerOptions
 
+from ..client import Client
 from .children import RunError
 
-_PATIENCE = 2.0  # [s] the answer to a first call after discovery may get lost: ask again
-_POLL = 0.02  # [s]
 _NODE = "simulation"
 _MACHINERY = ("/rosout", "/parameter_events")
 
 
-class Operator:
-    """A ROS node of its own beside the twin's two; `watch` is called while it waits.
+class Operator(Client):
+    """Beside the two nodes of a run.
 
     What it hears is kept as the newest `state`, `recorder` and real-time `figures`.
     """
 
     def __init__(self, namespace: str, watch: Callable[[], None]) -> None:
-        self._watch = watch
-        self._context = rclpy.Context()
-        # Signals stay Python's: they interrupt the waiting below, never a middleware call.
-        rclpy.init(context=self._context, signal_handler_options=SignalHandlerOptions.NO)
-        self._node = rclpy.create_node("operator", namespace=namespace, context=self._context)
-        self._namespace = self._node.get_namespace()
+        super().__init__("operator", namespace, watch)
         self.state: GearboxState | None = None
         self.recorder = RecorderStatus()
         self.figures: dict[str, str] = {}
-        listen = self._node.create_subscription
+        listen = self.node.create_subscription
         listen(GearboxState, "gearbox_state", self._hear_state, 10)
         listen(RecorderStatus, "logger/status", self._hear_recorder, 10)
         listen(DiagnosticArray, "/diagnostics", self._hear_diagnostics, 100)
         self._change = self._client(ChangeState, "change_state")
         self._get = self._client(GetState, "get_state")
         self._set = self._client(SetParametersAtomically, "set_parameters_atomically")
-        self._executor = SingleThreadedExecutor(context=self._context)
-        self._executor.add_node(self._node)
-        self._thread = threading.Thread(target=self._spin, name="operator", daemon=True)
-        self._thread.start()
 
-    def __enter__(self) -> Self:
-        return self
-
-    def __exit__(
-        self,
-        kind: type[BaseException] | None,
-        value: BaseException | None,
-        trace: TracebackType | None,
-    ) -> None:
-        self._context.try_shutdown()
-        self._thread.join()
-        self._node.destroy_node()
-
-    def wait(self, what: str, ready: Callable[[], bool], seconds: float) -> None:
+    def need(self, what: str, ready: Callable[[], Any], seconds: float) -> None:
         """Return as soon as `ready`; raises `RunError` naming `what` after `seconds`."""
-        if not self.wait_or_go_on(ready, seconds):
+        if not self.wait(ready, seconds):
             raise RunError(f"{what}: not within {seconds:g} s")
-
-    def wait_or_go_on(self, ready: Callable[[], bool], seconds: float) -> bool:
-        """As `wait`, but returns whether it came."""
-        deadline = time.monotonic() + seconds
-        while not ready():
-            if time.monotonic() > deadline:
-                return False
-            self._watch()
-            time.sleep(_POLL)
-        return True
 
     def next_state(self, after: float, seconds: float) -> GearboxState:
         """The newest state later than simulated time `after` [s], within `seconds`."""
@@ -91,18 +53,18 @@ class Operator:
             newest[:] = [self.state] if self.state is not None else []
             return bool(newest) and newest[0].simulated_time > after
 
-        self.wait("simulation: publishes its state", heard, seconds)
+        self.need("simulation: publishes its state", heard, seconds)
         return newest[0]
 
     def twins(self) -> int:
         """Simulations in this namespace, this run's own included."""
-        return self._node.get_node_names_and_namespaces().count((_NODE, self._namespace))
+        return self.node.get_node_names_and_namespaces().count((_NODE, self.namespace))
 
     def bring(self, transition: str, begin: str, goal: str, seconds: float) -> None:
         """Take the simulation through a lifecycle `transition` from state `begin` to `goal`."""
         deadline = time.monotonic() + seconds
         while time.monotonic() < deadline:
-            answer = self._call(self._get, GetState.Request())
+            answer = self.call(self._get, GetState.Request())
             if answer is None:
                 continue
             label = answer.current_state.label
@@ -111,9 +73,9 @@ class Operator:
             if label == begin:
                 request = ChangeState.Request()
                 request.transition.label = transition
-                reply = self._call(self._change, request, deadline - time.monotonic())
+                reply = self.call(self._change, request, deadline - time.monotonic())
                 if reply is not None and not reply.success:
-                    self._watch()
+                    self.watch()
                     raise RunError(f"simulation: refuses to {transition}")
         raise RunError(f"simulation: does not {transition} within {seconds:g} s")
 
@@ -125,7 +87,7 @@ class Operator:
             for name, value in values.items()
         ]
         for _ in range(3):
-            answer = self._call(self._set, request)
+            answer = self.call(self._set, request)
             if answer is not None:
                 if not answer.result.successful:
                     raise RunError(answer.result.reason)
@@ -135,7 +97,7 @@ class Operator:
     def topics(self) -> set[str]:
         """Topics the simulation publishes, without those of ROS itself."""
         try:
-            found = self._node.get_publisher_names_and_types_by_node(_NODE, self._namespace)
+            found = self.node.get_publisher_names_and_types_by_node(_NODE, self.namespace)
         except rclpy.node.NodeNameNonExistentError:
             return set()
         names = {name for name, _ in found}
@@ -150,22 +112,8 @@ class Operator:
             if key.startswith(prefix)
         }
 
-    def _client(self, kind: type, service: str) -> Client:
-        return self._node.create_client(kind, f"{_NODE}/{service}")
-
-    def _call(self, client: Client, request: Any, patience: float = _PATIENCE) -> Any:
-        """The answer, or None where there is none in time."""
-        if not self.wait_or_go_on(client.service_is_ready, patience):
-            return None
-        future = client.call_async(request)
-        if self.wait_or_go_on(future.done, patience):
-            return future.result()
-        client.remove_pending_request(future)
-        return None
-
-    def _spin(self) -> None:
-        with contextlib.suppress(ExternalShutdownException):
-            self._executor.spin()
+    def _client(self, kind: type, service: str) -> Service:
+        return self.node.create_client(kind, f"{_NODE}/{service}")
 
     def _hear_state(self, message: GearboxState) -> None:
         self.state = message
@@ -175,5 +123,5 @@ class Operator:
 
     def _hear_diagnostics(self, message: DiagnosticArray) -> None:
         for status in message.status:
-            if status.name == f"{_NODE}: real time" and status.hardware_id == self._namespace:
+            if status.name == f"{_NODE}: real time" and status.hardware_id == self.namespace:
                 self.figures = {item.key: item.value for item in status.values}

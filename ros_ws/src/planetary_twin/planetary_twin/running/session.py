@@ -103,7 +103,7 @@ def _bring_up(operator: Operator) -> None:
         topics = operator.topics()
         return bool(topics) and topics <= set(operator.recorder.topics)
 
-    operator.wait("logger: hears every topic of the simulation", heard, _START)
+    operator.need("logger: hears every topic of the simulation", heard, _START)
     _refuse_company(operator)
     operator.bring("activate", "inactive", "active", _START)
 
@@ -137,13 +137,13 @@ def _finish(operator: Operator) -> None:
     if operator.state is None:
         return
     operator.bring("deactivate", "active", "inactive", _END + 2.0)
-    operator.wait_or_go_on(lambda: operator.figures.get("state") == "stopped", _END)
+    operator.wait(lambda: operator.figures.get("state") == "stopped", _END)
 
     def written() -> bool:
         recorded = dict(zip(operator.recorder.topics, operator.recorder.recorded, strict=True))
         return all(recorded.get(name, 0) >= n for name, n in operator.published().items())
 
-    operator.wait_or_go_on(written, _END)
+    operator.wait(written, _END)
 
 
 @contextlib.contextmanager

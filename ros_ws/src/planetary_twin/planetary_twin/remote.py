@@ -1,0 +1,134 @@
+"""A running twin, as a command sees it: its parameters, its operating point, its time."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Mapping
+from typing import Any, NamedTuple
+
+from planetary_twin_msgs.srv import SetOperatingPoint
+from rcl_interfaces.msg import Parameter as ParameterMessage
+from rcl_interfaces.msg import ParameterType, ParameterValue
+from rcl_interfaces.srv import (
+    DescribeParameters,
+    GetParameters,
+    ListParameters,
+    SetParametersAtomically,
+)
+from rclpy.client import Client as Service
+from rclpy.parameter import parameter_value_to_python
+
+from planetary_twin_py import TUNABLES
+from planetary_twin_py.units import to_si
+
+from .client import PATIENCE, Client
+
+NODE = "simulation"
+_DISCOVERY = 5.0  # [s] longest wait for a twin to be found
+_TRIALS = 3
+# Parameters of rclpy and of topics, which are not the twin's.
+_MACHINERY = ("qos_overrides.", "use_sim_time", "start_type_description_service")
+
+
+class Setting(NamedTuple):
+    """A parameter of the twin."""
+
+    name: str
+    value: Any
+    fixed: bool
+    description: str
+    limits: str
+
+
+class Remote(Client):
+    """Asks the simulation in `namespace`.
+
+    Raises `ValueError` where there is none, or where it refuses.
+    """
+
+    def __init__(self, namespace: str) -> None:
+        os.environ.setdefault("ROS_AUTOMATIC_DISCOVERY_RANGE", "LOCALHOST")
+        super().__init__("remote", namespace)
+
+    def settings(self) -> list[Setting]:
+        """All parameters of the twin, by name."""
+        listed = self._ask(ListParameters, "list_parameters", ListParameters.Request())
+        names = sorted(n for n in listed.result.names if not n.startswith(_MACHINERY))
+        return self._described(names)
+
+    def setting(self, name: str) -> Setting:
+        """One of them."""
+        found = {setting.name: setting for setting in self.settings()}
+        if name not in found:
+            raise ValueError(f"{name}: no such parameter; there are {', '.join(found)}")
+        return found[name]
+
+    def set(self, name: str, typed: str) -> None:
+        """Set a parameter to what a user has typed, with or without a unit."""
+        request = SetParametersAtomically.Request(
+            parameters=[ParameterMessage(name=name, value=_message(in_si(name, typed)))]
+        )
+        answer = self._ask(SetParametersAtomically, "set_parameters_atomically", request)
+        if not answer.result.successful:
+            raise ValueError(answer.result.reason)
+
+    def operate(self, typed: Mapping[str, str]) -> float:
+        """Change several quantities at one simulated instant [s], which is returned."""
+        for name in typed:
+            if name not in TUNABLES:
+                raise ValueError(f"{name}: no such quantity; there are {', '.join(TUNABLES)}")
+        values = [in_si(name, value) for name, value in typed.items()]
+        request = SetOperatingPoint.Request(names=list(typed), values=values)
+        answer = self._ask(SetOperatingPoint, "set_operating_point", request)
+        if not answer.success:
+            raise ValueError(answer.message)
+        return float(answer.simulated_time)
+
+    def _described(self, names: list[str]) -> list[Setting]:
+        got = self._ask(GetParameters, "get_parameters", GetParameters.Request(names=names))
+        told = self._ask(
+            DescribeParameters, "describe_parameters", DescribeParameters.Request(names=names)
+        )
+        return [
+            Setting(
+                name,
+                parameter_value_to_python(value),
+                descriptor.read_only,
+                descriptor.description,
+                "".join(f"{r.from_value:g} to {r.to_value:g}" for r in
+                        descriptor.floating_point_range),
+            )
+            for name, value, descriptor in zip(names, got.values, told.descriptors, strict=True)
+        ]  # fmt: skip
+
+    def _ask(self, kind: type, service: str, request: Any) -> Any:
+        client: Service = self.node.create_client(kind, f"{NODE}/{service}")
+        try:
+            if not self.wait(client.service_is_ready, _DISCOVERY):
+                domain = os.environ.get("ROS_DOMAIN_ID", "0")
+                raise ValueError(
+                    f"no twin in {self.namespace} on ROS_DOMAIN_ID = {domain}: start one with "
+                    "`planetary-twin run`"
+                )
+            for _ in range(_TRIALS):
+                answer = self.call(client, request, PATIENCE)
+                if answer is not None:
+                    return answer
+        finally:
+            self.node.destroy_client(client)
+        raise ValueError(f"{self.namespace}/{NODE}/{service}: no answer")
+
+
+def in_si(name: str, typed: str) -> Any:
+    """What a user has typed for a parameter: a number where it is a quantity, else the text."""
+    try:
+        return to_si(typed, TUNABLES[name].unit) if name in TUNABLES else typed
+    except ValueError as refusal:
+        raise ValueError(f"{name} = {typed!r}: {refusal}") from None
+
+
+def _message(value: Any) -> ParameterValue:
+    """Text is for the node to read."""
+    if isinstance(value, float):
+        return ParameterValue(type=ParameterType.PARAMETER_DOUBLE, double_value=value)
+    return ParameterValue(type=ParameterType.PARAMETER_STRING, string_value=value)

@@ -1,0 +1,122 @@
+"""A twin is asked, changed and watched from a machine that has no `ros2` command."""
+
+from __future__ import annotations
+
+import math
+import subprocess
+import sys
+
+import pytest
+from planetary_twin.monitor import FIGURES, sparkline
+from planetary_twin_msgs.msg import GearboxState, OperatingPoint
+from rclpy.qos import DurabilityPolicy, QoSProfile
+
+from planetary_twin_py.cli import build_app
+
+from .conftest import Start
+from .peer import TWIN, Peer
+
+LATCHED = QoSProfile(depth=100, durability=DurabilityPolicy.TRANSIENT_LOCAL)
+COMMANDS = (
+    "import typer; from planetary_twin import steering; app = typer.Typer();"
+    " app.add_typer(steering.param, name='param'); app.command()(steering.op);"
+    " app.command()(steering.monitor); app()"
+)
+
+
+@pytest.fixture
+def points(peer: Peer, start: Start) -> list[OperatingPoint]:
+    """Operating points of a running simulation."""
+    start("planetary_twin.simulation")
+    points = peer.listen(OperatingPoint, f"{TWIN}/operating_point", LATCHED)
+    peer.until(lambda: points, 120.0)
+    return points
+
+
+def command(*arguments: str) -> subprocess.CompletedProcess[str]:
+    """What a command prints; it must not take long."""
+    return subprocess.run(
+        [sys.executable, "-c", COMMANDS, *arguments],
+        capture_output=True,
+        text=True,
+        timeout=60,
+        env=None,
+    )
+
+
+def test_values_may_have_units_and_what_was_set_is_told(
+    peer: Peer, points: list[OperatingPoint]
+) -> None:
+    answer = command("param", "set", "backlash", "0.3 um")
+    assert (answer.returncode, answer.stdout.strip()) == (0, "backlash = 3e-07"), answer.stderr
+    peer.until(lambda: points[-1].backlash == pytest.approx(3e-7))
+    assert command("param", "get", "backlash").stdout.strip() == "3e-07"
+    answer = command("op", "input_speed=2000 rpm", "lambda_ratio=1.5")
+    assert answer.returncode == 0 and answer.stdout.startswith("input_speed, lambda_ratio from ")
+    peer.until(lambda: points[-1].lambda_ratio == 1.5)
+    assert points[-1].input_speed == pytest.approx(2000 * math.pi / 30)
+    assert set(points[-1].changed.split(",")) == {"input_speed", "lambda_ratio"}
+
+
+def test_every_parameter_is_listed_with_its_range(points: list[OperatingPoint]) -> None:
+    listed = command("param", "list").stdout
+    for words in ("backlash", "0 to 0.001", "compute_share", "fixed", "publish_rate"):
+        assert words in listed
+    assert "qos_overrides" not in listed
+
+
+@pytest.mark.parametrize(
+    ("arguments", "told"),
+    [
+        (("param", "set", "backlash", "3"), "backlash"),
+        (("param", "set", "backlash", "3 kg"), "backlash"),
+        (("param", "set", "scene", "other"), "scene"),
+        (("param", "get", "gap"), "gap: no such parameter"),
+        (("op", "gap=1"), "gap: no such quantity"),
+        (("op", "backlash"), "NAME=VALUE"),
+        (("op", "input_torque=1e9"), "input_torque"),
+    ],
+)
+def test_nonsense_ends_in_one_line(
+    points: list[OperatingPoint], arguments: tuple[str, ...], told: str
+) -> None:
+    answer = command(*arguments)
+    assert answer.returncode == 1
+    assert len(answer.stderr.strip().splitlines()) == 1 and told in answer.stderr
+    assert len(points) == 1
+
+
+def test_where_no_twin_runs_a_command_says_so(domain: int) -> None:
+    for arguments in (("param", "list"), ("monitor",)):
+        answer = command(*arguments)
+        assert answer.returncode == 1 and "no twin" in answer.stderr, answer.stderr
+
+
+def test_the_monitor_shows_every_figure(points: list[OperatingPoint]) -> None:
+    answer = command("monitor", "--duration", "2.5")
+    assert answer.returncode == 0, answer.stderr
+    for figure in FIGURES:
+        assert figure.name in answer.stdout
+    assert answer.stdout.count("input speed") >= 2
+    assert "1000 " in answer.stdout and "mesh cycles" in answer.stdout
+
+
+def test_a_sparkline_rises_with_its_values_and_leaves_out_what_is_none() -> None:
+    assert sparkline([0.0, 7.0, math.nan, 3.5]) == "▁█ ▅"
+    assert sparkline([2.0, 2.0]) == "▁▁"
+    assert sparkline([math.nan]) == ""
+
+
+def test_figures_are_numbers_also_where_a_gearset_has_few_planets() -> None:
+    state = GearboxState(planets=2)
+    for name, kind in state.get_fields_and_field_types().items():
+        if kind == "double[7]":
+            getattr(state, name)[2:] = math.nan
+    assert all(math.isfinite(figure.value(state)) for figure in FIGURES)
+
+
+def test_the_commands_are_offered_on_the_command_line() -> None:
+    app = build_app()
+    names = {group.name for group in app.registered_groups}
+    assert "param" in names
+    assert {"op", "monitor"} <= {command.name for command in app.registered_commands}
