@@ -38,7 +38,9 @@ from event to event; near standstill ROS34PW2, a linearly implicit Runge-Kutta m
 takes over (`integrators/`). `tolerance` bounds the local error of a step relative to the static
 deflection of the meshes; in these cases the DTE error comes out at $least to $most times the
 tolerance. The default method, `auto`, does the same until steady running repeats itself, see below.
-$picture
+$picture$summary
+## All runs
+
 $table
 
 The cases: the scene `paper` with
@@ -83,8 +85,8 @@ def as_table(rows: Sequence[Row]) -> Table:
     return table
 
 
-def as_markdown(rows: Sequence[Row], picture: str | None = None) -> str:
-    """The page `docs/speed-and-accuracy.md`; `picture` is that of the same rows, beside it."""
+def as_markdown(rows: Sequence[Row], picture: str | None = None, summary: str = "") -> str:
+    """The page `docs/speed-and-accuracy.md`; `picture` and `summary` are of the same rows."""
     lines = [_TITLES, ("---",) * len(_TITLES), *(_cells(row) for row in rows)]
     own = [row for row in rows if row.method == METHOD]
     ratios = [row.error_ratio for row in own]
@@ -97,6 +99,7 @@ def as_markdown(rows: Sequence[Row], picture: str | None = None) -> str:
         relative=f"{RELATIVE:g}",
         whole=f"{WHOLE:g}",
         peers=_PEERS if any(row.method not in METHODS for row in rows) else "",
+        summary=summary,
         picture="" if picture is None else f"\n![Error against time]({picture})\n",
         table="\n".join("| " + " | ".join(cells) + " |" for cells in lines),
         cases="\n".join(f"- {case.name}: {_described(case)}" for case in CASES),

@@ -43,6 +43,7 @@ def bench(
     from ..benchmark.batch import batch_markdown, batch_table, measure_batch
     from ..benchmark.cases import CASES
     from ..benchmark.costs import cost_markdown, cost_tables, measure_costs
+    from ..benchmark.equal_error import equal_error_markdown
     from ..benchmark.peers.problem import Problem
     from ..benchmark.peers.work_precision import peer_rows
     from ..benchmark.report import as_markdown, as_table
@@ -71,7 +72,8 @@ def bench(
             fail(f"--plot = {str(plot)!r}: {error}")
     if markdown is not None:
         picture = os.path.relpath(plot, markdown.parent) if plot is not None else None
-        page = as_markdown(rows, picture) + steady_markdown(steady) + batch_markdown(batches)
+        page = as_markdown(rows, picture, equal_error_markdown(rows, steady))
+        page += steady_markdown(steady) + batch_markdown(batches)
         markdown.write_text(page + (cost_markdown(dear) if dear else ""), "utf-8")
     if json_ is not None:
         minutes = [row for row in steady if not math.isnan(row.repeats_from)]

@@ -1,0 +1,42 @@
+"""At equal error: the quickest run that is exact enough, and nothing made up where none is."""
+
+import math
+
+from planetary_twin_py.benchmark.equal_error import equal_error_markdown, fastest
+from planetary_twin_py.benchmark.steady import Steady
+from planetary_twin_py.benchmark.table import Row
+from planetary_twin_py.benchmark.timing import Speed
+
+
+def row(method, error, speed, note=""):
+    return Row("case", method, 1e-3, error, 0.0, speed, speed, speed, speed, 0.0, note=note)
+
+
+ROWS = [
+    row("march", 5e-4, 10.0),
+    row("march", 5e-5, 8.0),
+    row("cvode_bdf", 9e-4, 5.0),
+    row("cvode_adams_compiled", 2e-3, 50.0),
+    row("scipy_lsoda", 1e-5, 0.5),
+    row("rk4", 1e-9, 100.0),
+    row("semi_implicit_euler", math.nan, math.nan, "unstable"),
+]
+
+
+def test_the_quickest_of_those_exact_enough_counts():
+    assert fastest(ROWS, 1e-3, ("march",)) == 10.0
+    assert fastest(ROWS, 1e-4, ("march",)) == 8.0
+    assert fastest(ROWS, 1e-3, ("cvode",)) == 5.0
+    assert math.isnan(fastest(ROWS, 1e-4, ("cvode",)))
+
+
+def test_the_page_tells_speeds_and_ratios():
+    minute = Steady("case", 1e-3, 1.0, 2e-5, 0.0, Speed(300.0, 290.0, 310.0), 0.0)
+    page = equal_error_markdown(ROWS, [minute])
+    assert "| case | 1e-03 | 10 | 5 (2) | 0.5 (20) | - | 300 |" in page
+    assert "| case | 1e-04 | 8 | - | 0.5 (16) | - | 300 |" in page
+    assert "| case | 1e-06 | - | - | - | - | - |" in page
+
+
+def test_without_peers_there_is_nothing_to_compare():
+    assert equal_error_markdown(ROWS[:2], []) == ""
