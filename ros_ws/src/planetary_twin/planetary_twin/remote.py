@@ -22,6 +22,7 @@ from planetary_twin_py import TUNABLES
 from planetary_twin_py.units import to_si
 
 from .client import PATIENCE, Client
+from .network import stay_on_this_machine
 
 NODE = "simulation"
 _DISCOVERY = 5.0  # [s] longest wait for a twin to be found
@@ -47,7 +48,7 @@ class Remote(Client):
     """
 
     def __init__(self, namespace: str) -> None:
-        os.environ.setdefault("ROS_AUTOMATIC_DISCOVERY_RANGE", "LOCALHOST")
+        stay_on_this_machine()
         super().__init__("remote", namespace)
 
     def settings(self) -> list[Setting]:
