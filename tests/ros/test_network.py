@@ -12,6 +12,7 @@ import pytest
 
 from .conftest import Start
 from .peer import TWIN, Peer
+from .processes import working_in
 
 LOOPBACK = "0100007F"  # 127.0.0.1 in /proc/net
 
@@ -29,18 +30,6 @@ def sockets(process: int) -> set[str]:
             fields = line.split()
             if fields[9] in inodes:
                 found.add(fields[1].split(":")[0])
-    return found
-
-
-def nodes(folder: Path) -> list[int]:
-    """Processes that work in `folder`."""
-    found = []
-    for entry in Path("/proc").iterdir():
-        try:
-            if entry.name.isdigit() and (entry / "cwd").resolve(strict=True) == folder:
-                found.append(int(entry.name))
-        except OSError:
-            continue
     return found
 
 
@@ -66,7 +55,7 @@ def running(domain: int, tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
 
 
 def test_no_socket_of_a_run_hears_the_network(running: subprocess.Popen[str], tmp_path: Path):
-    processes = nodes(tmp_path)
+    processes = working_in(tmp_path)
     assert len(processes) >= 3  # the run, the simulation, the logger
     heard = set().union(*(sockets(process) for process in processes))
     assert heard == {LOOPBACK}
