@@ -99,6 +99,50 @@ def test_the_service_answers_with_the_instant_and_the_parameters_follow(
     assert len(points) == 2
 
 
+def test_a_ramp_reaches_the_values_in_just_the_time_asked_for(
+    peer: Peer, points: list[OperatingPoint]
+) -> None:
+    request = SetOperatingPoint.Request(
+        names=["lambda_ratio", "backlash"], values=[2.0, 4e-7], ramp=0.5
+    )
+    answer = peer.call(SetOperatingPoint, f"{NODE}/set_operating_point", request)
+    assert answer.success, answer.message
+    peer.until(lambda: points[-1].lambda_ratio == 2.0)
+    settled = len(points)
+    on_the_way = points[1:]
+    assert 45 <= len(on_the_way) <= 55
+    for point in on_the_way:
+        # A window holds from its beginning what the ramp has reached at its end.
+        share = min((point.simulated_time + 0.01 - answer.simulated_time) / 0.5, 1.0)
+        assert math.isclose(point.lambda_ratio, 1.0 + share, abs_tol=1e-9)
+        assert math.isclose(point.backlash, 2e-7 + 2e-7 * share, abs_tol=1e-15)
+    assert peer.get(NODE, "lambda_ratio") == 2.0
+    assert peer.set(NODE, lambda_ratio=1.0).successful
+    peer.until(lambda: len(points) == settled + 1)
+
+
+def test_what_is_set_meanwhile_leaves_its_ramp(peer: Peer, points: list[OperatingPoint]) -> None:
+    request = SetOperatingPoint.Request(
+        names=["lambda_ratio", "backlash"], values=[2.0, 4e-7], ramp=2.0
+    )
+    assert peer.call(SetOperatingPoint, f"{NODE}/set_operating_point", request).success
+    peer.until(lambda: len(points) > 5)
+    assert peer.set(NODE, lambda_ratio=0.5).successful
+    peer.until(lambda: points[-1].lambda_ratio == 0.5)
+    peer.until(lambda: points[-1].backlash == 4e-7)
+    assert points[-1].lambda_ratio == 0.5
+
+
+@pytest.mark.parametrize("ramp", [-1.0, math.nan, 1e6])
+def test_a_ramp_that_cannot_be_is_refused(
+    peer: Peer, points: list[OperatingPoint], ramp: float
+) -> None:
+    request = SetOperatingPoint.Request(names=["backlash"], values=[4e-7], ramp=ramp)
+    answer = peer.call(SetOperatingPoint, f"{NODE}/set_operating_point", request)
+    assert not answer.success and answer.message.startswith("ramp = ")
+    assert len(points) == 1
+
+
 def test_film_and_speed_follow_the_parameters(peer: Peer, points: list[OperatingPoint]) -> None:
     states = peer.listen(GearboxState, f"{TWIN}/gearbox_state")
     assert peer.set(NODE, lambda_ratio=2).successful

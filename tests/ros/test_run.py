@@ -17,6 +17,7 @@ from mcap.reader import make_reader
 from planetary_twin_py.scene import load_scene, parse_scene
 
 from .peer import TWIN
+from .processes import working_in
 from .recordings import counts
 
 COMMAND = (
@@ -39,19 +40,6 @@ def run(domain: int, tmp_path: Path) -> Callable[..., subprocess.Popen[str]]:
         )
 
     return start
-
-
-def _processes(tmp_path: Path) -> list[int]:
-    """Processes that work in `tmp_path`."""
-    found = []
-    for entry in Path("/proc").iterdir():
-        if entry.name.isdigit():
-            try:
-                if (entry / "cwd").resolve(strict=True) == tmp_path:
-                    found.append(int(entry.name))
-            except OSError:
-                continue
-    return found
 
 
 def _line(process: subprocess.Popen[str], text: str) -> None:
@@ -82,7 +70,7 @@ def test_a_run_records_every_message_it_publishes(
     assert attachment.name == "scene.yaml"
     assert parse_scene(attachment.data.decode()) == load_scene("paper")
     assert Path(tmp_path / figures["file"]).exists()
-    assert _processes(tmp_path) == []
+    assert working_in(tmp_path) == []
 
 
 def test_ctrl_c_leaves_a_readable_recording_and_the_table(
@@ -96,7 +84,7 @@ def test_ctrl_c_leaves_a_readable_recording_and_the_table(
     assert "Traceback" not in errors
     assert "published" in output
     assert counts(tmp_path / "recordings/bag")[f"{TWIN}/gearbox_state"] > 0
-    assert _processes(tmp_path) == []
+    assert working_in(tmp_path) == []
 
 
 @pytest.mark.parametrize("seconds", [0.9, 1.8, 2.7])
@@ -109,7 +97,7 @@ def test_ctrl_c_while_it_starts_leaves_nothing_running(
     _, errors = process.communicate(timeout=60)
     assert process.returncode == 0, errors
     assert "Traceback" not in errors
-    assert _processes(tmp_path) == []
+    assert working_in(tmp_path) == []
 
 
 @pytest.mark.parametrize("node", ["simulation", "logger"])
@@ -120,7 +108,7 @@ def test_the_death_of_a_node_ends_the_run_with_one_line(
     _line(process, "rpm")
     victim = next(
         pid
-        for pid in _processes(tmp_path)
+        for pid in working_in(tmp_path)
         if f"planetary_twin.{node}".encode() in Path(f"/proc/{pid}/cmdline").read_bytes()
     )
     os.kill(victim, signal.SIGKILL)
@@ -128,7 +116,7 @@ def test_the_death_of_a_node_ends_the_run_with_one_line(
     assert process.returncode == 1
     assert len(errors.strip().splitlines()) == 1
     assert node in errors
-    assert _processes(tmp_path) == []
+    assert working_in(tmp_path) == []
 
 
 def test_kill_minus_nine_of_the_run_takes_its_nodes_along(
@@ -139,7 +127,7 @@ def test_kill_minus_nine_of_the_run_takes_its_nodes_along(
     process.kill()
     process.communicate(timeout=60)
     deadline = time.monotonic() + 20.0
-    while _processes(tmp_path):
+    while working_in(tmp_path):
         assert time.monotonic() < deadline
         time.sleep(0.05)
     assert counts(tmp_path / "recordings/bag")[f"{TWIN}/gearbox_state"] > 0

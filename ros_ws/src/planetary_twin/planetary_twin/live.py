@@ -14,6 +14,7 @@ from planetary_twin_py import OperatingPoint, Twin, Window
 from planetary_twin_py.tolerance import AffordableTolerance
 
 from .pacing import Pace
+from .ramps import Ramps
 
 LONGEST_STEP = 10.0  # [s] that a paused twin makes at a time
 _ALERTNESS = 0.1  # [s] after which a paused twin looks whether it is to end
@@ -30,6 +31,9 @@ class Listener(Protocol):
 
     def changed(self, point: OperatingPoint, instant: float) -> None:
         """The operating point in force from simulated time `instant` [s] is a new one."""
+
+    def refused(self, reason: str) -> None:
+        """What was on its way to new values cannot go on, and stays where it is."""
 
     def retuned(self, instant: float, affordable: AffordableTolerance) -> None:
         """From simulated time `instant` [s] the tolerance is the one that is `affordable`."""
@@ -75,6 +79,7 @@ class LiveTwin:
         self._orders: queue.SimpleQueue[tuple[Callable[[], float], Future[float]]] = (
             queue.SimpleQueue()
         )
+        self._ramps = Ramps()
         self._paused = False
         self._stop = threading.Event()
         self._thread = threading.Thread(target=self._run, name="twin", daemon=True)
@@ -96,6 +101,10 @@ class LiveTwin:
     def submit(self, values: Mapping[str, float]) -> Future[float]:
         """Have `values` of the operating point set."""
         return self._order(lambda: self._set(values))
+
+    def ramp(self, values: Mapping[str, float], duration: float) -> Future[float]:
+        """Have `values` of the operating point reached in `duration` [s], interval by interval."""
+        return self._order(lambda: self._ramp(values, duration))
 
     def pause(self, paused: bool) -> Future[float]:
         """Have simulated time stand still, or go on."""
@@ -119,6 +128,7 @@ class LiveTwin:
             while not self._stop.is_set():
                 self._obey()
                 if not self._paused:
+                    self._follow_ramps()
                     self._listener.prepare(self._advance(self._interval))
                     self._pace.wait()
                     self._listener.publish()
@@ -151,10 +161,31 @@ class LiveTwin:
         return window
 
     def _set(self, values: Mapping[str, float]) -> float:
+        self._ramps.leave(values)
+        return self._change(values)
+
+    def _change(self, values: Mapping[str, float]) -> float:
         instant = self._twin.set(**values)
         self.affordable.relearn()
         self._listener.changed(self._twin.operating_point, instant)
         return instant
+
+    def _ramp(self, values: Mapping[str, float], duration: float) -> float:
+        point = self._twin.operating_point
+        first = {name: getattr(point, name) for name in values}
+        self._ramps.start(self._twin.time, duration, first, values)
+        return self._twin.time
+
+    def _follow_ramps(self) -> None:
+        """Set what is on its way to where it is at the end of the interval to come."""
+        values = self._ramps.values(self._twin.time + self._interval)
+        if not values:
+            return
+        try:
+            self._change(values)
+        except ValueError as refusal:  # the twin keeps its last good state
+            self._ramps.clear()
+            self._listener.refused(str(refusal))
 
     def _pause(self, paused: bool) -> float:
         if self._paused and not paused:
@@ -174,11 +205,13 @@ class LiveTwin:
         count = math.ceil(duration / self._interval - 1e-9)
         for n in range(count):
             left = duration - n * self._interval
+            self._follow_ramps()
             self._listener.prepare(self._advance(min(self._interval, left)))
             self._listener.publish()
         return self._twin.time
 
     def _restart(self, twin: Twin) -> float:
+        self._ramps.clear()
         twin.set_tolerance(self._twin.tolerance)
         self._twin = twin
         self._pace.start()

@@ -22,6 +22,7 @@ from planetary_twin_py import TUNABLES
 from planetary_twin_py.units import to_si
 
 from .client import PATIENCE, Client
+from .network import stay_on_this_machine
 
 NODE = "simulation"
 _DISCOVERY = 5.0  # [s] longest wait for a twin to be found
@@ -47,7 +48,7 @@ class Remote(Client):
     """
 
     def __init__(self, namespace: str) -> None:
-        os.environ.setdefault("ROS_AUTOMATIC_DISCOVERY_RANGE", "LOCALHOST")
+        stay_on_this_machine()
         super().__init__("remote", namespace)
 
     def settings(self) -> list[Setting]:
@@ -72,13 +73,15 @@ class Remote(Client):
         if not answer.result.successful:
             raise ValueError(answer.result.reason)
 
-    def operate(self, typed: Mapping[str, str]) -> float:
-        """Change several quantities at one simulated instant [s], which is returned."""
+    def operate(self, typed: Mapping[str, str], ramp: float = 0.0) -> float:
+        """Change several quantities at one simulated instant [s], which is returned, or have them
+        reached within `ramp` [s] from it.
+        """
         for name in typed:
             if name not in TUNABLES:
                 raise ValueError(f"{name}: no such quantity; there are {', '.join(TUNABLES)}")
         values = [in_si(name, value) for name, value in typed.items()]
-        request = SetOperatingPoint.Request(names=list(typed), values=values)
+        request = SetOperatingPoint.Request(names=list(typed), values=values, ramp=ramp)
         answer = self._ask(SetOperatingPoint, "set_operating_point", request)
         if not answer.success:
             raise ValueError(answer.message)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 from collections.abc import Mapping
 from typing import Any
 
@@ -10,6 +9,7 @@ from rich.console import Console
 from rich.progress import BarColumn, Progress, TextColumn
 
 from .managed import run_node
+from .network import stay_on_this_machine
 from .replay import Replay
 
 
@@ -44,8 +44,7 @@ class Bar:
 
 def replay_shown(parameters: Mapping[str, Any]) -> int:
     """Run a replay node with these parameters to its end; returns the exit code."""
-    # Discovery stays on this machine unless the user has said otherwise.
-    os.environ.setdefault("ROS_AUTOMATIC_DISCOVERY_RANGE", "LOCALHOST")
+    stay_on_this_machine()
     bar = Bar(Console())
 
     with bar.progress:

@@ -24,6 +24,7 @@ from planetary_twin_py.tolerance import (
 from .live import LiveTwin, Progress
 from .managed import ManagedNode, NodeError, run_node
 from .parameters import coerce, declare_bounded, declare_fixed, declare_tunable
+from .ramps import LONGEST_RAMP
 from .real_time import RealTimeReport
 from .telemetry import Telemetry
 from .time_services import TimeServices
@@ -49,6 +50,7 @@ class Simulation(ManagedNode):
         self._urdf = ""
         self._level = DiagnosticStatus.OK
         self._submitted: Future[float] | None = None
+        self._ramp = 0.0  # [s] in which what is being set is to be reached
         self._declare()
         self._telemetry = Telemetry(
             self, self._scene, self._frame, self._sample_rate, self._with_clock
@@ -110,6 +112,10 @@ class Simulation(ManagedNode):
     def goes_on(self, instant: float) -> None:
         """Let simulated time `instant` [s] be now."""
         self._telemetry.begin(self.get_clock().now().nanoseconds, instant)
+
+    def refused(self, reason: str) -> None:
+        """Say why a ramp has ended where it is."""
+        self.get_logger().warning(f"a ramp ends on its way: {reason}")
 
     def retuned(self, instant: float, affordable: AffordableTolerance) -> None:
         """Say which tolerance holds, and why."""
@@ -224,14 +230,16 @@ class Simulation(ManagedNode):
         if any(p.name == _TOLERANCE.name for p in parameters):
             self._live.affordable = self._affordable(self._running_twin().tolerance)
         values = _tunables(parameters)
-        if values:
+        if values and self._ramp > 0.0:
+            self._submitted = self._live.ramp(values, self._ramp)
+        elif values:
             self._submitted = self._live.submit(values)
 
     def _set_operating_point(
         self, request: SetOperatingPoint.Request, response: SetOperatingPoint.Response
     ) -> SetOperatingPoint.Response:
         try:
-            instant = self._change(request.names, request.values)
+            instant = self._change(request.names, request.values, request.ramp)
         except (ValueError, TimeoutError) as refusal:
             response.success, response.message = False, str(refusal)
             return response
@@ -242,8 +250,10 @@ class Simulation(ManagedNode):
         )
         return response
 
-    def _change(self, names: list[str], values: list[float]) -> float:
-        """Set parameters and wait for the instant [s] at which the twin follows."""
+    def _change(self, names: list[str], values: list[float], ramp: float) -> float:
+        """Set parameters and wait for the instant [s] at which the twin begins to follow."""
+        if not 0.0 <= ramp <= LONGEST_RAMP:
+            raise ValueError(f"ramp = {ramp:g} s: must be within 0 and {LONGEST_RAMP:g}")
         if len(names) != len(values) or not names:
             raise ValueError(f"{len(names)} names for {len(values)} values: one each, at least one")
         for name in names:
@@ -257,7 +267,11 @@ class Simulation(ManagedNode):
             Parameter(name, Parameter.Type.DOUBLE, value)
             for name, value in zip(names, values, strict=True)
         ]
-        result = self.set_parameters_atomically(parameters)
+        self._ramp = ramp
+        try:
+            result = self.set_parameters_atomically(parameters)
+        finally:
+            self._ramp = 0.0
         if not result.successful or self._submitted is None:
             raise ValueError(result.reason)
         return self._submitted.result(timeout=self._longest_wait)

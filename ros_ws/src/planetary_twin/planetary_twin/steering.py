@@ -72,12 +72,15 @@ def op(
     changes: Annotated[
         list[str], typer.Argument(metavar="NAME=VALUE...", help="In SI, or with a unit.")
     ],
+    ramp: Annotated[
+        float, typer.Option(help="Simulated seconds until they are reached.", min=0.0)
+    ] = 0.0,
     namespace: Namespace = NAMESPACE,
 ) -> None:
-    """Change several quantities of a running twin at one simulated instant."""
+    """Change several quantities of a running twin at one simulated instant, or from it on."""
     typed = dict(_pair(change) for change in changes)
     with _twin(namespace, "op") as twin:
-        instant = twin.operate(typed)
+        instant = twin.operate(typed, ramp)
         print(f"{', '.join(typed)} from {instant:g} s")
 
 

@@ -13,6 +13,7 @@ from rich.console import Console
 
 from planetary_twin_py.tolerance import AUTOMATIC
 
+from ..network import stay_on_this_machine
 from .children import Child, RunError
 from .operator import Operator
 from .outcome import Outcome, read_outcome
@@ -44,8 +45,7 @@ def run_session(plan: Plan, console: Console) -> Outcome:
 
     Raises `RunError` where a node fails.
     """
-    # Discovery stays on this machine unless the user has said otherwise.
-    os.environ.setdefault("ROS_AUTOMATIC_DISCOVERY_RANGE", "LOCALHOST")
+    stay_on_this_machine()
     logger = Child("logger", plan.namespace, _logger_parameters(plan))
     with logger:
         simulation = Child("simulation", plan.namespace, _simulation_parameters(plan))
