@@ -31,7 +31,7 @@ def test_the_quickest_of_those_exact_enough_counts():
 
 
 def test_the_page_tells_speeds_and_ratios():
-    minute = Steady("case", 1e-3, 1.0, 2e-5, 0.0, Speed(300.0, 290.0, 310.0), 0.0)
+    minute = Steady("case", 1e-3, 1.0, 0.0, 2e-5, 0.0, Speed(300.0, 290.0, 310.0), 0.0)
     page = equal_error_markdown(ROWS, [minute])
     assert "| case | 1e-03 | 10 | 5 (2) | 0.5 (20) | - | 300 |" in page
     assert "| case | 1e-04 | 8 | - | 0.5 (16) | - | 300 |" in page

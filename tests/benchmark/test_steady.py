@@ -18,8 +18,9 @@ def test_what_repeats_is_within_the_tolerance_and_a_minute_of_it_costs_little():
     (row,) = measure_steady([Case("smooth", RECTANGULAR | FRICTIONLESS, 0.01, 1)], [1e-3])
     assert 0.3 < row.repeats_from < 0.8
     assert 0.0 < row.error_dte < 1e-3
+    assert abs(row.late) < 1e-3
     assert row.speed.low <= row.speed.median <= row.speed.high
-    cells = f"| smooth | 1e-03 | {row.repeats_from:.2f} s | {row.error_dte:.1e} |"
+    cells = f"| smooth | 1e-03 | {row.repeats_from:.2f} s | {row.late:.0e} | {row.error_dte:.1e} |"
     assert cells in steady_markdown([row])
     figures = row.figures()
     assert figures["method"] == "auto" and figures["error_power_loss"] is None
