@@ -156,8 +156,8 @@ come back to where they began, they are not computed again (`integrators/repetit
 settle included. Errors are those of the last {COMPARED * 1e3:g} ms before {BY:g} s, against
 `{METHOD}` at tolerance {EXACT:g}. *late by*: mesh cycles. The speed loop makes good by an angle
 what friction is wrong by; with 3 Hz it is so soft that a loss wrong by 1e-6 is 3e-6 of a cycle.
-The DTE error is what this shift does not explain, as far as samples at {SAMPLE_RATE / 1e3:g} kHz resolve
-it: at 17 000 rpm there are six in a cycle.
+The DTE error is what this shift does not explain, as far as samples at
+{SAMPLE_RATE / 1e3:g} kHz resolve it: at 17 000 rpm there are six in a cycle.
 
 {body}
 """
