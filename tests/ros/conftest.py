@@ -11,8 +11,9 @@ from collections.abc import Callable, Iterator
 from pathlib import Path
 
 import pytest
+from planetary_twin_msgs.msg import OperatingPoint
 
-from .peer import Peer
+from .peer import LATCHED, TWIN, Peer
 
 _DOMAINS = itertools.count(os.getpid())
 
@@ -51,6 +52,15 @@ def start(domain: int, tmp_path: Path) -> Iterator[Start]:
         if process.poll() is None:
             process.send_signal(signal.SIGKILL)
         process.communicate()
+
+
+@pytest.fixture
+def points(peer: Peer, start: Start) -> list[OperatingPoint]:
+    """What a running simulation has published as its operating point."""
+    start("planetary_twin.simulation")
+    points = peer.listen(OperatingPoint, f"{TWIN}/operating_point", LATCHED)
+    peer.until(lambda: points, 120.0)
+    return points
 
 
 @pytest.fixture

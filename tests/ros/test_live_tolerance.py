@@ -10,16 +10,14 @@ from diagnostic_msgs.msg import DiagnosticArray
 from lifecycle_msgs.msg import Transition
 from lifecycle_msgs.srv import ChangeState
 from planetary_twin_msgs.msg import MeshWaveform, OperatingPoint
-from rclpy.qos import DurabilityPolicy, QoSProfile
 
 import planetary_twin_py as pt
 
 from .conftest import Start
-from .peer import TWIN, Peer
+from .peer import LATCHED, TWIN, Peer
 
 NODE = f"{TWIN}/simulation"
 SAMPLE_RATE = 5000
-LATCHED = QoSProfile(depth=100, durability=DurabilityPolicy.TRANSIENT_LOCAL)
 SINCE = "tolerance_from."
 
 

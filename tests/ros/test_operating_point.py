@@ -8,25 +8,14 @@ from pathlib import Path
 import pytest
 from planetary_twin_msgs.msg import GearboxState, OperatingPoint
 from planetary_twin_msgs.srv import SetOperatingPoint
-from rclpy.qos import DurabilityPolicy, QoSProfile
 
 import planetary_twin_py as pt
 
 from .conftest import Start
-from .peer import TWIN, Peer
+from .peer import LATCHED, TWIN, Peer
 
 ROOT = Path(__file__).parents[2]
 NODE = f"{TWIN}/simulation"
-LATCHED = QoSProfile(depth=100, durability=DurabilityPolicy.TRANSIENT_LOCAL)
-
-
-@pytest.fixture
-def points(peer: Peer, start: Start) -> list[OperatingPoint]:
-    """What a running simulation has published as its operating point."""
-    start("planetary_twin.simulation")
-    points = peer.listen(OperatingPoint, f"{TWIN}/operating_point", LATCHED)
-    peer.until(lambda: points, 120.0)
-    return points
 
 
 def test_a_number_may_be_typed_as_users_type_it(peer: Peer, points: list[OperatingPoint]) -> None:

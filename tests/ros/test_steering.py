@@ -9,28 +9,16 @@ import sys
 import pytest
 from planetary_twin.monitor import FIGURES, sparkline
 from planetary_twin_msgs.msg import GearboxState, OperatingPoint
-from rclpy.qos import DurabilityPolicy, QoSProfile
 
 from planetary_twin_py.cli import build_app
 
-from .conftest import Start
-from .peer import TWIN, Peer
+from .peer import Peer
 
-LATCHED = QoSProfile(depth=100, durability=DurabilityPolicy.TRANSIENT_LOCAL)
 COMMANDS = (
     "import typer; from planetary_twin import steering; app = typer.Typer();"
     " app.add_typer(steering.param, name='param'); app.command()(steering.op);"
     " app.command()(steering.monitor); app()"
 )
-
-
-@pytest.fixture
-def points(peer: Peer, start: Start) -> list[OperatingPoint]:
-    """Operating points of a running simulation."""
-    start("planetary_twin.simulation")
-    points = peer.listen(OperatingPoint, f"{TWIN}/operating_point", LATCHED)
-    peer.until(lambda: points, 120.0)
-    return points
 
 
 def command(*arguments: str) -> subprocess.CompletedProcess[str]:

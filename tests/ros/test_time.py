@@ -9,18 +9,17 @@ import pytest
 from diagnostic_msgs.msg import DiagnosticArray
 from planetary_twin_msgs.msg import GearboxState, MeshWaveform, OperatingPoint
 from planetary_twin_msgs.srv import NaturalModes, Step
-from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
+from rclpy.qos import QoSProfile, ReliabilityPolicy
 from rosgraph_msgs.msg import Clock
 from std_srvs.srv import SetBool, Trigger
 
 import planetary_twin_py as pt
 
 from .conftest import Start
-from .peer import TWIN, Peer
+from .peer import LATCHED, TWIN, Peer
 
 NODE = f"{TWIN}/simulation"
 INTERVAL = 0.01  # [s]
-LATCHED = QoSProfile(depth=100, durability=DurabilityPolicy.TRANSIENT_LOCAL)
 BEST_EFFORT = QoSProfile(depth=100, reliability=ReliabilityPolicy.BEST_EFFORT)
 
 

@@ -15,7 +15,8 @@ from rich.console import Console
 from rich.live import Live
 from rich.table import Table
 
-from .remote import NODE, Remote
+from .remote import Remote
+from .reports import real_time_figures
 
 _BARS = "▁▂▃▄▅▆▇█"
 _COURSE = 40  # looks that a course shows
@@ -120,9 +121,7 @@ class Monitor(Remote):
         self.state = message
 
     def _diagnose(self, message: DiagnosticArray) -> None:
-        for status in message.status:
-            if status.name == f"{NODE}: real time" and status.hardware_id == self.namespace:
-                self.report = {item.key: item.value for item in status.values}
+        self.report = real_time_figures(message, self.namespace) or self.report
 
 
 def watch(namespace: str, duration: float | None) -> None:

@@ -11,6 +11,7 @@ from planetary_twin_py import Change
 from planetary_twin_py.tolerance import AffordableTolerance
 
 from .live import Progress
+from .reports import REAL_TIME
 
 _TOLERATED_LAG = 0.01  # share of the wanted rate; below it the real-time factor is a warning
 _SHORTEST = 0.5  # [s] over less than this, one late wake-up would already look like a lag
@@ -53,7 +54,7 @@ class RealTimeReport:
         late = overruns > 0 or (lags and not stood and now.wall - self._last.wall >= _SHORTEST)
         status = DiagnosticStatus(
             level=DiagnosticStatus.WARN if late else DiagnosticStatus.OK,
-            name="simulation: real time",
+            name=REAL_TIME,
             message=f"falls behind: real time x {recent:.3f}, {overruns} overruns"
             if late
             else "keeps up",

@@ -15,6 +15,7 @@ from rclpy.client import Client as Service
 from rclpy.parameter import Parameter
 
 from ..client import Client
+from ..reports import real_time_figures
 from .children import RunError
 
 _NODE = "simulation"
@@ -122,6 +123,4 @@ class Operator(Client):
         self.recorder = message
 
     def _hear_diagnostics(self, message: DiagnosticArray) -> None:
-        for status in message.status:
-            if status.name == f"{_NODE}: real time" and status.hardware_id == self.namespace:
-                self.figures = {item.key: item.value for item in status.values}
+        self.figures = real_time_figures(message, self.namespace) or self.figures

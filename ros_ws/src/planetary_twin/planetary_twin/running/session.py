@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import contextlib
+import fcntl
 import os
 import signal
+import tempfile
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -46,6 +48,11 @@ def run_session(plan: Plan, console: Console) -> Outcome:
     Raises `RunError` where a node fails.
     """
     stay_on_this_machine()
+    with _alone(plan.namespace):
+        return _run(plan, console)
+
+
+def _run(plan: Plan, console: Console) -> Outcome:
     logger = Child("logger", plan.namespace, _logger_parameters(plan))
     with logger:
         simulation = Child("simulation", plan.namespace, _simulation_parameters(plan))
@@ -111,10 +118,38 @@ def _bring_up(operator: Operator) -> None:
 def _refuse_company(operator: Operator) -> None:
     """Raise `RunError` if the services may have answered for another run's simulation."""
     if operator.twins() > 1:
-        domain = os.environ.get("ROS_DOMAIN_ID", "0")
-        raise RunError(
-            f"another twin runs on ROS_DOMAIN_ID = {domain}: end it, or choose another domain"
-        )
+        raise RunError(_company())
+
+
+def _company() -> str:
+    return f"another twin runs on ROS_DOMAIN_ID = {_domain()}: end it, or choose another domain"
+
+
+def _domain() -> str:
+    return os.environ.get("ROS_DOMAIN_ID", "0")
+
+
+@contextlib.contextmanager
+def _alone(namespace: str) -> Iterator[None]:
+    """Raise `RunError` where a run of this user is under way in the same domain and namespace.
+
+    Discovery may take longer than a short run; a lock does not, and ends with its process.
+    """
+    name = f"planetary_twin_{os.getuid()}_{_domain()}{namespace.replace('/', '_')}.lock"
+    path = os.path.join(tempfile.gettempdir(), name)
+    lock = os.open(path, os.O_RDWR | os.O_CREAT | os.O_NOFOLLOW, 0o600)
+    try:
+        _take(lock)
+        yield
+    finally:
+        os.close(lock)
+
+
+def _take(lock: int) -> None:
+    try:
+        fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
+    except BlockingIOError:
+        raise RunError(_company()) from None
 
 
 def _drive(operator: Operator, plan: Plan, show: Show) -> None:

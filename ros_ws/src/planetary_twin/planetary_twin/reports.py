@@ -1,0 +1,17 @@
+"""What a simulation tells of itself in /diagnostics, as who listens finds it."""
+
+from __future__ import annotations
+
+from diagnostic_msgs.msg import DiagnosticArray
+
+REAL_TIME = "simulation: real time"
+
+
+def real_time_figures(message: DiagnosticArray, namespace: str) -> dict[str, str]:
+    """Figures of the twin in `namespace`; none if the message is of another."""
+    return {
+        item.key: item.value
+        for status in message.status
+        if status.name == REAL_TIME and status.hardware_id == namespace
+        for item in status.values
+    }
