@@ -55,20 +55,28 @@ if "NUMBA_CACHE_DIR" not in os.environ:
 
 def kernel(function: F) -> F:
     """Compile on first use, keep the machine code, release the interpreter lock."""
-    return _compiled(function, inline=False)
+    return _compiled(function)
 
 
 def law(function: F) -> F:
     """The same for a formula, which is merged into its caller so that loops over it vectorise."""
-    return _compiled(function, inline=True)
+    return _compiled(function, forceinline=True)
 
 
-def _compiled(function: F, inline: bool) -> F:
+def allocating(function: F) -> F:
+    """The same for a kernel that makes arrays of its own, which others do without.
+
+    Whoever makes none need not count who holds them: less to compile, and less to run.
+    """
+    return _compiled(function, _nrt=True)
+
+
+def _compiled(function: F, **special: bool) -> F:
     options = {
         "nopython": True,
         "nogil": True,
         "error_model": "numpy",
         "fastmath": _FAST,
-        "forceinline": inline,
+        "_nrt": False,
     }
-    return cast(F, Kernel(function, options))
+    return cast(F, Kernel(function, options | special))

@@ -1,12 +1,15 @@
-"""Copying a record as one block of memory."""
+"""Copying records and arrays, without what numba does to tell of arrays of different shapes."""
 
 from __future__ import annotations
 
 from typing import Any
 
+import numpy as np
 from llvmlite import ir
 from numba.core import cgutils, types
 from numba.extending import intrinsic
+
+from ._compile import law
 
 
 @intrinsic
@@ -24,3 +27,10 @@ def _overwrite(typingctx: Any, target: Any, source: Any) -> Any:
 
 # Lets its first argument hold what its second holds, a record of the same layout.
 overwrite: Any = _overwrite
+
+
+@law
+def copy_array(target: np.ndarray, source: np.ndarray) -> None:
+    """Let `target` (n,) hold what `source` (n,) holds."""
+    for i in range(len(target)):
+        target[i] = source[i]

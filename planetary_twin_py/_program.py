@@ -15,11 +15,15 @@ from contextlib import contextmanager
 from typing import Any
 
 from llvmlite.binding import Linkage
+from numba.core import typed_passes
+from numba.core import untyped_passes as passes
 from numba.core.codegen import JITCodeLibrary
-from numba.core.compiler import Compiler
+from numba.core.compiler import CompilerBase, DefaultPassBuilder
+from numba.core.compiler_machinery import PassManager
 from numba.core.environment import lookup_environment
 from numba.core.registry import CPUDispatcher
-from numba.core.types import unliteral
+from numba.core.types import Array, NestedArray, Record, unliteral
+from numba.extending import lower_cast
 
 
 class _Part(JITCodeLibrary):
@@ -52,7 +56,33 @@ class _Program(JITCodeLibrary):
                 self.codegen.set_env(variable.name, constants)
 
 
-class _PartCompiler(Compiler):
+# What numba does for Python that kernels are not written in: closures, `with`, unrolled tuples,
+# arguments that may be None, loops it would run on several cores. It takes a tenth of the time.
+_NEEDLESS = {
+    passes.WithLifting,
+    passes.InlineClosureLikes,
+    passes.DeadBranchPrune,
+    passes.RewriteDynamicRaises,
+    passes.MakeFunctionToJitFunction,
+    passes.InlineInlinables,
+    passes.FindLiterallyCalls,
+    passes.LiteralUnroll,
+    passes.LiteralPropagationSubPipelinePass,
+    typed_passes.InlineOverloads,
+    typed_passes.DumpParforDiagnostics,
+}
+
+
+class _KernelCompiler(CompilerBase):
+    def define_pipelines(self) -> Any:
+        usual = DefaultPassBuilder.define_nopython_pipeline(self.state)
+        pipeline = PassManager("kernel")
+        pipeline.passes = [one for one in usual.passes if one[0] not in _NEEDLESS]
+        pipeline.finalize()
+        return [pipeline]
+
+
+class _PartCompiler(_KernelCompiler):
     def define_pipelines(self) -> Any:
         state = self.state
         state.flags.no_compile = state.flags.no_cpython_wrapper = True
@@ -60,7 +90,7 @@ class _PartCompiler(Compiler):
         return super().define_pipelines()
 
 
-class _ProgramCompiler(Compiler):
+class _ProgramCompiler(_KernelCompiler):
     def define_pipelines(self) -> Any:
         state = self.state
         state.library = _Program(state.targetctx.codegen(), state.func_id.func_qualname)
@@ -76,7 +106,7 @@ class Program(CPUDispatcher):
         self.enable_caching()
 
     def compile(self, signature: Any) -> Any:
-        with _without_collection():  # takes a tenth of the time, and finds next to nothing
+        with _without_collection(), _with_short_names():
             return super().compile(signature)
 
 
@@ -92,9 +122,9 @@ class Kernel(CPUDispatcher):
         return self.program(*args)
 
     def get_call_template(self, args: Any, kws: Any) -> Any:
-        """A constant argument needs no code of its own: the program's optimiser finds it."""
-        plain = {name: unliteral(kind) for name, kind in kws.items()}
-        return super().get_call_template(tuple(map(unliteral, args)), plain)
+        """Constants and known lengths need no code of their own: the optimiser sees them."""
+        plain = {name: _plain(kind) for name, kind in kws.items()}
+        return super().get_call_template(tuple(map(_plain, args)), plain)
 
     def add_overload(self, result: Any) -> None:
         """Let kernels find the code; they know it by a key, for it has no address."""
@@ -103,9 +133,21 @@ class Kernel(CPUDispatcher):
         self.overloads[result.signature.args] = result._replace(entry_point=key)
 
 
+def _plain(kind: Any) -> Any:
+    """What an argument is apart from its value and its length."""
+    if isinstance(kind, NestedArray):
+        return Array(kind.dtype, kind.ndim, "C")
+    return unliteral(kind)
+
+
+@lower_cast(NestedArray, Array)
+def _forget_length(context: Any, builder: Any, known: Any, plain: Any, value: Any) -> Any:
+    return value
+
+
 @contextmanager
 def _without_collection() -> Iterator[None]:
-    """Let no garbage be collected."""
+    """Let no garbage be collected: it takes a tenth of the time, and finds next to nothing."""
     collecting = gc.isenabled()
     gc.disable()
     try:
@@ -113,3 +155,19 @@ def _without_collection() -> Iterator[None]:
     finally:
         if collecting:
             gc.enable()
+
+
+@contextmanager
+def _with_short_names() -> Iterator[None]:
+    """Let records be told by name.
+
+    numba describes the arguments of a function at every pass over it, in case someone listens:
+    records within records field by field, which takes another tenth of the time.
+    """
+    kind: Any = Record
+    describe = kind.__repr__
+    kind.__repr__ = lambda record: record.name
+    try:
+        yield
+    finally:
+        kind.__repr__ = describe

@@ -12,14 +12,14 @@ import numpy as np
 
 from ._records import AXES, Record, new_record
 from .dynamics.cycle import common_cycles, turns_per_cycle
-from .dynamics.energy import elastic, kinetic
+from .dynamics.energy import stored
 from .dynamics.equations import MODEL
 from .dynamics.oil import build_oil
 from .dynamics.start import build_load, start_state
 from .dynamics.static_load import mesh_force, static_torques
 from .dynamics.train import build_train, lightest_body
-from .integrators.clock import NEVER, delay, instant, sampling
-from .integrators.interpolant import Samples, new_samples, sample
+from .integrators.clock import NEVER, Sampling, instant, sampling
+from .integrators.interpolant import Samples, new_samples
 from .integrators.march import advance, begin_step, cut
 from .integrators.progress import AUTO, COLLOCATION, MARCH, ROSENBROCK
 from .integrators.radau import radau
@@ -66,9 +66,8 @@ class Engine:
 
     def _compile(self) -> None:
         """Have every kernel ready before the clock runs; at time zero none changes anything."""
-        self.advance(0.0, 1, 1.0, 0)
         begin_step(self.model, self.march)
-        self.sample(0.0)
+        self.advance(0.0, 1, 1.0, 0)
         self.stored()
         cut(self.model, self.march, instant(0.0))
 
@@ -118,16 +117,18 @@ class Engine:
         Returns `room` samples from number `first_sample` on. A time given as a fraction is exact
         however late it is.
         """
-        samples = new_samples(self.train, room)
-        at = sampling(first_sample, sample_rate)
+        samples = self._advance(until, sampling(first_sample, sample_rate), room)
+        return Samples(*(each[:room] for each in samples))
+
+    def _advance(self, until: float | Fraction, at: Sampling, room: int) -> Samples:
+        """The same, and a last sample at `until`."""
+        samples = new_samples(self.train, room + 1)
         advance(self.model, self.march, instant(until), NEVER, at, samples)
         return samples
 
     def sample(self, time: float | Fraction) -> Samples:
         """One sample at `time` [s], the end of the last window."""
-        samples = new_samples(self.train, 1)
-        sample(self.model, self.march, delay(self.march.begin, instant(time)), samples, 0)
-        return samples
+        return self._advance(time, sampling(1, 1.0), 0)
 
     def change(self, point: OperatingPoint, tolerance: float, time: float | Fraction) -> None:
         """Run on with these from `time` [s], the end of the last window."""
@@ -169,4 +170,5 @@ class Engine:
     def stored(self) -> tuple[float, float]:
         """Kinetic and elastic energy at `reached` [J]."""
         end = self.march.end
-        return float(kinetic(self.model, end)), float(elastic(self.model, end, self.march.aside))
+        moving, strained = stored(self.model, end, self.march.aside)
+        return float(moving), float(strained)

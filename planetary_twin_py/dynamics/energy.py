@@ -9,6 +9,12 @@ from .mesh_force import stored_energy
 
 
 @kernel
+def stored(model: Record, state: Record, moment: Record) -> tuple[float, float]:
+    """Kinetic and elastic energy of the train [J]; `moment` is room to work in."""
+    return kinetic(model, state), elastic(model, state, moment)
+
+
+@kernel
 def kinetic(model: Record, state: Record) -> float:
     """Kinetic energy of all bodies, machines included [J]."""
     train = model.train

@@ -12,6 +12,7 @@ import math
 import numpy as np
 
 from .._compile import kernel
+from .._overwrite import copy_array
 from .._records import BODIES, REAL, Record, layout
 from .bodies import MOTOR
 from .body_speed import body_speed
@@ -127,7 +128,7 @@ def drive(
 ) -> None:
     """All forces together: pushes of the meshes, friction and drag, couplings, machines."""
     train = model.train
-    out.force[:] = out.rubbing
+    copy_array(out.force, out.rubbing)
     for i in range(train.meshes):
         push = train.copies[i] * state.side[i] * out.now.push[i]
         for j in range(3):

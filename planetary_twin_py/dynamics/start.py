@@ -11,8 +11,9 @@ import math
 
 import numpy as np
 
+from .._cholesky import factorise, solve
 from .._compile import kernel
-from .._records import AXES, MACHINES, Record, new_record
+from .._records import AXES, BODIES, MACHINES, REAL, Record, layout, new_record
 from ..scene import OperatingPoint, Scene
 from .bodies import LOAD_MACHINE, MOTOR, SECOND_MOTOR
 from .cycle import find_segment, mesh_cycle
@@ -65,6 +66,13 @@ def _play(scene: Scene, point: OperatingPoint) -> tuple[float, float]:
     return half, half
 
 
+BALANCE = layout(
+    stiffness=(REAL, (BODIES, BODIES)),
+    force=(REAL, (BODIES,)),
+    evaluation=EVALUATION,
+)
+
+
 def start_state(scene: Scene, model: Record) -> Record:
     """The state in which a run begins, at time zero and motor angle zero."""
     train, load, axes = model.train, model.load, int(model.train.axes)
@@ -78,7 +86,8 @@ def start_state(scene: Scene, model: Record) -> Record:
     steady = model.copy()
     steady.load.ripple = 0.0
     steady.load.proportional[:] = 0.0
-    drag = _equilibrium(model, steady, state, moment, mean, new_record(EVALUATION))
+    room, drag = new_record(BALANCE), np.zeros(AXES)
+    _equilibrium(model, steady, state, moment, mean, room, drag)
     # In steady running the machines give what friction takes along each rigid motion.
     bodies = train.coupling[: train.machines, 0]
     effect = train.ratio[bodies, :axes].T @ load.trim_gain[: train.machines, :axes]
@@ -88,28 +97,33 @@ def start_state(scene: Scene, model: Record) -> Record:
 
 @kernel
 def _equilibrium(
-    model: Record, steady: Record, state: Record, moment: Record, mean: float, work: Record
-) -> np.ndarray:
-    """Put `state` into balance; return the mean drag of the `steady` model."""
-    drag = _mean_drag(steady, state, moment, mean, work)
-    _settle(model, state, moment, mean)
+    model: Record,
+    steady: Record,
+    state: Record,
+    moment: Record,
+    mean: float,
+    room: Record,
+    drag: np.ndarray,
+) -> None:
+    """Put `state` into balance; fill the mean drag (AXES,) of the `steady` model."""
+    _mean_drag(steady, state, moment, mean, room, drag)
+    _settle(model, state, moment, mean, room)
     _choose_sides(model, state, moment)
-    return drag
 
 
 @kernel
 def _mean_drag(
-    model: Record, state: Record, moment: Record, mean: float, work: Record
-) -> np.ndarray:
+    model: Record, state: Record, moment: Record, mean: float, room: Record, drag: np.ndarray
+) -> None:
     """Torques against the rigid motion of each motor [N m]: friction, all else being balanced.
 
     Means over a mesh cycle from motor angle zero, where `state` is left.
     """
     train = model.train
-    drag = np.zeros(AXES)
+    work = room.evaluation
     for point in range(CYCLE_POINTS):
         state.fraction[0] = point / (CYCLE_POINTS * abs(train.cycles[0]))
-        _settle(model, state, moment, mean)
+        _settle(model, state, moment, mean, room)
         moment.slew[:] = 0.0
         forces(model, state, moment, state.x, state.v, 0.0, state.trim, work)
         for a in range(train.axes):
@@ -117,11 +131,10 @@ def _mean_drag(
                 torque = work.force[j] * train.radius[j]
                 drag[a] -= train.ratio[j, a] * torque / CYCLE_POINTS
     state.fraction[0] = 0.0
-    return drag
 
 
 @kernel
-def _settle(model: Record, state: Record, moment: Record, mean: float) -> None:
+def _settle(model: Record, state: Record, moment: Record, mean: float, room: Record) -> None:
     """Choose x so that every mesh and coupling carries its mean load at the present motor angle.
 
     The couplings wind up by a good part of a mesh cycle, which moves the tooth pairs, whose
@@ -129,7 +142,7 @@ def _settle(model: Record, state: Record, moment: Record, mean: float) -> None:
     """
     for _ in range(SETTLING_PASSES):
         _place_pairs(model, state, moment)
-        _balance(model, state, moment, mean)
+        _balance(model, state, moment, mean, room)
     _place_pairs(model, state, moment)
 
 
@@ -159,15 +172,15 @@ def _choose_sides(model: Record, state: Record, moment: Record) -> None:
 
 
 @kernel
-def _balance(model: Record, state: Record, moment: Record, mean: float) -> None:
+def _balance(model: Record, state: Record, moment: Record, mean: float, room: Record) -> None:
     """Move x to where the forces on every body balance, the tooth pairs being those in contact.
 
     The motors stand still. More meshes than bodies are to carry the mean force: all of them do
     only if all are equally stiff at this angle.
     """
-    train, load = model.train, model.load
-    size = train.bodies + 1
-    stiffness, force = np.zeros((size, size)), np.zeros(size)
+    train, load, stiffness, force = model.train, model.load, room.stiffness, room.force
+    stiffness[:] = 0.0
+    force[:] = 0.0
     for i in range(train.meshes):
         k = mesh_stiffness(train, train.kind[i], state.segment[i], moment.start[i])
         d = deflection(train, moment, i, state.x, state.v, 0.0, 0.0)[0]
@@ -188,12 +201,12 @@ def _balance(model: Record, state: Record, moment: Record, mean: float) -> None:
         stiffness[member, member] += k
         stiffness[machine, member] -= k
         stiffness[member, machine] -= k
-    _hold(stiffness, force, train.bodies)
     for a in range(train.axes):
         _hold(stiffness, force, train.coupling[2 * a, 0])
-    moved = np.linalg.solve(stiffness, force)
+    factorise(stiffness, train.bodies)
+    solve(stiffness, train.bodies, force)
     for j in range(train.bodies):
-        state.x[j] += moved[j]
+        state.x[j] += force[j]
 
 
 @kernel

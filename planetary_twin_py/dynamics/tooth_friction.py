@@ -137,15 +137,15 @@ def collect_printed(
 
 @kernel
 def friction_damping(
-    train: Record, pairs: Record, force: np.ndarray, h: float, matrix: np.ndarray
+    train: Record, pairs: Record, force: np.ndarray, h: float, row: np.ndarray, matrix: np.ndarray
 ) -> None:
     """Add to `matrix` what friction adds to the damping matrix: slope dVs/dv dVs/dv^T.
 
     Large where little slides: at the pitch point, and for everything near standstill. Where the
     forces on the bodies would turn the sliding round within h seconds, the slope is that of the
     chord to rest: beside it the tangent is flat, and steps would throw the sliding to and fro.
+    `row` (3,) is room to work in.
     """
-    row = np.empty(3)
     for k in range(pairs.count):
         i = k % train.meshes
         rho1, rho2 = pairs.rho1[k], pairs.external[k] * pairs.rho2[k]

@@ -9,7 +9,7 @@ from __future__ import annotations
 import math
 
 from .._compile import kernel
-from .._overwrite import overwrite
+from .._overwrite import copy_array, overwrite
 from .._records import Record
 from ..dynamics.equations import drive, squeeze
 from ..dynamics.mesh_force import move_meshes
@@ -68,8 +68,8 @@ def collocated_step(model: Record, march: Record, longest: float, event: float, 
     end_within(model, march, h)
     if mesh != NO_MESH and h == event:
         _meet_edge(model, march, mesh, h)
-    march.last.power[:] = run.evaluation[order - 1].power
-    march.last.rubbing[:] = run.evaluation[order - 1].rubbing
+    copy_array(march.last.power, run.evaluation[order - 1].power)
+    copy_array(march.last.rubbing, run.evaluation[order - 1].rubbing)
     return _end_on_flank_event(model, march, h)
 
 
@@ -89,7 +89,7 @@ def hold_friction(model: Record, march: Record) -> None:
     begin, moment, first = march.begin, march.moment, march.first
     move_meshes(model.train, begin.x, begin.v, first.now)
     squeeze(model, begin, moment, begin.x, begin.v, 0.0, first)
-    first.rubbing[:] = march.last.rubbing
+    copy_array(first.rubbing, march.last.rubbing)
     drive(model, begin, moment, begin.x, begin.v, 0.0, begin.trim, first)
 
 
@@ -100,8 +100,9 @@ def end_within(model: Record, march: Record, h: float) -> None:
     overwrite(end, begin)
     if h == march.run.motion.step:
         last = march.run.nodes.count - 1
-        end.x[:], end.v[:] = march.run.node_x[last], march.run.node_v[last]
-        end.trim[:] = march.run.node_trim[last]
+        copy_array(end.x, march.run.node_x[last])
+        copy_array(end.v, march.run.node_v[last])
+        copy_array(end.trim, march.run.node_trim[last])
     else:
         propagate(model, march, h, end.x, end.v)
         trim_at(model, march, h, end.x, end.trim)

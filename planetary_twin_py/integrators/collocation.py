@@ -12,6 +12,7 @@ import math
 
 from .._combine import combine
 from .._compile import kernel
+from .._overwrite import copy_array
 from .._records import Record
 from ..dynamics.equations import drive, rub, squeeze
 from .memory import recall
@@ -33,7 +34,7 @@ def collocate(model: Record, march: Record, h: float, fresh: bool) -> tuple[floa
     train, run = model.train, march.run
     set_step(run, train.lanes, h)
     for n in range(run.nodes.count):
-        run.evaluation[n].rubbing[:] = march.first.rubbing
+        copy_array(run.evaluation[n].rubbing, march.first.rubbing)
     if fresh:
         recall(train, march)
     visit_nodes(model, march)

@@ -12,7 +12,7 @@ import math
 
 import numpy as np
 
-from .._compile import kernel
+from .._compile import allocating, kernel
 from .._records import BODIES, MESHES, REAL, SMALL, WHOLE, Record, layout
 from ..dynamics.mesh_force import mesh_stiffness
 from ..dynamics.state import OPEN
@@ -93,7 +93,7 @@ def _search(train: Record, state: Record, known: Record, key: tuple[int, int]) -
     return n
 
 
-@kernel
+@allocating
 def _solve_modes(train: Record, state: Record, known: Record, n: int) -> None:
     bodies = train.bodies
     known.step[n] = known.past_step[n] = 0.0
@@ -122,7 +122,7 @@ def _solve_modes(train: Record, state: Record, known: Record, n: int) -> None:
             known.shaft_damping[n, m] += train.coupling_damping[c] * twist * twist
 
 
-@kernel
+@allocating
 def _stiffness_matrix(
     train: Record, state: Record, known: Record, n: int, scale: np.ndarray
 ) -> np.ndarray:

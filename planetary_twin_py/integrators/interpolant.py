@@ -8,6 +8,7 @@ from typing import NamedTuple
 import numpy as np
 
 from .._compile import kernel
+from .._overwrite import copy_array
 from .._records import AXES, Record
 from ..dynamics.body_speed import body_speed
 from ..dynamics.drag import apply_drag
@@ -29,9 +30,11 @@ def interpolate(model: Record, march: Record, delay: float) -> None:
     if march.control.collocated:
         propagate(model, march, delay, dense.x, dense.v)
     elif delay <= SHORTEST_STEP:
-        dense.x[:], dense.v[:] = begin.x, begin.v
+        copy_array(dense.x, begin.x)
+        copy_array(dense.v, begin.v)
     elif delay >= h - SHORTEST_STEP:
-        dense.x[:], dense.v[:] = end.x, end.v
+        copy_array(dense.x, end.x)
+        copy_array(dense.v, end.v)
     else:
         step(model, begin, march.moment, delay, march.first, dense, march.work)
 
@@ -71,7 +74,7 @@ def sample(model: Record, march: Record, delay: float, out: Samples, row: int) -
         work.power[:] = 0.0
         apply_drag(model, begin, march.dense.v, work)
         out.drag[row, 0], out.drag[row, 1] = work.power[BEARING], work.power[CHURNING]
-    out.turns[row] = begin.turns
+    copy_array(out.turns[row], begin.turns)
     for j in range(train.bodies):
         out.angle[row, j] = march.dense.x[j] / train.radius[j]
         out.speed[row, j] = body_speed(train, begin, march.dense.v, j)

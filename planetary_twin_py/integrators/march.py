@@ -82,17 +82,18 @@ def accept(model: Record, march: Record, mesh: int) -> None:
 def advance(
     model: Record, march: Record, until: Instant, bound: Instant, samples: Sampling, out: Samples
 ) -> None:
-    """Integrate to `until`, and fill `out` with `samples`, none of them later.
+    """Integrate to `until`, and fill `out` with `samples`, none of them later, and one at `until`.
 
     No step that is made passes `bound`.
     """
-    taken, room = 0, len(out.turns)
+    taken, room = 0, len(out.turns) - 1
     while True:
         while taken < room and delay(march.end, due(samples)) <= 0.0:
             sample(model, march, delay(march.begin, due(samples)), out, taken)
             samples = after(samples)
             taken += 1
         if taken == room and delay(march.end, until) <= 0.0:
+            sample(model, march, delay(march.begin, until), out, room)
             return
         if march.repetition.playing:
             play(model, march, due(samples) if taken < room else until)
@@ -112,7 +113,7 @@ def cut(model: Record, march: Record, until: Instant) -> None:
         march.end = march.begin
         march.control.changed = True
         close = Instant(until.seconds, until.time - SHORTEST_STEP)
-        advance(model, march, close, until, sampling(0, 1.0), new_samples(model.train, 0))
+        advance(model, march, close, until, sampling(0, 1.0), new_samples(model.train, 1))
         forget(march)
     march.end.seconds, march.end.time = until.seconds, until.time
     march.control.changed = True

@@ -13,6 +13,7 @@ import numpy as np
 
 from .._combine import combine, combine_both
 from .._compile import kernel, law
+from .._overwrite import copy_array
 from .._records import AXES, BODIES, MESHES, REAL, SMALL, WHOLE, Record, layout
 from ..dynamics.equations import EVALUATION
 from ..dynamics.state import DAMPING, LEDGER
@@ -237,7 +238,7 @@ def integrate_powers(march: Record, lanes: int, h: float) -> None:
     By quadrature at the nodes; what damping takes from modes that swing is known exactly.
     """
     run, end = march.run, march.end
-    end.energy[:] = march.begin.energy
+    copy_array(end.energy, march.begin.energy)
     t, last, lost = h / run.motion.step, run.nodes.count - 1, 0.0
     for n in range(run.nodes.count):
         weight, u = 0.0, run.motion.step

@@ -13,7 +13,7 @@ from __future__ import annotations
 import math
 
 from .._compile import kernel
-from .._overwrite import overwrite
+from .._overwrite import copy_array, overwrite
 from .._records import BODIES, FLAG, REAL, WHOLE, Record, layout
 from ..dynamics.body_speed import body_speed
 from ..dynamics.equations import forces
@@ -164,8 +164,8 @@ def _record(march: Record) -> None:
     _keep(repetition.start, march.begin, step.begin)
     _keep(repetition.start, march.end, step.end)
     step.collocated = march.control.collocated
-    step.power[:] = march.last.power
-    step.rubbing[:] = march.last.rubbing
+    copy_array(step.power, march.last.power)
+    copy_array(step.rubbing, march.last.rubbing)
     overwrite(step.motion, march.run.motion)
     repetition.steps = place + 1
     repetition.known = known.count
@@ -177,7 +177,8 @@ def _keep(start: Record, state: Record, place: Record) -> None:
     overwrite(place.state, state)
     place.after = delay(start, _now(state))
     place.turned = state.turns[0] - start.turns[0] + (state.fraction[0] - start.fraction[0])
-    place.energy[:] = state.energy - start.energy
+    for e in range(LEDGER):
+        place.energy[e] = state.energy[e] - start.energy[e]
 
 
 @kernel
@@ -213,8 +214,8 @@ def play(model: Record, march: Record, until: Instant) -> None:
         step.collocated,
         step.end.after - step.begin.after,
     )
-    march.last.power[:] = step.power
-    march.last.rubbing[:] = step.rubbing
+    copy_array(march.last.power, step.power)
+    copy_array(march.last.rubbing, step.rubbing)
     overwrite(march.run.motion, step.motion)
     begin, moment = march.begin, march.moment
     set_moment(model, begin, moment)
@@ -227,7 +228,8 @@ def _begin_cycle(repetition: Record) -> None:
     """Move the start on by a cycle; the motor's turns are counted in whole parts."""
     start, whole = repetition.start, repetition.whole
     run_on(start, start, whole.after)
-    start.energy += whole.energy
+    for e in range(LEDGER):
+        start.energy[e] += whole.energy[e]
     repetition.part += repetition.numerator if whole.turned > 0.0 else -repetition.numerator
     turns = repetition.part // repetition.denominator
     repetition.part -= turns * repetition.denominator
@@ -244,4 +246,5 @@ def _stand(repetition: Record, place: Record, state: Record) -> None:
     turns = start.fraction[0] + place.turned + repetition.part / repetition.denominator
     state.turns[0] = start.turns[0] + math.floor(turns)
     state.fraction[0] = turns - math.floor(turns)
-    state.energy[:] = start.energy + place.energy
+    for e in range(LEDGER):
+        state.energy[e] = start.energy[e] + place.energy[e]

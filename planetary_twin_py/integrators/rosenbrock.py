@@ -12,11 +12,11 @@ factorisation of M/(gamma h) + C + gamma h K per step.
 
 from __future__ import annotations
 
-import math
-
 import numpy as np
 
+from .._cholesky import factorise, solve
 from .._compile import kernel
+from .._overwrite import copy_array
 from .._records import AXES, BODIES, MACHINES, REAL, Record, layout
 from ..dynamics.body_speed import body_speed
 from ..dynamics.cycle import cycle_shift
@@ -76,6 +76,7 @@ WORKSPACE = layout(
     trim_rate=(REAL, (STAGES, AXES)),
     stiffness=(REAL, (BODIES, BODIES)),  # K
     system=(REAL, (BODIES, BODIES)),  # factorised
+    row=(REAL, (3,)),  # of the friction of a tooth pair
     drift=(REAL, (BODIES,)),  # of the forces with time at rest [N/s]
     evaluation=EVALUATION,  # of the stage at hand
     error_x=(REAL, (BODIES,)),  # local error of x [m]
@@ -117,39 +118,9 @@ def _assemble(
         add_outer(work.stiffness, train.coupling[c], _ENDS, k)
         add_outer(work.system, train.coupling[c], _ENDS, train.coupling_damping[c] + step * k)
     if train.friction:
-        friction_damping(train, first.pairs, first.force, h, work.system)
+        friction_damping(train, first.pairs, first.force, h, work.row, work.system)
     for j in range(train.bodies + 1):
         work.system[j, j] += train.mass[j] / step
-
-
-@kernel
-def _factorise(a: np.ndarray, n: int) -> None:
-    """Cholesky factor of the leading n x n part, in the lower triangle; inverse diagonal."""
-    for j in range(n):
-        pivot = a[j, j]
-        for k in range(j):
-            pivot -= a[j, k] * a[j, k]
-        inverse = 1.0 / math.sqrt(pivot)
-        a[j, j] = inverse
-        for i in range(j + 1, n):
-            value = a[i, j]
-            for k in range(j):
-                value -= a[i, k] * a[j, k]
-            a[i, j] = value * inverse
-
-
-@kernel
-def _solve(a: np.ndarray, n: int, b: np.ndarray) -> None:
-    for i in range(n):
-        value = b[i]
-        for k in range(i):
-            value -= a[i, k] * b[k]
-        b[i] = value * a[i, i]
-    for i in range(n - 1, -1, -1):
-        value = b[i]
-        for k in range(i + 1, n):
-            value -= a[k, i] * b[k]
-        b[i] = value * a[i, i]
 
 
 @kernel
@@ -197,7 +168,7 @@ def _stage(
         for k in range(bodies):
             value -= work.stiffness[j, k] * work.rx[k] / g
         right[j] = value
-    _solve(work.system, bodies - 1, right)
+    solve(work.system, bodies - 1, right)
     right[bodies - 1] = 0.0
     for j in range(bodies):
         work.ux[i, j] = (work.rx[j] + right[j]) / g
@@ -220,13 +191,13 @@ def step(
     are left in `work`. Sides and segments stay those of `state`.
     """
     _assemble(model, state, moment, h, first, work)
-    _factorise(work.system, model.train.bodies)
+    factorise(work.system, model.train.bodies)
     work.energy[:] = work.way[:] = 0.0
-    new.x[:] = state.x
-    new.v[:] = state.v
+    copy_array(new.x, state.x)
+    copy_array(new.v, state.v)
     work.error_x[:] = 0.0
     work.error_v[:] = 0.0
-    new.trim[:] = state.trim
+    copy_array(new.trim, state.trim)
     for i in range(STAGES):
         _stage(model, state, moment, h, i, first, work)
         for a in range(model.train.axes):

@@ -9,10 +9,11 @@ from __future__ import annotations
 import math
 
 from .._compile import kernel
-from .._overwrite import overwrite
+from .._overwrite import copy_array, overwrite
 from .._records import Record
 from ..dynamics.equations import forces
 from ..dynamics.mesh_force import mesh_motion
+from ..dynamics.state import LEDGER
 from ..dynamics.tooth_friction import copy_friction
 from .edges import planned
 from .flanks import at_event, first_flank_event
@@ -33,8 +34,8 @@ def stiff_step(model: Record, march: Record, longest: float, event: float) -> in
         control.evaluations += 1
         control.changed = False
     else:  # forces do not depend on the frame in which x is measured
-        march.first.force[:] = march.last.force
-        march.first.power[:] = march.last.power
+        copy_array(march.first.force, march.last.force)
+        copy_array(march.first.power, march.last.power)
         copy_friction(march.last.pairs, march.first.pairs)
     control.collocated = False
     h = min(planned(event, min(control.next_stiff, longest), 1.0), longest)
@@ -69,7 +70,8 @@ def _try(model: Record, march: Record, h: float) -> None:
     overwrite(end, begin)
     step(model, begin, march.moment, h, march.first, end, march.work)
     pass_time(model, march, h)
-    end.energy[:] = begin.energy + march.work.energy
+    for e in range(LEDGER):
+        end.energy[e] = begin.energy[e] + march.work.energy[e]
     forces(model, begin, march.moment, end.x, end.v, h, end.trim, march.last)
     march.control.evaluations += 4
 

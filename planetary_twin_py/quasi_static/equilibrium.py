@@ -14,6 +14,7 @@ import math
 import numpy as np
 
 from .._compile import kernel, law
+from .._overwrite import copy_array
 from .._records import AXES, BODIES, MACHINES, MESHES, REAL, WHOLE, Record, layout
 from ..dynamics.bodies import LOAD_MACHINE, MOTOR, SECOND_MOTOR
 from ..dynamics.body_speed import body_speed
@@ -268,7 +269,7 @@ def _keeps_sides(train: Record, run: Record, shown: np.ndarray, slack: float) ->
 def _rubs_as_before(model: Record, run: Record, shown: np.ndarray, slack: float) -> bool:
     """Whether friction and drag of these forces are those the forces were found with."""
     evaluation, still = run.evaluation, True
-    run.before[:] = evaluation.rubbing
+    copy_array(run.before, evaluation.rubbing)
     evaluation.power[:] = 0.0
     for i in range(model.train.meshes):
         evaluation.now.push[i] = abs(run.force[i])

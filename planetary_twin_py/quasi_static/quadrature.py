@@ -11,7 +11,7 @@ import math
 
 import numpy as np
 
-from .._compile import kernel
+from .._compile import allocating, kernel
 from .._records import Record
 from ..dynamics.cycle import frame_cycle
 from ..dynamics.moment import frame_cycle_rate
@@ -55,7 +55,7 @@ def _lost(energy: np.ndarray) -> float:
     return energy[FRICTION] + energy[BEARING] + energy[CHURNING]
 
 
-@kernel
+@allocating
 def divide_cycle(
     model: Record,
     tolerance: float,
@@ -145,7 +145,7 @@ def _step(model: Record, state: Record, edges: np.ndarray) -> float:
     return step
 
 
-@kernel
+@allocating
 def march(
     model: Record,
     tolerance: float,

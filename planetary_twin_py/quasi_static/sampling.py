@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 
 from .._compile import kernel
+from .._overwrite import copy_array
 from .._records import Record
 from ..dynamics.body_speed import body_speed
 from ..dynamics.state import BEARING, CHURNING
@@ -30,7 +31,7 @@ def sample(
     settle(model, tolerance, run, out.mesh[row])
     out.drag[row, 0] = run.evaluation.power[BEARING]
     out.drag[row, 1] = run.evaluation.power[CHURNING]
-    out.turns[row] = state.turns
+    copy_array(out.turns[row], state.turns)
     for j in range(train.bodies):
         out.speed[row, j] = body_speed(train, state, state.v, j)
         out.angle[row, j] = 0.0

@@ -79,11 +79,11 @@ class Oscillator:
         rate = PER_PERIOD * self.ratio / (2.0 * math.pi)
         first = math.ceil((self.march.end.seconds + self.march.end.time) * rate) + 1
         count = periods * PER_PERIOD
-        samples = new_samples(self.model.train, count)
+        samples = new_samples(self.model.train, count + 1)
         until = instant((first + count) / rate)
         advance(self.model, self.march, until, NEVER, sampling(first, rate), samples)
         angle = 2.0 * math.pi * samples.turns[:, 0] + samples.angle[:, MOTOR]
-        return samples.mesh[:, 0, 0] - self.error * np.sin(angle)
+        return (samples.mesh[:, 0, 0] - self.error * np.sin(angle))[:count]
 
     def settled(self, periods=60, measured=10):
         """Squeeze over some periods after the transient of `periods` has died out."""

@@ -15,7 +15,7 @@ import math
 
 import numpy as np
 
-from ..._compile import kernel
+from ..._compile import allocating, kernel
 from ..._records import Record, layout
 from ...dynamics.body_speed import body_speed
 from ...dynamics.contact_events import departure
@@ -104,7 +104,7 @@ def repeat(problem: np.ndarray, step: float, y: np.ndarray, dy: np.ndarray, coun
         derivative(problem[0], k * step, y, dy)
 
 
-@kernel
+@allocating
 def show(problem: np.ndarray, times: np.ndarray, states: np.ndarray, out: np.ndarray) -> float:
     """Fill out[k, i] with the transmission error [m] of mesh i in state k; mean power loss [W]."""
     own, lost = problem[0], 0.0

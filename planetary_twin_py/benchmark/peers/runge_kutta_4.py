@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..._compile import kernel
+from ..._compile import allocating
 from ..._records import Record
 from .equations import derivative
 
 
-@kernel
+@allocating
 def march(
     problem: np.ndarray, times: np.ndarray, steps: int, y: np.ndarray, samples: np.ndarray
 ) -> None:
@@ -22,7 +22,7 @@ def march(
         samples[k] = y
 
 
-@kernel
+@allocating
 def _step(problem: Record, t: float, h: float, y: np.ndarray, stages: np.ndarray) -> None:
     k1, k2, k3, k4, inner = stages[0], stages[1], stages[2], stages[3], stages[4]
     derivative(problem, t, y, k1)

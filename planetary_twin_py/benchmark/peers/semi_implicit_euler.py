@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..._compile import kernel
+from ..._compile import allocating
 from .equations import derivative
 
 
-@kernel
+@allocating
 def march(
     problem: np.ndarray, times: np.ndarray, steps: int, y: np.ndarray, samples: np.ndarray
 ) -> None:
