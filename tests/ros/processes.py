@@ -1,7 +1,10 @@
-"""Which processes there are."""
+"""Which processes there are, and what they listen on."""
 
 from __future__ import annotations
 
+import os
+import re
+import socket
 from pathlib import Path
 
 
@@ -15,3 +18,35 @@ def working_in(folder: Path) -> list[int]:
         except OSError:
             continue
     return found
+
+
+def bound_addresses(process: int) -> set[str]:
+    """Addresses of the Internet sockets that a process holds."""
+    place = Path(f"/proc/{process}")
+    held = {
+        match[1] for path in (place / "fd").iterdir() if (match := _SOCKET.match(_target(path)))
+    }
+    found = set()
+    for family, tables in ((socket.AF_INET, ("udp", "tcp")), (socket.AF_INET6, ("udp6", "tcp6"))):
+        for table in tables:
+            for line in (place / "net" / table).read_text().splitlines()[1:]:
+                columns = line.split()
+                if columns[9] in held:
+                    found.add(_address(family, columns[1].partition(":")[0]))
+    return found
+
+
+_SOCKET = re.compile(r"socket:\[(\d+)\]")
+
+
+def _target(path: Path) -> str:
+    try:
+        return os.readlink(path)
+    except FileNotFoundError:  # closed meanwhile
+        return ""
+
+
+def _address(family: socket.AddressFamily, written: str) -> str:
+    """An address from words of four bytes, each in the order of this machine."""
+    words = (written[i : i + 8] for i in range(0, len(written), 8))
+    return socket.inet_ntop(family, b"".join(bytes.fromhex(word)[::-1] for word in words))

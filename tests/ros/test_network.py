@@ -1,0 +1,55 @@
+"""A twin opens no socket to a network unless its user asks for one."""
+
+from __future__ import annotations
+
+import signal
+import subprocess
+import sys
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+from planetary_twin_msgs.msg import GearboxState
+
+from .peer import TWIN, Peer
+from .processes import bound_addresses, working_in
+
+COMMAND = "import sys; from planetary_twin_py.cli import main; sys.exit(main())"
+
+
+@pytest.fixture
+def twin(
+    request: pytest.FixtureRequest,
+    peer: Peer,  # begins before the environment changes: as any program of this machine
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+) -> Iterator[None]:
+    """`planetary-twin run`, with the discovery range of the environment or without any."""
+    monkeypatch.delenv("ROS_AUTOMATIC_DISCOVERY_RANGE")
+    if request.param is not None:
+        monkeypatch.setenv("ROS_AUTOMATIC_DISCOVERY_RANGE", request.param)
+    process = subprocess.Popen([sys.executable, "-c", COMMAND, "run"], cwd=tmp_path)
+    yield
+    process.send_signal(signal.SIGINT)
+    assert process.wait(60) == 0
+
+
+def _addresses(folder: Path) -> dict[int, set[str]]:
+    return {process: bound_addresses(process) for process in working_in(folder)}
+
+
+@pytest.mark.parametrize("twin", [None], indirect=True)
+def test_every_socket_of_a_run_is_bound_to_loopback(twin: None, peer: Peer, tmp_path: Path) -> None:
+    states = peer.listen(GearboxState, f"{TWIN}/gearbox_state")
+    peer.until(lambda: states, 120.0)  # who has other settings hears it all the same
+    bound = _addresses(tmp_path)
+    assert len(bound) == 3
+    for addresses in bound.values():
+        assert addresses == {"127.0.0.1"}
+
+
+@pytest.mark.parametrize("twin", ["SUBNET"], indirect=True)
+def test_who_asks_for_the_network_gets_it(twin: None, peer: Peer, tmp_path: Path) -> None:
+    states = peer.listen(GearboxState, f"{TWIN}/gearbox_state")
+    peer.until(lambda: states, 120.0)
+    assert all("0.0.0.0" in addresses for addresses in _addresses(tmp_path).values())
