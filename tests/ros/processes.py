@@ -15,3 +15,11 @@ def working_in(folder: Path) -> list[int]:
         except OSError:
             continue
     return found
+
+
+def holding(process: int, name: str) -> bool:
+    """Whether a process has mapped a file with `name` in its path."""
+    try:
+        return name in Path(f"/proc/{process}/maps").read_text()
+    except OSError:
+        return False

@@ -18,12 +18,11 @@ from rclpy.qos import QoSProfile
 from rclpy.service import Service
 
 from .parameters import ParameterServices, check_settable, declare_fixed
-from .signals import Signals
+from .signals import SIGNALS
 
 NAMESPACE = "planetary_twin"
 RCLError = rclpy_implementation.RCLError
 _REQUESTS = QoSProfile(depth=100)
-_SIGNALS = Signals()
 
 
 class NodeError(Exception):
@@ -111,7 +110,7 @@ class ManagedNode(LifecycleNode):
 
     def on_configure(self, state: LifecycleState) -> TransitionCallbackReturn:
         """Lifecycle transition."""
-        with _SIGNALS.interrupting():  # it may take long, and has nothing to lose
+        with SIGNALS.interrupting():  # it may take long, and has nothing to lose
             return self._attempt(self.configure)
 
     def on_activate(self, state: LifecycleState) -> TransitionCallbackReturn:
@@ -164,9 +163,9 @@ def run_node(
     """
     node: ManagedNode | None = None
     failure: str | None = None
-    _SIGNALS.listen()
+    SIGNALS.listen()
     try:
-        with _SIGNALS.interrupting():
+        with SIGNALS.interrupting():
             _initialize(args)
             node = make()
         node.start()
@@ -184,7 +183,7 @@ def run_node(
     finally:
         failure = _end(node) or failure
         rclpy.try_shutdown()
-        _SIGNALS.ignore()
+        SIGNALS.ignore()
     if failure:
         print(f"{title or make.__name__.lower()}: {failure}", file=sys.stderr)
     return 1 if failure else 0
@@ -193,8 +192,8 @@ def run_node(
 def _initialize(args: list[str] | None) -> None:
     try:
         rclpy.init(args=args)
-    except RCLError as refusal:  # rcl has logged why
-        raise NodeError(str(refusal).split(", at ")[0]) from None
+    except RuntimeError as refusal:  # RCLError, and what rclpy derives for options it does not know
+        raise NodeError(f"--ros-args: {str(refusal).split(', at ')[0]}") from None
 
 
 def _end(node: ManagedNode | None) -> str | None:

@@ -45,3 +45,7 @@ class Signals:
         told, self._told = self._told, True
         if self._interrupting and not told:
             raise KeyboardInterrupt
+
+
+SIGNALS = Signals()
+"""Of this process."""
