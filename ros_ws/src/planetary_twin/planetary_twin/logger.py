@@ -10,7 +10,6 @@ from typing import Any
 import yaml
 from planetary_twin_msgs.msg import RecorderStatus
 from rclpy.event_handler import QoSMessageLostInfo, SubscriptionEventCallbacks
-from rclpy.exceptions import NameValidationException
 from rclpy.logging import get_logger
 from rclpy.qos import DurabilityPolicy
 from rclpy.subscription import Subscription
@@ -20,7 +19,7 @@ import planetary_twin_py as pt
 from planetary_twin_py.recording.account import TopicAccount
 from planetary_twin_py.recording.bag import BagWriter, free_folder, named_folder
 
-from .managed import ManagedNode, NodeError, run_node
+from .managed import ManagedNode, NodeError, RCLError, run_node
 from .parameters import brief, declare_bounded, declare_fixed
 from .topics import describe, matching_qos, message_class, wanted_topics
 
@@ -155,9 +154,9 @@ class Logger(ManagedNode):
         for name in self._chosen:
             try:
                 self.resolve_topic_name(name)
-            except NameValidationException as refusal:
-                reason = " ".join(str(refusal).split())
-                raise NodeError(f"topics: {brief(name)}: {reason[:200]}") from None
+            except RCLError as refusal:
+                reason = str(refusal).partition(", at ")[0]
+                raise NodeError(f"topics: {brief(name)}: {reason}") from None
 
     def _discover(self) -> None:
         names = wanted_topics(self, self._chosen)

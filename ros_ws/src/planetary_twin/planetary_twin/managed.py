@@ -8,6 +8,7 @@ from collections.abc import Callable, Mapping
 from typing import Any
 
 import rclpy
+from lifecycle_msgs.srv import ChangeState
 from rcl_interfaces.msg import SetParametersResult
 from rclpy.exceptions import ParameterException
 from rclpy.executors import ExternalShutdownException, SingleThreadedExecutor
@@ -17,11 +18,12 @@ from rclpy.parameter import Parameter
 from rclpy.qos import QoSProfile
 from rclpy.service import Service
 
-from .parameters import ParameterServices, check_settable, declare_fixed
+from .parameters import ParameterServices, brief, check_settable, declare_fixed
 from .signals import SIGNALS
 
 NAMESPACE = "planetary_twin"
 RCLError = rclpy_implementation.RCLError
+_QUIET = 1.0  # [s] between two log lines that a client can cause
 _REQUESTS = QoSProfile(depth=100)
 
 
@@ -51,7 +53,8 @@ class ManagedNode(LifecycleNode):
         self._broken = ""
         self._starting = False
         self._served = ParameterServices(self)
-        self._service_change_state.callback = _refusing(self._service_change_state.callback)
+        self._change_state = self._service_change_state.callback
+        self._service_change_state.callback = self._change_state_if_possible
         self._autostart = bool(
             declare_fixed(self, "autostart", True, "configure and activate without being asked")
         )
@@ -137,6 +140,23 @@ class ManagedNode(LifecycleNode):
         """Let go of what is left, so that the node can be configured anew."""
         return self._attempt(self.close)
 
+    def _change_state_if_possible(
+        self, request: ChangeState.Request, response: ChangeState.Response
+    ) -> ChangeState.Response:
+        """rclpy's service, which raises for what is no transition of the present state."""
+        wanted = request.transition.label or request.transition.id
+        offered = self._state_machine.available_transitions
+        if any(wanted in (number, label) for number, label, *_ in offered):
+            return self._change_state(request, response)
+        state = self._state_machine.current_state[1]
+        known = ", ".join(label for _, label, *_ in offered) or "none"
+        self.get_logger().warning(
+            f"{brief(wanted)}: no transition of the state {state}; there are: {known}",
+            throttle_duration_sec=_QUIET,
+        )
+        response.success = False
+        return response
+
     def _attempt(self, step: Callable[[], None]) -> TransitionCallbackReturn:
         try:
             step()
@@ -206,21 +226,3 @@ def _end(node: ManagedNode | None) -> str | None:
         node.failure = node.failure or str(reason)
     node.destroy_node()
     return node.failure
-
-
-def _refusing(change_state: Callable[..., Any]) -> Callable[..., Any]:
-    """The same service, which refuses what is no transition of the present state.
-
-    rclpy raises there, which would end the node.
-    """
-
-    def answer(request: Any, response: Any) -> Any:
-        try:
-            return change_state(request, response)
-        except RCLError:
-            if not rclpy.ok():
-                raise
-            response.success = False
-            return response
-
-    return answer
