@@ -78,6 +78,8 @@ class ManagedNode(LifecycleNode):
         self._starting = True
         for trigger in (self.trigger_configure, self.trigger_activate):
             if trigger() != TransitionCallbackReturn.SUCCESS:
+                if not self.context.ok():
+                    raise ExternalShutdownException
                 raise NodeError(self._reason)
         self._starting = False
 
@@ -167,7 +169,7 @@ class ManagedNode(LifecycleNode):
             return TransitionCallbackReturn.FAILURE
         except Exception as defect:
             if not self.context.ok():  # a signal has shut ROS down meanwhile
-                raise ExternalShutdownException from None
+                return TransitionCallbackReturn.FAILURE
             self._reason = f"{type(defect).__name__}: {defect}"
             self.get_logger().error(traceback.format_exc())
             return TransitionCallbackReturn.ERROR
