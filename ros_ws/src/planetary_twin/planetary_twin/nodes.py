@@ -5,9 +5,10 @@ Loading ROS and the model takes a second, in which Python would answer Ctrl-C wi
 
 from __future__ import annotations
 
+import os
+import signal
 from importlib import import_module
-
-from .signals import SIGNALS
+from types import FrameType
 
 
 def simulation() -> int:
@@ -26,11 +27,11 @@ def replay() -> int:
 
 
 def _run(name: str) -> int:
-    SIGNALS.listen()
-    try:
-        with SIGNALS.interrupting():
-            main = import_module(f".{name}", __package__).main
-    except KeyboardInterrupt:
-        SIGNALS.ignore()
-        return 0
-    return int(main())
+    for number in (signal.SIGINT, signal.SIGTERM):
+        signal.signal(number, _leave)  # until `run_node` takes them
+    return int(import_module(f".{name}", __package__).main())
+
+
+def _leave(number: int, frame: FrameType | None) -> None:
+    # An exception would be shown, and lost, where it falls into a callback of the import system.
+    os._exit(0)
