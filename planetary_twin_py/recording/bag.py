@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import reprlib
 import time
 from collections.abc import Mapping
 from pathlib import Path
@@ -14,6 +15,7 @@ from .rosbag2 import Extent, Topic, bag_metadata
 
 ACCOUNT_RECORD = "planetary_twin_account"
 _LIBRARY = "planetary_twin"
+_LONGEST_NAME = 200  # bytes; file systems take 255, of which the file's own ending needs some
 
 
 class BagWriter:
@@ -94,6 +96,20 @@ class BagWriter:
         """Let go of a file that cannot be written any more, e.g. on a full disk."""
         # Closing the buffered stream would try to write once more; the descriptor must not leak.
         self._stream.raw.close()
+
+
+def named_folder(directory: Path, name: str) -> Path:
+    """The folder `name` in `directory`.
+
+    Raises `ValueError` where it would be elsewhere, or is no name that a file system takes.
+    """
+    plain = name.isprintable() and name not in ("", ".", "..") and Path(name).name == name
+    if not plain or len(name.encode()) > _LONGEST_NAME:
+        raise ValueError(
+            f"{reprlib.repr(name)}: must be a plain name of at most {_LONGEST_NAME} bytes; "
+            f"it lands in {directory}/"
+        )
+    return directory / name
 
 
 def free_folder(directory: Path, stem: str) -> Path:

@@ -17,9 +17,9 @@ Held = Literal["sun", "ring", "carrier", "none"]
 class ToothNumbers(Section):
     """Tooth numbers of the three kinds of gear."""
 
-    sun: int = Field(ge=5, le=1000)
-    planet: int = Field(ge=5, le=1000)
-    ring: int = Field(ge=15, le=3000)
+    sun: int = Field(ge=5, le=1000, description="teeth of the sun")
+    planet: int = Field(ge=5, le=1000, description="teeth of a planet")
+    ring: int = Field(ge=15, le=3000, description="teeth of the ring")
 
 
 class EquivalentMasses(Section):
@@ -49,7 +49,9 @@ class Gearset(Section):
     planet_angles: tuple[float, ...] = quantity(
         "rad", "positions of the planets on the carrier", min_length=2, max_length=7
     )
-    held: Held = Field("carrier", description="none: a differential with two inputs")
+    held: Held = Field(
+        "carrier", description="member held fast; none: a differential with two inputs"
+    )
     equivalent_mass: EquivalentMasses
     planet_mass: float = quantity("kg", "mass of one planet", gt=0.0, le=1e6)
 

@@ -13,7 +13,7 @@ from mcap.stream_reader import StreamReader
 from rosbags.rosbag2 import Reader
 
 from planetary_twin_py.recording.account import TopicAccount
-from planetary_twin_py.recording.bag import ACCOUNT_RECORD, BagWriter, free_folder
+from planetary_twin_py.recording.bag import ACCOUNT_RECORD, BagWriter, free_folder, named_folder
 from planetary_twin_py.recording.rosbag2 import Topic
 from planetary_twin_py.recording.schema import message_definition
 
@@ -115,3 +115,12 @@ def test_a_free_folder_is_found_beside_an_existing_one(tmp_path: Path) -> None:
     second = free_folder(tmp_path, "paper")
     assert not second.exists()
     assert second != first
+
+
+@pytest.mark.parametrize(
+    "name", ["", ".", "..", "a/b", "/a", "../a", "a/", "a\0b", "a\nb", "\u00e9" * 101]
+)
+def test_a_name_that_is_no_plain_one_leads_nowhere(tmp_path: Path, name: str) -> None:
+    with pytest.raises(ValueError, match="must be a plain name"):
+        named_folder(tmp_path, name)
+    assert named_folder(tmp_path, "ein Lauf.1") == tmp_path / "ein Lauf.1"

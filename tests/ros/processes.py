@@ -50,3 +50,11 @@ def _address(family: socket.AddressFamily, written: str) -> str:
     """An address from words of four bytes, each in the order of this machine."""
     words = (written[i : i + 8] for i in range(0, len(written), 8))
     return socket.inet_ntop(family, b"".join(bytes.fromhex(word)[::-1] for word in words))
+
+
+def holding(process: int, name: str) -> bool:
+    """Whether a process has mapped a file with `name` in its path."""
+    try:
+        return name in Path(f"/proc/{process}/maps").read_text()
+    except OSError:
+        return False

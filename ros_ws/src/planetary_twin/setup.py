@@ -21,9 +21,9 @@ setup(
     ],
     entry_points={
         "console_scripts": [
-            "simulation = planetary_twin.simulation:main",
-            "logger = planetary_twin.logger:main",
-            "replay = planetary_twin.replay:main",
+            "simulation = planetary_twin.nodes:simulation",
+            "logger = planetary_twin.nodes:logger",
+            "replay = planetary_twin.nodes:replay",
         ],
         "planetary_twin.commands": [
             "run = planetary_twin.commands:run",

@@ -114,15 +114,17 @@ def _run(
 
 
 def _folder(record: str | None, scene: str) -> Path:
-    from planetary_twin_py.recording.bag import free_folder
+    from planetary_twin_py.recording.bag import free_folder, named_folder
 
     if record is None:
         return free_folder(RECORDINGS, Path(scene).stem)
-    if not record or Path(record).name != record:
-        raise ValueError(f"--record = {record!r}: must be a plain name; it lands in {RECORDINGS}/")
-    if (RECORDINGS / record).exists():
-        raise ValueError(f"--record = {record!r}: {RECORDINGS / record} exists; choose a free name")
-    return RECORDINGS / record
+    try:
+        folder = named_folder(RECORDINGS, record)
+    except ValueError as refusal:
+        raise ValueError(f"--record = {refusal}") from None
+    if folder.exists():
+        raise ValueError(f"--record = {record!r}: {folder} exists; choose a free name")
+    return folder
 
 
 def _values(scene: str, settings: list[str]) -> dict[str, float]:

@@ -3,16 +3,16 @@
 from __future__ import annotations
 
 import math
-import queue
 import threading
 import time
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from concurrent.futures import Future
 from typing import NamedTuple, Protocol
 
 from planetary_twin_py import OperatingPoint, Twin, Window
 from planetary_twin_py.tolerance import AffordableTolerance
 
+from .orders import Orders
 from .pacing import Pace
 from .ramps import Ramps
 
@@ -73,15 +73,13 @@ class LiveTwin:
     ) -> None:
         self._twin = twin
         self._interval = interval
-        self._pace = Pace(interval / rate_factor)
+        self._stop = threading.Event()
+        self._pace = Pace(interval / rate_factor, self._stop.wait)
         self.affordable = affordable
         self._listener = listener
-        self._orders: queue.SimpleQueue[tuple[Callable[[], float], Future[float]]] = (
-            queue.SimpleQueue()
-        )
+        self._orders = Orders(self._set)
         self._ramps = Ramps()
         self._paused = False
-        self._stop = threading.Event()
         self._thread = threading.Thread(target=self._run, name="twin", daemon=True)
         self._repeated = False
         self.progress = self._standing()
@@ -94,39 +92,34 @@ class LiveTwin:
         return begun
 
     def stop(self) -> None:
-        """End after the interval in progress, which is still published."""
+        """End after the interval in progress, which is still published, if need be early."""
         self._stop.set()
         self._thread.join()
 
     def submit(self, values: Mapping[str, float]) -> Future[float]:
         """Have `values` of the operating point set."""
-        return self._order(lambda: self._set(values))
+        return self._orders.change(values)
 
     def ramp(self, values: Mapping[str, float], duration: float) -> Future[float]:
         """Have `values` of the operating point reached in `duration` [s], interval by interval."""
-        return self._order(lambda: self._ramp(values, duration))
+        return self._orders.give(lambda: self._ramp(values, duration))
 
     def pause(self, paused: bool) -> Future[float]:
         """Have simulated time stand still, or go on."""
-        return self._order(lambda: self._pause(paused))
+        return self._orders.give(lambda: self._pause(paused))
 
     def step(self, duration: float) -> Future[float]:
         """Have a paused twin make `duration` [s], as fast as it goes."""
-        return self._order(lambda: self._step(duration))
+        return self._orders.give(lambda: self._step(duration))
 
     def restart(self, twin: Twin) -> Future[float]:
         """Have another twin take the place of this one."""
-        return self._order(lambda: self._restart(twin))
-
-    def _order(self, order: Callable[[], float]) -> Future[float]:
-        future: Future[float] = Future()
-        self._orders.put((order, future))
-        return future
+        return self._orders.give(lambda: self._restart(twin))
 
     def _run(self) -> None:
         try:
             while not self._stop.is_set():
-                self._obey()
+                self._orders.carry_out(_ALERTNESS if self._paused else 0.0)
                 if not self._paused:
                     self._follow_ramps()
                     self._listener.prepare(self._advance(self._interval))
@@ -135,18 +128,8 @@ class LiveTwin:
                 self.progress = self._standing()
         except Exception as defect:
             self._listener.stopped(defect)
-
-    def _obey(self) -> None:
-        """Carry out what was ordered; a paused twin waits for it."""
-        while True:
-            try:
-                order, future = self._orders.get(block=self._paused, timeout=_ALERTNESS)
-            except queue.Empty:
-                return
-            try:
-                future.set_result(order())
-            except ValueError as refusal:
-                future.set_exception(refusal)
+        finally:
+            self._orders.refuse("the simulation has stopped")
 
     def _advance(self, duration: float) -> Window:
         """The next interval, at the tolerance that is affordable as far as is known."""

@@ -17,10 +17,10 @@ from rclpy.timer import Timer
 
 import planetary_twin_py as pt
 from planetary_twin_py.recording.account import TopicAccount
-from planetary_twin_py.recording.bag import BagWriter, free_folder
+from planetary_twin_py.recording.bag import BagWriter, free_folder, named_folder
 
-from .managed import ManagedNode, NodeError, run_node
-from .parameters import declare_bounded, declare_fixed
+from .managed import ManagedNode, NodeError, RCLError, run_node
+from .parameters import brief, declare_bounded, declare_fixed
 from .topics import describe, matching_qos, message_class, wanted_topics
 
 _DISCOVERY_PERIOD = 0.1  # [s]
@@ -87,7 +87,8 @@ class Logger(ManagedNode):
         """Create the recording's folder and file."""
         scene = pt.load_scene(self._scene).model_dump(mode="json") if self._scene else None
         directory = Path(self._directory).expanduser()
-        folder = directory / self._name if self._name else free_folder(directory, "twin")
+        folder = self._folder(directory)
+        self._check_topics()
         try:
             self._bag = BagWriter(folder)
         except FileExistsError:
@@ -97,6 +98,7 @@ class Logger(ManagedNode):
         if scene is not None:
             text = yaml.safe_dump(scene, sort_keys=False)
             self._bag.attach("scene.yaml", text.encode(), "application/yaml")
+        self._taps, self._refused = {}, set()
         self._begun = time.monotonic_ns()
         self.get_logger().info(f"recording into {self._bag.file}")
 
@@ -110,6 +112,10 @@ class Logger(ManagedNode):
 
     def deactivate(self) -> None:
         """Stop recording; the file stays open and whole."""
+        self._stop_listening()
+        self._flush()
+
+    def _stop_listening(self) -> None:
         for timer in self._ticking:
             self.destroy_timer(timer)
         self._ticking = []
@@ -117,13 +123,13 @@ class Logger(ManagedNode):
             if tap.subscription is not None:
                 self.destroy_subscription(tap.subscription)
                 tap.subscription = None
-        self._flush()
 
     def close(self) -> None:
         """Finish the file with its account."""
-        bag, self._bag = self._bag, None
-        if bag is None or bag.closed:
+        if self._bag is None:
             return
+        self._stop_listening()
+        bag, self._bag = self._bag, None
         accounts = {name: tap.account for name, tap in self._taps.items()}
         try:
             bag.close(accounts)
@@ -134,6 +140,23 @@ class Logger(ManagedNode):
             ) from None
         # Under a name of its own: a signal has shut down what the node's name would publish to.
         get_logger("recording").info(f"{bag.file}: {_summary(accounts)}")
+
+    def _folder(self, directory: Path) -> Path:
+        """Where the recording goes: never elsewhere than in `directory`."""
+        if not self._name:
+            return free_folder(directory, "twin")
+        try:
+            return named_folder(directory, self._name)
+        except ValueError as refusal:
+            raise NodeError(f"name = {refusal}") from None
+
+    def _check_topics(self) -> None:
+        for name in self._chosen:
+            try:
+                self.resolve_topic_name(name)
+            except RCLError as refusal:
+                reason = str(refusal).partition(", at ")[0]
+                raise NodeError(f"topics: {brief(name)}: {reason}") from None
 
     def _discover(self) -> None:
         names = wanted_topics(self, self._chosen)

@@ -8,16 +8,23 @@ from collections.abc import Callable, Mapping
 from typing import Any
 
 import rclpy
+from lifecycle_msgs.srv import ChangeState
+from rcl_interfaces.msg import SetParametersResult
 from rclpy.exceptions import ParameterException
 from rclpy.executors import ExternalShutdownException, SingleThreadedExecutor
 from rclpy.impl.implementation_singleton import rclpy_implementation
 from rclpy.lifecycle import LifecycleNode, LifecycleState, TransitionCallbackReturn
 from rclpy.parameter import Parameter
+from rclpy.qos import QoSProfile
+from rclpy.service import Service
 
-from .parameters import declare_fixed
+from .parameters import ParameterServices, brief, check_settable, declare_fixed
+from .signals import SIGNALS
 
 NAMESPACE = "planetary_twin"
 RCLError = rclpy_implementation.RCLError
+_QUIET = 1.0  # [s] between two log lines that a client can cause
+_REQUESTS = QoSProfile(depth=100)
 
 
 class NodeError(Exception):
@@ -34,9 +41,20 @@ class ManagedNode(LifecycleNode):
 
     def __init__(self, name: str, given: Mapping[str, Any] | None = None) -> None:
         overrides = [Parameter(key, value=value) for key, value in (given or {}).items()]
-        super().__init__(name, namespace=NAMESPACE, parameter_overrides=overrides)
+        super().__init__(
+            name,
+            namespace=NAMESPACE,
+            parameter_overrides=overrides,
+            start_parameter_services=False,
+        )
         self.failure: str | None = None
+        """Why the process ends, if it is no good end."""
+        self._reason = ""
+        self._broken = ""
         self._starting = False
+        self._served = ParameterServices(self)
+        self._change_state = self._service_change_state.callback
+        self._service_change_state.callback = self._change_state_if_possible
         self._autostart = bool(
             declare_fixed(self, "autostart", True, "configure and activate without being asked")
         )
@@ -60,17 +78,45 @@ class ManagedNode(LifecycleNode):
         self._starting = True
         for trigger in (self.trigger_configure, self.trigger_activate):
             if trigger() != TransitionCallbackReturn.SUCCESS:
-                raise NodeError(self.failure or "cannot start")
+                if not self.context.ok():
+                    raise ExternalShutdownException
+                raise NodeError(self._reason)
         self._starting = False
 
     def fail(self, reason: str) -> None:
-        """End the process from any thread: what spins returns, and the exit code is not zero."""
-        self.failure = reason
-        rclpy.try_shutdown(context=self.context)
+        """From any thread: let an active node go to the error state.
+
+        One that has started by itself has nobody to mend it: its process ends, with an exit code
+        that is not zero.
+        """
+        if self._autostart:
+            self.failure = reason
+            rclpy.try_shutdown(context=self.context)
+        else:
+            self.executor.create_task(self._break_down, reason)
+
+    def _break_down(self, reason: str) -> None:
+        if self._state_machine.current_state[1] == "active":
+            self._broken = reason
+            self.trigger_deactivate()  # the only way from there to the error state
+
+    def create_service(self, *given: Any, **options: Any) -> Service:
+        """As rclpy's, with room for few requests: who floods waits, and fills no memory."""
+        return super().create_service(*given, **options | {"qos_profile": _REQUESTS})
+
+    def set_parameters_atomically(self, parameter_list: list[Parameter]) -> SetParametersResult:
+        """As rclpy's, with a refusal that names the parameter for all that cannot be."""
+        try:
+            for parameter in parameter_list:
+                check_settable(self, parameter)
+            return super().set_parameters_atomically(parameter_list)
+        except ValueError as refusal:
+            return SetParametersResult(successful=False, reason=str(refusal))
 
     def on_configure(self, state: LifecycleState) -> TransitionCallbackReturn:
         """Lifecycle transition."""
-        return self._attempt(self.configure)
+        with SIGNALS.interrupting():  # it may take long, and has nothing to lose
+            return self._attempt(self.configure)
 
     def on_activate(self, state: LifecycleState) -> TransitionCallbackReturn:
         """Lifecycle transition."""
@@ -78,7 +124,11 @@ class ManagedNode(LifecycleNode):
 
     def on_deactivate(self, state: LifecycleState) -> TransitionCallbackReturn:
         """Lifecycle transition."""
-        return self._attempt(self.deactivate)
+        if not self._broken:
+            return self._attempt(self.deactivate)
+        self.get_logger().error(self._broken)
+        self._broken = ""
+        return TransitionCallbackReturn.ERROR
 
     def on_cleanup(self, state: LifecycleState) -> TransitionCallbackReturn:
         """Lifecycle transition."""
@@ -88,16 +138,39 @@ class ManagedNode(LifecycleNode):
         """Lifecycle transition."""
         return self._attempt(self.close)
 
+    def on_error(self, state: LifecycleState) -> TransitionCallbackReturn:
+        """Let go of what is left, so that the node can be configured anew."""
+        return self._attempt(self.close)
+
+    def _change_state_if_possible(
+        self, request: ChangeState.Request, response: ChangeState.Response
+    ) -> ChangeState.Response:
+        """rclpy's service, which raises for what is no transition of the present state."""
+        wanted = request.transition.label or request.transition.id
+        offered = self._state_machine.available_transitions
+        if any(wanted in (number, label) for number, label, *_ in offered):
+            return self._change_state(request, response)
+        state = self._state_machine.current_state[1]
+        known = ", ".join(label for _, label, *_ in offered) or "none"
+        self.get_logger().warning(
+            f"{brief(wanted)}: no transition of the state {state}; there are: {known}",
+            throttle_duration_sec=_QUIET,
+        )
+        response.success = False
+        return response
+
     def _attempt(self, step: Callable[[], None]) -> TransitionCallbackReturn:
         try:
             step()
         except (NodeError, ValueError, OSError) as reason:
-            self.failure = str(reason)
+            self._reason = str(reason)
             if not self._starting:  # else it is the last line the process prints
-                self.get_logger().error(self.failure)
+                self.get_logger().error(self._reason)
             return TransitionCallbackReturn.FAILURE
         except Exception as defect:
-            self.failure = f"{type(defect).__name__}: {defect}"
+            if not self.context.ok():  # a signal has shut ROS down meanwhile
+                return TransitionCallbackReturn.FAILURE
+            self._reason = f"{type(defect).__name__}: {defect}"
             self.get_logger().error(traceback.format_exc())
             return TransitionCallbackReturn.ERROR
         return TransitionCallbackReturn.SUCCESS
@@ -112,9 +185,11 @@ def run_node(
     """
     node: ManagedNode | None = None
     failure: str | None = None
+    SIGNALS.listen()
     try:
-        rclpy.init(args=args)
-        node = make()
+        with SIGNALS.interrupting():
+            _initialize(args)
+            node = make()
         node.start()
         executor = SingleThreadedExecutor()
         executor.add_node(node)
@@ -130,9 +205,17 @@ def run_node(
     finally:
         failure = _end(node) or failure
         rclpy.try_shutdown()
+        SIGNALS.ignore()
     if failure:
         print(f"{title or make.__name__.lower()}: {failure}", file=sys.stderr)
     return 1 if failure else 0
+
+
+def _initialize(args: list[str] | None) -> None:
+    try:
+        rclpy.init(args=args)
+    except RuntimeError as refusal:  # RCLError, and what rclpy derives for options it does not know
+        raise NodeError(f"--ros-args: {str(refusal).split(', at ')[0]}") from None
 
 
 def _end(node: ManagedNode | None) -> str | None:
@@ -141,7 +224,7 @@ def _end(node: ManagedNode | None) -> str | None:
         return None
     try:
         node.close()
-    except OSError as reason:
+    except (NodeError, OSError) as reason:
         node.failure = node.failure or str(reason)
     node.destroy_node()
     return node.failure

@@ -2,16 +2,84 @@
 
 from __future__ import annotations
 
-from collections.abc import Container
+import reprlib
+from collections.abc import Container, Iterator
 from typing import Any
 
-from rcl_interfaces.msg import FloatingPointRange, ParameterDescriptor, ParameterType
+from pydantic import BaseModel
+from pydantic.fields import FieldInfo
+from rcl_interfaces.msg import (
+    FloatingPointRange,
+    ParameterDescriptor,
+    ParameterType,
+    SetParametersResult,
+)
+from rcl_interfaces.srv import SetParameters, SetParametersAtomically
 from rclpy.node import Node
 from rclpy.parameter import Parameter
+from rclpy.parameter_service import ParameterService
 
 from planetary_twin_py import Tunable
+from planetary_twin_py.scene.quantity import unit_of
 
 _AT_START = "fixed while the node lives: set it at start, -p {name}:=VALUE"
+_GEOMETRY = "geometry is fixed while the node lives: choose another scene, -p scene:=SCENE"
+_MOST = 200  # parameters in a request: more than there are, but little work
+_BRIEF = reprlib.Repr()
+_BRIEF.maxstring = _BRIEF.maxother = 60
+
+
+def brief(value: Any) -> str:
+    """A value as a refusal shows it, whoever sent it: one line of readable length."""
+    return _BRIEF.repr(value)
+
+
+class ParameterServices(ParameterService):
+    """rclpy's services, with a refusal for a value of no known type, which would end the node."""
+
+    def _set_parameters_callback(
+        self, request: SetParameters.Request, response: SetParameters.Response
+    ) -> SetParameters.Response:
+        messages = request.parameters
+        if len(messages) > _MOST:
+            response.results = [self._set(messages)] * len(messages)
+        else:
+            response.results = [self._set([message]) for message in messages]
+        return response
+
+    def _set_parameters_atomically_callback(
+        self, request: SetParametersAtomically.Request, response: SetParametersAtomically.Response
+    ) -> SetParametersAtomically.Response:
+        response.result = self._set(request.parameters)
+        return response
+
+    def _set(self, messages: list[Any]) -> SetParametersResult:
+        if len(messages) > _MOST:
+            reason = f"{len(messages)} parameters: at most {_MOST} at once"
+            return SetParametersResult(successful=False, reason=reason)
+        try:
+            parameters = [Parameter.from_parameter_msg(message) for message in messages]
+        except ValueError as refusal:
+            name = brief(messages[0].name) if len(messages) == 1 else "parameters"
+            return SetParametersResult(successful=False, reason=f"{name}: {refusal}")
+        return self._get_node().set_parameters_atomically(parameters)
+
+
+def check_settable(node: Node, parameter: Parameter) -> None:
+    """Raise `ValueError` for a parameter that there is not, that is fixed or of another type.
+
+    Numbers may be typed in other types, see `coerce`.
+    """
+    if not node.has_parameter(parameter.name):
+        raise ValueError(f"{brief(parameter.name)}: no such parameter")
+    told = f"{parameter.name} = {brief(parameter.value)}"
+    descriptor = node.describe_parameter(parameter.name)
+    if descriptor.read_only:
+        reason = descriptor.additional_constraints or "fixed while the node lives"
+        raise ValueError(f"{told}: {reason}")
+    wanted = Parameter.Type(descriptor.type)
+    if wanted not in (Parameter.Type.DOUBLE, parameter.type_):
+        raise ValueError(f"{told}: must be of type {wanted.name}")
 
 
 def declare_fixed(node: Node, name: str, default: Any, description: str) -> Any:
@@ -54,6 +122,36 @@ def declare_tunable(node: Node, tunable: Tunable, default: float, told_in: str) 
     return _declare_number(node, tunable.name, default, descriptor)
 
 
+def declare_geometry(node: Node, prefix: str, section: BaseModel) -> None:
+    """Declare every field of a scene's section, to be read alone.
+
+    Raises `ValueError` where a start value differs from the scene's.
+    """
+    for name, field, value in _fields(prefix, section):
+        unit = unit_of(field)
+        descriptor = ParameterDescriptor(
+            description=f"{field.description}" + ("" if unit is None else f" [{unit or '-'}]"),
+            read_only=True,
+            additional_constraints=_GEOMETRY,
+        )
+        if isinstance(value, float):
+            given = _declare_number(node, name, value, descriptor)
+        else:
+            given = node.declare_parameter(name, value, descriptor).value
+        if (list(given) if isinstance(value, list) else given) != value:
+            raise ValueError(f"{name} = {brief(given)}: {_GEOMETRY}")
+
+
+def _fields(prefix: str, section: BaseModel) -> Iterator[tuple[str, FieldInfo, Any]]:
+    """Dotted name, description and value of each leaf."""
+    for key, field in type(section).model_fields.items():
+        name, value = f"{prefix}.{key}", getattr(section, key)
+        if isinstance(value, BaseModel):
+            yield from _fields(name, value)
+        else:
+            yield name, field, list(value) if isinstance(value, tuple) else value
+
+
 def coerce(parameters: list[Parameter], numbers: Container[str]) -> list[Parameter]:
     """The same parameters, those named in `numbers` as DOUBLE.
 
@@ -75,7 +173,7 @@ def number(name: str, value: Any) -> float:
             return float(value)
         except (ValueError, OverflowError):
             pass
-    raise ValueError(f"{name} = {value!r}: must be a number")
+    raise ValueError(f"{name} = {brief(value)}: must be a number")
 
 
 def _declare_number(

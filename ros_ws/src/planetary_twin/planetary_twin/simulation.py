@@ -23,13 +23,23 @@ from planetary_twin_py.tolerance import (
 
 from .live import LiveTwin, Progress
 from .managed import ManagedNode, NodeError, run_node
-from .parameters import coerce, declare_bounded, declare_fixed, declare_tunable
+from .parameters import (
+    brief,
+    coerce,
+    declare_bounded,
+    declare_fixed,
+    declare_geometry,
+    declare_tunable,
+)
 from .ramps import LONGEST_RAMP
 from .real_time import RealTimeReport
 from .telemetry import Telemetry
 from .time_services import TimeServices
 
 _REPORT_PERIOD = 1.0  # [s]
+# After which a thread that waits may take the interpreter from one that is busy: Python's 5 ms,
+# half an interval, would let clients that ask all the time hold the twin up.
+_SWITCH_INTERVAL = 2e-4  # [s]
 _TOLERANCE = pt.Tunable(
     "tolerance",
     "",
@@ -93,7 +103,7 @@ class Simulation(ManagedNode):
         live, self._live = self._live, None
         if live is not None:
             live.stop()
-        self._twin = None
+        self._twin = self._report = None
 
     # Called by the live twin, in its thread.
 
@@ -127,7 +137,7 @@ class Simulation(ManagedNode):
         )
 
     def stopped(self, defect: Exception) -> None:
-        """End the process with the reason; a publisher refuses once a signal has shut ROS down."""
+        """Tell of the reason; a publisher refuses once a signal has shut ROS down."""
         if not self.context.ok():
             return
         if not isinstance(defect, (ValueError, ArithmeticError)):
@@ -181,6 +191,7 @@ class Simulation(ManagedNode):
         )
         ladder_of(declare_tunable(self, _TOLERANCE, AUTOMATIC, "/diagnostics"))
         self._scene = pt.load_scene(name)
+        declare_geometry(self, "gearset", self._scene.gearset)
         for tunable in self._scene.tunables.values():
             default = getattr(self._scene.operating_point, tunable.name)
             declare_tunable(self, tunable, default, "operating_point")
@@ -189,13 +200,6 @@ class Simulation(ManagedNode):
         self.add_pre_set_parameters_callback(lambda given: coerce(given, numbers))
         self.add_on_set_parameters_callback(self._validate)
         self.add_post_set_parameters_callback(self._submit)
-
-    def set_parameters_atomically(self, parameter_list: list[Parameter]) -> SetParametersResult:
-        """As rclpy's, with a refusal instead of an exception for text that is no number."""
-        try:
-            return super().set_parameters_atomically(parameter_list)
-        except ValueError as refusal:
-            return SetParametersResult(successful=False, reason=str(refusal))
 
     def _robot_description(self) -> str:
         try:
@@ -258,7 +262,9 @@ class Simulation(ManagedNode):
             raise ValueError(f"{len(names)} names for {len(values)} values: one each, at least one")
         for name in names:
             if name not in pt.TUNABLES:
-                raise ValueError(f"{name}: no such quantity; there are {', '.join(pt.TUNABLES)}")
+                raise ValueError(
+                    f"{brief(name)}: no such quantity; there are {', '.join(pt.TUNABLES)}"
+                )
             if list(names).count(name) > 1:
                 raise ValueError(f"{name}: named twice")
         if self._live is None:
@@ -327,6 +333,7 @@ def _tunables(parameters: list[Parameter]) -> dict[str, float]:
 
 def main(args: list[str] | None = None) -> int:
     """Run the node until it is told to end."""
+    sys.setswitchinterval(_SWITCH_INTERVAL)
     return run_node(Simulation, args)
 
 

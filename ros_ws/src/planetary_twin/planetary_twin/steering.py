@@ -44,7 +44,7 @@ def list_(namespace: Namespace = NAMESPACE) -> None:
         for setting in twin.settings():
             limits = "fixed" if setting.fixed else setting.limits
             table.add_row(setting.name, _shown(setting.value), limits, setting.description)
-        Console().print(table)
+        Console(markup=False).print(table)  # units stand in brackets
 
 
 @param.command("get")

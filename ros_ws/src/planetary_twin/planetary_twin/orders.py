@@ -1,0 +1,74 @@
+"""What a running twin is told from other threads, and does between two intervals."""
+
+from __future__ import annotations
+
+import queue
+import threading
+from collections.abc import Callable, Mapping
+from concurrent.futures import Future
+
+Order = Callable[[], float]
+
+
+class Orders:
+    """Carried out in the order given; each future is the simulated instant [s] of that.
+
+    Changes that follow one another between two intervals become one, of what was given last: they
+    would hold from the same instant, and a flood of them must not hold the twin up.
+    """
+
+    def __init__(self, change: Callable[[Mapping[str, float]], float]) -> None:
+        self._change = change
+        self._queue: queue.SimpleQueue[tuple[Order, Future[float]]] = queue.SimpleQueue()
+        self._lock = threading.Lock()
+        self._gathering: tuple[dict[str, float], Future[float]] | None = None
+
+    def give(self, order: Order) -> Future[float]:
+        """Have `order` carried out after what was given before."""
+        with self._lock:
+            self._gathering = None
+            return self._put(order)
+
+    def change(self, values: Mapping[str, float]) -> Future[float]:
+        """Have `values` set."""
+        with self._lock:
+            if self._gathering is None:
+                gathered: dict[str, float] = {}
+                self._gathering = gathered, self._put(lambda: self._set(gathered))
+            self._gathering[0].update(values)
+            return self._gathering[1]
+
+    def carry_out(self, patience: float) -> None:
+        """Do what is there by now; where nothing is, wait `patience` [s] for one.
+
+        What an order raises goes to who gave it; all but a `ValueError`, a refusal, is also raised.
+        """
+        for _ in range(max(self._queue.qsize(), 1)):
+            try:
+                order, future = self._queue.get(timeout=patience)
+            except queue.Empty:
+                return
+            try:
+                future.set_result(order())
+            except ValueError as refusal:
+                future.set_exception(refusal)
+            except Exception as defect:
+                future.set_exception(ValueError(f"the twin stopped: {defect}"))
+                raise
+
+    def refuse(self, reason: str) -> None:
+        """Answer all that is left with `reason`."""
+        while not self._queue.empty():
+            _, future = self._queue.get()
+            future.set_exception(ValueError(reason))
+
+    def _put(self, order: Order) -> Future[float]:
+        future: Future[float] = Future()
+        self._queue.put((order, future))
+        return future
+
+    def _set(self, gathered: dict[str, float]) -> float:
+        with self._lock:
+            if self._gathering is not None and self._gathering[0] is gathered:
+                self._gathering = None
+        return self._change(gathered)

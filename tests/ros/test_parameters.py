@@ -1,0 +1,105 @@
+"""Every quantity tells what it is and what it may be; geometry can be read and not be set."""
+
+from __future__ import annotations
+
+import math
+
+from planetary_twin_msgs.msg import OperatingPoint
+from pydantic import BaseModel
+from rcl_interfaces.msg import ParameterDescriptor
+from rcl_interfaces.srv import DescribeParameters, GetParameters, ListParameters
+from rclpy.parameter import parameter_value_to_python
+
+import planetary_twin_py as pt
+
+from .conftest import Start
+from .peer import TWIN, Peer
+
+NODE = f"{TWIN}/simulation"
+ROS = ("use_sim_time", "start_type_description_service")  # what rclpy itself declares
+
+
+def leaves(prefix: str, section: BaseModel) -> dict[str, object]:
+    """Every value in a scene's section, by dotted name."""
+    found: dict[str, object] = {}
+    for name, value in section:
+        path = f"{prefix}.{name}"
+        found |= leaves(path, value) if isinstance(value, BaseModel) else {path: value}
+    return found
+
+
+def described(peer: Peer) -> dict[str, ParameterDescriptor]:
+    names = peer.call(ListParameters, f"{NODE}/list_parameters", ListParameters.Request())
+    request = DescribeParameters.Request(names=names.result.names)
+    answer = peer.call(DescribeParameters, f"{NODE}/describe_parameters", request)
+    return dict(zip(names.result.names, answer.descriptors, strict=True))
+
+
+def test_every_parameter_says_what_it_is_and_what_it_may_be(
+    peer: Peer, points: list[OperatingPoint]
+) -> None:
+    own = {name: told for name, told in described(peer).items() if name not in ROS}
+    for name, told in own.items():
+        assert told.name == name and told.description and told.additional_constraints, name
+    settable = {name for name, told in own.items() if not told.read_only}
+    assert settable == {*pt.TUNABLES, "tolerance"}
+    for name, tunable in pt.load_scene("paper").tunables.items():
+        (limits,) = own[name].floating_point_range
+        assert (limits.from_value, limits.to_value) == (tunable.minimum, tunable.maximum)
+        assert f"[{tunable.unit or '-'}]" in own[name].description
+
+
+def test_geometry_is_that_of_the_scene_and_cannot_be_set(
+    peer: Peer, points: list[OperatingPoint]
+) -> None:
+    geometry = leaves("gearset", pt.load_scene("paper").gearset)
+    told = described(peer)
+    assert {name for name in told if name.startswith("gearset.")} == set(geometry)
+    request = GetParameters.Request(names=list(geometry))
+    values = peer.call(GetParameters, f"{NODE}/get_parameters", request).values
+    for (name, expected), value in zip(geometry.items(), values, strict=True):
+        given = parameter_value_to_python(value)
+        assert (tuple(given) if isinstance(expected, tuple) else given) == expected
+        assert told[name].read_only
+        result = peer.set(NODE, **{name: "ring" if isinstance(expected, str) else 0.123})
+        assert not result.successful
+        assert result.reason.startswith(f"{name} = ")
+        assert "choose another scene" in result.reason
+    both = {"backlash": 3e-7, "gearset.module": 1e-3}
+    assert not peer.set(NODE, atomically=True, **both).successful
+    assert peer.get(NODE, "backlash") == 2e-7
+
+
+REFUSED: tuple[tuple[str, object, tuple[str, ...]], ...] = (
+    ("backlash", math.nan, ("nan", "0.001")),
+    ("backlash", -math.inf, ("-inf", "0.001")),
+    ("lambda_ratio", 10.5, ("10.5", "10")),
+    ("lambda_ratio", "1 000", ("'1 000'", "number")),
+    ("oil_temperature", 20, ("20", "233.15")),
+    ("second_input_speed", 1.0, ("1.0", "no second input")),
+    ("rate_factor", 2.0, ("2.0", "fixed", "-p rate_factor:=")),
+    ("use_sim_time", "yes", ("'yes'", "BOOL")),
+    ("gap", 1.0, ("no such parameter",)),
+)
+
+
+def test_a_refusal_names_field_value_and_range_and_changes_nothing(
+    peer: Peer, points: list[OperatingPoint]
+) -> None:
+    for name, value, reason in REFUSED:
+        for given in ({name: value}, {"torque_ripple": 1.0, name: value}):
+            result = peer.set(NODE, atomically=len(given) == 2, **given)
+            assert not result.successful
+            assert all(part in result.reason for part in (name, *reason)), result.reason
+    assert peer.get(NODE, "torque_ripple") == 0.0
+    assert peer.set(NODE, torque_ripple=0.5).successful
+    peer.until(lambda: len(points) == 2)
+    assert points[-1].changed == "torque_ripple"
+
+
+def test_a_start_value_of_the_geometry_must_be_the_scenes(start: Start) -> None:
+    process = start("planetary_twin.simulation", "--ros-args", "-p", "gearset.teeth.sun:=31")
+    _, errors = process.communicate(timeout=60)
+    assert process.returncode == 1
+    assert errors.startswith("simulation: gearset.teeth.sun = 31: geometry is fixed")
+    assert len(errors.strip().splitlines()) == 1

@@ -1,0 +1,180 @@
+"""However a node is told to end, and whatever it does just then, it ends well; its peers go on."""
+
+from __future__ import annotations
+
+import itertools
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import pytest
+from lifecycle_msgs.msg import Transition
+from lifecycle_msgs.srv import ChangeState
+from planetary_twin_msgs.msg import GearboxState, RecorderStatus
+from planetary_twin_msgs.srv import Step
+from std_srvs.srv import SetBool
+
+from .conftest import Start
+from .peer import TWIN, Peer
+from .processes import holding
+from .recordings import counts, torn_states
+
+NODE = f"{TWIN}/simulation"
+STATES = f"{TWIN}/gearbox_state"
+QUICK = 5.0  # [s] after which `ros2 launch` sends the next, harder signal
+
+
+def ended_well(process: subprocess.Popen[str]) -> str:
+    """What it printed, once it has ended in time, with exit code 0 and no traceback."""
+    _, errors = process.communicate(timeout=QUICK)
+    assert process.returncode == 0, errors
+    assert "Traceback" not in errors
+    return errors
+
+
+def twice(process: subprocess.Popen[str], number: signal.Signals) -> None:
+    """As one who presses Ctrl-C twice."""
+    process.send_signal(number)
+    process.send_signal(number)
+
+
+def running(peer: Peer, start: Start, *options: str) -> subprocess.Popen[str]:
+    """A simulation that publishes."""
+    process = start("planetary_twin.simulation", *options)
+    states = peer.listen(GearboxState, STATES)
+    peer.until(lambda: states, 120.0)
+    return process
+
+
+def recorded(status: list[RecorderStatus]) -> int:
+    """States in the recording, as far as told."""
+    if not status or STATES not in status[-1].topics:
+        return 0
+    return status[-1].recorded[list(status[-1].topics).index(STATES)]
+
+
+def ask(peer: Peer, kind: type, service: str, request: object) -> None:
+    """Send a request whose answer may never come."""
+    client = peer.node.create_client(kind, service)
+    peer.until(client.service_is_ready, 60.0)
+    client.call_async(request)
+
+
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
+def test_a_signal_while_the_model_is_built_ends_the_node_at_once(
+    start: Start, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, number: signal.Signals
+) -> None:
+    # With nothing compiled yet, building takes far longer than the node may take to end.
+    monkeypatch.setenv("NUMBA_CACHE_DIR", str(tmp_path / "compiled"))
+    process = start("planetary_twin.simulation")
+    deadline = time.monotonic() + 120.0
+    while not any((tmp_path / "compiled").rglob("*.nbi")):
+        assert time.monotonic() < deadline and process.poll() is None
+        time.sleep(0.02)
+    twice(process, number)
+    ended_well(process)
+
+
+@pytest.mark.parametrize("name", ["simulation", "logger"])
+def test_a_signal_while_a_node_loads_ends_it_without_a_word(
+    domain: int, tmp_path: Path, name: str
+) -> None:
+    for library in ("numpy", "_rclpy", "fastrtps"):
+        for number in (signal.SIGINT, signal.SIGTERM):
+            process = subprocess.Popen(
+                [Path(sys.executable).with_name(name)],
+                cwd=tmp_path,
+                stdout=subprocess.PIPE,
+                stderr=subprocess.PIPE,
+                text=True,
+            )
+            deadline = time.monotonic() + 60.0
+            while not holding(process.pid, library):
+                assert time.monotonic() < deadline and process.poll() is None
+            twice(process, number)
+            ended_well(process)
+
+
+def test_two_signals_at_any_moment_of_a_node_that_runs(peer: Peer, start: Start) -> None:
+    for number in (signal.SIGINT, signal.SIGTERM):
+        process = running(peer, start)
+        twice(process, number)
+        ended_well(process)
+
+
+def test_a_signal_to_a_slow_or_paused_twin_need_not_wait(peer: Peer, start: Start) -> None:
+    slow = ("--ros-args", "-p", "rate_factor:=0.01", "-p", "publish_rate:=10.0")
+    process = start("planetary_twin.simulation", *slow)
+    client = peer.node.create_client(SetBool, f"{NODE}/pause")
+    peer.until(client.service_is_ready, 60.0)
+    process.send_signal(signal.SIGINT)
+    ended_well(process)
+    paused = running(peer, start)
+    assert peer.call(SetBool, f"{NODE}/pause", SetBool.Request(data=True)).success
+    paused.send_signal(signal.SIGINT)
+    ended_well(paused)
+
+
+def test_a_signal_while_a_service_waits_or_a_transition_is_made(peer: Peer, start: Start) -> None:
+    process = running(peer, start)
+    assert peer.call(SetBool, f"{NODE}/pause", SetBool.Request(data=True)).success
+    states = peer.listen(GearboxState, STATES)
+    ask(peer, Step, f"{NODE}/step", Step.Request(duration=10.0))
+    peer.until(lambda: states)
+    process.send_signal(signal.SIGINT)
+    ended_well(process)
+    for label in ("deactivate", "cleanup", "shutdown"):
+        process = running(peer, start)
+        if label == "cleanup":
+            stop = ChangeState.Request(transition=Transition(label="deactivate"))
+            assert peer.call(ChangeState, f"{NODE}/change_state", stop).success
+        request = ChangeState.Request(transition=Transition(label=label))
+        ask(peer, ChangeState, f"{NODE}/change_state", request)
+        process.send_signal(signal.SIGTERM)
+        ended_well(process)
+
+
+def test_both_nodes_end_on_one_ctrl_c_and_the_recording_is_whole(
+    peer: Peer, start: Start, tmp_path: Path
+) -> None:
+    logger = start("planetary_twin.logger", "--ros-args", "-p", "name:=bag")
+    status = peer.listen(RecorderStatus, f"{TWIN}/logger/status")
+    simulation = running(peer, start)
+    peer.until(lambda: recorded(status) > 50)
+    for process in (logger, simulation):  # as Ctrl-C reaches the group
+        twice(process, signal.SIGINT)
+    ended_well(simulation)
+    assert "lost none" in ended_well(logger)
+    assert counts(tmp_path / "recordings/bag")[STATES] > 50
+
+
+def test_each_node_may_be_killed_and_come_back_while_the_other_goes_on(
+    peer: Peer, start: Start, tmp_path: Path
+) -> None:
+    states = peer.listen(GearboxState, STATES)
+    status = peer.listen(RecorderStatus, f"{TWIN}/logger/status")
+    simulation = running(peer, start)
+    first = start("planetary_twin.logger", "--ros-args", "-p", "name:=first")
+    peer.until(lambda: recorded(status) > 50)
+    first.kill()
+    first.wait(QUICK)
+    status.clear()
+    second = start("planetary_twin.logger", "--ros-args", "-p", "name:=second")
+    peer.until(lambda: recorded(status) > 50)
+    assert [b.sequence - a.sequence for a, b in itertools.pairwise(states)] == [1] * (
+        len(states) - 1
+    )
+    assert len(torn_states(tmp_path / "recordings/first/first_0.mcap")) > 50
+
+    simulation.kill()
+    simulation.wait(QUICK)
+    before = recorded(status)
+    heard = len(states)
+    running(peer, start)
+    peer.until(lambda: recorded(status) > before + 50, 60.0)
+    assert any(state.sequence < states[heard - 1].sequence for state in states[heard:])
+    second.terminate()
+    ended_well(second)
+    assert counts(tmp_path / "recordings/second")[STATES] > before + 50
