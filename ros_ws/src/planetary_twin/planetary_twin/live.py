@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+import contextlib
 import math
 import queue
 import threading
 import time
 from collections.abc import Callable, Mapping
 from concurrent.futures import Future
+from enum import StrEnum
+from functools import partial
 from typing import NamedTuple, Protocol
 
 from planetary_twin_py import OperatingPoint, Twin, Window
@@ -38,11 +41,22 @@ class Listener(Protocol):
     def retuned(self, instant: float, affordable: AffordableTolerance) -> None:
         """From simulated time `instant` [s] the tolerance is the one that is `affordable`."""
 
+    def ready(self) -> bool:
+        """Whether time can pass: a clock that is to be followed is heard."""
+
     def goes_on(self, instant: float) -> None:
-        """After a stop, or from a new start, simulated time `instant` [s] is now."""
+        """At the start, after a stop, and while time stands: `instant` [s] is now."""
 
     def stopped(self, defect: Exception) -> None:
         """The thread ends because of `defect`."""
+
+
+class State(StrEnum):
+    """Of simulated time."""
+
+    RUNNING = "running"
+    PAUSED = "paused"
+    WAITING = "waits for /clock"
 
 
 class Progress(NamedTuple):
@@ -53,11 +67,12 @@ class Progress(NamedTuple):
     cpu: float  # [s] processor time of the thread
     overruns: int
     repeats: bool  # steady running, which is not computed again
-    paused: bool
+    state: State
 
 
 class LiveTwin:
-    """Advances `twin` by `interval` [s] at a time, `rate_factor` simulated seconds per second.
+    """Advances `twin` by `interval` [s] at a time, `rate_factor` simulated seconds per second, or
+    as fast as it goes where that is 0.
 
     `affordable` chooses the tolerance, and may be replaced at any time, from any thread. Orders
     are carried out between two intervals; their futures give the simulated instant [s] of that.
@@ -73,7 +88,7 @@ class LiveTwin:
     ) -> None:
         self._twin = twin
         self._interval = interval
-        self._pace = Pace(interval / rate_factor)
+        self._pace = Pace(interval / rate_factor if rate_factor else 0.0)
         self.affordable = affordable
         self._listener = listener
         self._orders: queue.SimpleQueue[tuple[Callable[[], float], Future[float]]] = (
@@ -81,6 +96,8 @@ class LiveTwin:
         )
         self._ramps = Ramps()
         self._paused = False
+        self._stands = True
+        self._untold = True  # an operating point that is in force
         self._stop = threading.Event()
         self._thread = threading.Thread(target=self._run, name="twin", daemon=True)
         self._repeated = False
@@ -88,8 +105,7 @@ class LiveTwin:
 
     def start(self) -> Progress:
         """Begin at the twin's present time; returns where that is."""
-        self._pace.start()
-        begun = self.progress = self._standing()._replace(cpu=0.0)
+        begun = self.progress = self._standing()._replace(cpu=0.0, state=State.RUNNING)
         self._thread.start()
         return begun
 
@@ -126,9 +142,17 @@ class LiveTwin:
     def _run(self) -> None:
         try:
             while not self._stop.is_set():
-                self._obey()
-                if not self._paused:
+                answers = self._obey()
+                stood, self._stands = self._stands, self._halted()
+                if stood and not self._stands:
+                    self._listener.goes_on(self._twin.time)
+                    self._pace.start()
+                if not self._stands:
                     self._follow_ramps()
+                self._announce()
+                for answer in answers:
+                    answer()
+                if not self._stands:
                     self._listener.prepare(self._advance(self._interval))
                     self._pace.wait()
                     self._listener.publish()
@@ -136,17 +160,28 @@ class LiveTwin:
         except Exception as defect:
             self._listener.stopped(defect)
 
-    def _obey(self) -> None:
-        """Carry out what was ordered; a paused twin waits for it."""
-        while True:
-            try:
-                order, future = self._orders.get(block=self._paused, timeout=_ALERTNESS)
-            except queue.Empty:
-                return
-            try:
-                future.set_result(order())
-            except ValueError as refusal:
-                future.set_exception(refusal)
+    def _obey(self) -> list[Callable[[], None]]:
+        """Carry out what was ordered, and return what gives the answers; a twin whose time stands
+        waits for orders.
+        """
+        answers: list[Callable[[], None]] = []
+        with contextlib.suppress(queue.Empty):
+            order, future = self._orders.get(block=self._halted(), timeout=_ALERTNESS)
+            while True:
+                try:
+                    answers.append(partial(future.set_result, order()))
+                except ValueError as refusal:
+                    answers.append(partial(future.set_exception, refusal))
+                order, future = self._orders.get_nowait()
+        return answers
+
+    def _announce(self) -> None:
+        """Tell the operating point once for each instant from which there is another."""
+        if self._untold and self._listener.ready():
+            self._untold = False
+            if self._stands:
+                self._listener.goes_on(self._twin.time)
+            self._listener.changed(self._twin.operating_point, self._twin.time)
 
     def _advance(self, duration: float) -> Window:
         """The next interval, at the tolerance that is affordable as far as is known."""
@@ -167,7 +202,7 @@ class LiveTwin:
     def _change(self, values: Mapping[str, float]) -> float:
         instant = self._twin.set(**values)
         self.affordable.relearn()
-        self._listener.changed(self._twin.operating_point, instant)
+        self._untold = True
         return instant
 
     def _ramp(self, values: Mapping[str, float], duration: float) -> float:
@@ -188,9 +223,6 @@ class LiveTwin:
             self._listener.refused(str(refusal))
 
     def _pause(self, paused: bool) -> float:
-        if self._paused and not paused:
-            self._listener.goes_on(self._twin.time)
-            self._pace.start()
         self._paused = paused
         return self._twin.time
 
@@ -206,6 +238,7 @@ class LiveTwin:
         for n in range(count):
             left = duration - n * self._interval
             self._follow_ramps()
+            self._announce()
             self._listener.prepare(self._advance(min(self._interval, left)))
             self._listener.publish()
         return self._twin.time
@@ -214,17 +247,20 @@ class LiveTwin:
         self._ramps.clear()
         twin.set_tolerance(self._twin.tolerance)
         self._twin = twin
-        self._pace.start()
-        self._listener.goes_on(twin.time)
-        self._listener.changed(twin.operating_point, twin.time)
+        self._stands = self._untold = True
+        self.progress = self._standing()
         return twin.time
 
+    def _halted(self) -> bool:
+        return self._paused or not self._listener.ready()
+
     def _standing(self) -> Progress:
+        waits = State.WAITING if self._stands else State.RUNNING
         return Progress(
             self._twin.time,
             time.monotonic(),
             time.thread_time(),
             self._pace.overruns,
             self._repeated,
-            self._paused,
+            State.PAUSED if self._paused else waits,
         )

@@ -16,6 +16,7 @@ import planetary_twin_py as pt
 from planetary_twin_py.robot import robot_description
 from planetary_twin_py.tolerance import (
     AUTOMATIC,
+    LIVE_TOLERANCE,
     TOLERANCES,
     AffordableTolerance,
     ladder_of,
@@ -23,9 +24,16 @@ from planetary_twin_py.tolerance import (
 
 from .live import LiveTwin, Progress
 from .managed import ManagedNode, NodeError, run_node
-from .parameters import coerce, declare_bounded, declare_fixed, declare_tunable
+from .parameters import (
+    coerce,
+    declare_bounded,
+    declare_fixed,
+    declare_rate_factor,
+    declare_tunable,
+)
 from .ramps import LONGEST_RAMP
 from .real_time import RealTimeReport
+from .stamps import STEADY
 from .telemetry import Telemetry
 from .time_services import TimeServices
 
@@ -55,7 +63,7 @@ class Simulation(ManagedNode):
         self._telemetry = Telemetry(
             self, self._scene, self._frame, self._sample_rate, self._with_clock
         )
-        self._timer = self.create_timer(_REPORT_PERIOD, self._diagnose)
+        self._timer = self.create_timer(_REPORT_PERIOD, self._diagnose, clock=STEADY)
         self.create_service(SetOperatingPoint, "~/set_operating_point", self._set_operating_point)
         self.create_service(NaturalModes, "~/natural_modes", self._natural_modes)
         TimeServices(self, self)
@@ -73,13 +81,10 @@ class Simulation(ManagedNode):
         twin.set_tolerance(affordable.tolerance)
         self.retuned(instant, affordable)
         self._live = LiveTwin(twin, 1.0 / self._rate, self._rate_factor, affordable, self)
-        point = twin.operating_point
-        # Nothing between these two: stamps and wall instants must start from the same moment.
-        self._telemetry.begin(self.get_clock().now().nanoseconds, instant)
-        begun = self._live.start()
-        self._telemetry.announce(point, instant)
+        self._report = self._new_report(twin, self._live.start())
         self._telemetry.describe(self._urdf)
-        self._report = self._new_report(twin, begun)
+        if not self.ready():
+            self.get_logger().warning("use_sim_time: waits for the first message on /clock")
 
     def deactivate(self) -> None:
         """Stop after the interval in progress; the last report counts every message."""
@@ -109,9 +114,13 @@ class Simulation(ManagedNode):
         """Tell of a new operating point."""
         self._telemetry.announce(point, instant)
 
+    def ready(self) -> bool:
+        """Whether there is a ROS time to stamp with."""
+        return self._telemetry.ready()
+
     def goes_on(self, instant: float) -> None:
         """Let simulated time `instant` [s] be now."""
-        self._telemetry.begin(self.get_clock().now().nanoseconds, instant)
+        self._telemetry.begin(instant)
 
     def refused(self, reason: str) -> None:
         """Say why a ramp has ended where it is."""
@@ -169,9 +178,7 @@ class Simulation(ManagedNode):
         self._sample_rate = declare_bounded(
             self, "sample_rate", 50e3, (1e3, 1e6), "samples of mesh_waveform [Hz]"
         )
-        self._rate_factor = declare_bounded(
-            self, "rate_factor", 1.0, (0.01, 100.0), "simulated seconds per second [-]"
-        )
+        self._rate_factor = declare_rate_factor(self)
         self._compute_share = declare_bounded(
             self,
             "compute_share",
@@ -211,9 +218,10 @@ class Simulation(ManagedNode):
 
     def _affordable(self, begin: float) -> AffordableTolerance:
         """What chooses the tolerance as the parameters want it, from `begin` on."""
-        ladder = ladder_of(self.get_parameter(_TOLERANCE.name).value)
-        period = 1.0 / (self._rate * self._rate_factor)
-        return AffordableTolerance(ladder, self._compute_share, period, begin)
+        wanted = self.get_parameter(_TOLERANCE.name).value
+        if wanted == AUTOMATIC and not self._rate_factor:
+            wanted = LIVE_TOLERANCE  # nothing to keep up with
+        return AffordableTolerance(ladder_of(wanted), self._compute_share, self._period, begin)
 
     def _validate(self, parameters: list[Parameter]) -> SetParametersResult:
         try:
@@ -277,9 +285,14 @@ class Simulation(ManagedNode):
         return self._submitted.result(timeout=self._longest_wait)
 
     @property
+    def _period(self) -> float:
+        """Wall time for an interval [s]; the simulated time where it goes as fast as it can."""
+        return 1.0 / (self._rate * (self._rate_factor or 1.0))
+
+    @property
     def _longest_wait(self) -> float:
         """The loop takes orders up between two intervals, so this wait [s] is one interval long."""
-        return 2.0 / (self._rate * self._rate_factor) + 1.0
+        return 2.0 * self._period + 1.0
 
     def _natural_modes(
         self, request: NaturalModes.Request, response: NaturalModes.Response
@@ -295,11 +308,8 @@ class Simulation(ManagedNode):
         live, report = live or self._live, self._report
         if live is None or report is None:
             return
-        stamp = self.get_clock().now().nanoseconds
         message = self._telemetry.diagnose(
-            lambda published: report.message(
-                live.progress, live.affordable, published, stamp, last=last
-            )
+            lambda published: report.message(live.progress, live.affordable, published, last=last)
         )
         status = message.status[0]
         if status.level != self._level:
