@@ -13,7 +13,7 @@ from rcl_interfaces.msg import SetParametersResult
 from rclpy.parameter import Parameter
 
 import planetary_twin_py as pt
-from planetary_twin_py.robot import robot_description
+from planetary_twin_py.robot import frames, robot_description
 from planetary_twin_py.tolerance import (
     AUTOMATIC,
     LIVE_TOLERANCE,
@@ -36,6 +36,7 @@ from .real_time import RealTimeReport
 from .stamps import STEADY
 from .telemetry import Telemetry
 from .time_services import TimeServices
+from .transforms import TransformsMessage
 
 _REPORT_PERIOD = 1.0  # [s]
 _TOLERANCE = pt.Tunable(
@@ -61,7 +62,12 @@ class Simulation(ManagedNode):
         self._ramp = 0.0  # [s] in which what is being set is to be reached
         self._declare()
         self._telemetry = Telemetry(
-            self, self._scene, self._frame, self._sample_rate, self._with_clock
+            self,
+            self._scene,
+            self._frame_prefix + self._frame,
+            self._sample_rate,
+            self._transforms() if self._with_tf else None,
+            self._with_clock,
         )
         self._timer = self.create_timer(_REPORT_PERIOD, self._diagnose, clock=STEADY)
         self.create_service(SetOperatingPoint, "~/set_operating_point", self._set_operating_point)
@@ -169,6 +175,12 @@ class Simulation(ManagedNode):
     def _declare(self) -> None:
         name = declare_fixed(self, "scene", "paper", "packaged scene, or path of a YAML file")
         self._frame = declare_fixed(self, "frame_id", "gearbox", "frame of the gearbox's base")
+        self._frame_prefix = declare_fixed(
+            self, "frame_prefix", "", "before the names of all frames; for several twins"
+        )
+        self._with_tf = bool(
+            declare_fixed(self, "tf", True, "publish /tf; false where robot_state_publisher does")
+        )
         self._rate = declare_bounded(
             self, "publish_rate", 100.0, (10.0, 1000.0), "messages per simulated second [Hz]"
         )
@@ -203,6 +215,9 @@ class Simulation(ManagedNode):
             return super().set_parameters_atomically(parameter_list)
         except ValueError as refusal:
             return SetParametersResult(successful=False, reason=str(refusal))
+
+    def _transforms(self) -> TransformsMessage:
+        return TransformsMessage(frames(self._scene.gearset, self._frame), self._frame_prefix)
 
     def _robot_description(self) -> str:
         try:
