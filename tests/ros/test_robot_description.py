@@ -21,6 +21,8 @@ from .conftest import Start
 from .peer import TWIN, Peer
 
 PREFIX = "left/"
+# As `ros2 topic info -v /tf` tells it in Jazzy: the type is built here, and must be that of ROS.
+HASH_OF_TF = "RIHS01_e369d0f05a23ae52508854b66f6aa0437f3449d652e8cbf22d5abe85d020f087"
 LATCHED = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
 
 
@@ -96,6 +98,8 @@ def test_a_late_subscriber_gets_the_gearbox_and_its_frames_as_its_joints_say(
     for mesh in robot.iter("mesh"):
         assert Path(unquote(urlparse(mesh.attrib["filename"]).path)).is_file()
 
+    (publisher,) = peer.node.get_publishers_info_by_topic("/tf")
+    assert str(publisher.topic_type_hash) == HASH_OF_TF
     stamped = {str(state.header.stamp): state for state in states}
     told = [tf for tf in transforms if str(tf.transforms[0].header.stamp) in stamped]
     assert len(told) > 90
