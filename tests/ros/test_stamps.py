@@ -14,13 +14,17 @@ HOUR = 3600.0  # [s]
 INTERVAL = 0.01  # [s]
 
 
-class Settable(ROSClock):
+class Settable:
     """The system clock, as if somebody had set it by `ahead` [s]."""
 
-    ahead = 0.0
+    ros_time_is_active = False
+
+    def __init__(self) -> None:
+        self._clock = ROSClock()
+        self.ahead = 0.0
 
     def now(self) -> Time:
-        return super().now() + Duration(seconds=self.ahead)
+        return self._clock.now() + Duration(seconds=self.ahead)
 
 
 class Course:
