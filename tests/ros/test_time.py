@@ -44,20 +44,24 @@ class Heard:
                 assert nanoseconds(after.header.stamp) > nanoseconds(before.header.stamp)
 
 
-def pace_seen(peer: Peer, ticks: int) -> float:
-    """Seconds per second of the clock of a node with `use_sim_time`."""
-    peer.node.set_parameters([Parameter("use_sim_time", value=True)])
-    clock = peer.node.get_clock()
-    seen: dict[int, float] = {}  # when each time was seen first
-    peer.until(
-        lambda: (
-            seen.setdefault(clock.now().nanoseconds, time.monotonic()) and len(seen) > ticks + 1
-        ),
-        120.0,
-    )
-    instants = sorted(seen.items())[1:]  # before the first /clock there is no time
-    (first, begin), (last, end) = instants[0], instants[-1]
-    return (last - first) * 1e-9 / (end - begin)
+class Follower:
+    """A node with `use_sim_time`, and when it saw its clock change."""
+
+    def __init__(self, peer: Peer) -> None:
+        peer.node.set_parameters([Parameter("use_sim_time", value=True)])
+        self._clock = peer.node.get_clock()
+        self._seen: dict[int, float] = {}
+
+    def pace(self, ticks: int = 20) -> float:
+        """Seconds of its clock per second, over the newest `ticks`; NaN before there are any."""
+        now = self._clock.now().nanoseconds
+        if now:  # before the first /clock there is no time
+            self._seen.setdefault(now, time.monotonic())
+        instants = list(self._seen.items())[-ticks - 1 :]
+        if len(instants) <= ticks:
+            return math.nan
+        (first, begin), (last, end) = instants[0], instants[-1]
+        return (last - first) * 1e-9 / (end - begin)
 
 
 @pytest.fixture
@@ -155,7 +159,9 @@ def test_the_clock_tells_the_time_of_the_messages(peer: Peer, start: Start) -> N
     start("planetary_twin.simulation", "--ros-args", *given)
     clocks = peer.listen(Clock, "/clock")
     states = peer.listen(GearboxState, f"{TWIN}/gearbox_state")
-    assert pace_seen(peer, 25) == pytest.approx(0.1, rel=0.1)
+    follower = Follower(peer)
+    # A loaded machine may hold the twin up for a while.
+    peer.until(lambda: follower.pace() == pytest.approx(0.1, rel=0.05), 120.0)
     pause(peer, True)
     settle(peer)
     pause(peer, False)
@@ -166,7 +172,7 @@ def test_the_clock_tells_the_time_of_the_messages(peer: Peer, start: Start) -> N
     # Simulated time does not jump where it stood.
     for before, after in itertools.pairwise(told):
         assert (after - before) * 1e-9 == pytest.approx(INTERVAL, abs=1e-6)
-    assert len(stamps & set(told)) >= 25
+    assert len(stamps & set(told)) >= 20
 
 
 def test_natural_modes_are_those_of_the_scene(peer: Peer, heard: Heard) -> None:
