@@ -4,7 +4,8 @@ VENV := .venv
 BIN := $(VENV)/bin
 STAMPS := $(VENV)/stamps
 INSTALL := $(BIN)/uv pip install --quiet --python $(BIN)/python --no-deps --no-build-isolation
-INTERFACES := msgs_spec/package.xml msgs_spec/CMakeLists.txt $(wildcard msgs_spec/msg/* msgs_spec/srv/*)
+INTERFACES := $(wildcard $(foreach spec,msgs_spec tools/tf2_msgs,$(addprefix $(spec)/,\
+	package.xml CMakeLists.txt msg/* srv/*)))
 KERNELS := $(wildcard $(addprefix planetary_twin_py/,_*.py dynamics/*.py integrators/*.py losses/*.py lubrication/*.py mesh/*.py \
 	quasi_static/*.py))
 NODES := $(shell find ros_ws/src/planetary_twin -not -path '*/build*' -not -path '*.egg-info*' \

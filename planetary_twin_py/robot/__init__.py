@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from ..scene.gearset import Gearset
+from .frames import Frame, frames
 from .mesh_files import mesh_files
 from .urdf import urdf
 
-__all__ = ["robot_description"]
+__all__ = ["Frame", "frames", "robot_description"]
 
 
 def robot_description(gearset: Gearset, base: str = "gearbox") -> str:

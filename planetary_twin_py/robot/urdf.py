@@ -1,10 +1,7 @@
 """The gearset as a URDF that turns with the published joint states.
 
-A joint's position is the absolute angle of its body, as everywhere in this project. Sun, ring and
-carrier therefore hang on the base. A planet is carried round, yet must not be turned, by the
-carrier: it hangs on a frame `planet_i_centre` that stands on the carrier and turns back by the
-carrier's angle (`mimic`). This holds whichever member is held, and nothing but the absolute
-angles is needed: robot_state_publisher and RViz follow `mimic` by themselves.
+A joint's position is the absolute angle of its body. Where a frame turns against one, that is a
+`mimic`, which robot_state_publisher and RViz follow by themselves.
 
 Tooth 0 stands at the mount angle where the position is zero: the angle of a link is the absolute
 angle of its body, and the mount turns only what is seen.
@@ -12,13 +9,13 @@ angle of its body, and the mount turns only what is seen.
 
 from __future__ import annotations
 
-import math
 from collections.abc import Mapping
 from xml.etree.ElementTree import Element, SubElement, indent, tostring
 
 from ..gearset.mount import mount
 from ..scene.gearset import Gearset
 from . import parts
+from .frames import Frame, frames
 
 _COLOURS = {
     "sun": parts.SUN,
@@ -39,40 +36,31 @@ def urdf(gearset: Gearset, base: str, meshes: Mapping[str, str]) -> str:
         rgba = " ".join(f"{channel / 255:.3f}" for channel in colour)
         SubElement(SubElement(robot, "material", name=name), "color", rgba=f"{rgba} 1")
     SubElement(robot, "link", name=base)
+    links = {frame.name: _turning(robot, frame) for frame in frames(gearset, base)}
     stand = mount(gearset.tooth_numbers, gearset.planet_angles)
-    _visual(_turning(robot, "sun", base), "sun", meshes, angle=stand.sun)
-    _visual(_turning(robot, "ring", base), "ring", meshes, angle=stand.ring)
-    carrier = _turning(robot, "carrier", base)
-    _visual(carrier, "carrier", meshes)
-    radius = parts.carrier_radius(gearset)
-    for number, (psi, angle) in enumerate(
-        zip(gearset.planet_angles, stand.planets, strict=True), start=1
-    ):
-        at = (radius * math.cos(psi), radius * math.sin(psi))
-        _visual(carrier, "pin", meshes, at)
-        centre, planet = f"planet_{number}_centre", f"planet_{number}"
-        _turning(robot, centre, "carrier", at, against="carrier_joint")
-        _visual(_turning(robot, planet, centre), "planet", meshes, angle=angle)
+    _visual(links["sun"], "sun", meshes, angle=stand.sun)
+    _visual(links["ring"], "ring", meshes, angle=stand.ring)
+    _visual(links["carrier"], "carrier", meshes)
+    for frame in frames(gearset, base):
+        if frame.parent == "carrier":
+            _visual(links["carrier"], "pin", meshes, frame.at)
+    for number, angle in enumerate(stand.planets, start=1):
+        _visual(links[f"planet_{number}"], "planet", meshes, angle=angle)
     indent(robot)
     return '<?xml version="1.0"?>\n' + tostring(robot, encoding="unicode") + "\n"
 
 
-def _turning(
-    robot: Element,
-    name: str,
-    parent: str,
-    at: tuple[float, float] = (0.0, 0.0),
-    against: str | None = None,
-) -> Element:
-    """A link that turns about z on `parent` by a joint of its own, or against another joint."""
-    joint = SubElement(robot, "joint", name=f"{name}_joint", type="continuous")
-    SubElement(joint, "parent", link=parent)
-    SubElement(joint, "child", link=name)
-    _origin(joint, at)
+def _turning(robot: Element, frame: Frame) -> Element:
+    """A link that turns about z on its parent by a joint of its own, or against another joint."""
+    joint = SubElement(robot, "joint", name=f"{frame.name}_joint", type="continuous")
+    SubElement(joint, "parent", link=frame.parent)
+    SubElement(joint, "child", link=frame.name)
+    _origin(joint, frame.at)
     SubElement(joint, "axis", xyz="0 0 1")
-    if against is not None:
-        SubElement(joint, "mimic", joint=against, multiplier="-1", offset="0")
-    return SubElement(robot, "link", name=name)
+    if frame.body != frame.name:
+        followed, sign = f"{frame.body}_joint", str(frame.sign)
+        SubElement(joint, "mimic", joint=followed, multiplier=sign, offset="0")
+    return SubElement(robot, "link", name=frame.name)
 
 
 def _visual(

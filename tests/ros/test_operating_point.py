@@ -154,7 +154,15 @@ def test_values_given_at_start_are_read_the_same_way(peer: Peer, start: Start) -
 
 
 @pytest.mark.parametrize(
-    "given", ["backlash:=7", "backlash:=wide", "tolerance:=5e-09", "tolerance:=7", "scene:=nowhere"]
+    "given",
+    [
+        "backlash:=7",
+        "backlash:=wide",
+        "tolerance:=5e-09",
+        "tolerance:=7",
+        "rate_factor:=0.005",
+        "scene:=nowhere",
+    ],
 )
 def test_nonsense_at_start_ends_in_one_line(start: Start, given: str) -> None:
     process = start("planetary_twin.simulation", "--ros-args", "-p", given)

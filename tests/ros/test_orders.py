@@ -25,15 +25,21 @@ class Twin:
         return float(len(self.told))
 
 
+def carry_out(orders: Orders) -> None:
+    """Let orders be carried out and answered."""
+    for answer in orders.carry_out(0.0):
+        answer()
+
+
 def test_changes_between_two_intervals_are_one_of_what_was_given_last() -> None:
     twin = Twin()
     orders = Orders(twin.change)
     futures = [orders.change({"backlash": float(n), f"other_{n}": 1.0}) for n in range(3)]
-    orders.carry_out(0.0)
+    carry_out(orders)
     assert twin.told == [{"backlash": 2.0, "other_0": 1.0, "other_1": 1.0, "other_2": 1.0}]
     assert {future.result(0) for future in futures} == {1.0}
     later = orders.change({"backlash": 7.0})
-    orders.carry_out(0.0)
+    carry_out(orders)
     assert twin.told[1:] == [{"backlash": 7.0}] and later.result(0) == 2.0
 
 
@@ -43,7 +49,7 @@ def test_no_change_overtakes_another_order() -> None:
     orders.change({"backlash": 1.0})
     orders.give(twin.pause)
     orders.change({"backlash": 2.0})
-    orders.carry_out(0.0)
+    carry_out(orders)
     assert twin.told == [{"backlash": 1.0}, "pause", {"backlash": 2.0}]
 
 
@@ -56,7 +62,7 @@ def test_what_is_given_meanwhile_waits_so_that_no_flood_holds_the_twin_up() -> N
         return twin.pause()
 
     orders.give(endless)
-    orders.carry_out(0.0)
+    carry_out(orders)
     assert twin.told == ["pause"]
 
 
@@ -64,7 +70,7 @@ def test_a_refusal_goes_to_who_gave_the_order_and_a_defect_to_the_twin_too() -> 
     twin = Twin()
     orders = Orders(twin.change)
     refused = orders.change({"backlash": -1.0})
-    orders.carry_out(0.0)
+    carry_out(orders)
     with pytest.raises(ValueError, match="backlash < 0"):
         refused.result(0)
 
@@ -73,7 +79,7 @@ def test_a_refusal_goes_to_who_gave_the_order_and_a_defect_to_the_twin_too() -> 
 
     broken, left = orders.give(defect), orders.give(twin.pause)
     with pytest.raises(ArithmeticError):
-        orders.carry_out(0.0)
+        carry_out(orders)
     orders.refuse("stopped")
     with pytest.raises(ValueError, match="no solution"):
         broken.result(0)

@@ -18,6 +18,7 @@ from .recordings import counts, torn_states
 
 TOPICS = {
     "/diagnostics",
+    "/tf",
     *(f"{TWIN}/{name}" for name in ("gearbox_state", "joint_states", "mesh_waveform")),
     *(f"{TWIN}/{name}" for name in ("operating_point", "robot_description")),
 }

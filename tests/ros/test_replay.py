@@ -113,7 +113,7 @@ def test_every_message_comes_again_in_order_byte_by_byte_and_in_time(
     for name, messages in recorded.items():
         assert [data for _, data in heard[name]] == [data for _, data in messages]
     names = [name for name in recorded if len(recorded[name]) > 50]
-    assert len(names) == 3
+    assert len(names) == 4
     for name in names:
         then, now = (np.array([t for t, _ in source[name]]) for source in (recorded, heard))
         off = (now - now[0]) * 1e-9 - (then - then[0]) * 1e-9 / rate_factor

@@ -2,27 +2,89 @@
 
 from __future__ import annotations
 
+import cmath
+import itertools
 from pathlib import Path
+from typing import NamedTuple
 from urllib.parse import unquote, urlparse
 from xml.etree import ElementTree
+from xml.etree.ElementTree import Element
 
 import pytest
+from planetary_twin_msgs.msg import GearboxState
 from rclpy.qos import DurabilityPolicy, QoSProfile
 from sensor_msgs.msg import JointState
 from std_msgs.msg import String
+from tf2_msgs.msg import TFMessage
 
 from .conftest import Start
 from .peer import TWIN, Peer
 
+PREFIX = "left/"
+# As `ros2 topic info -v /tf` tells it in Jazzy: the type is built here, and must be that of ROS.
+HASH_OF_TF = "RIHS01_e369d0f05a23ae52508854b66f6aa0437f3449d652e8cbf22d5abe85d020f087"
 LATCHED = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
 
 
-def test_a_late_subscriber_gets_the_gearbox_with_the_joints_that_move(
+class Pose(NamedTuple):
+    """Of a frame in the plane: x + iy [m], and a unit number that turns."""
+
+    at: complex
+    turn: complex
+
+    def of(self, child: Pose) -> Pose:
+        return Pose(self.at + self.turn * child.at, self.turn * child.turn)
+
+
+def poses_by_urdf(robot: Element, state: JointState) -> dict[tuple[str, str], Pose]:
+    """Forward kinematics as robot_state_publisher does it: each frame in its parent."""
+    position = dict(zip(state.name, state.position, strict=True))
+    poses = {}
+    for joint in robot.findall("joint"):
+        mimic, origin = joint.find("mimic"), joint.find("origin")
+        assert joint.find("axis").attrib["xyz"] == "0 0 1"
+        angle = (
+            position[joint.attrib["name"]]
+            if mimic is None
+            else position[mimic.attrib["joint"]] * float(mimic.attrib["multiplier"])
+        )
+        x, y, _ = map(float, origin.attrib["xyz"].split())
+        *_, yaw = map(float, origin.attrib["rpy"].split())
+        parent, child = (joint.find(end).attrib["link"] for end in ("parent", "child"))
+        poses[parent, child] = Pose(complex(x, y), cmath.exp(1j * (yaw + angle)))
+    return poses
+
+
+def poses_by_tf(message: TFMessage) -> dict[tuple[str, str], Pose]:
+    poses = {}
+    for stamped in message.transforms:
+        place, turn = stamped.transform.translation, stamped.transform.rotation
+        assert (place.z, turn.x, turn.y) == (0.0, 0.0, 0.0)
+        ends = stamped.header.frame_id, stamped.child_frame_id
+        assert all(end.startswith(PREFIX) for end in ends)
+        parent, child = (end.removeprefix(PREFIX) for end in ends)
+        poses[parent, child] = Pose(complex(place.x, place.y), complex(turn.w, turn.z) ** 2)
+    return poses
+
+
+def in_base(poses: dict[tuple[str, str], Pose], frame: str) -> Pose:
+    """Where `frame` stands in the root of the tree."""
+    for (parent, child), pose in poses.items():
+        if child == frame:
+            return in_base(poses, parent).of(pose)
+    return Pose(0.0, 1.0)
+
+
+def test_a_late_subscriber_gets_the_gearbox_and_its_frames_as_its_joints_say(
     peer: Peer, start: Start
 ) -> None:
-    start("planetary_twin.simulation", "--ros-args", "-p", "frame_id:=left_gearbox")
+    options = ("frame_id:=gearbox_base", f"frame_prefix:={PREFIX}")
+    given = itertools.chain.from_iterable(("-p", option) for option in options)
+    start("planetary_twin.simulation", "--ros-args", *given)
     states = peer.listen(JointState, f"{TWIN}/joint_states")
-    peer.until(lambda: states, 120.0)
+    transforms = peer.listen(TFMessage, "/tf")
+    gearbox = peer.listen(GearboxState, f"{TWIN}/gearbox_state")
+    peer.until(lambda: len(states) > 100 and transforms and gearbox, 120.0)
     heard = peer.listen(String, f"{TWIN}/robot_description", LATCHED)
     robot = ElementTree.fromstring(peer.until(lambda: heard)[0].data)
     joints = {joint.attrib["name"] for joint in robot.iter("joint") if "name" in joint.attrib} - {
@@ -31,9 +93,25 @@ def test_a_late_subscriber_gets_the_gearbox_with_the_joints_that_move(
     assert joints == set(states[0].name)
     children = {joint.attrib["link"] for joint in robot.iter("child")}
     links = {link.attrib["name"] for link in robot.iter("link")}
-    assert links - children == {"left_gearbox"}
+    assert links - children == {"gearbox_base"}
+    assert gearbox[0].header.frame_id == PREFIX + "gearbox_base"
     for mesh in robot.iter("mesh"):
         assert Path(unquote(urlparse(mesh.attrib["filename"]).path)).is_file()
+
+    (publisher,) = peer.node.get_publishers_info_by_topic("/tf")
+    assert str(publisher.topic_type_hash) == HASH_OF_TF
+    stamped = {str(state.header.stamp): state for state in states}
+    told = [tf for tf in transforms if str(tf.transforms[0].header.stamp) in stamped]
+    assert len(told) > 90
+    for message in told:
+        (stamp,) = {str(transform.header.stamp) for transform in message.transforms}
+        by_urdf, by_tf = poses_by_urdf(robot, stamped[stamp]), poses_by_tf(message)
+        assert by_urdf.keys() == by_tf.keys()
+        for link in links:
+            wanted, found = in_base(by_urdf, link), in_base(by_tf, link)
+            assert abs(found.at - wanted.at) < 1e-9 and abs(found.turn - wanted.turn) < 1e-9
+    angles = [state.position[list(state.name).index("sun_joint")] for state in states]
+    assert max(angles) - min(angles) > 1.0  # it has turned meanwhile
 
 
 def test_a_cache_folder_that_cannot_be_written_ends_in_one_line(

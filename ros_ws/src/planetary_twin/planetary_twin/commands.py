@@ -13,6 +13,8 @@ from typing import Annotated, Any
 
 import typer
 
+from .pacing import check_rate_factor
+
 RECORDINGS = Path("recordings")
 
 
@@ -27,7 +29,7 @@ def run(
         typer.Option("--set", metavar="NAME=VALUE", help="Parameter at start (SI); repeatable."),
     ] = None,
     rate_factor: Annotated[
-        float, typer.Option(help="Gearbox seconds per second.", min=0.01, max=100.0)
+        float, typer.Option(help="Gearbox seconds per second; 0: as fast as it goes.")
     ] = 1.0,
     tolerance: Annotated[
         float, typer.Option(help="Relative error of a step; 0: the tightest that time allows.")
@@ -97,7 +99,9 @@ def _run(
     from .running.tour import tour_of
 
     scene, duration = options["scene"], options["duration"]
-    ladder_of(options["tolerance"])  # refuses what cannot be before any process starts
+    # Refuse what cannot be before any process starts.
+    ladder_of(options["tolerance"])
+    check_rate_factor(options["rate_factor"])
     plan = Plan(
         **options,
         folder=_folder(record, scene),

@@ -7,6 +7,7 @@ import threading
 import time
 from collections.abc import Mapping
 from concurrent.futures import Future
+from enum import StrEnum
 from typing import NamedTuple, Protocol
 
 from planetary_twin_py import OperatingPoint, Twin, Window
@@ -38,11 +39,22 @@ class Listener(Protocol):
     def retuned(self, instant: float, affordable: AffordableTolerance) -> None:
         """From simulated time `instant` [s] the tolerance is the one that is `affordable`."""
 
+    def ready(self) -> bool:
+        """Whether time can pass: a clock that is to be followed is heard."""
+
     def goes_on(self, instant: float) -> None:
-        """After a stop, or from a new start, simulated time `instant` [s] is now."""
+        """At the start, after a stop, and while time stands: `instant` [s] is now."""
 
     def stopped(self, defect: Exception) -> None:
         """The thread ends because of `defect`."""
+
+
+class State(StrEnum):
+    """Of simulated time."""
+
+    RUNNING = "running"
+    PAUSED = "paused"
+    WAITING = "waits for /clock"
 
 
 class Progress(NamedTuple):
@@ -53,11 +65,12 @@ class Progress(NamedTuple):
     cpu: float  # [s] processor time of the thread
     overruns: int
     repeats: bool  # steady running, which is not computed again
-    paused: bool
+    state: State
 
 
 class LiveTwin:
-    """Advances `twin` by `interval` [s] at a time, `rate_factor` simulated seconds per second.
+    """Advances `twin` by `interval` [s] at a time, `rate_factor` simulated seconds per second, or
+    as fast as it goes where that is 0.
 
     `affordable` chooses the tolerance, and may be replaced at any time, from any thread. Orders
     are carried out between two intervals; their futures give the simulated instant [s] of that.
@@ -74,20 +87,21 @@ class LiveTwin:
         self._twin = twin
         self._interval = interval
         self._stop = threading.Event()
-        self._pace = Pace(interval / rate_factor, self._stop.wait)
+        self._pace = Pace(interval / rate_factor if rate_factor else 0.0, self._stop.wait)
         self.affordable = affordable
         self._listener = listener
         self._orders = Orders(self._set)
         self._ramps = Ramps()
         self._paused = False
+        self._stands = True
+        self._untold = True  # an operating point that is in force
         self._thread = threading.Thread(target=self._run, name="twin", daemon=True)
         self._repeated = False
         self.progress = self._standing()
 
     def start(self) -> Progress:
         """Begin at the twin's present time; returns where that is."""
-        self._pace.start()
-        begun = self.progress = self._standing()._replace(cpu=0.0)
+        begun = self.progress = self._standing()._replace(cpu=0.0, state=State.RUNNING)
         self._thread.start()
         return begun
 
@@ -119,9 +133,17 @@ class LiveTwin:
     def _run(self) -> None:
         try:
             while not self._stop.is_set():
-                self._orders.carry_out(_ALERTNESS if self._paused else 0.0)
-                if not self._paused:
+                answers = self._orders.carry_out(_ALERTNESS if self._halted() else 0.0)
+                stood, self._stands = self._stands, self._halted()
+                if stood and not self._stands:
+                    self._listener.goes_on(self._twin.time)
+                    self._pace.start()
+                if not self._stands:
                     self._follow_ramps()
+                self._announce()
+                for answer in answers:
+                    answer()
+                if not self._stands:
                     self._listener.prepare(self._advance(self._interval))
                     self._pace.wait()
                     self._listener.publish()
@@ -130,6 +152,14 @@ class LiveTwin:
             self._listener.stopped(defect)
         finally:
             self._orders.refuse("the simulation has stopped")
+
+    def _announce(self) -> None:
+        """Tell the operating point once for each instant from which there is another."""
+        if self._untold and self._listener.ready():
+            self._untold = False
+            if self._stands:
+                self._listener.goes_on(self._twin.time)
+            self._listener.changed(self._twin.operating_point, self._twin.time)
 
     def _advance(self, duration: float) -> Window:
         """The next interval, at the tolerance that is affordable as far as is known."""
@@ -150,7 +180,7 @@ class LiveTwin:
     def _change(self, values: Mapping[str, float]) -> float:
         instant = self._twin.set(**values)
         self.affordable.relearn()
-        self._listener.changed(self._twin.operating_point, instant)
+        self._untold = True
         return instant
 
     def _ramp(self, values: Mapping[str, float], duration: float) -> float:
@@ -171,9 +201,6 @@ class LiveTwin:
             self._listener.refused(str(refusal))
 
     def _pause(self, paused: bool) -> float:
-        if self._paused and not paused:
-            self._listener.goes_on(self._twin.time)
-            self._pace.start()
         self._paused = paused
         return self._twin.time
 
@@ -189,6 +216,7 @@ class LiveTwin:
         for n in range(count):
             left = duration - n * self._interval
             self._follow_ramps()
+            self._announce()
             self._listener.prepare(self._advance(min(self._interval, left)))
             self._listener.publish()
         return self._twin.time
@@ -197,17 +225,20 @@ class LiveTwin:
         self._ramps.clear()
         twin.set_tolerance(self._twin.tolerance)
         self._twin = twin
-        self._pace.start()
-        self._listener.goes_on(twin.time)
-        self._listener.changed(twin.operating_point, twin.time)
+        self._stands = self._untold = True
+        self.progress = self._standing()
         return twin.time
 
+    def _halted(self) -> bool:
+        return self._paused or not self._listener.ready()
+
     def _standing(self) -> Progress:
+        waits = State.WAITING if self._stands else State.RUNNING
         return Progress(
             self._twin.time,
             time.monotonic(),
             time.thread_time(),
             self._pace.overruns,
             self._repeated,
-            self._paused,
+            State.PAUSED if self._paused else waits,
         )

@@ -20,7 +20,9 @@ from planetary_twin_py.recording.account import TopicAccount
 from planetary_twin_py.recording.bag import BagWriter, free_folder, named_folder
 
 from .managed import ManagedNode, NodeError, RCLError, run_node
+from .messages import set_stamp
 from .parameters import brief, declare_bounded, declare_fixed
+from .stamps import STEADY, Rising
 from .topics import describe, matching_qos, message_class, wanted_topics
 
 _DISCOVERY_PERIOD = 0.1  # [s]
@@ -81,6 +83,7 @@ class Logger(ManagedNode):
         self._ticking: list[Timer] = []
         self._begun = 0
         self._status = RecorderStatus()
+        self._now = Rising(self.get_clock())
         self._status_publisher = self.create_publisher(RecorderStatus, "~/status", 10)
 
     def configure(self) -> None:
@@ -105,9 +108,9 @@ class Logger(ManagedNode):
     def activate(self) -> None:
         """Subscribe to what there is, and to what appears later."""
         self._ticking = [
-            self.create_timer(_DISCOVERY_PERIOD, self._discover),
-            self.create_timer(self._flush_period, self._flush),
-            self.create_timer(_STATUS_PERIOD, self._publish_status),
+            self.create_timer(_DISCOVERY_PERIOD, self._discover, clock=STEADY),
+            self.create_timer(self._flush_period, self._flush, clock=STEADY),
+            self.create_timer(_STATUS_PERIOD, self._publish_status, clock=STEADY),
         ]
 
     def deactivate(self) -> None:
@@ -197,8 +200,7 @@ class Logger(ManagedNode):
 
     def _publish_status(self) -> None:
         status = self._status
-        now = self.get_clock().now().nanoseconds
-        status.header.stamp.sec, status.header.stamp.nanosec = divmod(now, 1_000_000_000)
+        set_stamp(status.header.stamp, self._now.now())
         status.sequence += 1
         status.file = str(self._bag.file)
         status.duration = (time.monotonic_ns() - self._begun) * 1e-9

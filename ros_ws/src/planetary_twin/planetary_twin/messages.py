@@ -1,14 +1,17 @@
-"""Fills the twin's messages in place: making them anew would cost more than sending them."""
+"""Fills the twin's messages in place: making them anew would cost more than sending them.
+
+Stamps are set when a message is sent.
+"""
 
 from __future__ import annotations
 
 from array import array
 
 import numpy as np
+from builtin_interfaces.msg import Time
 from numpy.typing import NDArray
 from planetary_twin_msgs import msg
 from sensor_msgs.msg import JointState
-from std_msgs.msg import Header
 
 from planetary_twin_py import TUNABLES, OperatingPoint, Scene, Window
 
@@ -30,9 +33,9 @@ _MEMBERS = ("sun", "ring", "carrier")
 _WAVES = ("dte", "mesh_force", "friction")
 
 
-def set_stamp(header: Header, stamp: int) -> None:
-    """Write a time [ns since the epoch] into `header`."""
-    header.stamp.sec, header.stamp.nanosec = divmod(stamp, 1_000_000_000)
+def set_stamp(message: Time, stamp: int) -> None:
+    """Write a time [ns since the epoch] into `message`."""
+    message.sec, message.nanosec = divmod(stamp, 1_000_000_000)
 
 
 class StateMessage:
@@ -53,10 +56,9 @@ class StateMessage:
             if name.startswith(f"{kind}_")
         ]
 
-    def fill(self, window: Window, stamp: int) -> msg.GearboxState:
-        """Describe `window`; `stamp` [ns] is the instant of its end."""
+    def fill(self, window: Window) -> msg.GearboxState:
+        """Describe `window`."""
         message = self.message
-        set_stamp(message.header, stamp)
         message.sequence += 1
         message.simulated_time = window.end
         message.interval = window.end - window.start
@@ -85,12 +87,11 @@ class WaveformMessage:
         self._meshes = 2 * planets
         self._views: list[NDArray[np.float32]] = []
 
-    def fill(self, window: Window, origin: int) -> msg.MeshWaveform:
-        """Describe `window`; `origin` [ns] is the instant of simulated time 0."""
+    def fill(self, window: Window) -> msg.MeshWaveform:
+        """Describe `window`."""
         wave, message = window.waveform, self.message
         if message.samples != len(wave.time):
             self._allocate(len(wave.time))
-        set_stamp(message.header, origin + round(wave.time[0] * 1e9))
         message.sequence += 1
         message.start_time = float(wave.time[0])
         for view, name in zip(self._views, _WAVES, strict=True):
@@ -124,9 +125,8 @@ class JointsMessage:
         self._position = np.frombuffer(self.message.position)
         self._velocity = np.frombuffer(self.message.velocity)
 
-    def fill(self, window: Window, stamp: int) -> JointState:
-        """Describe `window`; `stamp` [ns] is the instant of its end."""
-        set_stamp(self.message.header, stamp)
+    def fill(self, window: Window) -> JointState:
+        """Describe `window`."""
         self._position[:] = window.angle
         self._velocity[:] = window.mean_speed
         return self.message
@@ -140,10 +140,9 @@ class OperatingPointMessage:
         self.message.header.frame_id = frame
         self._last: OperatingPoint | None = None
 
-    def fill(self, point: OperatingPoint, instant: float, stamp: int) -> msg.OperatingPoint:
-        """Describe `point`, in force from simulated time `instant` [s], ROS time `stamp` [ns]."""
+    def fill(self, point: OperatingPoint, instant: float) -> msg.OperatingPoint:
+        """Describe `point`, in force from simulated time `instant` [s]."""
         message, last = self.message, self._last
-        set_stamp(message.header, stamp)
         message.sequence += 1
         message.simulated_time = instant
         message.changed = ",".join(

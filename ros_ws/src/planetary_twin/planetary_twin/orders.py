@@ -6,6 +6,7 @@ import queue
 import threading
 from collections.abc import Callable, Mapping
 from concurrent.futures import Future
+from functools import partial
 
 Order = Callable[[], float]
 
@@ -38,23 +39,30 @@ class Orders:
             self._gathering[0].update(values)
             return self._gathering[1]
 
-    def carry_out(self, patience: float) -> None:
-        """Do what is there by now; where nothing is, wait `patience` [s] for one.
+    def carry_out(self, patience: float) -> list[Callable[[], None]]:
+        """Do what is there by now, and return what gives the answers; where nothing is, wait
+        `patience` [s] for one order.
 
         What an order raises goes to who gave it; all but a `ValueError`, a refusal, is also raised.
         """
+        answers: list[Callable[[], None]] = []
         for _ in range(max(self._queue.qsize(), 1)):
             try:
                 order, future = self._queue.get(timeout=patience)
             except queue.Empty:
-                return
+                break
             try:
-                future.set_result(order())
+                answers.append(partial(future.set_result, order()))
             except ValueError as refusal:
-                future.set_exception(refusal)
+                answers.append(partial(future.set_exception, refusal))
             except Exception as defect:
-                future.set_exception(ValueError(f"the twin stopped: {defect}"))
+                answers.append(
+                    partial(future.set_exception, ValueError(f"the twin stopped: {defect}"))
+                )
+                for answer in answers:
+                    answer()
                 raise
+        return answers
 
     def refuse(self, reason: str) -> None:
         """Answer all that is left with `reason`."""

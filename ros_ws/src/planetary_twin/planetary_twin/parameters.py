@@ -22,6 +22,8 @@ from rclpy.parameter_service import ParameterService
 from planetary_twin_py import Tunable
 from planetary_twin_py.scene.quantity import unit_of
 
+from .pacing import AS_FAST_AS_IT_GOES, FASTEST, SLOWEST, check_rate_factor
+
 _AT_START = "fixed while the node lives: set it at start, -p {name}:=VALUE"
 _GEOMETRY = "geometry is fixed while the node lives: choose another scene, -p scene:=SCENE"
 _MOST = 200  # parameters in a request: more than there are, but little work
@@ -105,6 +107,22 @@ def declare_bounded(
         floating_point_range=[FloatingPointRange(from_value=limits[0], to_value=limits[1])],
     )
     return _declare_number(node, name, default, descriptor)
+
+
+def declare_rate_factor(node: Node) -> float:
+    """Declare simulated seconds per second and return the value; 0 is as fast as it goes.
+
+    Raises `ValueError` for one between 0 and the slowest.
+    """
+    value = declare_bounded(
+        node,
+        "rate_factor",
+        1.0,
+        (AS_FAST_AS_IT_GOES, FASTEST),
+        f"simulated seconds per second, {SLOWEST:g} to {FASTEST:g}; 0: as fast as it goes [-]",
+    )
+    check_rate_factor(value)
+    return value
 
 
 def declare_tunable(node: Node, tunable: Tunable, default: float, told_in: str) -> float:

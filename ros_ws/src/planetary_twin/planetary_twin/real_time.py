@@ -10,7 +10,7 @@ from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus, KeyValue
 from planetary_twin_py import Change
 from planetary_twin_py.tolerance import AffordableTolerance
 
-from .live import Progress
+from .live import Progress, State
 from .reports import REAL_TIME
 
 _TOLERATED_LAG = 0.01  # share of the wanted rate; below it the real-time factor is a warning
@@ -39,29 +39,30 @@ class RealTimeReport:
         now: Progress,
         affordable: AffordableTolerance,
         published: Mapping[str, int],
-        stamp: int,
         *,
         last: bool,
     ) -> DiagnosticArray:
-        """The report: `published` counts messages by topic, `stamp` [ns] is the ROS time.
+        """The report, not stamped yet; `published` counts messages by topic.
 
         The `last` one is sent when the twin has stopped, so its counts are final.
         """
         recent = _rate(self._last, now, self._rate_factor)
         overruns = now.overruns - self._last.overruns
         lags = recent < (1.0 - _TOLERATED_LAG) * self._rate_factor
-        stood = now.paused or self._last.paused
+        stood = {now.state, self._last.state} != {State.RUNNING}
         late = overruns > 0 or (lags and not stood and now.wall - self._last.wall >= _SHORTEST)
         status = DiagnosticStatus(
             level=DiagnosticStatus.WARN if late else DiagnosticStatus.OK,
             name=REAL_TIME,
             message=f"falls behind: real time x {recent:.3f}, {overruns} overruns"
             if late
-            else "keeps up",
+            else "keeps up"
+            if self._rate_factor
+            else "runs as fast as it goes",
             hardware_id=self._hardware,
         )
         figures: dict[str, object] = {
-            "state": "stopped" if last else "paused" if now.paused else "running",
+            "state": "stopped" if last else now.state,
             "real_time_factor": f"{recent:.4f}",
             "real_time_factor_mean": f"{_rate(self._begun, now, self._rate_factor):.4f}",
             "rate_factor": f"{self._rate_factor:g}",
@@ -76,9 +77,7 @@ class RealTimeReport:
         }
         status.values = [KeyValue(key=key, value=str(value)) for key, value in figures.items()]
         self._last = now
-        array = DiagnosticArray(status=[status])
-        array.header.stamp.sec, array.header.stamp.nanosec = divmod(stamp, 1_000_000_000)
-        return array
+        return DiagnosticArray(status=[status])
 
     def _tolerances(self) -> dict[str, str]:
         """The tolerance, and each since the report before with the instant it holds from.

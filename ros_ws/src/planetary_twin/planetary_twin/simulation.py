@@ -13,9 +13,10 @@ from rcl_interfaces.msg import SetParametersResult
 from rclpy.parameter import Parameter
 
 import planetary_twin_py as pt
-from planetary_twin_py.robot import robot_description
+from planetary_twin_py.robot import frames, robot_description
 from planetary_twin_py.tolerance import (
     AUTOMATIC,
+    LIVE_TOLERANCE,
     TOLERANCES,
     AffordableTolerance,
     ladder_of,
@@ -29,12 +30,15 @@ from .parameters import (
     declare_bounded,
     declare_fixed,
     declare_geometry,
+    declare_rate_factor,
     declare_tunable,
 )
 from .ramps import LONGEST_RAMP
 from .real_time import RealTimeReport
+from .stamps import STEADY
 from .telemetry import Telemetry
 from .time_services import TimeServices
+from .transforms import TransformsMessage
 
 _REPORT_PERIOD = 1.0  # [s]
 # After which a thread that waits may take the interpreter from one that is busy: Python's 5 ms,
@@ -63,9 +67,14 @@ class Simulation(ManagedNode):
         self._ramp = 0.0  # [s] in which what is being set is to be reached
         self._declare()
         self._telemetry = Telemetry(
-            self, self._scene, self._frame, self._sample_rate, self._with_clock
+            self,
+            self._scene,
+            self._frame_prefix + self._frame,
+            self._sample_rate,
+            self._transforms() if self._with_tf else None,
+            self._with_clock,
         )
-        self._timer = self.create_timer(_REPORT_PERIOD, self._diagnose)
+        self._timer = self.create_timer(_REPORT_PERIOD, self._diagnose, clock=STEADY)
         self.create_service(SetOperatingPoint, "~/set_operating_point", self._set_operating_point)
         self.create_service(NaturalModes, "~/natural_modes", self._natural_modes)
         TimeServices(self, self)
@@ -83,13 +92,10 @@ class Simulation(ManagedNode):
         twin.set_tolerance(affordable.tolerance)
         self.retuned(instant, affordable)
         self._live = LiveTwin(twin, 1.0 / self._rate, self._rate_factor, affordable, self)
-        point = twin.operating_point
-        # Nothing between these two: stamps and wall instants must start from the same moment.
-        self._telemetry.begin(self.get_clock().now().nanoseconds, instant)
-        begun = self._live.start()
-        self._telemetry.announce(point, instant)
+        self._report = self._new_report(twin, self._live.start())
         self._telemetry.describe(self._urdf)
-        self._report = self._new_report(twin, begun)
+        if not self.ready():
+            self.get_logger().warning("use_sim_time: waits for the first message on /clock")
 
     def deactivate(self) -> None:
         """Stop after the interval in progress; the last report counts every message."""
@@ -119,9 +125,13 @@ class Simulation(ManagedNode):
         """Tell of a new operating point."""
         self._telemetry.announce(point, instant)
 
+    def ready(self) -> bool:
+        """Whether there is a ROS time to stamp with."""
+        return self._telemetry.ready()
+
     def goes_on(self, instant: float) -> None:
         """Let simulated time `instant` [s] be now."""
-        self._telemetry.begin(self.get_clock().now().nanoseconds, instant)
+        self._telemetry.begin(instant)
 
     def refused(self, reason: str) -> None:
         """Say why a ramp has ended where it is."""
@@ -170,6 +180,12 @@ class Simulation(ManagedNode):
     def _declare(self) -> None:
         name = declare_fixed(self, "scene", "paper", "packaged scene, or path of a YAML file")
         self._frame = declare_fixed(self, "frame_id", "gearbox", "frame of the gearbox's base")
+        self._frame_prefix = declare_fixed(
+            self, "frame_prefix", "", "before the names of all frames; for several twins"
+        )
+        self._with_tf = bool(
+            declare_fixed(self, "tf", True, "publish /tf; false where robot_state_publisher does")
+        )
         self._rate = declare_bounded(
             self, "publish_rate", 100.0, (10.0, 1000.0), "messages per simulated second [Hz]"
         )
@@ -179,9 +195,7 @@ class Simulation(ManagedNode):
         self._sample_rate = declare_bounded(
             self, "sample_rate", 50e3, (1e3, 1e6), "samples of mesh_waveform [Hz]"
         )
-        self._rate_factor = declare_bounded(
-            self, "rate_factor", 1.0, (0.01, 100.0), "simulated seconds per second [-]"
-        )
+        self._rate_factor = declare_rate_factor(self)
         self._compute_share = declare_bounded(
             self,
             "compute_share",
@@ -201,6 +215,9 @@ class Simulation(ManagedNode):
         self.add_on_set_parameters_callback(self._validate)
         self.add_post_set_parameters_callback(self._submit)
 
+    def _transforms(self) -> TransformsMessage:
+        return TransformsMessage(frames(self._scene.gearset, self._frame), self._frame_prefix)
+
     def _robot_description(self) -> str:
         try:
             return robot_description(self._scene.gearset, self._frame)
@@ -215,9 +232,10 @@ class Simulation(ManagedNode):
 
     def _affordable(self, begin: float) -> AffordableTolerance:
         """What chooses the tolerance as the parameters want it, from `begin` on."""
-        ladder = ladder_of(self.get_parameter(_TOLERANCE.name).value)
-        period = 1.0 / (self._rate * self._rate_factor)
-        return AffordableTolerance(ladder, self._compute_share, period, begin)
+        wanted = self.get_parameter(_TOLERANCE.name).value
+        if wanted == AUTOMATIC and not self._rate_factor:
+            wanted = LIVE_TOLERANCE  # nothing to keep up with
+        return AffordableTolerance(ladder_of(wanted), self._compute_share, self._period, begin)
 
     def _validate(self, parameters: list[Parameter]) -> SetParametersResult:
         try:
@@ -283,9 +301,14 @@ class Simulation(ManagedNode):
         return self._submitted.result(timeout=self._longest_wait)
 
     @property
+    def _period(self) -> float:
+        """Wall time for an interval [s]; the simulated time where it goes as fast as it can."""
+        return 1.0 / (self._rate * (self._rate_factor or 1.0))
+
+    @property
     def _longest_wait(self) -> float:
         """The loop takes orders up between two intervals, so this wait [s] is one interval long."""
-        return 2.0 / (self._rate * self._rate_factor) + 1.0
+        return 2.0 * self._period + 1.0
 
     def _natural_modes(
         self, request: NaturalModes.Request, response: NaturalModes.Response
@@ -301,11 +324,8 @@ class Simulation(ManagedNode):
         live, report = live or self._live, self._report
         if live is None or report is None:
             return
-        stamp = self.get_clock().now().nanoseconds
         message = self._telemetry.diagnose(
-            lambda published: report.message(
-                live.progress, live.affordable, published, stamp, last=last
-            )
+            lambda published: report.message(live.progress, live.affordable, published, last=last)
         )
         status = message.status[0]
         if status.level != self._level:

@@ -5,31 +5,45 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from typing import Any
 
+from builtin_interfaces.msg import Time
 from diagnostic_msgs.msg import DiagnosticArray
 from planetary_twin_msgs import msg
 from rclpy.node import Node
 from rclpy.publisher import Publisher
-from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
-from rclpy.time import Time
+from rclpy.qos import DurabilityPolicy, QoSProfile
 from rosgraph_msgs.msg import Clock
 from sensor_msgs.msg import JointState
 from std_msgs.msg import String
+from tf2_msgs.msg import TFMessage
 
 from planetary_twin_py import OperatingPoint, Scene, Window
 
-from .messages import JointsMessage, OperatingPointMessage, StateMessage, WaveformMessage
+from .messages import (
+    JointsMessage,
+    OperatingPointMessage,
+    StateMessage,
+    WaveformMessage,
+    set_stamp,
+)
+from .stamps import Rising, Stamps
+from .transforms import TransformsMessage
 
 _LATCHED = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
-# As `use_sim_time` listens.
-_CLOCK = QoSProfile(depth=1, reliability=ReliabilityPolicy.BEST_EFFORT)
 _DEPTH = 10
+_TF_DEPTH = 100  # as tf2_ros offers it
 
 
 class Telemetry:
     """Publishes windows, operating points and diagnostics, stamped with their own ROS time."""
 
     def __init__(
-        self, node: Node, scene: Scene, frame: str, sample_rate: float, clock: bool
+        self,
+        node: Node,
+        scene: Scene,
+        frame: str,
+        sample_rate: float,
+        transforms: TransformsMessage | None,
+        clock: bool,
     ) -> None:
         self._state = node.create_publisher(msg.GearboxState, "gearbox_state", _DEPTH)
         self._waveform = node.create_publisher(msg.MeshWaveform, "mesh_waveform", _DEPTH)
@@ -37,14 +51,18 @@ class Telemetry:
         self._point = node.create_publisher(msg.OperatingPoint, "operating_point", _LATCHED)
         self._description = node.create_publisher(String, "robot_description", _LATCHED)
         self._diagnostics = node.create_publisher(DiagnosticArray, "/diagnostics", _DEPTH)
-        self._clock = node.create_publisher(Clock, "/clock", _CLOCK) if clock else None
+        self._tf = node.create_publisher(TFMessage, "/tf", _TF_DEPTH) if transforms else None
+        self._clock = node.create_publisher(Clock, "/clock", _DEPTH) if clock else None
         self._state_message = StateMessage(scene, frame)
         self._waveform_message = WaveformMessage(scene, frame, sample_rate)
         self._joints_message: JointsMessage | None = None
         self._point_message = OperatingPointMessage(frame)
-        self._prepared: list[tuple[Publisher, Any]] = []
-        self._origin = 0
-        self._newest = 0
+        self._clock_message = Clock()
+        self._transforms_message = transforms
+        self._prepared: list[tuple[Publisher, Any, list[Time], float]] = []
+        self._end = 0.0
+        self._stamps = Stamps(node.get_clock(), source=clock)
+        self._now = Rising(node.get_clock())
         publishers = (
             self._state,
             self._waveform,
@@ -52,6 +70,7 @@ class Telemetry:
             self._point,
             self._description,
             self._diagnostics,
+            self._tf,
             self._clock,
         )
         self._published = {publisher: 0 for publisher in publishers if publisher is not None}
@@ -60,43 +79,60 @@ class Telemetry:
         """Publish what the gearbox looks like."""
         self._send(self._description, String(data=urdf))
 
-    def begin(self, now: int, simulated: float) -> None:
-        """Let time `simulated` [s] be the ROS time `now` [ns], or later if stamps ran ahead."""
-        self._origin = max(now, self._newest) - round(simulated * 1e9)
+    def ready(self) -> bool:
+        """Whether there is a ROS time to stamp with."""
+        return self._stamps.ready()
+
+    def begin(self, simulated: float) -> None:
+        """Let time `simulated` [s] be now."""
+        self._stamps.begin(simulated)
 
     def stamp(self, simulated: float) -> int:
-        """ROS time [ns] of simulated time `simulated` [s]."""
-        return self._origin + round(simulated * 1e9)
+        """ROS time [ns] of simulated time `simulated` [s], of the newest interval or its end."""
+        return self._stamps.of(simulated)
 
     def prepare(self, window: Window) -> None:
         """Fill the messages that describe `window`."""
         if self._joints_message is None:
             self._joints_message = JointsMessage(window.bodies)
-        end = self._newest = self.stamp(window.end)
-        self._prepared = [
-            (self._state, self._state_message.fill(window, end)),
-            (self._joints, self._joints_message.fill(window, end)),
-        ]
+        self._end = window.end
+        self._prepared.clear()
+        if self._clock is not None:  # before what is stamped with it: nothing is of the future
+            clock = self._clock_message
+            self._prepared.append((self._clock, clock, [clock.clock], window.end))
+        state, joints = self._state_message.fill(window), self._joints_message.fill(window)
+        self._prepared.append((self._state, state, [state.header.stamp], window.end))
+        self._prepared.append((self._joints, joints, [joints.header.stamp], window.end))
+        if self._tf is not None and self._transforms_message is not None:
+            transforms = self._transforms_message
+            self._prepared.append(
+                (self._tf, transforms.fill(window), transforms.stamps, window.end)
+            )
         if len(window.waveform.time):  # a single step may be shorter than the sample period
-            wave = self._waveform_message.fill(window, self._origin)
-            self._prepared.append((self._waveform, wave))
-        if self._clock is not None:
-            self._prepared.append((self._clock, Clock(clock=Time(nanoseconds=end).to_msg())))
+            wave = self._waveform_message.fill(window)
+            self._prepared.append((self._waveform, wave, [wave.header.stamp], wave.start_time))
 
     def publish(self) -> None:
         """Send what is prepared."""
-        for publisher, message in self._prepared:
+        self._stamps.reach(self._end)
+        for publisher, message, times, instant in self._prepared:
+            stamp = self.stamp(instant)
+            for time in times:
+                set_stamp(time, stamp)
             self._send(publisher, message)
 
     def announce(self, point: OperatingPoint, instant: float) -> None:
         """Publish the operating point in force from simulated time `instant` [s]."""
-        self._send(self._point, self._point_message.fill(point, instant, self.stamp(instant)))
+        message = self._point_message.fill(point, instant)
+        set_stamp(message.header.stamp, self.stamp(instant))
+        self._send(self._point, message)
 
     def diagnose(self, report: Callable[[Mapping[str, int]], DiagnosticArray]) -> DiagnosticArray:
-        """Publish what `report` makes of the message counts, its own message counted."""
+        """Stamp and publish what `report` makes of the message counts, its own message counted."""
         counts = dict(self._published)
         counts[self._diagnostics] += 1
         message = report({publisher.topic_name: n for publisher, n in counts.items()})
+        set_stamp(message.header.stamp, self._now.now())
         self._send(self._diagnostics, message)
         return message
 

@@ -16,14 +16,14 @@ from .qos import to_words
 
 # Room for two seconds of every topic at 500 Hz while the disk is slow.
 _DEPTH = 1000
-_EVERYWHERE = ("/diagnostics",)
+_EVERYWHERE = ("/diagnostics", "/tf")
 
 
 def wanted_topics(node: Node, chosen: Sequence[str]) -> list[str]:
     """Topics that exist and are to be recorded.
 
     `chosen` names them; without it, they are those that stand directly in the node's namespace,
-    and /diagnostics.
+    /diagnostics and /tf.
     """
     names = {name for name, _ in node.get_topic_names_and_types()}
     if chosen:

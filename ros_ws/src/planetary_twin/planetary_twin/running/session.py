@@ -157,7 +157,7 @@ def _drive(operator: Operator, plan: Plan, show: Show) -> None:
     stops = list(plan.stops)
     seen = 0.0
     while seen < plan.duration:
-        state = operator.next_state(seen, _SILENCE / min(plan.rate_factor, 1.0))
+        state = operator.next_state(seen, _SILENCE / min(plan.rate_factor or 1.0, 1.0))
         seen = state.simulated_time
         show.update(state, operator.figures.get("real_time_factor", "-"))
         while stops and stops[0].time <= seen:

@@ -1,0 +1,118 @@
+"""Whatever happens to the clocks, stamps only rise, and who is late says so."""
+
+from __future__ import annotations
+
+import itertools
+import signal
+import time
+
+import pytest
+from diagnostic_msgs.msg import DiagnosticArray
+from planetary_twin.reports import real_time_figures
+from planetary_twin.stamps import STEADY
+from planetary_twin_msgs.msg import GearboxState, MeshWaveform
+from rclpy.time import Time
+from rosgraph_msgs.msg import Clock
+
+from .conftest import Start
+from .peer import TWIN, Peer
+
+MODULE = "planetary_twin.simulation"
+INTERVAL = 0.01  # [s]
+HOUR = 3600.0  # [s]
+
+
+def seconds(stamp) -> float:
+    return stamp.sec + stamp.nanosec * 1e-9
+
+
+def check_rising(*topics: list) -> None:
+    """Numbers without gaps, stamps that only rise."""
+    for messages in topics:
+        for before, after in itertools.pairwise(messages):
+            assert after.sequence == before.sequence + 1
+            assert Time.from_msg(after.header.stamp) > Time.from_msg(before.header.stamp)
+
+
+class Ticking:
+    """A /clock that somebody else publishes, and sets."""
+
+    def __init__(self, peer: Peer, begin: float) -> None:
+        self._ahead = begin - time.monotonic()
+        self._publisher = peer.node.create_publisher(Clock, "/clock", 10)
+        peer.node.create_timer(0.01, self._tick, clock=STEADY)
+
+    def _tick(self) -> None:
+        self._publisher.publish(Clock(clock=Time(nanoseconds=round(self.now * 1e9)).to_msg()))
+
+    @property
+    def now(self) -> float:
+        return time.monotonic() + self._ahead
+
+    def jump(self, by: float) -> None:
+        self._ahead += by
+
+
+def figures(reports: list[DiagnosticArray]) -> dict[str, str]:
+    """Those of the newest report."""
+    return real_time_figures(reports[-1], TWIN) if reports else {}
+
+
+def test_stamps_follow_the_clock_of_another_and_outlive_its_jumps(peer: Peer, start: Start) -> None:
+    start(MODULE, "--ros-args", "-p", "use_sim_time:=true")
+    states = peer.listen(GearboxState, f"{TWIN}/gearbox_state", 1000)
+    waves = peer.listen(MeshWaveform, f"{TWIN}/mesh_waveform", 1000)
+    reports = peer.listen(DiagnosticArray, "/diagnostics")
+    peer.until(lambda: figures(reports).get("state") == "waits for /clock", 120.0)
+    assert not states and all(ord(report.status[0].level) == 0 for report in reports)
+
+    clock = Ticking(peer, 5.0)
+
+    def follows() -> bool:
+        return states and abs(seconds(states[-1].header.stamp) - clock.now) < 0.5
+
+    peer.until(follows)
+    assert seconds(states[0].header.stamp) >= 5.0
+    clock.jump(2 * HOUR)
+    peer.until(follows)
+    newest, heard = seconds(states[-1].header.stamp), len(states)
+    clock.jump(-HOUR)
+    peer.until(lambda: len(states) > heard + 100)
+    # They go on from the newest, neither standing nor following the clock back.
+    assert newest + 0.5 < seconds(states[-1].header.stamp) < newest + 30.0
+    check_rising(states, waves)
+    stamps = [Time.from_msg(report.header.stamp) for report in reports]
+    assert all(after > before for before, after in itertools.pairwise(stamps))
+
+
+def test_a_process_that_was_stopped_goes_on_without_a_burst(peer: Peer, start: Start) -> None:
+    process = start(MODULE)
+    states = peer.listen(GearboxState, f"{TWIN}/gearbox_state", 1000)
+    waves = peer.listen(MeshWaveform, f"{TWIN}/mesh_waveform", 1000)
+    reports = peer.listen(DiagnosticArray, "/diagnostics")
+    peer.until(lambda: len(states) > 50 and figures(reports), 120.0)
+    overruns = int(figures(reports)["overruns"])
+    process.send_signal(signal.SIGSTOP)
+    stopped = time.monotonic()
+    peer.until(lambda: time.monotonic() > stopped + 3.0)
+    before, resumed = states[-1].simulated_time, time.monotonic()
+    process.send_signal(signal.SIGCONT)
+    peer.until(lambda: states[-1].simulated_time > before + 1.0)
+    # What was missed is not made up: simulated time runs no faster than the steady clock.
+    assert states[-1].simulated_time - before < time.monotonic() - resumed + 5 * INTERVAL
+    peer.until(lambda: int(figures(reports)["overruns"]) > overruns)
+    assert any(ord(report.status[0].level) == 1 for report in reports)
+    check_rising(states, waves)
+
+
+def test_as_fast_as_it_goes_is_never_late(peer: Peer, start: Start) -> None:
+    start(MODULE, "--ros-args", "-p", "rate_factor:=0", "-p", "sample_rate:=5000")
+    reports = peer.listen(DiagnosticArray, "/diagnostics")
+    states = peer.listen(GearboxState, f"{TWIN}/gearbox_state", 1000)
+    peer.until(lambda: len(reports) > 2, 120.0)
+    assert {report.status[0].message for report in reports} == {"runs as fast as it goes"}
+    told = figures(reports)
+    assert float(told["real_time_factor"]) > 1.5
+    assert int(told["overruns"]) == 0
+    for state in states:
+        assert state.simulated_time == pytest.approx(state.sequence * INTERVAL)

@@ -1,0 +1,84 @@
+"""Numbers have no gaps and stamps only rise, whatever is done to a running simulation."""
+
+from __future__ import annotations
+
+import itertools
+
+from lifecycle_msgs.msg import Transition
+from lifecycle_msgs.srv import ChangeState
+from planetary_twin_msgs.msg import GearboxState, MeshWaveform, OperatingPoint
+from planetary_twin_msgs.srv import Step
+from rcl_interfaces.msg import Parameter, ParameterType, ParameterValue
+from rcl_interfaces.srv import SetParameters
+from rclpy.time import Time
+from std_srvs.srv import SetBool, Trigger
+
+from .conftest import Start
+from .peer import LATCHED, TWIN, Peer
+
+NODE = f"{TWIN}/simulation"
+STORM = 300  # parameter sets, as fast as they go
+
+
+def change_state(peer: Peer, label: str) -> None:
+    request = ChangeState.Request(transition=Transition(label=label))
+    assert peer.call(ChangeState, f"{NODE}/change_state", request).success
+
+
+def pause(peer: Peer, paused: bool) -> None:
+    assert peer.call(SetBool, f"{NODE}/pause", SetBool.Request(data=paused)).success
+
+
+def storm(peer: Peer) -> None:
+    """Set a parameter again and again without waiting for an answer."""
+    client = peer.node.create_client(SetParameters, f"{NODE}/set_parameters")
+    peer.until(client.service_is_ready)
+    for k in range(STORM):
+        number = ParameterValue(
+            type=ParameterType.PARAMETER_DOUBLE, double_value=1.0 + 0.5 * k / (STORM - 1)
+        )
+        parameter = Parameter(name="lambda_ratio", value=number)
+        client.call_async(SetParameters.Request(parameters=[parameter]))
+    # How many of them a service takes up at once is the middleware's: the last counts.
+    assert peer.set(NODE, lambda_ratio=1.6).successful
+    peer.node.destroy_client(client)
+
+
+def test_nothing_that_is_done_to_it_breaks_numbers_or_stamps(peer: Peer, start: Start) -> None:
+    start("planetary_twin.simulation")
+    topics = {"gearbox_state": GearboxState, "mesh_waveform": MeshWaveform}
+    heard = {name: peer.listen(kind, f"{TWIN}/{name}", 1000) for name, kind in topics.items()}
+    points = heard["operating_point"] = peer.listen(
+        OperatingPoint, f"{TWIN}/operating_point", LATCHED
+    )
+    states = heard["gearbox_state"]
+
+    def run() -> None:
+        count = len(states)
+        peer.until(lambda: len(states) > count + 5, 120.0)
+
+    run()
+    storm(peer)
+    peer.until(lambda: points[-1].lambda_ratio == 1.6)
+    pause(peer, True)
+    for value in (2e-7, 2.5e-7, 3e-7):
+        assert peer.set(NODE, backlash=value).successful
+        peer.until(lambda value=value: points[-1].backlash == value)
+    assert peer.call(Step, f"{NODE}/step", Step.Request(duration=0.025)).success
+    pause(peer, False)
+    run()
+    assert peer.call(Trigger, f"{NODE}/reset", Trigger.Request()).success
+    run()
+    change_state(peer, "deactivate")
+    assert peer.set(NODE, backlash=4e-7).successful
+    change_state(peer, "activate")
+    peer.until(lambda: points[-1].backlash == 4e-7)
+    run()
+    for label in ("deactivate", "cleanup", "configure", "activate"):
+        change_state(peer, label)
+    run()
+    for messages in heard.values():
+        for before, after in itertools.pairwise(messages):
+            assert after.sequence == before.sequence + 1
+            assert Time.from_msg(after.header.stamp) > Time.from_msg(before.header.stamp)
+    assert sum(b.simulated_time < a.simulated_time for a, b in itertools.pairwise(states)) == 2

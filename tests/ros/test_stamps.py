@@ -1,0 +1,83 @@
+"""Stamps move with the system clock where that is set forward, and only rise."""
+
+from __future__ import annotations
+
+import itertools
+
+import pytest
+from planetary_twin.stamps import Rising, Stamps
+from rclpy.clock import ROSClock
+from rclpy.duration import Duration
+from rclpy.time import Time
+
+HOUR = 3600.0  # [s]
+INTERVAL = 0.01  # [s]
+
+
+class Settable:
+    """The system clock, as if somebody had set it by `ahead` [s]."""
+
+    ros_time_is_active = False
+
+    def __init__(self) -> None:
+        self._clock = ROSClock()
+        self.ahead = 0.0
+
+    def now(self) -> Time:
+        return self._clock.now() + Duration(seconds=self.ahead)
+
+
+class Course:
+    """Stamps [s after the first] of one interval after the other."""
+
+    def __init__(self, *, source: bool = False) -> None:
+        self.clock = Settable()
+        self._stamps = Stamps(self.clock, source)
+        self._stamps.begin(0.0)
+        self._first = self._stamps.of(0.0)
+        self._count = 0
+        self.told = [0.0]
+
+    def go(self, intervals: int = 3) -> float:
+        """How far stamps get."""
+        before = self.told[-1]
+        for _ in range(intervals):
+            self._count += 1
+            self._stamps.reach(self._count * INTERVAL)
+            stamp = self._stamps.of(self._count * INTERVAL)
+            assert self._first + round(self.told[-1] * 1e9) < stamp
+            self.told.append((stamp - self._first) * 1e-9)
+        return self.told[-1] - before
+
+
+def test_they_run_with_simulated_time_as_long_as_nobody_sets_the_clock() -> None:
+    course = Course()
+    assert course.go(1000) == pytest.approx(10.0, abs=1e-6)
+
+
+def test_they_follow_a_clock_set_forward_and_wait_for_one_set_back() -> None:
+    course = Course()
+    course.clock.ahead = HOUR
+    assert course.go() == pytest.approx(HOUR, abs=1.0)
+    course.clock.ahead = -HOUR
+    assert course.go(100) == pytest.approx(99 * INTERVAL, abs=1e-6)
+    course.clock.ahead = HOUR
+    assert course.go(100) == pytest.approx(100 * INTERVAL, abs=1e-6)
+    course.clock.ahead = 2 * HOUR
+    assert course.go() == pytest.approx(HOUR, abs=2.0)
+
+
+def test_a_source_of_time_asks_no_other_clock() -> None:
+    course = Course(source=True)
+    course.clock.ahead = HOUR
+    assert course.go() == pytest.approx(3 * INTERVAL, abs=1e-6)
+
+
+def test_a_clock_that_is_set_back_still_rises() -> None:
+    clock = Settable()
+    rising = Rising(clock)
+    stamps = [rising.now()]
+    for ahead in (-HOUR, 0.0, HOUR, -HOUR):
+        clock.ahead = ahead
+        stamps += [rising.now(), rising.now()]
+    assert all(after > before for before, after in itertools.pairwise(stamps))
