@@ -17,6 +17,7 @@ STRETCH = 0.5  # [s] over which a mean cost is taken
 FEWEST = 4  # windows for that
 PATIENCE = 1.0  # [s] a cost must have allowed for climbing
 LONGEST_PATIENCE = 64.0  # [s]
+COMFORTABLE = 0.8  # load at which more samples are tried: what they cost beside the rest varies
 
 
 class Setting(NamedTuple):
@@ -47,9 +48,10 @@ class Affordable:
     be late otherwise, and not before.
 
     A mean within the grant must last before a better rung is tried: several at once as long as
-    none of them can cost too much, then one by one as long as none can be late. Where that proves
-    too dear, it is remembered by how much, and from then on a mean must last twice as long; so a
-    cost at the limit does not let the setting swing.
+    none of them can cost too much, then one by one: a tolerance as long as it cannot be late, a
+    fuller waveform as long as there is some time left. Where that proves too dear, from then on a
+    mean must last twice as long, and of a tolerance it is remembered by how much; so a cost at the
+    limit does not let the setting swing.
 
     Args:
         ladder: of `settings_of`.
@@ -99,15 +101,13 @@ class Affordable:
     def observe(self, cost: float, repeated: bool = False) -> None:
         """Learn from a window that took `cost` [s].
 
-        One that was `repeated` says nothing of what a tolerance costs.
+        One that was `repeated` says nothing of what a tolerance costs, but if it is late, then at
+        any tolerance.
         """
         load = cost / self._period
         if repeated != self._repeated:
             self._repeated = repeated
             self._forget()
-        if repeated and self._rung > self._full:
-            self.load = load
-            return
         late, self._last = min(load, self._last), load
         self._loads.append(load)
         if late > 1.0:
@@ -135,10 +135,14 @@ class Affordable:
         goal, most = self._rung, mean
         while goal < top and (most := most * self._steepest(goal + 1)) <= self._grant(goal + 1):
             goal += 1
+        return self._rung + 1 if goal == self._rung < top and self._may_climb(mean) else goal
+
+    def _may_climb(self, mean: float) -> bool:
+        """Whether the next rung is worth a trial."""
         above = self._rung + 1
-        if goal == self._rung < top and mean * self._steepest(above) < 1.0:
-            return above if mean * self._dearer[above] <= self._grant(above) else goal
-        return goal
+        if above <= self._full:
+            return mean <= COMFORTABLE
+        return mean * DEARER < 1.0 and mean * self._dearer[above] <= self._share
 
     def _descend(self, load: float) -> None:
         if self._climbed_at < load:
@@ -152,11 +156,13 @@ class Affordable:
 
     def _grant(self, rung: int) -> float:
         """The load above which `rung` is left for the next worse one."""
-        return self._share if rung > self._full else 1.0
+        return self._share if rung > self._full and not self._repeated else 1.0
 
     def _steepest(self, rung: int) -> float:
         """What `rung` may cost over the next worse one, at most."""
-        return DEARER if rung > self._full else 2.0
+        if rung <= self._full:
+            return 2.0
+        return 1.0 if self._repeated else DEARER
 
     def _move(self, rung: int) -> None:
         self._rung = rung

@@ -239,10 +239,25 @@ def test_the_waveform_comes_back_when_the_load_has_gone(tolerance, repeated):
     assert rates == sorted(rates)
 
 
+def test_a_waveform_whose_samples_cost_little_comes_back_on_a_busy_machine():
+    policy = of(2e-5)
+    settings(policy, lambda _: 3.0, 1.0)
+    assert settings(policy, thinning(0.6, 0.15), 20.0)[-1].sample_rate == FULL
+
+
+def test_a_fuller_waveform_that_is_too_dear_is_tried_once_a_minute_at_most():
+    visited = settings(of(2e-5), thinning(0.4, 0.7), 600.0)
+    rates = [s.sample_rate for s in visited]
+    assert changes(rates[-20_000:]) <= 8  # in the last 200 s
+    assert sum(rate == FULL for rate in rates) < 0.001 * len(rates)
+
+
 def test_repeated_windows_tell_of_the_waveform_but_not_of_the_tolerance():
     policy = automatic()
     assert settings(policy, lambda _: 0.01, 60.0, repeated=True)[-1].tolerance == LIVE_TOLERANCE
-    settings(policy, lambda _: 3.0, 1.0)
+    assert settings(policy, lambda _: 0.9, 60.0, repeated=True)[-1].tolerance == LIVE_TOLERANCE
+    late = settings(policy, lambda _: 1.5, 3 * PERIOD, repeated=True)
+    assert late[-1] == Setting(LADDER[0], 25e3)
     assert settings(policy, lambda _: 0.01, 60.0, repeated=True)[-1] == Setting(LADDER[0], FULL)
     assert settings(policy, lambda _: 3.0, 1.0, repeated=True)[-1] == Setting(LADDER[0], 6250.0)
 
