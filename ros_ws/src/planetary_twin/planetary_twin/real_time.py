@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from typing import NamedTuple
 
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus, KeyValue
@@ -37,7 +37,8 @@ STANDS = Verdict(DiagnosticStatus.STALE, "stands still")
 class RealTimeReport:
     """Compares where a live twin stands now with where it stood at the report before.
 
-    An interval has `period` [s] of wall time; `log` is the twin's, which grows.
+    An interval has `period` [s] of wall time. `log` is the twin's; what is told is taken off it,
+    because hours of ramps would fill the memory.
     """
 
     def __init__(
@@ -45,14 +46,14 @@ class RealTimeReport:
         hardware: str,
         rate_factor: float,
         period: float,
-        log: Sequence[Change],
+        log: list[Change],
         begun: Progress,
     ) -> None:
         self._hardware = hardware
         self._rate_factor = rate_factor
         self._period = period
         self._log = log
-        self._told = 0
+        self._told: Change | None = None
         self._changes = {"tolerance": 0, "sample_rate": 0}
         self._begun = self._last = begun
         self._process_cpu = time.process_time()
@@ -136,15 +137,17 @@ class RealTimeReport:
 
         All digits are told: with them a recording can be simulated again.
         """
-        log = self._log[: len(self._log)]
-        told, self._told = self._told, len(log)
+        log, before = self._log[:], self._told
         new: dict[str, object] = {}
-        for k, change in enumerate(log[told:], told):
+        for change in log:
             for name in self._changes:
                 value = getattr(change, name)
-                if k == 0 or value != getattr(log[k - 1], name):
+                if before is None or value != getattr(before, name):
                     new[f"{name}_from.{change.time!r}"] = repr(value)
-                    self._changes[name] += k > 0
+                    self._changes[name] += before is not None
+            before = change
+        self._told = before
+        del self._log[: len(log) - 1]  # the twin goes on from the last
         for name, count in self._changes.items():
             new[name] = repr(getattr(log[-1], name))
             new[f"{name}_changes"] = count
