@@ -35,8 +35,7 @@ def _plain(value: Any) -> Any:
 Row = tuple[str, ...]
 _TIMES: Row = ("publish rate", "what", "p50", "p99", "max")
 _COSTS: Row = (
-    "scene", "tolerance", "mesh cycles", "listeners", "share of a core", "real-time factor",
-    "waveform",
+    "scene", "tolerance", "mesh cycles", "listeners", "of a core", "real time x", "waveform",
 )  # fmt: skip
 _MEMORY: Row = ("seconds", "at first", "at last", "slope", "standard error")
 
@@ -87,7 +86,9 @@ def as_tables(figures: Figures) -> list[Table]:
     for titles, rows in tables(figures):
         table = Table(box=None, header_style="bold", pad_edge=False)
         for title in titles:
-            table.add_column(title, justify="left" if title in titles[:2] else "right")
+            table.add_column(
+                title, justify="left" if title in titles[:2] else "right", no_wrap=True
+            )
         for row in rows:
             table.add_row(*row)
         made.append(table)
