@@ -34,7 +34,8 @@ def bench_live(
     try:
         with console.status("starting") as status:
             figures = measure(duration, memory, status.update)
-        console.print(*as_tables(figures), *remarks(figures), sep="\n", highlight=False)
+        console.print(*as_tables(figures), sep="\n\n", highlight=False)
+        console.print(*remarks(figures), sep="\n", highlight=False, soft_wrap=True)
         if markdown is not None:
             command = f"planetary-twin bench-live --duration {duration:g} --memory {memory:g}"
             markdown.write_text(as_markdown(figures, command), "utf-8")

@@ -86,9 +86,8 @@ def as_tables(figures: Figures) -> list[Table]:
     for titles, rows in tables(figures):
         table = Table(box=None, header_style="bold", pad_edge=False)
         for title in titles:
-            table.add_column(
-                title, justify="left" if title in titles[:2] else "right", no_wrap=True
-            )
+            side = "left" if title in titles[:2] else "right"
+            table.add_column(title.replace(" ", "\n"), justify=side, no_wrap=True)
         for row in rows:
             table.add_row(*row)
         made.append(table)
