@@ -17,7 +17,7 @@ ifneq ($(AMENT_PREFIX_PATH)$(_ROS_WHEELS_BOOTSTRAP_COMPLETE),)
 unexport LD_LIBRARY_PATH _ROS_WHEELS_BOOTSTRAP_COMPLETE
 endif
 
-.PHONY: setup run test test-fast bench view picture lint lock clean
+.PHONY: setup run test test-fast soak bench view picture lint lock clean
 
 setup: $(STAMPS)/interfaces $(STAMPS)/kernels $(STAMPS)/nodes
 
@@ -29,6 +29,9 @@ test: lint
 
 test-fast: setup
 	$(BIN)/pytest -m "not slow" $(ARGS)
+
+soak: setup
+	SOAK_DURATION=$(or $(DURATION),3600) $(BIN)/pytest -s tests/ros/test_soak.py
 
 lint: setup
 	$(BIN)/ruff check && $(BIN)/ruff format --check && $(BIN)/mypy

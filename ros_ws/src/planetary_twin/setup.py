@@ -28,6 +28,7 @@ setup(
         "planetary_twin.commands": [
             "run = planetary_twin.commands:run",
             "replay = planetary_twin.commands:replay",
+            "bench-live = planetary_twin.benchmark.command:bench_live",
             "monitor = planetary_twin.steering:monitor",
             "param = planetary_twin.steering:param",
             "op = planetary_twin.steering:op",

@@ -5,13 +5,13 @@ from __future__ import annotations
 import math
 import threading
 import time
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from concurrent.futures import Future
 from enum import StrEnum
 from typing import NamedTuple, Protocol
 
 from planetary_twin_py import OperatingPoint, Twin, Window
-from planetary_twin_py.tolerance import AffordableTolerance
+from planetary_twin_py.affordable import Affordable, Setting
 
 from .orders import Orders
 from .pacing import Pace
@@ -36,8 +36,8 @@ class Listener(Protocol):
     def refused(self, reason: str) -> None:
         """What was on its way to new values cannot go on, and stays where it is."""
 
-    def retuned(self, instant: float, affordable: AffordableTolerance) -> None:
-        """From simulated time `instant` [s] the tolerance is the one that is `affordable`."""
+    def retuned(self, instant: float, before: Setting, affordable: Affordable) -> None:
+        """From simulated time `instant` [s] the setting is no more `before`, but `affordable`'s."""
 
     def ready(self) -> bool:
         """Whether time can pass: a clock that is to be followed is heard."""
@@ -72,7 +72,7 @@ class LiveTwin:
     """Advances `twin` by `interval` [s] at a time, `rate_factor` simulated seconds per second, or
     as fast as it goes where that is 0.
 
-    `affordable` chooses the tolerance, and may be replaced at any time, from any thread. Orders
+    `affordable` chooses the setting, and may be replaced at any time, from any thread. Orders
     are carried out between two intervals; their futures give the simulated instant [s] of that.
     """
 
@@ -81,7 +81,7 @@ class LiveTwin:
         twin: Twin,
         interval: float,
         rate_factor: float,
-        affordable: AffordableTolerance,
+        affordable: Affordable,
         listener: Listener,
     ) -> None:
         self._twin = twin
@@ -144,9 +144,7 @@ class LiveTwin:
                 for answer in answers:
                     answer()
                 if not self._stands:
-                    self._listener.prepare(self._advance(self._interval))
-                    self._pace.wait()
-                    self._listener.publish()
+                    self._pass(self._interval, self._pace.wait)
                 self.progress = self._standing()
         except Exception as defect:
             self._listener.stopped(defect)
@@ -161,17 +159,29 @@ class LiveTwin:
                 self._listener.goes_on(self._twin.time)
             self._listener.changed(self._twin.operating_point, self._twin.time)
 
-    def _advance(self, duration: float) -> Window:
-        """The next interval, at the tolerance that is affordable as far as is known."""
+    def _pass(self, duration: float, wait: Callable[[], None]) -> None:
+        """One interval, published after `wait`, at the setting that is affordable as far as is
+        known; only the wait costs nothing.
+        """
         affordable = self.affordable
-        if affordable.tolerance != self._twin.tolerance:
-            instant = self._twin.set_tolerance(affordable.tolerance)
-            self._listener.retuned(instant, affordable)
+        self._tune(affordable)
         begin = time.monotonic()
         window = self._twin.advance(duration)
-        affordable.observe(time.monotonic() - begin, window.repeated)
+        self._listener.prepare(window)
+        prepared = time.monotonic()
+        wait()
+        waited = time.monotonic() - prepared
+        self._listener.publish()
+        affordable.observe(time.monotonic() - begin - waited, window.repeated)
         self._repeated = window.repeated
-        return window
+
+    def _tune(self, affordable: Affordable) -> None:
+        twin, setting = self._twin, affordable.setting
+        before = Setting(twin.tolerance, twin.sample_rate)
+        if setting != before:
+            twin.set_tolerance(setting.tolerance)
+            instant = twin.set_sample_rate(setting.sample_rate)
+            self._listener.retuned(instant, before, affordable)
 
     def _set(self, values: Mapping[str, float]) -> float:
         self._ramps.leave(values)
@@ -217,13 +227,14 @@ class LiveTwin:
             left = duration - n * self._interval
             self._follow_ramps()
             self._announce()
-            self._listener.prepare(self._advance(min(self._interval, left)))
-            self._listener.publish()
+            self._pass(min(self._interval, left), lambda: None)
+            self.progress = self._standing()
         return self._twin.time
 
     def _restart(self, twin: Twin) -> float:
         self._ramps.clear()
         twin.set_tolerance(self._twin.tolerance)
+        twin.set_sample_rate(self._twin.sample_rate)
         self._twin = twin
         self._stands = self._untold = True
         self.progress = self._standing()

@@ -80,9 +80,9 @@ class StateMessage:
 class WaveformMessage:
     """MeshWaveform, mesh after mesh."""
 
-    def __init__(self, scene: Scene, frame: str, sample_rate: float) -> None:
+    def __init__(self, scene: Scene, frame: str) -> None:
         planets = scene.gearset.planets
-        self.message = msg.MeshWaveform(planets=planets, sample_period=1.0 / sample_rate)
+        self.message = msg.MeshWaveform(planets=planets)
         self.message.header.frame_id = frame
         self._meshes = 2 * planets
         self._views: list[NDArray[np.float32]] = []
@@ -94,6 +94,7 @@ class WaveformMessage:
             self._allocate(len(wave.time))
         message.sequence += 1
         message.start_time = float(wave.time[0])
+        message.sample_period = wave.period
         for view, name in zip(self._views, _WAVES, strict=True):
             view[:] = getattr(wave, name).T
         return message

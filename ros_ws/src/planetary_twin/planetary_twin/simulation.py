@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import gc
 import math
 import sys
 import traceback
@@ -13,14 +14,9 @@ from rcl_interfaces.msg import SetParametersResult
 from rclpy.parameter import Parameter
 
 import planetary_twin_py as pt
+from planetary_twin_py.affordable import Affordable, Setting, settings_of
 from planetary_twin_py.robot import frames, robot_description
-from planetary_twin_py.tolerance import (
-    AUTOMATIC,
-    LIVE_TOLERANCE,
-    TOLERANCES,
-    AffordableTolerance,
-    ladder_of,
-)
+from planetary_twin_py.tolerance import AUTOMATIC, LIVE_TOLERANCE, TOLERANCES, ladder_of
 
 from .live import LiveTwin, Progress
 from .managed import ManagedNode, NodeError, run_node
@@ -34,7 +30,7 @@ from .parameters import (
     declare_tunable,
 )
 from .ramps import LONGEST_RAMP
-from .real_time import RealTimeReport
+from .real_time import KEEPS_UP, RealTimeReport
 from .stamps import STEADY
 from .telemetry import Telemetry
 from .time_services import TimeServices
@@ -62,7 +58,7 @@ class Simulation(ManagedNode):
         self._live: LiveTwin | None = None
         self._report: RealTimeReport | None = None
         self._urdf = ""
-        self._level = DiagnosticStatus.OK
+        self._verdict = KEEPS_UP
         self._submitted: Future[float] | None = None
         self._ramp = 0.0  # [s] in which what is being set is to be reached
         self._declare()
@@ -70,7 +66,6 @@ class Simulation(ManagedNode):
             self,
             self._scene,
             self._frame_prefix + self._frame,
-            self._sample_rate,
             self._transforms() if self._with_tf else None,
             self._with_clock,
         )
@@ -83,14 +78,15 @@ class Simulation(ManagedNode):
         """Build and compile the model at the operating point the parameters give."""
         self._urdf = self._robot_description()
         self._twin = self._new_twin()
+        # What is loaded now stays: a collection that looks at it all takes a tenth of a second.
+        gc.collect()
+        gc.freeze()
 
     def activate(self) -> None:
         """Run from where the twin stands, with what was set while it stood."""
         twin = self._running_twin()
-        instant = twin.set(**self._wanted())
-        affordable = self._affordable(twin.tolerance)
-        twin.set_tolerance(affordable.tolerance)
-        self.retuned(instant, affordable)
+        twin.set(**self._wanted())
+        affordable = self._affordable(twin)
         self._live = LiveTwin(twin, 1.0 / self._rate, self._rate_factor, affordable, self)
         self._report = self._new_report(twin, self._live.start())
         self._telemetry.describe(self._urdf)
@@ -137,14 +133,18 @@ class Simulation(ManagedNode):
         """Say why a ramp has ended where it is."""
         self.get_logger().warning(f"a ramp ends on its way: {reason}")
 
-    def retuned(self, instant: float, affordable: AffordableTolerance) -> None:
-        """Say which tolerance holds, and why."""
-        load = affordable.load
-        why = "to begin with" if math.isnan(load) else f"computing took {load:.0%} of the time"
-        self.get_logger().info(
-            f"tolerance {affordable.tolerance:g} from {instant:g} s, "
-            + (why if affordable.automatic else "as set")
+    def retuned(self, instant: float, before: Setting, affordable: Affordable) -> None:
+        """Say which setting holds, and why."""
+        now, load = affordable.setting, affordable.load
+        why = "as set" if math.isnan(load) else f"an interval cost {load:.0%} of its time"
+        text = (
+            f"tolerance {now.tolerance:g}, waveform at {now.sample_rate:g} Hz "
+            f"from {instant:g} s: {why}"
         )
+        if now.sample_rate < before.sample_rate:
+            self.get_logger().warning(text)
+        else:
+            self.get_logger().info(text)
 
     def stopped(self, defect: Exception) -> None:
         """Tell of the reason; a publisher refuses once a signal has shut ROS down."""
@@ -230,12 +230,15 @@ class Simulation(ManagedNode):
     def _wanted(self) -> dict[str, float]:
         return {name: self.get_parameter(name).value for name in pt.TUNABLES}
 
-    def _affordable(self, begin: float) -> AffordableTolerance:
-        """What chooses the tolerance as the parameters want it, from `begin` on."""
+    def _affordable(self, twin: pt.Twin) -> Affordable:
+        """What chooses the setting as the parameters want it, from the twin's present one on."""
         wanted = self.get_parameter(_TOLERANCE.name).value
-        if wanted == AUTOMATIC and not self._rate_factor:
-            wanted = LIVE_TOLERANCE  # nothing to keep up with
-        return AffordableTolerance(ladder_of(wanted), self._compute_share, self._period, begin)
+        begin = Setting(twin.tolerance, twin.sample_rate)
+        if self._rate_factor:
+            settings = settings_of(ladder_of(wanted), self._sample_rate)
+        else:  # nothing to keep up with
+            settings = [Setting(wanted or LIVE_TOLERANCE, self._sample_rate)]
+        return Affordable(settings, self._compute_share, self._period, begin)
 
     def _validate(self, parameters: list[Parameter]) -> SetParametersResult:
         try:
@@ -250,7 +253,7 @@ class Simulation(ManagedNode):
         if self._live is None:
             return
         if any(p.name == _TOLERANCE.name for p in parameters):
-            self._live.affordable = self._affordable(self._running_twin().tolerance)
+            self._live.affordable = self._affordable(self._running_twin())
         values = _tunables(parameters)
         if values and self._ramp > 0.0:
             self._submitted = self._live.ramp(values, self._ramp)
@@ -327,19 +330,26 @@ class Simulation(ManagedNode):
         message = self._telemetry.diagnose(
             lambda published: report.message(live.progress, live.affordable, published, last=last)
         )
-        status = message.status[0]
-        if status.level != self._level:
-            self._level = status.level
-            if status.level == DiagnosticStatus.OK:
-                self.get_logger().info(status.message)
-            else:  # not the line above with another level: rclpy refuses that
-                self.get_logger().warning(status.message)
+        if report.verdict != self._verdict:
+            self._verdict = report.verdict
+            self._log(message.status[0])
+
+    def _log(self, status: DiagnosticStatus) -> None:
+        # A line of its own for each level: rclpy refuses one line with several.
+        if status.level == DiagnosticStatus.OK:
+            self.get_logger().info(status.message)
+        elif status.level == DiagnosticStatus.WARN:
+            self.get_logger().warning(status.message)
+        else:
+            self.get_logger().error(status.message)
 
     def _new_twin(self) -> pt.Twin:
         return pt.Twin(self._scene.replace(**self._wanted()), sample_rate=self._sample_rate)
 
     def _new_report(self, twin: pt.Twin, begun: Progress) -> RealTimeReport:
-        return RealTimeReport(self.get_namespace(), self._rate_factor, twin.log, begun)
+        return RealTimeReport(
+            self.get_namespace(), self._rate_factor, self._period, twin.log, begun
+        )
 
     def _running_twin(self) -> pt.Twin:
         if self._twin is None:

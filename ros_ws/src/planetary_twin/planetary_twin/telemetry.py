@@ -41,7 +41,6 @@ class Telemetry:
         node: Node,
         scene: Scene,
         frame: str,
-        sample_rate: float,
         transforms: TransformsMessage | None,
         clock: bool,
     ) -> None:
@@ -54,7 +53,7 @@ class Telemetry:
         self._tf = node.create_publisher(TFMessage, "/tf", _TF_DEPTH) if transforms else None
         self._clock = node.create_publisher(Clock, "/clock", _DEPTH) if clock else None
         self._state_message = StateMessage(scene, frame)
-        self._waveform_message = WaveformMessage(scene, frame, sample_rate)
+        self._waveform_message = WaveformMessage(scene, frame)
         self._joints_message: JointsMessage | None = None
         self._point_message = OperatingPointMessage(frame)
         self._clock_message = Clock()

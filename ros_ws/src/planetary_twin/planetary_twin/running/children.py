@@ -48,6 +48,11 @@ class Child:
             preexec_fn=_end_with_parent,  # no thread runs yet
         )
 
+    @property
+    def pid(self) -> int:
+        """Of the process."""
+        return self._process.pid
+
     def __enter__(self) -> Self:
         return self
 

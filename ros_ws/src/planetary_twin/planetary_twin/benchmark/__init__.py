@@ -1,0 +1,1 @@
+"""What a live twin costs and how punctual it is, measured from outside its process."""

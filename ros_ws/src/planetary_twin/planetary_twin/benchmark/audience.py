@@ -1,0 +1,51 @@
+"""Listeners that only listen: each a participant of its own, as a program of its own would be."""
+
+from __future__ import annotations
+
+import contextlib
+import sys
+import threading
+
+import rclpy
+from planetary_twin_msgs.msg import GearboxState, MeshWaveform
+from rclpy.executors import ExternalShutdownException, SingleThreadedExecutor
+from rclpy.signals import SignalHandlerOptions
+
+TOPICS = {"gearbox_state": GearboxState, "mesh_waveform": MeshWaveform}
+
+
+def _listen(context: rclpy.Context, namespace: str) -> None:
+    node = rclpy.create_node("listener", namespace=namespace, context=context)
+
+    def hear(raw: bytes) -> None:
+        """Nothing: taking a message is what listening costs at least."""
+
+    for name, kind in TOPICS.items():
+        node.create_subscription(kind, name, hear, 10, raw=True)
+    executor = SingleThreadedExecutor(context=context)
+    executor.add_node(node)
+    with contextlib.suppress(ExternalShutdownException):
+        executor.spin()
+
+
+def main(args: list[str] | None = None) -> int:
+    """Listen as often as the parameter `listeners` says, until a signal."""
+    rclpy.init(args=args)
+    node = rclpy.create_node("audience")
+    contexts = [rclpy.Context() for _ in range(node.declare_parameter("listeners", 1).value)]
+    threads = []
+    for context in contexts:
+        rclpy.init(context=context, signal_handler_options=SignalHandlerOptions.NO)
+        threads.append(threading.Thread(target=_listen, args=(context, node.get_namespace())))
+        threads[-1].start()
+    with contextlib.suppress(KeyboardInterrupt, ExternalShutdownException):
+        rclpy.spin(node)
+    for context in contexts:
+        context.try_shutdown()
+    for thread in threads:
+        thread.join()
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

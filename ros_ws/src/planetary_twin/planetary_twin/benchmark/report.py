@@ -1,0 +1,135 @@
+"""The figures of the live benchmark, for a terminal, for a page and for machines."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+from rich.table import Table
+
+from .measure import Figures, Punctuality
+
+CORES = 0.25  # aim: share of one core, 100 Hz, waveform at 50 kHz
+RESIDENT = 350.0  # [MB] aim
+SLOPE = 1.0  # [MB/h] aim
+
+
+def as_json(figures: Figures) -> dict[str, Any]:
+    """For machines; times in s, memory in MB and MB/h."""
+    return {
+        "machine": figures.machine,
+        "duration": figures.duration,
+        "punctuality": [_plain(p) for p in figures.punctuality],
+        "costs": [_plain(cost) for cost in figures.costs],
+        "memory": _plain(figures.memory),
+    }
+
+
+def _plain(value: Any) -> Any:
+    """A record as a dictionary, whatever records it holds."""
+    if hasattr(value, "_asdict"):
+        return {name: _plain(part) for name, part in value._asdict().items()}
+    return value
+
+
+Row = tuple[str, ...]
+_TIMES: Row = ("publish rate", "what", "p50", "p99", "max")
+_COSTS: Row = (
+    "scene", "tolerance", "mesh cycles", "listeners", "of a core", "real time x", "waveform",
+)  # fmt: skip
+_MEMORY: Row = ("seconds", "at first", "at last", "slope", "standard error")
+
+
+def tables(figures: Figures) -> list[tuple[Row, list[Row]]]:
+    """Titles and rows."""
+    times = [row for p in figures.punctuality for row in _times(p)]
+    costs = [
+        (
+            c.scene, f"{c.tolerance:g}", c.mesh_cycles, str(c.listeners), f"{c.cores:.1%}",
+            f"{c.real_time_factor:.4f}", c.waveform,
+        )
+        for c in figures.costs
+    ]  # fmt: skip
+    m = figures.memory
+    memory = (
+        f"{m.duration:g}", f"{m.begin:.1f} MB", f"{m.end:.1f} MB", f"{m.slope.value:.2f} MB/h",
+        f"{m.slope.error:.2f} MB/h",
+    )  # fmt: skip
+    return [(_TIMES, times), (_COSTS, costs), (_MEMORY, [memory])]
+
+
+def _times(p: Punctuality) -> list[Row]:
+    measured = {
+        "jitter, sent": p.sent,
+        "jitter, come": p.came,
+        "set to answer": p.answer,
+        "set to message": p.shown,
+    }
+    return [
+        (f"{p.rate:g} Hz", what, *(f"{t * 1e3:.3f} ms" for t in quantiles))
+        for what, quantiles in measured.items()
+    ]
+
+
+def remarks(figures: Figures) -> list[str]:
+    """What the tables leave out."""
+    return [
+        f"{p.rate:g} Hz: {p.messages} messages in {figures.duration:g} s, {p.lost} lost on their "
+        f"way, real-time factor {p.real_time_factor:.4f}, {p.overruns} overruns"
+        for p in figures.punctuality
+    ]
+
+
+def as_tables(figures: Figures) -> list[Table]:
+    """For the terminal."""
+    made = []
+    for titles, rows in tables(figures):
+        table = Table(box=None, header_style="bold", pad_edge=False)
+        for title in titles:
+            side = "left" if title in titles[:2] else "right"
+            table.add_column(title.replace(" ", "\n"), justify=side, no_wrap=True)
+        for row in rows:
+            table.add_row(*row)
+        made.append(table)
+    return made
+
+
+def as_markdown(figures: Figures, command: str) -> str:
+    """The page `docs/real-time.md`."""
+    times, costs, memory = (_markdown(*table) for table in tables(figures))
+    notes = "\n".join(f"- {remark}." for remark in remarks(figures))
+    return f"""# Real time, measured
+
+Made by `{command}`: a simulation in a process of its own, measured from
+another one, on {figures.machine}. Read ratios where others use the machine, too.
+
+## Punctuality
+
+The scene `paper`, waveform at 50 kHz, one listener. *Jitter*: deviation of the time between two
+`gearbox_state` from the period, *sent* by the publisher's stamps, *come* by the listener's clock.
+*Set to message*: from the call of `set_parameters_atomically` until a `gearbox_state` has come that
+shows the value; half an interval of it, on average, is waiting for the next interval.
+
+{times}
+
+{notes}
+
+## Processor
+
+Of the simulation's process at 100 Hz, waveform at 50 kHz, in real time; aim: below {CORES:.0%} of
+a core. Each listener is a participant of its own and hears `gearbox_state` and `mesh_waveform`.
+Where `tolerance` is 0, computing may take `compute_share` by choice, see `msgs_spec/README.md`.
+
+{costs}
+
+## Memory
+
+Resident; aim: below {RESIDENT:g} MB, and growing by less than {SLOPE:g} MB/h.
+
+{memory}
+"""
+
+
+def _markdown(titles: Row, rows: Sequence[Row]) -> str:
+    lines = [titles, ("---",) * len(titles), *rows]
+    return "\n".join("| " + " | ".join(line) + " |" for line in lines)

@@ -1,0 +1,75 @@
+"""The live benchmark measures what it says, from outside the process it measures."""
+
+from __future__ import annotations
+
+import math
+import os
+import time
+
+import numpy as np
+import pytest
+from planetary_twin.benchmark.figures import Quantiles, Slope
+from planetary_twin.benchmark.measure import Bench
+from planetary_twin.benchmark.process import (
+    processor_time,
+    resident_memory,
+    waited_for_processor,
+)
+
+
+def test_quantiles_are_those_of_the_sample() -> None:
+    assert Quantiles.of(list(range(101))) == (50.0, 99.0, 100.0)
+    assert all(math.isnan(value) for value in Quantiles.of([]))
+
+
+def test_a_slope_is_found_within_its_error() -> None:
+    time = np.linspace(0.0, 1.0, 200)
+    noise = np.random.default_rng(1).normal(0.0, 0.1, 200)
+    slope = Slope.of(time, 250.0 + 3.0 * time + noise)
+    assert abs(slope.value - 3.0) < 4.0 * slope.error < 0.3
+
+
+def test_processor_time_is_what_a_process_has_used() -> None:
+    before, wall = processor_time(os.getpid()), time.process_time()
+    while time.process_time() - wall < 0.3:
+        pass
+    assert processor_time(os.getpid()) - before == pytest.approx(0.3, abs=0.05)
+
+
+def test_resident_memory_grows_by_what_is_written() -> None:
+    before = resident_memory(os.getpid())
+    block = np.ones(50_000_000, dtype=np.uint8)
+    assert resident_memory(os.getpid()) - before == pytest.approx(block.nbytes / 1e6, abs=5.0)
+
+
+def test_processes_that_must_share_a_core_wait_for_it() -> None:
+    allowed = os.sched_getaffinity(0)
+    children = []
+    for _ in range(2):
+        if (child := os.posix_spawn("/bin/sh", ["sh", "-c", "while :; do :; done"], {})) > 0:
+            os.sched_setaffinity(child, {min(allowed)})
+            children.append(child)
+    time.sleep(0.5)
+    waited = [waited_for_processor(child) for child in children]
+    for child in children:
+        os.kill(child, 9)
+        os.waitpid(child, 0)
+    assert min(waited) > 0.05
+
+
+def test_a_short_measurement_has_figures_that_can_be(
+    domain: int, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("planetary_twin.benchmark.measure.SETS", 5)
+    monkeypatch.setattr("planetary_twin.benchmark.measure.SETTLING", 1.5)
+    said: list[str] = []
+    found = Bench(2.0, said.append).punctuality(100.0)
+    assert found.messages > 50 and found.lost == 0
+    assert 0.0 < found.sent.p50 <= found.sent.p99 <= found.sent.max
+    # A value shows in the interval after the one in which it came, and not before that ends.
+    assert found.answer.p50 < found.shown.p50
+    assert found.shown.p50 > 0.01
+    cost = Bench(2.0, said.append).cost("paper", 1e-3, 2)
+    assert cost.tolerance == 1e-3 and cost.listeners == 2
+    assert 0.01 < cost.cores < 2.0
+    assert said

@@ -1,0 +1,97 @@
+"""What /diagnostics says of a live twin, from where it stands at each report."""
+
+from __future__ import annotations
+
+import time
+from typing import Any
+
+import pytest
+from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
+from planetary_twin.live import Progress
+from planetary_twin.real_time import RealTimeReport
+
+import planetary_twin_py as pt
+from planetary_twin_py.affordable import Affordable, Setting, settings_of
+
+from .told import figures
+
+PERIOD, FULL = 0.01, 50e3
+POINT = pt.load_scene("paper").operating_point
+AFFORDABLE = Affordable(settings_of((1e-3,), FULL), 0.4, PERIOD, Setting(1e-3, FULL))
+
+
+class Reports:
+    """Of a twin that stood at simulated time 0 s ten seconds ago."""
+
+    def __init__(self) -> None:
+        self.log = [pt.Change(0.0, POINT, 1e-3, FULL)]
+        self._now = time.monotonic()
+        begun = Progress(0.0, self._now - 10.0, 0.0, 0, False, False)
+        self._report = RealTimeReport("/twin", 1.0, PERIOD, self.log, begun)
+
+    def __call__(
+        self,
+        simulated: float,
+        ago: float,
+        *,
+        overruns: int = 0,
+        paused: bool = False,
+        last: bool = False,
+    ) -> DiagnosticArray:
+        now = Progress(simulated, self._now - ago, 0.0, overruns, False, paused)
+        return self._report.message(now, AFFORDABLE, {}, 0, last=last)
+
+
+@pytest.mark.parametrize(
+    ("simulated", "ago", "more", "level", "text"),
+    [
+        (10.0, 0.0, {}, DiagnosticStatus.OK, "keeps up"),
+        (9.0, 0.0, {}, DiagnosticStatus.WARN, "falls behind: real time x 0.900, 0 overruns"),
+        (10.0, 0.0, {"overruns": 3}, DiagnosticStatus.WARN, "falls behind: real time x 1.000, 3 "),
+        (4.0, 0.0, {}, DiagnosticStatus.ERROR, "falls far behind: real time x 0.400"),
+        (4.0, 0.0, {"paused": True}, DiagnosticStatus.OK, "keeps up"),
+        (7.0, 3.0, {}, DiagnosticStatus.STALE, "stands still: the interval in progress has"),
+        (7.0, 3.0, {"last": True}, DiagnosticStatus.OK, "keeps up"),
+    ],
+)
+def test_the_level_says_how_far_behind_it_is(
+    simulated: float, ago: float, more: dict[str, Any], level: bytes, text: str
+) -> None:
+    status = Reports()(simulated, ago, **more).status[0]
+    assert status.level == level
+    assert status.message.startswith(text)
+
+
+def test_a_twin_that_stands_still_has_no_speed() -> None:
+    reports = Reports()
+    for ago in (5.0, 6.0):
+        told = figures([reports(5.0, ago)])
+    assert float(told["real_time_factor"]) == 0.0
+
+
+def test_a_thinned_waveform_is_a_warning_though_it_keeps_up() -> None:
+    reports = Reports()
+    reports.log.append(pt.Change(1.0, POINT, 1e-3, 12.5e3))
+    message = reports(10.0, 0.0)
+    assert message.status[0].level == DiagnosticStatus.WARN
+    assert message.status[0].message == "keeps up with a thinned waveform: 12500 of 50000 Hz"
+
+
+def test_each_change_is_told_once_and_then_forgotten() -> None:
+    reports = Reports()
+    reports.log.append(pt.Change(0.5, POINT, 1e-2, FULL))
+    reports.log.append(pt.Change(0.5, POINT, 1e-2, 25e3))
+    told = figures([reports(9.0, 1.0)])
+    since = {key: value for key, value in told.items() if "_from." in key}
+    assert since == {
+        "tolerance_from.0.0": "0.001",
+        "sample_rate_from.0.0": "50000.0",
+        "tolerance_from.0.5": "0.01",
+        "sample_rate_from.0.5": "25000.0",
+    }
+    assert (told["tolerance_changes"], told["sample_rate_changes"]) == ("1", "1")
+    assert len(reports.log) == 1
+    reports.log.append(pt.Change(9.5, POINT, 1e-2, FULL))
+    told = figures([reports(10.0, 0.0)])
+    assert {key for key in told if "_from." in key} == {"sample_rate_from.9.5"}
+    assert (told["tolerance_changes"], told["sample_rate_changes"]) == ("1", "2")

@@ -1,0 +1,121 @@
+"""Minutes of running while someone turns a knob: nothing grows, nothing is lost, all is told.
+
+A minute by default; `make soak DURATION=3600` for as long as one likes.
+"""
+
+from __future__ import annotations
+
+import itertools
+import os
+import time
+from pathlib import Path
+
+import pytest
+from diagnostic_msgs.msg import DiagnosticArray
+from planetary_twin.benchmark.figures import Slope
+from planetary_twin.benchmark.process import resident_memory, waited_for_processor
+from planetary_twin_msgs.msg import GearboxState, MeshWaveform, RecorderStatus
+from rclpy.serialization import deserialize_message
+from rosbags.rosbag2 import Reader
+
+from .conftest import Start
+from .peer import TWIN, Peer
+from .told import figures
+
+DURATION = float(os.environ.get("SOAK_DURATION", "60"))  # [s]
+SETTLING = 10.0  # [s] after which whatever is loaded or allocated once is so
+NODE = f"{TWIN}/simulation"
+# The middleware keeps each set in a history of a thousand events, 1 kB each, until that is full.
+PERIOD = 10  # [s] of the knob
+GROWTH = 0.3  # [MB] of the heap's last pages that mean nothing
+SLOPE = 1.0  # [MB/h]
+
+
+def published(told: dict[str, str]) -> dict[str, int]:
+    prefix = "published."
+    return {k.removeprefix(prefix): int(v) for k, v in told.items() if k.startswith(prefix)}
+
+
+def accounted(status: RecorderStatus) -> dict[str, int]:
+    totals = zip(status.topics, status.recorded, status.lost, strict=True)
+    return {name: recorded + lost for name, recorded, lost in totals}
+
+
+def check_recording(folder: Path, told: dict[str, str], lost: dict[str, int]) -> None:
+    """It holds all that was published but what is told as lost, in order, stamps only rising."""
+    numbers: dict[str, list[int]] = {}
+    stamps: dict[str, list[int]] = {}
+    kinds = {f"{TWIN}/gearbox_state": GearboxState, f"{TWIN}/mesh_waveform": MeshWaveform}
+    recorded = dict.fromkeys(published(told), 0)
+    with Reader(folder) as reader:
+        for connection, _, raw in reader.messages():
+            name = connection.topic
+            recorded[name] += 1
+            if name in kinds:
+                message = deserialize_message(raw, kinds[name])
+                stamp = message.header.stamp
+                numbers.setdefault(name, []).append(message.sequence)
+                stamps.setdefault(name, []).append(stamp.sec * 1_000_000_000 + stamp.nanosec)
+    assert {name: count + lost[name] for name, count in recorded.items()} == published(told)
+    for name in kinds:
+        assert numbers[name][-1] <= published(told)[name]
+        assert all(a < b for a, b in itertools.pairwise(numbers[name]))
+        assert all(a < b for a, b in itertools.pairwise(stamps[name]))
+
+
+@pytest.mark.timeout(DURATION + 300.0)
+def test_a_long_run_neither_grows_nor_loses_nor_falls_behind_by_itself(
+    peer: Peer, start: Start, tmp_path: Path, record_property
+) -> None:
+    logger = start("planetary_twin.logger", "--ros-args", "-p", "name:=bag")
+    process = start("planetary_twin.simulation", "--ros-args", "-p", "autostart:=false")
+    status = peer.listen(RecorderStatus, f"{TWIN}/logger/status", 1)
+    reports = peer.listen(DiagnosticArray, "/diagnostics")
+    peer.change_state(NODE, "configure")
+    topics = {f"{TWIN}/gearbox_state", f"{TWIN}/mesh_waveform", "/diagnostics"}
+    peer.until(lambda: status and topics <= set(status[-1].topics), 60.0)
+    peer.change_state(NODE, "activate")
+    begun, waited = time.monotonic(), waited_for_processor(process.pid)
+
+    times, sizes = [], []
+    for second in itertools.count():
+        end = begun + second
+        peer.until(lambda end=end: time.monotonic() >= end)
+        if second > DURATION:
+            break
+        turn, moment = divmod(second, PERIOD)
+        if moment == 0:
+            values = {"lambda_ratio": 1.5 + 0.5 * (turn % 2), "backlash": 1e-7 * (2 + turn % 3)}
+            assert peer.set(NODE, atomically=True, **values).successful
+        assert process.poll() is None and logger.poll() is None
+        if second >= min(SETTLING, 0.5 * DURATION):
+            times.append(second / 3600.0)
+            sizes.append(resident_memory(process.pid))
+        del reports[:-1], status[:-1]
+
+    waited = waited_for_processor(process.pid) - waited
+    elapsed = time.monotonic() - begun
+    peer.change_state(NODE, "deactivate")
+    peer.until(lambda: figures(reports[-1:])["state"] == "stopped")
+    told = figures(reports[-1:])
+    peer.until(lambda: accounted(status[-1]) == published(told))
+    lost = dict(zip(status[-1].topics, status[-1].lost, strict=True))
+    logger.terminate()
+    assert logger.wait(60) == 0
+    process.terminate()
+    assert process.wait(20) == 0
+    check_recording(tmp_path / "recordings/bag", told, lost)
+
+    slope, span = Slope.of(times, sizes), times[-1] - times[0]
+    behind = elapsed - float(told["simulated_time"])
+    for name, value in {
+        "elapsed_s": elapsed, "overruns": int(told["overruns"]), "behind_s": behind,
+        "lost": sum(lost.values()), "waited_for_processor_s": waited, "memory_mb": sizes[-1],
+        "memory_slope_mb_per_h": slope.value, "memory_slope_error": slope.error,
+    }.items():  # fmt: skip
+        record_property(name, value)
+        print(f"{name} {value}")
+    assert sizes[-1] < 350.0
+    assert slope.value * span < GROWTH + SLOPE * span
+    # What the machine gave to others explains what the twin is late by.
+    assert behind < waited + 0.05
