@@ -28,6 +28,8 @@ class Change(NamedTuple):
     time: float
     point: OperatingPoint
     tolerance: float
+    sample_rate: float
+    """Of the waveform [Hz]: what is looked at, which does not change what happens."""
 
 
 class Twin:
@@ -45,16 +47,14 @@ class Twin:
     def __init__(
         self, scene: Scene, sample_rate: float = 50_000.0, tolerance: float = LIVE_TOLERANCE
     ) -> None:
-        if not 1.0 <= sample_rate <= 1e7:
-            raise ValueError(f"sample_rate = {sample_rate!r} Hz: must be within 1 and 1e7")
+        _check_sample_rate(sample_rate)
         self.scene = scene
-        self.sample_rate = float(sample_rate)
-        self._exact_rate = Fraction(self.sample_rate)
         self._names, self._mesh_names = body_names(scene), mesh_names(scene)
         self._engine = start(scene, tolerance)
         self._clock = Fraction(0)
-        self.log = [Change(0.0, scene.operating_point, tolerance)]
-        """Every operating point and tolerance: made again at the same instants, the same run."""
+        self.log = [Change(0.0, scene.operating_point, tolerance, float(sample_rate))]
+        """Every operating point, tolerance and sample rate: made again at the same instants, the
+        same run and the same samples of it."""
         self._books = self._account()
         self._end = self._engine.sample(self._clock)
 
@@ -83,6 +83,11 @@ class Twin:
         """The one in force."""
         return self.log[-1].tolerance
 
+    @property
+    def sample_rate(self) -> float:
+        """The one in force [Hz]."""
+        return self.log[-1].sample_rate
+
     def set(self, **changes: float) -> float:
         """Change fields of the operating point, all at `time`, which is returned [s].
 
@@ -106,6 +111,21 @@ class Twin:
         check_tolerance(tolerance)
         return self._change(self.operating_point, tolerance)
 
+    def set_sample_rate(self, sample_rate: float) -> float:
+        """Change the rate [Hz] of the waveform from `time` on, which is returned [s].
+
+        The states that the twin passes through stay the same. Samples lie at whole multiples of
+        the new period.
+
+        Raises:
+            ValueError: it is out of range; nothing has changed.
+        """
+        _check_sample_rate(sample_rate)
+        if sample_rate != self.sample_rate:
+            last = self.log[-1]
+            self.log.append(last._replace(time=self.time, sample_rate=float(sample_rate)))
+        return self.time
+
     def advance(self, duration: float) -> Window:
         """Run for `duration` [s] of simulated time.
 
@@ -128,7 +148,7 @@ class Twin:
         return self._window(step, first, samples, repeated)
 
     def _change(self, point: OperatingPoint, tolerance: float) -> float:
-        change = Change(self.time, point, tolerance)
+        change = Change(self.time, point, tolerance, self.sample_rate)
         if change[1:] != self.log[-1][1:]:
             self._engine.change(point, tolerance, self._clock)
             self._books = self._account()  # play that opens or closes stores no work of this window
@@ -137,7 +157,7 @@ class Twin:
 
     def _samples(self) -> int:
         """Number of samples up to now."""
-        return math.floor(self._clock * self._exact_rate + LEEWAY)
+        return math.floor(self._clock * Fraction(self.sample_rate) + LEEWAY)
 
     def _account(self) -> tuple[Fraction, np.ndarray, float]:
         """Time reached, ledger since the last account and stored energy at that time."""
@@ -165,6 +185,7 @@ class Twin:
             bodies=names.names,
             meshes=self.meshes,
             waveform=Waveform(
+                period=1.0 / self.sample_rate,
                 time=(first + np.arange(len(mesh))) / self.sample_rate,
                 dte=mesh[:, DTE],
                 mesh_force=mesh[:, MESH_FORCE],
@@ -191,3 +212,8 @@ class Twin:
 
 def _turned(turns: list[int], ratios: Ratios) -> Fraction:
     return sum((turn * ratio for turn, ratio in zip(turns, ratios, strict=False)), Fraction(0))
+
+
+def _check_sample_rate(sample_rate: float) -> None:
+    if not 1.0 <= sample_rate <= 1e7:
+        raise ValueError(f"sample_rate = {sample_rate!r} Hz: must be within 1 and 1e7")

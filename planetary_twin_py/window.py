@@ -24,6 +24,8 @@ from .dynamics.observe import (
 class Waveform:
     """Every sample of every mesh; samples lie at whole multiples of the sample period."""
 
+    period: float
+    """From one sample to the next [s]."""
     time: np.ndarray
     """[s], shape (samples,)"""
     dte: np.ndarray

@@ -204,7 +204,7 @@ def test_a_run_is_made_again_bit_by_bit_from_its_log():
             twin.set(backlash=(2 + k) * 1e-8, lambda_ratio=1.0 + 0.1 * k)
         samples.append(twin.advance(0.003).waveform.dte)
     again, log = pt.Twin(PAPER, tolerance=twin.log[0].tolerance), []
-    for change in [*twin.log[1:], pt.Change(twin.time, *twin.log[-1][1:])]:
+    for change in [*twin.log[1:], twin.log[-1]._replace(time=twin.time)]:
         if change.time > again.time:
             log.append(again.advance(change.time - again.time).waveform.dte)
         again.set(**change.point.model_dump())
@@ -212,6 +212,40 @@ def test_a_run_is_made_again_bit_by_bit_from_its_log():
     assert len(twin.log) > 9
     assert again.log[-1] == twin.log[-1]
     assert np.array_equal(np.vstack(log), np.vstack(samples))
+
+
+def test_a_sample_rate_set_changes_what_is_looked_at_and_not_what_happens():
+    twin, full = pt.Twin(PAPER), pt.Twin(PAPER)
+    rates = [50e3, 25e3, 25e3, 6250.0, 12.5e3, 50e3]
+    for k, rate in enumerate(rates):
+        assert twin.set_sample_rate(rate) == twin.time
+        thinned, whole = twin.advance(0.0123), full.advance(0.0123)
+        time = thinned.waveform.time
+        assert thinned.waveform.period == 1.0 / rate
+        assert np.allclose(time * rate, np.round(time * rate), rtol=0, atol=1e-6)
+        assert len(time) == math.floor(round(thinned.end * rate, 6)) - math.floor(
+            round(thinned.start * rate, 6)
+        )
+        kept = np.isin(np.round(whole.waveform.time * 50e3), np.round(time * 50e3))
+        assert kept.sum() == len(time)
+        for name in ("dte", "mesh_force", "friction"):
+            assert np.array_equal(
+                getattr(thinned.waveform, name), getattr(whole.waveform, name)[kept]
+            ), k
+        assert np.array_equal(thinned.angle, whole.angle)
+        assert np.array_equal(thinned.machine_power, whole.machine_power)
+    assert [change.sample_rate for change in twin.log] == [50e3, 25e3, 6250.0, 12.5e3, 50e3]
+    assert twin.sample_rate == 50e3
+
+
+@pytest.mark.parametrize("rate", [0.0, -1.0, 2e7, math.nan])
+def test_a_sample_rate_that_cannot_be_is_refused_and_changes_nothing(rate):
+    twin = pt.Twin(PAPER)
+    with pytest.raises(ValueError, match=r"^sample_rate = .*: must be within 1 and 1e7$"):
+        twin.set_sample_rate(rate)
+    with pytest.raises(ValueError, match=r"^sample_rate = "):
+        pt.Twin(PAPER, sample_rate=rate)
+    assert len(twin.log) == 1
 
 
 @pytest.mark.parametrize("tolerance", [0.0, 1e-9, 0.2, math.nan])

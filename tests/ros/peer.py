@@ -7,6 +7,8 @@ from collections.abc import Callable
 from typing import Any
 
 import rclpy
+from lifecycle_msgs.msg import Transition
+from lifecycle_msgs.srv import ChangeState
 from rcl_interfaces.msg import Parameter as ParameterMsg
 from rcl_interfaces.msg import ParameterType, ParameterValue
 from rcl_interfaces.srv import GetParameters, SetParameters, SetParametersAtomically
@@ -71,6 +73,11 @@ class Peer:
             return self.call(SetParametersAtomically, service, request).result
         request = SetParameters.Request(parameters=parameters)
         return self.call(SetParameters, f"{node}/set_parameters", request).results[0]
+
+    def change_state(self, node: str, transition: str) -> None:
+        """Take a lifecycle node through a transition."""
+        request = ChangeState.Request(transition=Transition(label=transition))
+        self.until(lambda: self.call(ChangeState, f"{node}/change_state", request).success, 120.0)
 
     def get(self, node: str, name: str) -> float:
         """A parameter that must be a DOUBLE."""

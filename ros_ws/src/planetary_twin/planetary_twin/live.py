@@ -11,7 +11,7 @@ from concurrent.futures import Future
 from typing import NamedTuple, Protocol
 
 from planetary_twin_py import OperatingPoint, Twin, Window
-from planetary_twin_py.tolerance import AffordableTolerance
+from planetary_twin_py.affordable import Affordable, Setting
 
 from .pacing import Pace
 from .ramps import Ramps
@@ -35,8 +35,8 @@ class Listener(Protocol):
     def refused(self, reason: str) -> None:
         """What was on its way to new values cannot go on, and stays where it is."""
 
-    def retuned(self, instant: float, affordable: AffordableTolerance) -> None:
-        """From simulated time `instant` [s] the tolerance is the one that is `affordable`."""
+    def retuned(self, instant: float, before: Setting, affordable: Affordable) -> None:
+        """From simulated time `instant` [s] the setting is no more `before`, but `affordable`'s."""
 
     def goes_on(self, instant: float) -> None:
         """After a stop, or from a new start, simulated time `instant` [s] is now."""
@@ -59,7 +59,7 @@ class Progress(NamedTuple):
 class LiveTwin:
     """Advances `twin` by `interval` [s] at a time, `rate_factor` simulated seconds per second.
 
-    `affordable` chooses the tolerance, and may be replaced at any time, from any thread. Orders
+    `affordable` chooses the setting, and may be replaced at any time, from any thread. Orders
     are carried out between two intervals; their futures give the simulated instant [s] of that.
     """
 
@@ -68,7 +68,7 @@ class LiveTwin:
         twin: Twin,
         interval: float,
         rate_factor: float,
-        affordable: AffordableTolerance,
+        affordable: Affordable,
         listener: Listener,
     ) -> None:
         self._twin = twin
@@ -128,10 +128,7 @@ class LiveTwin:
             while not self._stop.is_set():
                 self._obey()
                 if not self._paused:
-                    self._follow_ramps()
-                    self._listener.prepare(self._advance(self._interval))
-                    self._pace.wait()
-                    self._listener.publish()
+                    self._pass(self._interval, self._pace.wait)
                 self.progress = self._standing()
         except Exception as defect:
             self._listener.stopped(defect)
@@ -148,17 +145,30 @@ class LiveTwin:
             except ValueError as refusal:
                 future.set_exception(refusal)
 
-    def _advance(self, duration: float) -> Window:
-        """The next interval, at the tolerance that is affordable as far as is known."""
+    def _pass(self, duration: float, wait: Callable[[], None]) -> None:
+        """One interval, published after `wait`, at the setting that is affordable as far as is
+        known; only the wait costs nothing.
+        """
+        self._follow_ramps()
         affordable = self.affordable
-        if affordable.tolerance != self._twin.tolerance:
-            instant = self._twin.set_tolerance(affordable.tolerance)
-            self._listener.retuned(instant, affordable)
+        self._tune(affordable)
         begin = time.monotonic()
         window = self._twin.advance(duration)
-        affordable.observe(time.monotonic() - begin, window.repeated)
+        self._listener.prepare(window)
+        prepared = time.monotonic()
+        wait()
+        waited = time.monotonic() - prepared
+        self._listener.publish()
+        affordable.observe(time.monotonic() - begin - waited, window.repeated)
         self._repeated = window.repeated
-        return window
+
+    def _tune(self, affordable: Affordable) -> None:
+        twin, setting = self._twin, affordable.setting
+        before = Setting(twin.tolerance, twin.sample_rate)
+        if setting != before:
+            twin.set_tolerance(setting.tolerance)
+            instant = twin.set_sample_rate(setting.sample_rate)
+            self._listener.retuned(instant, before, affordable)
 
     def _set(self, values: Mapping[str, float]) -> float:
         self._ramps.leave(values)
@@ -205,14 +215,14 @@ class LiveTwin:
         count = math.ceil(duration / self._interval - 1e-9)
         for n in range(count):
             left = duration - n * self._interval
-            self._follow_ramps()
-            self._listener.prepare(self._advance(min(self._interval, left)))
-            self._listener.publish()
+            self._pass(min(self._interval, left), lambda: None)
+            self.progress = self._standing()
         return self._twin.time
 
     def _restart(self, twin: Twin) -> float:
         self._ramps.clear()
         twin.set_tolerance(self._twin.tolerance)
+        twin.set_sample_rate(self._twin.sample_rate)
         self._twin = twin
         self._pace.start()
         self._listener.goes_on(twin.time)

@@ -78,9 +78,9 @@ class StateMessage:
 class WaveformMessage:
     """MeshWaveform, mesh after mesh."""
 
-    def __init__(self, scene: Scene, frame: str, sample_rate: float) -> None:
+    def __init__(self, scene: Scene, frame: str) -> None:
         planets = scene.gearset.planets
-        self.message = msg.MeshWaveform(planets=planets, sample_period=1.0 / sample_rate)
+        self.message = msg.MeshWaveform(planets=planets)
         self.message.header.frame_id = frame
         self._meshes = 2 * planets
         self._views: list[NDArray[np.float32]] = []
@@ -93,6 +93,7 @@ class WaveformMessage:
         set_stamp(message.header, origin + round(wave.time[0] * 1e9))
         message.sequence += 1
         message.start_time = float(wave.time[0])
+        message.sample_period = wave.period
         for view, name in zip(self._views, _WAVES, strict=True):
             view[:] = getattr(wave, name).T
         return message

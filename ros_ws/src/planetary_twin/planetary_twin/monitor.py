@@ -111,6 +111,7 @@ class Monitor(Remote):
             ("real time x", "real_time_factor"),
             ("overruns", "overruns"),
             ("tolerance", "tolerance"),
+            ("waveform, Hz", "sample_rate"),
             ("mesh cycles", "mesh_cycles"),
             ("state", "state"),
         ):

@@ -4,40 +4,65 @@ from __future__ import annotations
 
 import time
 from collections.abc import Mapping, Sequence
+from typing import NamedTuple
 
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus, KeyValue
 
 from planetary_twin_py import Change
-from planetary_twin_py.tolerance import AffordableTolerance
+from planetary_twin_py.affordable import Affordable
 
 from .live import Progress
 from .reports import REAL_TIME
 
 _TOLERATED_LAG = 0.01  # share of the wanted rate; below it the real-time factor is a warning
+_BROKEN = 0.5  # share of the wanted rate; below it the real-time factor is an error
 _SHORTEST = 0.5  # [s] over less than this, one late wake-up would already look like a lag
+_STALL = 2.0  # [s] beyond its time, after which an interval counts as one that may never end
+
+
+class Verdict(NamedTuple):
+    """What a report comes to; figures are told beside it."""
+
+    level: bytes
+    text: str
+
+
+KEEPS_UP = Verdict(DiagnosticStatus.OK, "keeps up")
+THINNED = Verdict(DiagnosticStatus.WARN, "keeps up with a thinned waveform")
+FALLS_BEHIND = Verdict(DiagnosticStatus.WARN, "falls behind")
+FALLS_FAR_BEHIND = Verdict(DiagnosticStatus.ERROR, "falls far behind")
+STANDS = Verdict(DiagnosticStatus.STALE, "stands still")
 
 
 class RealTimeReport:
     """Compares where a live twin stands now with where it stood at the report before.
 
-    `log` is the twin's, which grows.
+    An interval has `period` [s] of wall time; `log` is the twin's, which grows.
     """
 
     def __init__(
-        self, hardware: str, rate_factor: float, log: Sequence[Change], begun: Progress
+        self,
+        hardware: str,
+        rate_factor: float,
+        period: float,
+        log: Sequence[Change],
+        begun: Progress,
     ) -> None:
         self._hardware = hardware
         self._rate_factor = rate_factor
+        self._period = period
         self._log = log
         self._told = 0
+        self._changes = {"tolerance": 0, "sample_rate": 0}
         self._begun = self._last = begun
         self._process_cpu = time.process_time()
         self._wall = time.monotonic()
+        self.verdict = KEEPS_UP
 
     def message(
         self,
         now: Progress,
-        affordable: AffordableTolerance,
+        affordable: Affordable,
         published: Mapping[str, int],
         stamp: int,
         *,
@@ -49,15 +74,21 @@ class RealTimeReport:
         """
         recent = _rate(self._last, now, self._rate_factor)
         overruns = now.overruns - self._last.overruns
-        lags = recent < (1.0 - _TOLERATED_LAG) * self._rate_factor
-        stood = now.paused or self._last.paused
-        late = overruns > 0 or (lags and not stood and now.wall - self._last.wall >= _SHORTEST)
+        silence = time.monotonic() - now.wall
+        self.verdict = self._judge(now, affordable, recent, 0.0 if last else silence)
+        if self.verdict == STANDS:
+            recent = 0.0
+        details = {
+            THINNED: f"{self._log[-1].sample_rate:g} of {affordable.full_sample_rate:g} Hz",
+            FALLS_BEHIND: f"real time x {recent:.3f}, {overruns} overruns",
+            FALLS_FAR_BEHIND: f"real time x {recent:.3f}, {overruns} overruns",
+            STANDS: f"the interval in progress has not ended for {silence:.1f} s",
+        }
+        told = [self.verdict.text, details.get(self.verdict, "")]
         status = DiagnosticStatus(
-            level=DiagnosticStatus.WARN if late else DiagnosticStatus.OK,
+            level=self.verdict.level,
             name=REAL_TIME,
-            message=f"falls behind: real time x {recent:.3f}, {overruns} overruns"
-            if late
-            else "keeps up",
+            message=": ".join(filter(None, told)),
             hardware_id=self._hardware,
         )
         figures: dict[str, object] = {
@@ -71,7 +102,10 @@ class RealTimeReport:
             "computing": f"{affordable.load:.3f}",
             "mesh_cycles": "repeated" if now.repeats else "computed",
             "tolerance_choice": "automatic" if affordable.automatic else "fixed",
-            **self._tolerances(),
+            "waveform": "full"
+            if self._log[-1].sample_rate == affordable.full_sample_rate
+            else "thinned",
+            **self._settings(),
             **{f"published.{topic}": count for topic, count in published.items()},
         }
         status.values = [KeyValue(key=key, value=str(value)) for key, value in figures.items()]
@@ -80,19 +114,41 @@ class RealTimeReport:
         array.header.stamp.sec, array.header.stamp.nanosec = divmod(stamp, 1_000_000_000)
         return array
 
-    def _tolerances(self) -> dict[str, str]:
-        """The tolerance, and each since the report before with the instant it holds from.
+    def _judge(
+        self, now: Progress, affordable: Affordable, recent: float, silence: float
+    ) -> Verdict:
+        if silence > self._period + _STALL:
+            return STANDS
+        stood = now.paused or self._last.paused
+        if not stood and now.wall - self._last.wall >= _SHORTEST:
+            if recent < _BROKEN * self._rate_factor:
+                return FALLS_FAR_BEHIND
+            if recent < (1.0 - _TOLERATED_LAG) * self._rate_factor:
+                return FALLS_BEHIND
+        if now.overruns > self._last.overruns:
+            return FALLS_BEHIND
+        thinned = self._log[-1].sample_rate < affordable.full_sample_rate
+        return THINNED if thinned else KEEPS_UP
+
+    def _settings(self) -> dict[str, object]:
+        """The tolerance and the waveform's rate, how often each has changed, and all since the
+        report before with the instant they hold from.
 
         All digits are told: with them a recording can be simulated again.
         """
         log = self._log[: len(self._log)]
         told, self._told = self._told, len(log)
-        new = {
-            f"tolerance_from.{change.time!r}": repr(change.tolerance)
-            for k, change in enumerate(log[told:], told)
-            if k == 0 or change.tolerance != log[k - 1].tolerance
-        }
-        return {"tolerance": repr(log[-1].tolerance), **new}
+        new: dict[str, object] = {}
+        for k, change in enumerate(log[told:], told):
+            for name in self._changes:
+                value = getattr(change, name)
+                if k == 0 or value != getattr(log[k - 1], name):
+                    new[f"{name}_from.{change.time!r}"] = repr(value)
+                    self._changes[name] += k > 0
+        for name, count in self._changes.items():
+            new[name] = repr(getattr(log[-1], name))
+            new[f"{name}_changes"] = count
+        return new
 
     def _cpu(self, now: Progress) -> dict[str, str]:
         """Shares of one core since the report before."""

@@ -13,19 +13,15 @@ from rcl_interfaces.msg import SetParametersResult
 from rclpy.parameter import Parameter
 
 import planetary_twin_py as pt
+from planetary_twin_py.affordable import Affordable, Setting, settings_of
 from planetary_twin_py.robot import robot_description
-from planetary_twin_py.tolerance import (
-    AUTOMATIC,
-    TOLERANCES,
-    AffordableTolerance,
-    ladder_of,
-)
+from planetary_twin_py.tolerance import AUTOMATIC, TOLERANCES, ladder_of
 
 from .live import LiveTwin, Progress
 from .managed import ManagedNode, NodeError, run_node
 from .parameters import coerce, declare_bounded, declare_fixed, declare_tunable
 from .ramps import LONGEST_RAMP
-from .real_time import RealTimeReport
+from .real_time import KEEPS_UP, RealTimeReport
 from .telemetry import Telemetry
 from .time_services import TimeServices
 
@@ -48,13 +44,11 @@ class Simulation(ManagedNode):
         self._live: LiveTwin | None = None
         self._report: RealTimeReport | None = None
         self._urdf = ""
-        self._level = DiagnosticStatus.OK
+        self._verdict = KEEPS_UP
         self._submitted: Future[float] | None = None
         self._ramp = 0.0  # [s] in which what is being set is to be reached
         self._declare()
-        self._telemetry = Telemetry(
-            self, self._scene, self._frame, self._sample_rate, self._with_clock
-        )
+        self._telemetry = Telemetry(self, self._scene, self._frame, self._with_clock)
         self._timer = self.create_timer(_REPORT_PERIOD, self._diagnose)
         self.create_service(SetOperatingPoint, "~/set_operating_point", self._set_operating_point)
         self.create_service(NaturalModes, "~/natural_modes", self._natural_modes)
@@ -69,9 +63,7 @@ class Simulation(ManagedNode):
         """Run from where the twin stands, with what was set while it stood."""
         twin = self._running_twin()
         instant = twin.set(**self._wanted())
-        affordable = self._affordable(twin.tolerance)
-        twin.set_tolerance(affordable.tolerance)
-        self.retuned(instant, affordable)
+        affordable = self._affordable(twin)
         self._live = LiveTwin(twin, 1.0 / self._rate, self._rate_factor, affordable, self)
         point = twin.operating_point
         # Nothing between these two: stamps and wall instants must start from the same moment.
@@ -117,14 +109,18 @@ class Simulation(ManagedNode):
         """Say why a ramp has ended where it is."""
         self.get_logger().warning(f"a ramp ends on its way: {reason}")
 
-    def retuned(self, instant: float, affordable: AffordableTolerance) -> None:
-        """Say which tolerance holds, and why."""
-        load = affordable.load
-        why = "to begin with" if math.isnan(load) else f"computing took {load:.0%} of the time"
-        self.get_logger().info(
-            f"tolerance {affordable.tolerance:g} from {instant:g} s, "
-            + (why if affordable.automatic else "as set")
+    def retuned(self, instant: float, before: Setting, affordable: Affordable) -> None:
+        """Say which setting holds, and why."""
+        now, load = affordable.setting, affordable.load
+        why = "as set" if math.isnan(load) else f"an interval cost {load:.0%} of its time"
+        text = (
+            f"tolerance {now.tolerance:g}, waveform at {now.sample_rate:g} Hz "
+            f"from {instant:g} s: {why}"
         )
+        if now.sample_rate < before.sample_rate:
+            self.get_logger().warning(text)
+        else:
+            self.get_logger().info(text)
 
     def stopped(self, defect: Exception) -> None:
         """End the process with the reason; a publisher refuses once a signal has shut ROS down."""
@@ -209,11 +205,17 @@ class Simulation(ManagedNode):
     def _wanted(self) -> dict[str, float]:
         return {name: self.get_parameter(name).value for name in pt.TUNABLES}
 
-    def _affordable(self, begin: float) -> AffordableTolerance:
-        """What chooses the tolerance as the parameters want it, from `begin` on."""
+    def _affordable(self, twin: pt.Twin) -> Affordable:
+        """What chooses the setting as the parameters want it, from the twin's present one on."""
         ladder = ladder_of(self.get_parameter(_TOLERANCE.name).value)
-        period = 1.0 / (self._rate * self._rate_factor)
-        return AffordableTolerance(ladder, self._compute_share, period, begin)
+        settings = settings_of(ladder, self._sample_rate)
+        begin = Setting(twin.tolerance, twin.sample_rate)
+        return Affordable(settings, self._compute_share, self._period, begin)
+
+    @property
+    def _period(self) -> float:
+        """Wall time of an interval [s]."""
+        return 1.0 / (self._rate * self._rate_factor)
 
     def _validate(self, parameters: list[Parameter]) -> SetParametersResult:
         try:
@@ -228,7 +230,7 @@ class Simulation(ManagedNode):
         if self._live is None:
             return
         if any(p.name == _TOLERANCE.name for p in parameters):
-            self._live.affordable = self._affordable(self._running_twin().tolerance)
+            self._live.affordable = self._affordable(self._running_twin())
         values = _tunables(parameters)
         if values and self._ramp > 0.0:
             self._submitted = self._live.ramp(values, self._ramp)
@@ -279,7 +281,7 @@ class Simulation(ManagedNode):
     @property
     def _longest_wait(self) -> float:
         """The loop takes orders up between two intervals, so this wait [s] is one interval long."""
-        return 2.0 / (self._rate * self._rate_factor) + 1.0
+        return 2.0 * self._period + 1.0
 
     def _natural_modes(
         self, request: NaturalModes.Request, response: NaturalModes.Response
@@ -301,19 +303,26 @@ class Simulation(ManagedNode):
                 live.progress, live.affordable, published, stamp, last=last
             )
         )
-        status = message.status[0]
-        if status.level != self._level:
-            self._level = status.level
-            if status.level == DiagnosticStatus.OK:
-                self.get_logger().info(status.message)
-            else:  # not the line above with another level: rclpy refuses that
-                self.get_logger().warning(status.message)
+        if report.verdict != self._verdict:
+            self._verdict = report.verdict
+            self._log(message.status[0])
+
+    def _log(self, status: DiagnosticStatus) -> None:
+        # A line of its own for each level: rclpy refuses one line with several.
+        if status.level == DiagnosticStatus.OK:
+            self.get_logger().info(status.message)
+        elif status.level == DiagnosticStatus.WARN:
+            self.get_logger().warning(status.message)
+        else:
+            self.get_logger().error(status.message)
 
     def _new_twin(self) -> pt.Twin:
         return pt.Twin(self._scene.replace(**self._wanted()), sample_rate=self._sample_rate)
 
     def _new_report(self, twin: pt.Twin, begun: Progress) -> RealTimeReport:
-        return RealTimeReport(self.get_namespace(), self._rate_factor, twin.log, begun)
+        return RealTimeReport(
+            self.get_namespace(), self._rate_factor, self._period, twin.log, begun
+        )
 
     def _running_twin(self) -> pt.Twin:
         if self._twin is None:

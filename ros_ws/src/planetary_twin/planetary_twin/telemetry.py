@@ -28,9 +28,7 @@ _DEPTH = 10
 class Telemetry:
     """Publishes windows, operating points and diagnostics, stamped with their own ROS time."""
 
-    def __init__(
-        self, node: Node, scene: Scene, frame: str, sample_rate: float, clock: bool
-    ) -> None:
+    def __init__(self, node: Node, scene: Scene, frame: str, clock: bool) -> None:
         self._state = node.create_publisher(msg.GearboxState, "gearbox_state", _DEPTH)
         self._waveform = node.create_publisher(msg.MeshWaveform, "mesh_waveform", _DEPTH)
         self._joints = node.create_publisher(JointState, "joint_states", _DEPTH)
@@ -39,7 +37,7 @@ class Telemetry:
         self._diagnostics = node.create_publisher(DiagnosticArray, "/diagnostics", _DEPTH)
         self._clock = node.create_publisher(Clock, "/clock", _CLOCK) if clock else None
         self._state_message = StateMessage(scene, frame)
-        self._waveform_message = WaveformMessage(scene, frame, sample_rate)
+        self._waveform_message = WaveformMessage(scene, frame)
         self._joints_message: JointsMessage | None = None
         self._point_message = OperatingPointMessage(frame)
         self._prepared: list[tuple[Publisher, Any]] = []

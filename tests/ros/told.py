@@ -1,0 +1,69 @@
+"""What a twin has told of itself, and the same run made again from that alone."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+
+import numpy as np
+from diagnostic_msgs.msg import DiagnosticArray
+from planetary_twin_msgs.msg import MeshWaveform, OperatingPoint
+
+import planetary_twin_py as pt
+from planetary_twin_py.affordable import Setting
+
+LONGEST = 20.0  # [s] simulated again at a time
+
+
+def figures(reports: list[DiagnosticArray]) -> dict[str, str]:
+    """All that the reports have told, the newest where they repeat."""
+    return {item.key: item.value for report in reports for item in report.status[0].values}
+
+
+def settings_told(told: Mapping[str, str]) -> dict[float, Setting]:
+    """Settings by the simulated time [s] they hold from, in order."""
+    since: dict[float, dict[str, float]] = {}
+    for key, value in told.items():
+        name, mark, instant = key.partition("_from.")
+        if mark:
+            since.setdefault(float(instant), {})[name] = float(value)
+    settings, last = {}, Setting(np.nan, np.nan)
+    for instant in sorted(since):
+        settings[instant] = last = last._replace(**since[instant])
+    return settings
+
+
+def assert_simulated_again(
+    waves: Sequence[MeshWaveform],
+    points: Sequence[OperatingPoint],
+    told: Mapping[str, str],
+    sample_rate: float,
+) -> None:
+    """Every sample of `waves` comes again from the told changes, at the full `sample_rate`."""
+    again = _transmission_error(points, told, sample_rate)
+    for wave in waves:
+        stride = round(wave.sample_period * sample_rate)
+        assert wave.sample_period == stride / sample_rate
+        first = round(wave.start_time * sample_rate) - 1
+        published = np.array(wave.dte, dtype=np.float32).reshape(-1, wave.samples).T
+        assert np.array_equal(again[first::stride][: wave.samples], published)
+
+
+def _transmission_error(
+    points: Sequence[OperatingPoint], told: Mapping[str, str], sample_rate: float
+) -> np.ndarray:
+    """Of all meshes, in float32 as published, shape (samples, meshes)."""
+    changes = {point.simulated_time: point for point in points}
+    settings = settings_told(told)
+    values = {name: getattr(points[0], name) for name in pt.TUNABLES}
+    scene = pt.load_scene("paper").replace(**values)
+    twin = pt.Twin(scene, sample_rate, settings[0.0].tolerance)
+    parts = []
+    for instant in sorted({*changes, *settings, float(told["simulated_time"])} - {0.0}):
+        while twin.time < instant:
+            window = twin.advance(min(instant - twin.time, LONGEST))
+            parts.append(window.waveform.dte.astype(np.float32))
+        if instant in changes:
+            twin.set(**{name: getattr(changes[instant], name) for name in pt.TUNABLES})
+        if instant in settings:
+            twin.set_tolerance(settings[instant].tolerance)
+    return np.vstack(parts)

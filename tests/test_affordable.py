@@ -1,0 +1,268 @@
+"""The best setting a live twin can afford, chosen from synthetic costs."""
+
+from __future__ import annotations
+
+import itertools
+import random
+from collections.abc import Callable
+
+import pytest
+
+from planetary_twin_py.affordable import (
+    DEARER,
+    LOWEST_SAMPLE_RATE,
+    Affordable,
+    Setting,
+    settings_of,
+)
+from planetary_twin_py.tolerance import LADDER, LIVE_TOLERANCE, TOLERANCES, ladder_of
+
+PERIOD, SHARE = 0.01, 0.4
+FULL = 50e3  # [Hz]
+Load = Callable[[float], float]
+
+
+def power_law(at_loosest: float, order: float) -> Load:
+    """Share of the time that a window costs, as a method of this order makes it."""
+    return lambda tolerance: at_loosest * (LADDER[0] / tolerance) ** (1.0 / order)
+
+
+def settings(policy: Affordable, cost: Callable[[Setting], float], seconds: float, **kind: bool):
+    """The settings of the windows of `seconds`, each of which takes a share `cost` of its time."""
+    chosen = []
+    for _ in range(round(seconds / PERIOD)):
+        chosen.append(policy.setting)
+        policy.observe(PERIOD * cost(policy.setting), **kind)
+    return chosen
+
+
+def chosen(policy: Affordable, load: Load, seconds: float) -> list[float]:
+    """The tolerances of the windows of `seconds`."""
+    return [s.tolerance for s in settings(policy, lambda s: load(s.tolerance), seconds)]
+
+
+def changes(chosen: list) -> int:
+    return sum(a != b for a, b in itertools.pairwise(chosen))
+
+
+def of(tolerance: float, share: float = SHARE, begin: float = LIVE_TOLERANCE) -> Affordable:
+    ladder = settings_of(ladder_of(tolerance), FULL)
+    return Affordable(ladder, share, PERIOD, Setting(begin, FULL))
+
+
+def automatic() -> Affordable:
+    return of(0.0)
+
+
+@pytest.mark.parametrize("order", [3.0, 4.0, 12.0])
+@pytest.mark.parametrize("at_loosest", [1e-4, 0.02, 0.07, 0.15, 0.3, 0.9])
+def test_it_settles_on_the_tightest_rung_whose_cost_is_granted(order, at_loosest):
+    load = power_law(at_loosest, order)
+    settled = set(chosen(automatic(), load, 30.0)[-500:])
+    assert len(settled) == 1
+    (tolerance,) = settled
+    assert load(tolerance) <= SHARE or tolerance == LADDER[0]
+    assert tolerance == LADDER[-1] or load(LADDER[LADDER.index(tolerance) + 1]) > SHARE
+
+
+def test_a_machine_that_can_afford_all_gets_there_in_seconds():
+    assert chosen(automatic(), lambda _: 0.01, 2.0)[-1] == LADDER[-1]
+
+
+@pytest.mark.parametrize("load", [1.2, 2.0, 8.0])
+def test_two_windows_that_are_too_late_loosen_at_once(load):
+    policy = automatic()
+    chosen(policy, lambda _: 0.01, 5.0)
+    first, second, third = chosen(policy, lambda _: load, 3 * PERIOD)
+    assert first == second == LADDER[-1]
+    assert third > LADDER[-1]
+    # By as many rungs as bring the cost below the share, at the steepest it may fall.
+    rungs = LADDER.index(LADDER[-1]) - LADDER.index(third)
+    assert load / DEARER**rungs <= SHARE or third == LADDER[0]
+    assert load / DEARER ** (rungs - 1) > SHARE
+
+
+def test_a_single_late_window_changes_nothing():
+    policy = automatic()
+    chosen(policy, lambda _: 0.01, 5.0)
+    for _ in range(20):
+        policy.observe(5.0 * PERIOD)
+        assert set(chosen(policy, lambda _: 0.01, 1.0)) == {LADDER[-1]}
+
+
+def test_a_cost_above_the_share_but_in_time_loosens_within_a_second():
+    policy = automatic()
+    chosen(policy, lambda _: 0.1, 5.0)
+    before = policy.setting.tolerance
+    assert chosen(policy, lambda _: 0.6, 1.0)[-1] > before
+
+
+@pytest.mark.parametrize("seed", range(5))
+def test_a_noisy_cost_at_the_limit_does_not_make_it_swing(seed):
+    noise = random.Random(seed)
+    # The share lies just above the cost of one rung, so that noise asks for both neighbours.
+    law = power_law(0.95 * SHARE / DEARER**4, 3.0)
+    tolerances = chosen(automatic(), lambda t: law(t) * noise.lognormvariate(0.0, 0.3), 600.0)
+    assert changes(tolerances) < 40
+    assert changes(tolerances[-20_000:]) <= 8  # in the last 200 s
+
+
+@pytest.mark.parametrize("at_loosest", [0.07, 0.15, 0.3])
+def test_a_rung_that_proved_too_dear_is_tried_once(at_loosest):
+    tolerances = chosen(automatic(), power_law(at_loosest, 5.0), 300.0)
+    loosened = [a < b for a, b in itertools.pairwise(tolerances)]
+    assert sum(loosened) == 1
+
+
+def test_no_rung_is_tried_that_might_be_late():
+    policy, load = of(0.0, share=0.8), power_law(0.7, 3.0)
+    tolerances = chosen(policy, load, 60.0)
+    assert all(load(tolerance) < 1.0 for tolerance in tolerances[100:])
+
+
+def test_after_an_overload_it_tightens_again_but_not_soon():
+    policy = automatic()
+    load = power_law(0.05, 4.0)
+    calm = chosen(policy, load, 10.0)[-1]
+    chosen(policy, lambda _: 3.0, 0.1)
+    loosened = policy.setting.tolerance
+    assert loosened > calm
+    assert set(chosen(policy, load, 1.0)) == {loosened}
+    assert chosen(policy, load, 30.0)[-1] == calm
+
+
+def test_another_operating_point_is_learnt_anew():
+    policy = automatic()
+    for _ in range(4):  # each time a tighter rung proves too dear, the next is tried later
+        chosen(policy, lambda t: 2.0 if t < LADDER[0] else 0.01, 64.0)
+    assert set(chosen(policy, lambda _: 0.01, 5.0)) == {LADDER[0]}
+    policy.relearn()
+    assert chosen(policy, lambda _: 0.01, 2.0)[-1] == LADDER[-1]
+
+
+def test_a_storm_of_changes_does_not_hide_an_overload():
+    policy = automatic()
+    for _ in range(3):
+        policy.relearn()
+        policy.observe(2.0 * PERIOD)
+    assert policy.setting.tolerance == LADDER[0]
+
+
+def test_windows_shorter_than_a_step_count_by_their_mean():
+    policy = automatic()
+    for k in range(2000):  # every fourth window pays for the step that spans all four
+        policy.observe(PERIOD * (2.4 if k % 4 == 0 else 0.0))
+    assert policy.setting.tolerance == LADDER[0]
+
+
+def test_windows_that_cost_nothing_measurable_are_no_error():
+    assert chosen(automatic(), lambda _: 0.0, 2.0)[-1] == LADDER[-1]
+
+
+def test_a_tolerance_of_the_user_is_kept_whatever_it_costs():
+    policy = of(2e-5)
+    assert set(chosen(policy, lambda _: 5.0, 5.0)) == {2e-5}
+    assert set(chosen(policy, lambda _: 0.0, 5.0)) == {2e-5}
+
+
+def test_it_begins_with_the_rung_it_is_given():
+    for rung in LADDER:
+        assert of(0.0, begin=rung).setting.tolerance == rung
+    assert of(0.0, begin=2e-5).setting.tolerance == 1e-5
+
+
+@pytest.mark.parametrize("value", [1e-9, 0.2, -1e-3, float("nan"), float("inf")])
+def test_a_tolerance_out_of_range_is_refused_in_one_line(value):
+    with pytest.raises(ValueError, match=r"^tolerance = .*1e-08 and 0\.1, or 0 for automatic$"):
+        ladder_of(value)
+    assert ladder_of(0.0) == LADDER
+    assert all(TOLERANCES[0] <= rung <= TOLERANCES[1] for rung in LADDER)
+
+
+# The waveform, which is given up after the tolerance.
+
+
+def thinning(computing: float, sampling: float) -> Callable[[Setting], float]:
+    """A share for computing, and one for samples that goes with their rate."""
+    return lambda setting: computing + sampling * setting.sample_rate / FULL
+
+
+def test_the_ladder_gives_up_all_tolerances_before_the_first_sample():
+    ladder = settings_of(LADDER, FULL)
+    assert [s.sample_rate for s in ladder] == [6250.0, 12.5e3, 25e3] + [FULL] * len(LADDER)
+    assert [s.tolerance for s in ladder] == [LADDER[0]] * 3 + list(LADDER)
+    assert settings_of((2e-5,), 2500.0) == [Setting(2e-5, 1250.0), Setting(2e-5, 2500.0)]
+    assert settings_of((2e-5,), LOWEST_SAMPLE_RATE) == [Setting(2e-5, LOWEST_SAMPLE_RATE)]
+
+
+def test_an_overload_takes_tolerance_then_waveform_and_stays_at_the_floor():
+    policy = automatic()
+    settings(policy, lambda _: 0.01, 5.0)
+    visited = settings(policy, lambda _: 1.3, 5.0)
+    ladder = settings_of(LADDER, FULL)
+    assert visited[0] == ladder[-1] and visited[-1] == ladder[0]
+    assert [ladder.index(s) for s in visited] == sorted(map(ladder.index, visited), reverse=True)
+    assert set(settings(policy, lambda _: 1.3, 60.0)) == {ladder[0]}
+
+
+@pytest.mark.parametrize("tolerance", [0.0, 2e-5])
+def test_the_waveform_is_kept_as_long_as_there_is_time(tolerance):
+    settled = settings(of(tolerance), lambda _: 0.95, 60.0)
+    assert {s.sample_rate for s in settled} == {FULL}
+
+
+@pytest.mark.parametrize(("sampling", "rate"), [(0.6, 25e3), (1.2, 12.5e3), (3.0, 6250.0)])
+def test_the_waveform_is_thinned_until_there_is_time_and_does_not_swing(sampling, rate):
+    visited = settings(of(2e-5), thinning(0.6, sampling), 600.0)
+    assert {s.sample_rate for s in visited[100:]} == {rate}
+    assert {s.tolerance for s in visited} == {2e-5}
+
+
+@pytest.mark.parametrize("seed", range(5))
+def test_a_noisy_cost_at_the_limit_does_not_make_the_waveform_swing(seed):
+    noise, law = random.Random(seed), thinning(0.1, 0.9)
+    visited = settings(of(2e-5), lambda s: law(s) * noise.lognormvariate(0.0, 0.3), 600.0)
+    assert changes(visited) < 40
+    assert changes(visited[-20_000:]) <= 8  # in the last 200 s
+
+
+@pytest.mark.parametrize("tolerance", [0.0, 2e-5])
+@pytest.mark.parametrize("repeated", [False, True])
+def test_the_waveform_comes_back_when_the_load_has_gone(tolerance, repeated):
+    policy = of(tolerance)
+    thinned = settings(policy, lambda _: 3.0, 1.0)[-1]
+    assert thinned.sample_rate == 6250.0
+    calm = settings(policy, thinning(0.05, 0.25), 10.0, repeated=repeated)
+    assert calm[50] == thinned
+    assert calm[-1].sample_rate == FULL
+    rates = [s.sample_rate for s in calm]
+    assert rates == sorted(rates)
+
+
+def test_a_waveform_whose_samples_cost_little_comes_back_on_a_busy_machine():
+    policy = of(2e-5)
+    settings(policy, lambda _: 3.0, 1.0)
+    assert settings(policy, thinning(0.6, 0.15), 20.0)[-1].sample_rate == FULL
+
+
+def test_a_fuller_waveform_that_is_too_dear_is_tried_once_a_minute_at_most():
+    visited = settings(of(2e-5), thinning(0.4, 0.7), 600.0)
+    rates = [s.sample_rate for s in visited]
+    assert changes(rates[-20_000:]) <= 8  # in the last 200 s
+    assert sum(rate == FULL for rate in rates) < 0.001 * len(rates)
+
+
+def test_repeated_windows_tell_of_the_waveform_but_not_of_the_tolerance():
+    policy = automatic()
+    assert settings(policy, lambda _: 0.01, 60.0, repeated=True)[-1].tolerance == LIVE_TOLERANCE
+    assert settings(policy, lambda _: 0.9, 60.0, repeated=True)[-1].tolerance == LIVE_TOLERANCE
+    late = settings(policy, lambda _: 1.5, 3 * PERIOD, repeated=True)
+    assert late[-1] == Setting(LADDER[0], 25e3)
+    assert settings(policy, lambda _: 0.01, 60.0, repeated=True)[-1] == Setting(LADDER[0], FULL)
+    assert settings(policy, lambda _: 3.0, 1.0, repeated=True)[-1] == Setting(LADDER[0], 6250.0)
+
+
+def test_a_new_choice_of_tolerances_begins_with_the_waveform_as_it_is():
+    ladder = settings_of(ladder_of(2e-5), FULL)
+    policy = Affordable(ladder, SHARE, PERIOD, Setting(1e-2, 12.5e3))
+    assert policy.setting == Setting(2e-5, 12.5e3)
