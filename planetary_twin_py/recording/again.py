@@ -79,4 +79,5 @@ def _advance(twin: Twin, interval: Interval, changes: deque[Change]) -> Window:
     while changes and changes[0].time <= twin.time:
         twin.set(**changes.popleft().values)
     twin.set_tolerance(interval.tolerance)
+    twin.set_sample_rate(interval.sample_rate)
     return twin.advance((interval.end - interval.begin) / TICKS)

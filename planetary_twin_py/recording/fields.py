@@ -38,7 +38,11 @@ def mesh_field(name: str, planets: int) -> tuple[str, int] | None:
 def state_fields(window: Window, names: list[str]) -> dict[str, Any]:
     """What a GearboxState shows of `window`: those of the fields `names` that are simulated."""
     planets = len(window.meshes) // 2
-    found: dict[str, Any] = {"planets": planets, "simulated_time": window.end}
+    found: dict[str, Any] = {
+        "planets": planets,
+        "simulated_time": window.end,
+        "interval": window.end - window.start,
+    }
     found |= {name: float(getattr(window, name)) for name in POWER_FLOW}
     for member in MEMBERS:
         body = window.bodies.index(member)

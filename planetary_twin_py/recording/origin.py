@@ -29,21 +29,20 @@ class Makers:
     software: dict[str, str]
     """Versions of the packages that the numbers come from."""
 
-    def agrees_with(self, other: Makers) -> bool:
-        """Whether both compute the same bits."""
-        return self == other
-
 
 @dataclass(frozen=True)
 class Origin:
-    """A scene and its makers."""
+    """A scene, when it began to run, and on what."""
 
     scene: Scene
+    begins: int
+    """ROS time of simulated time zero [ns]."""
     makers: Makers
 
     def text(self) -> str:
         """As it travels in a recording, in YAML."""
-        content = {"scene": self.scene.model_dump(mode="json"), **asdict(self.makers)}
+        scene = self.scene.model_dump(mode="json")
+        content = {"begins": self.begins, **asdict(self.makers), "scene": scene}
         return yaml.safe_dump(content, sort_keys=False)
 
 
@@ -73,7 +72,8 @@ def read_origin(text: str) -> Origin:
     try:
         content = yaml.safe_load(text)
         scene = parse_scene(yaml.safe_dump(content["scene"], sort_keys=False))
+        begins = int(content["begins"])
         makers = Makers(content["kernels"], content["machine"], dict(content["software"]))
     except (yaml.YAMLError, KeyError, TypeError, ValueError) as reason:
         raise RecordingError(f"origin of the run: cannot be read: {reason}") from None
-    return Origin(scene, makers)
+    return Origin(scene, begins, makers)

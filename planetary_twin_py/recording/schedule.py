@@ -81,12 +81,13 @@ class _Told:
     """All that was told, before it is sorted into runs."""
 
     def __init__(self) -> None:
-        self._origins: list[Origin] = []
+        self._origins: dict[int, Origin] = {}
         self._changes: list[Change] = []
         self._intervals: list[Interval] = []
 
     def origin(self, message: Any) -> None:
-        self._origins.append(read_origin(message.data))
+        origin = read_origin(message.data)
+        self._origins[origin.begins] = origin
 
     def change(self, message: Any) -> None:
         values = {name: getattr(message, name) for name in TUNABLES}
@@ -107,25 +108,35 @@ class _Told:
         )
 
     def runs(self, path: Path, remarks: list[str]) -> list[Run]:
-        starts = [i for i, interval in enumerate(self._intervals) if interval.begin == 0]
-        if not starts or len(self._origins) < len(starts):
+        runs, skipped = self._started()
+        if not runs:
             raise RecordingError(
                 f"{path}: holds no run from its start with its origin ({ORIGIN}), "
                 "so nothing can be simulated again"
             )
-        if skipped := starts[0]:
-            remarks.append(f"{skipped} intervals before the first start cannot be simulated again")
-        ends = [*starts[1:], len(self._intervals)]
-        runs = [
-            Run(origin, self._intervals[begin:end])
-            for origin, begin, end in zip(self._origins, starts, ends, strict=False)
-        ]
+        if skipped:
+            remarks.append(f"{skipped} intervals of a run whose start or origin is not recorded")
         self._share_changes(runs, remarks)
         return runs
 
+    def _started(self) -> tuple[list[Run], int]:
+        """Runs that are told from their start, and the number of intervals of others."""
+        runs: list[Run] = []
+        skipped, run = 0, None
+        for interval in self._intervals:
+            if interval.begin == 0:
+                origin = self._origins.get(_zero(interval))
+                run = Run(origin) if origin else None
+                runs += [run] if run else []
+            if run is None:
+                skipped += 1
+            else:
+                run.intervals.append(interval)
+        return runs, skipped
+
     def _share_changes(self, runs: list[Run], remarks: list[str]) -> None:
         """Give each run its changes: stamps never go back, so they tell which is whose."""
-        begins = [_begin(run) for run in runs]
+        begins = [run.origin.begins for run in runs]
         for change in self._changes:
             if place := bisect_right(begins, change.stamp):
                 runs[place - 1].changes.append(change)
@@ -144,10 +155,9 @@ def stamp_of(message: Any) -> int:
     return int(message.header.stamp.sec) * 1_000_000_000 + int(message.header.stamp.nanosec)
 
 
-def _begin(run: Run) -> int:
-    """ROS time at which a run starts [ns]."""
-    first = run.intervals[0]
-    return first.stamp - round((first.end - first.begin) / TICKS * 1e9)
+def _zero(first: Interval) -> int:
+    """ROS time of simulated time zero [ns], from the first interval after it."""
+    return first.stamp - round(first.end / TICKS * 1e9)
 
 
 def _drop_from(runs: list[Run], stamp: int) -> None:

@@ -19,7 +19,7 @@ from .recordings import counts, torn_states
 TOPICS = {
     "/diagnostics",
     *(f"{TWIN}/{name}" for name in ("gearbox_state", "joint_states", "mesh_waveform")),
-    *(f"{TWIN}/{name}" for name in ("operating_point", "robot_description")),
+    *(f"{TWIN}/{name}" for name in ("operating_point", "robot_description", "run_origin")),
 }
 
 

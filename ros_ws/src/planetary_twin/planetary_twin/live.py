@@ -38,8 +38,8 @@ class Listener(Protocol):
     def retuned(self, instant: float, before: Setting, affordable: Affordable) -> None:
         """From simulated time `instant` [s] the setting is no more `before`, but `affordable`'s."""
 
-    def goes_on(self, instant: float) -> None:
-        """After a stop, or from a new start, simulated time `instant` [s] is now."""
+    def goes_on(self, twin: Twin) -> None:
+        """After a stop, or from a new start, the present time of `twin` is now."""
 
     def stopped(self, defect: Exception) -> None:
         """The thread ends because of `defect`."""
@@ -199,7 +199,7 @@ class LiveTwin:
 
     def _pause(self, paused: bool) -> float:
         if self._paused and not paused:
-            self._listener.goes_on(self._twin.time)
+            self._listener.goes_on(self._twin)
             self._pace.start()
         self._paused = paused
         return self._twin.time
@@ -211,7 +211,7 @@ class LiveTwin:
             raise ValueError(
                 f"duration = {duration:g} s: must be above 0 and at most {LONGEST_STEP:g}"
             )
-        self._listener.goes_on(self._twin.time)
+        self._listener.goes_on(self._twin)
         count = math.ceil(duration / self._interval - 1e-9)
         for n in range(count):
             left = duration - n * self._interval
@@ -225,7 +225,7 @@ class LiveTwin:
         twin.set_sample_rate(self._twin.sample_rate)
         self._twin = twin
         self._pace.start()
-        self._listener.goes_on(twin.time)
+        self._listener.goes_on(twin)
         self._listener.changed(twin.operating_point, twin.time)
         return twin.time
 

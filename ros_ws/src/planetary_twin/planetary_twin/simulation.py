@@ -67,7 +67,7 @@ class Simulation(ManagedNode):
         self._live = LiveTwin(twin, 1.0 / self._rate, self._rate_factor, affordable, self)
         point = twin.operating_point
         # Nothing between these two: stamps and wall instants must start from the same moment.
-        self._telemetry.begin(self.get_clock().now().nanoseconds, instant)
+        self.goes_on(twin)
         begun = self._live.start()
         self._telemetry.announce(point, instant)
         self._telemetry.describe(self._urdf)
@@ -101,9 +101,11 @@ class Simulation(ManagedNode):
         """Tell of a new operating point."""
         self._telemetry.announce(point, instant)
 
-    def goes_on(self, instant: float) -> None:
-        """Let simulated time `instant` [s] be now."""
-        self._telemetry.begin(self.get_clock().now().nanoseconds, instant)
+    def goes_on(self, twin: pt.Twin) -> None:
+        """Let the twin's present time be now."""
+        self._telemetry.begin(self.get_clock().now().nanoseconds, twin.time)
+        if twin.time == 0.0:
+            self._telemetry.originate(twin.scene)
 
     def refused(self, reason: str) -> None:
         """Say why a ramp has ended where it is."""

@@ -16,6 +16,7 @@ from sensor_msgs.msg import JointState
 from std_msgs.msg import String
 
 from planetary_twin_py import OperatingPoint, Scene, Window
+from planetary_twin_py.recording.origin import Origin, makers_here
 
 from .messages import JointsMessage, OperatingPointMessage, StateMessage, WaveformMessage
 
@@ -34,6 +35,7 @@ class Telemetry:
         self._joints = node.create_publisher(JointState, "joint_states", _DEPTH)
         self._point = node.create_publisher(msg.OperatingPoint, "operating_point", _LATCHED)
         self._description = node.create_publisher(String, "robot_description", _LATCHED)
+        self._origin_of_run = node.create_publisher(String, "run_origin", _LATCHED)
         self._diagnostics = node.create_publisher(DiagnosticArray, "/diagnostics", _DEPTH)
         self._clock = node.create_publisher(Clock, "/clock", _CLOCK) if clock else None
         self._state_message = StateMessage(scene, frame)
@@ -49,6 +51,7 @@ class Telemetry:
             self._joints,
             self._point,
             self._description,
+            self._origin_of_run,
             self._diagnostics,
             self._clock,
         )
@@ -57,6 +60,11 @@ class Telemetry:
     def describe(self, urdf: str) -> None:
         """Publish what the gearbox looks like."""
         self._send(self._description, String(data=urdf))
+
+    def originate(self, scene: Scene) -> None:
+        """Publish what the run that begins now follows from."""
+        origin = Origin(scene, self.stamp(0.0), makers_here())
+        self._send(self._origin_of_run, String(data=origin.text()))
 
     def begin(self, now: int, simulated: float) -> None:
         """Let time `simulated` [s] be the ROS time `now` [ns], or later if stamps ran ahead."""
