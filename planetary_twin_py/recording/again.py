@@ -28,9 +28,8 @@ class Again:
         stamp = stamp_of(message)
         place = bisect_left(self._stamps, stamp)
         if topic == WAVEFORM:  # stamped with its first sample, which an end may round to
-            places = (place - 1, place)
-            found = [made for made in map(self._at, places) if made and _begins(made[1], message)]
-            return found[0] if found else None
+            made = (self._at(place - 1), self._at(place))
+            return next((one for one in made if one and _holds(*one, message)), None)
         if place == len(self._stamps) or self._stamps[place] != stamp:
             return None
         return self._at(place)
@@ -47,9 +46,11 @@ class Again:
         return self._made.get(place)
 
 
-def _begins(window: Window, message: Any) -> bool:
+def _holds(interval: Interval, window: Window, block: Any) -> bool:
+    """Whether a block of samples is that of an interval."""
     time = window.waveform.time
-    return len(time) > 0 and bool(time[0] == message.start_time)
+    begin = interval.stamp - (interval.end - interval.begin) * 1_000_000_000 // TICKS
+    return begin <= stamp_of(block) and len(time) > 0 and bool(time[0] == block.start_time)
 
 
 def _windows(runs: list[Run], remarks: list[str]) -> Iterator[tuple[Interval, Window]]:

@@ -58,12 +58,12 @@ def state_fields(window: Window, names: list[str]) -> dict[str, Any]:
     return found
 
 
-def waveform_fields(window: Window, sample_period: float) -> dict[str, Any]:
+def waveform_fields(window: Window) -> dict[str, Any]:
     """What a MeshWaveform shows of `window`, whose waveform is not empty."""
     wave = window.waveform
     return {
         "start_time": float(wave.time[0]),
-        "sample_period": sample_period,
+        "sample_period": wave.period,
         "planets": len(window.meshes) // 2,
         "samples": len(wave.time),
         **{name: getattr(wave, name).T.astype(np.float32).ravel() for name in WAVES},

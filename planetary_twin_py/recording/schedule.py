@@ -109,14 +109,15 @@ class _Told:
 
     def runs(self, path: Path, remarks: list[str]) -> list[Run]:
         runs, skipped = self._started()
-        if not runs:
-            raise RecordingError(
-                f"{path}: holds no run from its start with its origin ({ORIGIN}), "
-                "so nothing can be simulated again"
-            )
         if skipped:
             remarks.append(f"{skipped} intervals of a run whose start or origin is not recorded")
         self._share_changes(runs, remarks)
+        runs = [run for run in runs if run.intervals]
+        if not runs:
+            raise RecordingError(
+                f"{path}: holds no run from its start with its origin ({ORIGIN}) and its changes, "
+                "so nothing can be simulated again"
+            )
         return runs
 
     def _started(self) -> tuple[list[Run], int]:
@@ -143,11 +144,10 @@ class _Told:
         for before, after in pairwise(self._changes):
             if after.number != before.number + 1:
                 remarks.append(
-                    f"{after.number - before.number - 1} messages of {POINT} are missing before "
-                    f"{after.time:g} s: what follows them cannot be simulated again"
+                    f"{after.number - before.number - 1} messages of {POINT} are missing: "
+                    f"from {before.time:g} s on, that run cannot be simulated again"
                 )
-                _drop_from(runs, before.stamp)
-                return
+                _cut(runs, before, after)
 
 
 def stamp_of(message: Any) -> int:
@@ -160,7 +160,8 @@ def _zero(first: Interval) -> int:
     return first.stamp - round(first.end / TICKS * 1e9)
 
 
-def _drop_from(runs: list[Run], stamp: int) -> None:
-    """Forget intervals that begin after an instant."""
+def _cut(runs: list[Run], before: Change, after: Change) -> None:
+    """Forget what may have followed from changes that are missing between two others."""
     for run in runs:
-        run.intervals = [interval for interval in run.intervals if interval.stamp <= stamp]
+        if run.origin.begins < after.stamp:
+            run.intervals = [kept for kept in run.intervals if kept.stamp <= before.stamp]

@@ -87,7 +87,7 @@ def _compare(
 ) -> None:
     """Count a message, and what of it differs."""
     verdict.messages[topic] = verdict.messages.get(topic, 0) + 1
-    for name, simulated in _expected(topic, message, interval, window).items():
+    for name, simulated in _expected(topic, message, window).items():
         recorded = np.atleast_1d(getattr(message, name))
         simulated = np.atleast_1d(simulated).astype(recorded.dtype)
         verdict.values += recorded.size
@@ -98,11 +98,11 @@ def _compare(
             verdict.first_difference = _first(topic, name, window.end, recorded, simulated)
 
 
-def _expected(topic: str, message: Any, interval: Interval, window: Window) -> Mapping[str, Any]:
+def _expected(topic: str, message: Any, window: Window) -> Mapping[str, Any]:
     if topic == STATE:
         return state_fields(window, [field.name for field in fields(message)])
     if topic == WAVEFORM:
-        return waveform_fields(window, 1.0 / interval.sample_rate)
+        return waveform_fields(window)
     return joint_fields(window)
 
 
