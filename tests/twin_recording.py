@@ -6,20 +6,16 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from mcap_ros2.writer import Writer
+from rosbags.typesys import Stores, get_types_from_msg, get_typestore
 from synthetic_recording import START_NS, definition
 
 import planetary_twin_py as pt
+from planetary_twin_py.recording.bag import BagWriter
 from planetary_twin_py.recording.fields import joint_fields, state_fields, waveform_fields
 from planetary_twin_py.recording.origin import Makers, Origin, makers_here
+from planetary_twin_py.recording.rosbag2 import Topic
 
 NAMESPACE = "/planetary_twin"
-_JOINTS = """std_msgs/Header header
-string[] name
-float64[] position
-float64[] velocity
-float64[] effort
-"""
 KINDS = {
     "gearbox_state": "planetary_twin_msgs/msg/GearboxState",
     "mesh_waveform": "planetary_twin_msgs/msg/MeshWaveform",
@@ -39,25 +35,30 @@ def as_it_is(topic: str, number: int, row: Row) -> Row | None:
 class TwinRecording:
     """A recording in the making."""
 
-    def __init__(self, path: Path, alter: Alter = as_it_is, makers: Makers | None = None) -> None:
-        self._stream = path.open("wb")
-        self._writer = Writer(self._stream, chunk_size=64 * 1024)
+    def __init__(self, folder: Path, alter: Alter = as_it_is, makers: Makers | None = None) -> None:
+        self._bag = BagWriter(folder)
+        self.file = self._bag.file
         self._alter = alter
         self._makers = makers or makers_here()
         self._counts = dict.fromkeys(KINDS, 0)
         self._origin = START_NS
-        self._schemas = {topic: self._schema(topic, kind) for topic, kind in KINDS.items()}
+        self._types = get_typestore(Stores.ROS2_JAZZY)
+        self._channels = {topic: self._channel(topic, kind) for topic, kind in KINDS.items()}
 
-    def _schema(self, topic: str, kind: str) -> Any:
+    def _channel(self, topic: str, kind: str) -> int:
         name = kind.rpartition("/")[2]
-        text = {"joint_states": _header(_JOINTS), "run_origin": "string data\n"}.get(topic)
-        return self._writer.register_msgdef(kind, text or definition(name))
+        if kind.startswith("planetary_twin_msgs"):
+            text = definition(name)
+            found = get_types_from_msg(text, kind)
+            self._types.register({k: v for k, v in found.items() if k not in self._types.types})
+        else:
+            text, _ = self._types.generate_msgdef(kind)
+        return self._bag.add_topic(Topic(f"{NAMESPACE}/{topic}", kind, "RIHS01_", text))
 
     def begin(self, twin: pt.Twin, stamp: int) -> None:
         """Let a run begin at ROS time `stamp` [ns]."""
         self._origin = stamp
-        text = Origin(twin.scene, stamp, self._makers).text()
-        self._write("run_origin", {"data": text}, twin.time)
+        self._write("run_origin", {"data": Origin(twin.scene, stamp, self._makers).text()}, 0.0)
         self.point(twin)
 
     def point(self, twin: pt.Twin) -> None:
@@ -68,53 +69,52 @@ class TwinRecording:
 
     def advance(self, twin: pt.Twin, duration: float) -> None:
         """Run on, and tell of it."""
+        if self._counts["gearbox_state"] % 10 == 0:
+            self._bag.flush()  # as a timer would
         window = twin.advance(duration)
-        names = [line.split()[1] for line in definition("GearboxState").splitlines()
-                 if line and line[0] not in "#=M" and len(line.split()) > 1]  # fmt: skip
-        shown = {name: _plain(value) for name, value in state_fields(window, names).items()}
+        shown = state_fields(window, list(self._fields("gearbox_state")))
         chosen = {"tolerance": window.tolerance, "sample_rate": window.sample_rate}
         self._write("gearbox_state", shown | chosen, window.end)
-        joints = {name: _plain(value) for name, value in joint_fields(window).items()}
-        names = [f"{body}_joint" for body in window.bodies]
-        self._write("joint_states", {"name": names, "effort": [], **joints}, window.end)
+        names = {"name": [f"{body}_joint" for body in window.bodies], "effort": np.empty(0)}
+        self._write("joint_states", names | joint_fields(window), window.end)
         if len(window.waveform.time):
             wave = waveform_fields(window)
-            row = {name: _plain(value) for name, value in wave.items()}
-            self._write("mesh_waveform", row, float(wave["start_time"]))
+            self._write("mesh_waveform", wave, wave["start_time"])
 
     def finish(self) -> None:
         """Close the file."""
-        self._writer.finish()
-        self._stream.close()
+        self._bag.close()
+
+    def _fields(self, topic: str) -> Any:
+        return self._types.types[KINDS[topic]].__dataclass_fields__
 
     def _write(self, topic: str, row: Row, time: float) -> None:
         self._counts[topic] += 1
         number = self._counts[topic]
         stamp = self._origin + round(time * 1e9)
-        header = {"stamp": {"sec": stamp // 10**9, "nanosec": stamp % 10**9}, "frame_id": "gearbox"}
-        told = self._alter(topic, number, {"header": header, "sequence": number, **row})
-        if told is not None:
-            self._writer.write_message(
-                f"{NAMESPACE}/{topic}", self._schemas[topic], told, stamp, stamp, number
-            )
+        told = self._alter(topic, number, row)
+        if told is None:
+            return
+        if "header" in self._fields(topic):
+            sec, nanosec = divmod(stamp, 10**9)
+            types = self._types.types
+            told = {
+                "header": types["std_msgs/msg/Header"](
+                    types["builtin_interfaces/msg/Time"](sec, nanosec), "gearbox"
+                ),
+                **told,
+            }
+        if "sequence" in self._fields(topic):
+            told = {"sequence": number, **told}
+        message = self._types.types[KINDS[topic]](**told)
+        data = bytes(self._types.serialize_cdr(message, KINDS[topic]))
+        self._bag.write(self._channels[topic], data, stamp, stamp, number)
 
 
-def _header(text: str) -> str:
-    return text + definition("GearboxState").partition("=" * 80)[1] + _dependencies()
-
-
-def _dependencies() -> str:
-    return definition("GearboxState").partition("=" * 80)[2]
-
-
-def _plain(value: Any) -> Any:
-    return value.tolist() if isinstance(value, np.ndarray) else value
-
-
-def record(path: Path, alter: Alter = as_it_is, makers: Makers | None = None) -> Path:
-    """Two runs with every kind of change: 30 intervals, then 10 after a reset."""
+def record(folder: Path, alter: Alter = as_it_is, makers: Makers | None = None) -> Path:
+    """Two runs with every kind of change: 31 intervals, then 10 after a reset; the file's path."""
     scene = pt.load_scene("paper")
-    recording = TwinRecording(path, alter, makers)
+    recording = TwinRecording(folder, alter, makers)
     twin = pt.Twin(scene, 10_000.0, 1e-3)
     recording.begin(twin, START_NS)
     for number in range(1, 31):
@@ -132,4 +132,4 @@ def record(path: Path, alter: Alter = as_it_is, makers: Makers | None = None) ->
     for _ in range(10):
         recording.advance(twin, 0.01)
     recording.finish()
-    return path
+    return recording.file
