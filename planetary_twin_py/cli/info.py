@@ -51,18 +51,18 @@ def _tell(console: Console, found: Info) -> None:
 
     from ..scene import TUNABLES
 
-    table = Table("topic", "type", box=None, pad_edge=False)
-    for title in ("recorded", "lost", "rate [Hz]", "longest gap [s]"):
-        table.add_column(title, justify="right")
+    table = Table(box=None, pad_edge=False)
+    table.add_column("topic", no_wrap=True)
+    for title in ("recorded", "lost", "rate [Hz]", "gap [s]"):
+        table.add_column(title, justify="right", no_wrap=True)
+    table.add_column("type", no_wrap=True)
     for name, topic in sorted(found.topics.items()):
         lost = "unknown" if topic.lost is None else str(topic.lost)
-        figures = (
-            str(topic.recorded),
-            lost,
-            f"{topic.rate:.2f}",
-            f"{topic.longest_gap * 1e-9:.3f}",
-        )
-        table.add_row(name, topic.type, *figures, style="red" if topic.lost else None)
+        rate, gap = f"{topic.rate:.2f}", f"{topic.longest_gap * 1e-9:.3f}"
+        if topic.recorded < 2:
+            rate = gap = "-"
+        figures = (str(topic.recorded), lost, rate, gap, topic.type.rpartition("/")[2])
+        table.add_row(name, *figures, style="red" if topic.lost else None)
     console.print(table)
     console.print()
     for path in found.files:
