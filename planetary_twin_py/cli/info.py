@@ -55,7 +55,7 @@ def _tell(console: Console, found: Info) -> None:
     table.add_column("topic", no_wrap=True)
     for title in ("recorded", "lost", "rate [Hz]", "gap [s]"):
         table.add_column(title, justify="right", no_wrap=True)
-    table.add_column("type", no_wrap=True)
+    table.add_column("type", overflow="fold")
     for name, topic in sorted(found.topics.items()):
         lost = "unknown" if topic.lost is None else str(topic.lost)
         rate, gap = f"{topic.rate:.2f}", f"{topic.longest_gap * 1e-9:.3f}"
