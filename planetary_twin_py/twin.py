@@ -181,6 +181,8 @@ class Twin:
         return Window(
             start=float(self._clock - step),
             end=self.time,
+            tolerance=self.tolerance,
+            sample_rate=self.sample_rate,
             repeated=repeated,
             bodies=names.names,
             meshes=self.meshes,

@@ -44,6 +44,10 @@ class Window:
     """[s]"""
     end: float
     """[s]"""
+    tolerance: float
+    """Relative error of a step."""
+    sample_rate: float
+    """Of the waveform [Hz]."""
     repeated: bool
     """Whether it began in steady running that repeats itself and is not computed again."""
     bodies: tuple[str, ...]

@@ -30,7 +30,7 @@ class BagWriter:
         self.folder = folder
         self.file = folder / f"{folder.name}_0.mcap"
         self._stream = self.file.open("xb")
-        self._writer = Writer(self._stream, compression=CompressionType.ZSTD)
+        self._writer = Writer(self._stream, compression=CompressionType.ZSTD, enable_data_crcs=True)
         self._writer.start(profile="ros2", library=_LIBRARY)
         self._channels: dict[int, Topic] = {}
         self._counts: dict[int, int] = {}

@@ -8,12 +8,12 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from mcap.records import Attachment, Channel, Message, Schema
+from mcap.records import Attachment
 from numpy.typing import NDArray
-from rosbags.typesys import Stores, get_types_from_msg, get_typestore
-from rosbags.typesys.store import Typestore
 
-from .records import RecordingError, files_of, records_of
+from .decode import Decoder
+from .namespaces import choose_namespace
+from .records import files_of, records_of
 
 SCENE_ATTACHMENT = "scene.yaml"
 STATE, WAVEFORM, OPERATING_POINT = "gearbox_state", "mesh_waveform", "operating_point"
@@ -96,7 +96,7 @@ def read_recording(path: str | Path, namespace: str | None = None) -> Recording:
                 scene_yaml = scene_yaml or message.decode()
             else:
                 by_topic.setdefault(topic, []).append(message)
-    namespace = _namespace(by_topic, namespace, path)
+    namespace = choose_namespace(by_topic, namespace, path)
     topics = {
         name: by_topic.get(f"{namespace}/{name}", []) for name in (STATE, WAVEFORM, OPERATING_POINT)
     }
@@ -116,48 +116,12 @@ def read_recording(path: str | Path, namespace: str | None = None) -> Recording:
 
 def _messages(file: Path, remarks: list[str]) -> Iterator[tuple[str, Any]]:
     """Pairs of topic and decoded message, and the scene attachment as ("scene.yaml", bytes)."""
-    types = get_typestore(Stores.EMPTY)
-    schemas: dict[int, Schema] = {}
-    channels: dict[int, Channel] = {}
+    decoder = Decoder(lambda topic: topic.rsplit("/", 1)[-1] in (STATE, WAVEFORM, OPERATING_POINT))
     for record in records_of(file, remarks):
-        if isinstance(record, Schema):
-            schemas[record.id] = record
-        elif isinstance(record, Channel):
-            if record.topic.rsplit("/", 1)[-1] in (STATE, WAVEFORM, OPERATING_POINT):
-                channels[record.id] = record
-                _register(types, schemas[record.schema_id], record)
-        elif isinstance(record, Attachment) and record.name == SCENE_ATTACHMENT:
+        if isinstance(record, Attachment) and record.name == SCENE_ATTACHMENT:
             yield SCENE_ATTACHMENT, record.data
-        elif isinstance(record, Message) and record.channel_id in channels:
-            channel = channels[record.channel_id]
-            yield channel.topic, types.deserialize_cdr(record.data, schemas[channel.schema_id].name)
-
-
-def _register(types: Typestore, schema: Schema, channel: Channel) -> None:
-    """Teach `types` the message definition that the file itself carries."""
-    if schema.encoding != "ros2msg" or channel.message_encoding != "cdr":
-        raise RecordingError(
-            f"{channel.topic}: encoded as {schema.encoding}/{channel.message_encoding}, "
-            "only ros2msg/cdr can be read"
-        )
-    found = get_types_from_msg(schema.data.decode(), schema.name)
-    types.register({name: parts for name, parts in found.items() if name not in types.types})
-
-
-def _namespace(by_topic: dict[str, list[Any]], wanted: str | None, path: str | Path) -> str:
-    found = sorted(topic[: -len(STATE) - 1] for topic in by_topic if topic.endswith("/" + STATE))
-    if not found:
-        raise RecordingError(f"{path}: no {STATE} message in it, so there is nothing to show")
-    if wanted is None:
-        if len(found) > 1:
-            raise RecordingError(
-                f"{path}: holds several gearboxes, choose --namespace from {', '.join(found)}"
-            )
-        return found[0]
-    wanted = "/" + wanted.strip("/") if wanted.strip("/") else ""
-    if wanted not in found:
-        raise RecordingError(f"namespace = {wanted}: {path} holds {', '.join(found)}")
-    return wanted
+        elif found := decoder.read(record):
+            yield found
 
 
 def _nanoseconds(messages: list[Any]) -> NDArray[np.int64]:

@@ -20,7 +20,7 @@ TOPICS = {
     "/diagnostics",
     "/tf",
     *(f"{TWIN}/{name}" for name in ("gearbox_state", "joint_states", "mesh_waveform")),
-    *(f"{TWIN}/{name}" for name in ("operating_point", "robot_description")),
+    *(f"{TWIN}/{name}" for name in ("operating_point", "robot_description", "run_origin")),
 }
 
 

@@ -30,7 +30,9 @@ from planetary_twin_py.recording.rosbag2 import Topic
 from .peer import TWIN, Peer
 
 COMMAND = Path(sys.executable).with_name("planetary-twin")
-LATCHED_TOPICS = {f"{TWIN}/operating_point", f"{TWIN}/robot_description"}
+LATCHED_TOPICS = {
+    f"{TWIN}/{name}" for name in ("operating_point", "robot_description", "run_origin")
+}
 LATCHED = QoSProfile(depth=100, durability=DurabilityPolicy.TRANSIENT_LOCAL)
 Play = Callable[..., "subprocess.Popen[str]"]
 

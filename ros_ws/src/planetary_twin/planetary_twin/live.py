@@ -42,8 +42,8 @@ class Listener(Protocol):
     def ready(self) -> bool:
         """Whether time can pass: a clock that is to be followed is heard."""
 
-    def goes_on(self, instant: float) -> None:
-        """At the start, after a stop, and while time stands: `instant` [s] is now."""
+    def goes_on(self, twin: Twin) -> None:
+        """At the start, after a stop, and while time stands: the present time of `twin` is now."""
 
     def stopped(self, defect: Exception) -> None:
         """The thread ends because of `defect`."""
@@ -136,7 +136,7 @@ class LiveTwin:
                 answers = self._orders.carry_out(_ALERTNESS if self._halted() else 0.0)
                 stood, self._stands = self._stands, self._halted()
                 if stood and not self._stands:
-                    self._listener.goes_on(self._twin.time)
+                    self._listener.goes_on(self._twin)
                     self._pace.start()
                 if not self._stands:
                     self._follow_ramps()
@@ -156,7 +156,7 @@ class LiveTwin:
         if self._untold and self._listener.ready():
             self._untold = False
             if self._stands:
-                self._listener.goes_on(self._twin.time)
+                self._listener.goes_on(self._twin)
             self._listener.changed(self._twin.operating_point, self._twin.time)
 
     def _pass(self, duration: float, wait: Callable[[], None]) -> None:
@@ -221,7 +221,7 @@ class LiveTwin:
             raise ValueError(
                 f"duration = {duration:g} s: must be above 0 and at most {LONGEST_STEP:g}"
             )
-        self._listener.goes_on(self._twin.time)
+        self._listener.goes_on(self._twin)
         count = math.ceil(duration / self._interval - 1e-9)
         for n in range(count):
             left = duration - n * self._interval

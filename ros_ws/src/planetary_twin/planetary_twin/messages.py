@@ -14,23 +14,7 @@ from planetary_twin_msgs import msg
 from sensor_msgs.msg import JointState
 
 from planetary_twin_py import TUNABLES, OperatingPoint, Scene, Window
-
-_POWER_FLOW = (
-    "mesh_frequency",
-    "input_speed",
-    "input_torque",
-    "second_input_speed",
-    "second_input_torque",
-    "output_speed",
-    "output_torque",
-    "input_power",
-    "output_power",
-    "power_loss",
-    "stored_power",
-    "efficiency",
-)
-_MEMBERS = ("sun", "ring", "carrier")
-_WAVES = ("dte", "mesh_force", "friction")
+from planetary_twin_py.recording.fields import MEMBERS, POWER_FLOW, WAVES, mesh_field
 
 
 def set_stamp(message: Time, stamp: int) -> None:
@@ -50,10 +34,9 @@ class StateMessage:
                 getattr(self.message, name)[:] = np.nan
         self._planets = scene.gearset.planets
         self._mesh = [
-            (getattr(self.message, name)[: self._planets], name[len(kind) + 1 :], first)
-            for kind, first in (("sun_planet", 0), ("planet_ring", self._planets))
+            (getattr(self.message, name)[: self._planets], *shown)
             for name in names
-            if name.startswith(f"{kind}_")
+            if (shown := mesh_field(name, self._planets))
         ]
 
     def fill(self, window: Window) -> msg.GearboxState:
@@ -62,7 +45,9 @@ class StateMessage:
         message.sequence += 1
         message.simulated_time = window.end
         message.interval = window.end - window.start
-        for name in _MEMBERS:
+        message.tolerance = window.tolerance
+        message.sample_rate = window.sample_rate
+        for name in MEMBERS:
             body = window.bodies.index(name)
             setattr(message, f"{name}_angle", float(window.angle[body]))
             setattr(message, f"{name}_speed", float(window.mean_speed[body]))
@@ -70,7 +55,7 @@ class StateMessage:
         planets = slice(first, first + self._planets)
         message.planet_angle[: self._planets] = window.angle[planets]
         message.planet_speed[: self._planets] = window.mean_speed[planets]
-        for name in _POWER_FLOW:
+        for name in POWER_FLOW:
             setattr(message, name, float(getattr(window, name)))
         for target, name, mesh in self._mesh:
             target[:] = window.mesh[name][mesh : mesh + self._planets]
@@ -95,14 +80,14 @@ class WaveformMessage:
         message.sequence += 1
         message.start_time = float(wave.time[0])
         message.sample_period = wave.period
-        for view, name in zip(self._views, _WAVES, strict=True):
+        for view, name in zip(self._views, WAVES, strict=True):
             view[:] = getattr(wave, name).T
         return message
 
     def _allocate(self, samples: int) -> None:
         self.message.samples = samples
         self._views = []
-        for name in _WAVES:
+        for name in WAVES:
             values = array("f", bytes(4 * self._meshes * samples))
             setattr(self.message, name, values)
             # The view writes into the message's own memory.

@@ -125,9 +125,11 @@ class Simulation(ManagedNode):
         """Whether there is a ROS time to stamp with."""
         return self._telemetry.ready()
 
-    def goes_on(self, instant: float) -> None:
-        """Let simulated time `instant` [s] be now."""
-        self._telemetry.begin(instant)
+    def goes_on(self, twin: pt.Twin) -> None:
+        """Let the twin's present time be now."""
+        self._telemetry.begin(twin.time)
+        if twin.time == 0.0:
+            self._telemetry.originate(twin.scene)
 
     def refused(self, reason: str) -> None:
         """Say why a ramp has ended where it is."""

@@ -17,6 +17,7 @@ from std_msgs.msg import String
 from tf2_msgs.msg import TFMessage
 
 from planetary_twin_py import OperatingPoint, Scene, Window
+from planetary_twin_py.recording.origin import Origin, makers_here
 
 from .messages import (
     JointsMessage,
@@ -49,6 +50,7 @@ class Telemetry:
         self._joints = node.create_publisher(JointState, "joint_states", _DEPTH)
         self._point = node.create_publisher(msg.OperatingPoint, "operating_point", _LATCHED)
         self._description = node.create_publisher(String, "robot_description", _LATCHED)
+        self._origin_of_run = node.create_publisher(String, "run_origin", _LATCHED)
         self._diagnostics = node.create_publisher(DiagnosticArray, "/diagnostics", _DEPTH)
         self._tf = node.create_publisher(TFMessage, "/tf", _TF_DEPTH) if transforms else None
         self._clock = node.create_publisher(Clock, "/clock", _DEPTH) if clock else None
@@ -68,6 +70,7 @@ class Telemetry:
             self._joints,
             self._point,
             self._description,
+            self._origin_of_run,
             self._diagnostics,
             self._tf,
             self._clock,
@@ -77,6 +80,11 @@ class Telemetry:
     def describe(self, urdf: str) -> None:
         """Publish what the gearbox looks like."""
         self._send(self._description, String(data=urdf))
+
+    def originate(self, scene: Scene) -> None:
+        """Publish what the run that begins now follows from."""
+        origin = Origin(scene, self.stamp(0.0), makers_here())
+        self._send(self._origin_of_run, String(data=origin.text()))
 
     def ready(self) -> bool:
         """Whether there is a ROS time to stamp with."""

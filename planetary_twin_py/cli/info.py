@@ -1,0 +1,82 @@
+"""`planetary-twin info`: what a recording holds."""
+
+from __future__ import annotations
+
+import json
+import sys
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from ._fail import fail, remark
+
+if TYPE_CHECKING:
+    from rich.console import Console
+
+    from ..recording.info import Info
+
+
+def info(
+    file: Annotated[Path, typer.Argument(help="Recording: an .mcap file or the folder of one.")],
+    json_: Annotated[
+        str | None, typer.Option("--json", metavar="FILE", help="Write figures; - prints them.")
+    ] = None,
+) -> None:
+    """Tell what FILE holds: topics, rates, losses, longest gaps, and what was changed when.
+
+    Example: planetary-twin info recordings/paper_20260101_120000
+    """
+    from rich.console import Console
+
+    from ..recording.info import read_info
+    from ..recording.records import RecordingError
+
+    try:
+        found = read_info(file)
+    except RecordingError as error:
+        fail(error)
+    except OSError as error:
+        fail(f"{error.filename}: {error.strerror}")
+    for line in found.remarks:
+        remark(line)
+    _tell(Console(stderr=json_ == "-"), found)
+    if json_ is not None:
+        text = json.dumps(found.figures(), indent=2) + "\n"
+        sys.stdout.write(text) if json_ == "-" else Path(json_).write_text(text, "utf-8")
+
+
+def _tell(console: Console, found: Info) -> None:
+    from rich.table import Table
+
+    from ..scene import TUNABLES
+
+    table = Table(box=None, pad_edge=False)
+    table.add_column("topic", no_wrap=True)
+    for title in ("recorded", "lost", "rate [Hz]", "gap [s]"):
+        table.add_column(title, justify="right", no_wrap=True)
+    table.add_column("type", overflow="fold")
+    for name, topic in sorted(found.topics.items()):
+        lost = "unknown" if topic.lost is None else str(topic.lost)
+        rate, gap = f"{topic.rate:.2f}", f"{topic.longest_gap * 1e-9:.3f}"
+        if topic.recorded < 2:
+            rate = gap = "-"
+        figures = (str(topic.recorded), lost, rate, gap, topic.type.rpartition("/")[2])
+        table.add_row(name, *figures, style="red" if topic.lost else None)
+    console.print(table)
+    console.print()
+    for path in found.files:
+        size = path.stat().st_size / 1e6
+        console.print(f"file          {path}, {size:.1f} MB", highlight=False, soft_wrap=True)
+    console.print(f"gearbox time  {found.simulated:.3f} s", highlight=False)
+    for number, change in enumerate(found.changes):
+        values = ", ".join(
+            f"{name} = {value:.6g} {TUNABLES[name].unit}".rstrip()
+            for name, value in change.values.items()
+        )
+        title = "" if number else "changes"
+        console.print(
+            f"{title:13} {change.time:10.4f} s  {values or 'as before'}",
+            highlight=False,
+            soft_wrap=True,
+        )

@@ -1,0 +1,45 @@
+"""`planetary-twin recover`: make a whole recording of a torn one."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from ._fail import fail, remark
+
+
+def recover(
+    file: Annotated[Path, typer.Argument(help="Recording: an .mcap file or the folder of one.")],
+    out: Annotated[
+        Path | None, typer.Argument(help="New folder; by default beside FILE, its name and _whole.")
+    ] = None,
+) -> None:
+    """Write what is sound of FILE, torn by a power cut or a kill, as a recording that is whole.
+
+    Example: planetary-twin recover recordings/paper_20260101_120000
+    """
+    from rich.console import Console
+    from rich.table import Table
+
+    from ..recording.records import RecordingError
+    from ..recording.recover import recover as save
+
+    folder = out or file.with_name(f"{file.stem}_whole")
+    try:
+        saved = save(file, folder)
+    except FileExistsError:
+        fail(f"out = {folder}: exists; choose a free name")
+    except RecordingError as error:
+        fail(error)
+    except OSError as error:
+        fail(f"{error.filename}: {error.strerror}")
+    for line in saved.remarks or ["nothing was torn: the copy is as whole as the recording was"]:
+        remark(line)
+    table = Table("topic", "messages saved", box=None)
+    for topic, count in saved.messages.items():
+        table.add_row(topic, str(count))
+    console = Console()
+    console.print(table)
+    console.print(f"{saved.file}", highlight=False, soft_wrap=True)

@@ -1,0 +1,97 @@
+"""`planetary-twin verify`: simulate a recording again and compare every value."""
+
+from __future__ import annotations
+
+import json
+import sys
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+from ._fail import fail
+
+if TYPE_CHECKING:
+    from rich.console import Console
+
+    from ..recording.verify import Verdict
+
+
+def verify(
+    file: Annotated[Path, typer.Argument(help="Recording: an .mcap file or the folder of one.")],
+    namespace: Annotated[
+        str | None, typer.Option(help="Which gearbox, if the recording holds several.")
+    ] = None,
+    json_: Annotated[
+        str | None, typer.Option("--json", metavar="FILE", help="Write figures; - prints them.")
+    ] = None,
+) -> None:
+    """Simulate FILE again from what is in it and compare every value that was published.
+
+    On the machine that recorded it, not a bit may differ; elsewhere, no more than two machines do.
+    Exit code 1 says that something does.
+
+    Example: planetary-twin verify recordings/paper_20260101_120000
+    """
+    from rich.console import Console
+
+    from ..recording.namespaces import choose_namespace
+    from ..recording.records import RecordingError
+    from ..recording.tape import Tape
+    from ..recording.verify import verify as compare
+
+    console = Console(stderr=json_ == "-")
+    try:
+        tape = Tape(file)
+        chosen = choose_namespace(tape.topics, namespace, file)
+        with console.status("simulating again") as status:
+            verdict = compare(
+                file, chosen, lambda time: status.update(f"simulating again: {time:.1f} s")
+            )
+    except RecordingError as error:
+        fail(error)
+    except OSError as error:
+        fail(f"{error.filename}: {error.strerror}")
+    _tell(console, verdict)
+    if json_ is not None:
+        text = json.dumps(_figures(verdict), indent=2) + "\n"
+        sys.stdout.write(text) if json_ == "-" else Path(json_).write_text(text, "utf-8")
+    if not (verdict.identical if verdict.same_makers else verdict.within_bound):
+        raise typer.Exit(1)
+
+
+def _tell(console: Console, verdict: Verdict) -> None:
+    from ..recording.verify import BOUND
+
+    for remark in verdict.remarks:
+        console.print(f"warning: {remark}", style="yellow", soft_wrap=True, highlight=False)
+    counts = ", ".join(f"{count} {topic}" for topic, count in verdict.messages.items())
+    console.print(f"compared          {counts}: {verdict.values} values", highlight=False)
+    if not verdict.same_makers:
+        console.print("recorded by       other kernels or another kind of machine")
+    first = verdict.first_difference
+    if first is None:
+        console.print("result            no bit differs")
+        return
+    console.print(
+        f"first difference  {first.topic}.{first.field}[{first.place}] at {first.time:.9g} s: "
+        f"recorded {first.recorded!r}, simulated {first.simulated!r}",
+        highlight=False,
+    )
+    console.print(
+        f"largest           {verdict.largest:.3g} x tolerance (bound between machines: {BOUND:g})"
+    )
+
+
+def _figures(verdict: Verdict) -> dict[str, Any]:
+    first = verdict.first_difference
+    return {
+        "identical": verdict.identical,
+        "first_difference": None if first is None else first._asdict(),
+        "same_makers": verdict.same_makers,
+        "within_bound": verdict.within_bound,
+        "largest_difference": verdict.largest,
+        "messages": verdict.messages,
+        "values": verdict.values,
+        "remarks": verdict.remarks,
+    }

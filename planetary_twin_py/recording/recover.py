@@ -1,0 +1,49 @@
+"""Makes a whole recording of what can still be read of a torn or damaged one."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import NamedTuple
+
+from mcap.records import Attachment, Channel, Message
+
+from .bag import BagWriter
+from .records import files_of, records_of
+from .tape import Tape
+
+
+class Recovered(NamedTuple):
+    """What was saved: messages by topic, and in lines what could not be."""
+
+    file: Path
+    messages: dict[str, int]
+    remarks: list[str]
+
+
+def recover(path: Path, folder: Path) -> Recovered:
+    """Write what is sound at `path`, a file or a folder of them, into a new `folder`.
+
+    Raises:
+        RecordingError: there is nothing to save.
+        FileExistsError: `folder` exists.
+        OSError: it cannot be written.
+    """
+    tape = Tape(path)
+    bag = BagWriter(folder)
+    channels = {name: bag.add_topic(topic) for name, topic in tape.topics.items()}
+    messages = dict.fromkeys(channels, 0)
+    remarks: list[str] = []
+    for file in files_of(path):
+        names: dict[int, str] = {}
+        for record in records_of(file, remarks):
+            if isinstance(record, Channel):
+                names[record.id] = record.topic
+            elif isinstance(record, Attachment):
+                bag.attach(record.name, record.data, record.media_type)
+            elif isinstance(record, Message):
+                name = names[record.channel_id]
+                times = record.log_time, record.publish_time
+                bag.write(channels[name], record.data, *times, record.sequence)
+                messages[name] += 1
+    bag.close()
+    return Recovered(bag.file, messages, remarks)

@@ -1,0 +1,165 @@
+"""What a recording tells of its runs: where they came from, and all that was changed on the way."""
+
+from __future__ import annotations
+
+from bisect import bisect_right
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, field
+from itertools import pairwise
+from pathlib import Path
+from typing import Any, NamedTuple
+
+from ..scene import TUNABLES
+from .decode import Decoder
+from .origin import Origin, read_origin
+from .records import RecordingError, files_of, records_of
+
+STATE, WAVEFORM, JOINTS = "gearbox_state", "mesh_waveform", "joint_states"
+POINT, ORIGIN = "operating_point", "run_origin"
+TICKS = 10**12  # of a twin's clock, in a second
+
+
+class Interval(NamedTuple):
+    """A published interval, as its GearboxState tells it."""
+
+    number: int  # of its message
+    stamp: int  # [ns]
+    begin: int  # [ticks] of simulated time
+    end: int
+    tolerance: float
+    sample_rate: float  # [Hz]
+
+
+class Change(NamedTuple):
+    """An operating point, and the simulated instant [s] from which it holds."""
+
+    number: int  # of its message
+    stamp: int  # [ns]
+    time: float
+    values: dict[str, float]
+
+
+@dataclass
+class Run:
+    """From a start at time zero to the last interval before the next start."""
+
+    origin: Origin
+    intervals: list[Interval] = field(default_factory=list)
+    changes: list[Change] = field(default_factory=list)
+
+
+def read_runs(path: Path, namespace: str, remarks: list[str]) -> list[Run]:
+    """The runs of the gearbox in `namespace`; what keeps some from being complete, in `remarks`.
+
+    Raises:
+        RecordingError: no run is recorded from its start.
+    """
+    told = _Told()
+    take: dict[str, Callable[[Any], None]] = {
+        ORIGIN: told.origin,
+        POINT: told.change,
+        STATE: told.interval,
+    }
+    for name, message in messages_of(path, namespace, tuple(take), remarks):
+        take[name](message)
+    return told.runs(path, remarks)
+
+
+def messages_of(
+    path: Path, namespace: str, names: tuple[str, ...], remarks: list[str]
+) -> Iterator[tuple[str, Any]]:
+    """Messages of these topics in file order, each with the name of its topic."""
+    wanted = {f"{namespace}/{name}": name for name in names}
+    for file in files_of(path):
+        decoder = Decoder(wanted.__contains__)
+        for record in records_of(file, remarks):
+            if found := decoder.read(record):
+                yield wanted[found[0]], found[1]
+
+
+class _Told:
+    """All that was told, before it is sorted into runs."""
+
+    def __init__(self) -> None:
+        self._origins: dict[int, Origin] = {}
+        self._changes: list[Change] = []
+        self._intervals: list[Interval] = []
+
+    def origin(self, message: Any) -> None:
+        origin = read_origin(message.data)
+        self._origins[origin.begins] = origin
+
+    def change(self, message: Any) -> None:
+        values = {name: getattr(message, name) for name in TUNABLES}
+        change = Change(message.sequence, stamp_of(message), message.simulated_time, values)
+        self._changes.append(change)
+
+    def interval(self, message: Any) -> None:
+        end = round(message.simulated_time * TICKS)
+        self._intervals.append(
+            Interval(
+                message.sequence,
+                stamp_of(message),
+                end - round(message.interval * TICKS),
+                end,
+                message.tolerance,
+                message.sample_rate,
+            )
+        )
+
+    def runs(self, path: Path, remarks: list[str]) -> list[Run]:
+        runs, skipped = self._started()
+        if skipped:
+            remarks.append(f"{skipped} intervals of a run whose start or origin is not recorded")
+        self._share_changes(runs, remarks)
+        runs = [run for run in runs if run.intervals]
+        if not runs:
+            raise RecordingError(
+                f"{path}: holds no run from its start with its origin ({ORIGIN}) and its changes, "
+                "so nothing can be simulated again"
+            )
+        return runs
+
+    def _started(self) -> tuple[list[Run], int]:
+        """Runs that are told from their start, and the number of intervals of others."""
+        runs: list[Run] = []
+        begins = sorted(self._origins)
+        skipped, before, run = 0, 0, None
+        for interval in self._intervals:
+            if interval.begin == 0:  # the newest origin since the interval before
+                place = bisect_right(begins, interval.stamp)
+                known = place and begins[place - 1] >= before
+                run = Run(self._origins[begins[place - 1]]) if known else None
+                runs += [run] if run else []
+            if run is None:
+                skipped += 1
+            else:
+                run.intervals.append(interval)
+            before = interval.stamp
+        return runs, skipped
+
+    def _share_changes(self, runs: list[Run], remarks: list[str]) -> None:
+        """Give each run its changes: stamps never go back, so they tell which is whose."""
+        begins = [run.origin.begins for run in runs]
+        for change in self._changes:
+            if place := bisect_right(begins, change.stamp):
+                runs[place - 1].changes.append(change)
+        for before, after in pairwise(self._changes):
+            if after.number != before.number + 1:
+                remarks.append(
+                    f"{after.number - before.number - 1} messages of {POINT} are missing: "
+                    f"from {before.time:g} s on, that run cannot be simulated again"
+                )
+                _cut(runs, before, after)
+
+
+def stamp_of(message: Any) -> int:
+    """ROS time of a message [ns]."""
+    return int(message.header.stamp.sec) * 1_000_000_000 + int(message.header.stamp.nanosec)
+
+
+def _cut(runs: list[Run], before: Change, after: Change) -> None:
+    """Forget what may have followed from changes that are missing between two others."""
+    for run in runs:
+        if run.origin.begins < after.stamp:
+            run.intervals = [kept for kept in run.intervals if kept.stamp <= before.stamp]
