@@ -19,6 +19,7 @@ class Again:
 
     def __init__(self, runs: list[Run], remarks: list[str]) -> None:
         self._stamps = [interval.stamp for run in runs for interval in run.intervals]
+        self._begins = [run.origin.begins for run in runs for _ in run.intervals]
         self._windows = _windows(runs, remarks)
         self._made: OrderedDict[int, tuple[Interval, Window]] = OrderedDict()
         self._count = 0
@@ -27,15 +28,15 @@ class Again:
         """What a message tells of, simulated again; None where that cannot be."""
         stamp = stamp_of(message)
         place = bisect_left(self._stamps, stamp)
+        if place == len(self._stamps) or stamp < self._begins[place]:
+            return None
         if topic == WAVEFORM:  # stamped with its first sample
             for candidate in (place, place + 1):  # where it is rounded down to the end before
                 found = self._at(candidate)
                 if found and _holds(found[1], message):
                     return found
             return None
-        if place == len(self._stamps) or self._stamps[place] != stamp:
-            return None
-        return self._at(place)
+        return self._at(place) if self._stamps[place] == stamp else None
 
     def _at(self, place: int) -> tuple[Interval, Window] | None:
         while self._count <= place:
