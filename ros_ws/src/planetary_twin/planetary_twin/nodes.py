@@ -25,6 +25,11 @@ def replay() -> int:
     return _run("replay")
 
 
+def twin() -> int:
+    """The simulation and the logger in one process."""
+    return _run("composed")
+
+
 def _run(name: str) -> int:
     SIGNALS.listen()
     try:
