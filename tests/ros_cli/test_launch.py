@@ -41,11 +41,15 @@ def test_twins_of_two_namespaces_run_and_record_side_by_side(ros2: Ros2) -> None
 
 
 def test_a_twin_of_another_domain_and_scene_is_not_met(ros2: Ros2) -> None:
-    far = ros2.start(*LAUNCH, "domain:=230", "namespace:=far", "scene:=run_up", "record:=false")
+    params = ros2.folder / "params.yaml"
+    params.write_text("/**:\n  ros__parameters:\n    backlash: 1.5e-7\n", encoding="utf-8")
+    options = ("domain:=230", "namespace:=far", "scene:=run_up", "record:=false")
+    far = ros2.start(*LAUNCH, *options, f"params:={params}")
     away = Ros2(230, ros2.folder)
     try:
         away.until("active [3]", "lifecycle", "get", "/far/simulation")
         assert away.value("/far/simulation", "scene") == "run_up"
+        assert away.value("/far/simulation", "backlash") == "1.5e-07"
         assert "/far/logger" not in away("node", "list").split()
         assert "/far/simulation" not in ros2("node", "list").split()
     finally:

@@ -24,7 +24,7 @@ _ARGUMENTS = (
     ("rate_factor", "1.0", "simulated seconds per second"),
     ("params", _CONFIG, "YAML file with parameters of both nodes"),
     ("domain", _DOMAIN, "ROS_DOMAIN_ID of the nodes: twins of different domains never meet"),
-    ("composed", "false", "simulation and logger in one process"),
+    ("composed", "false", "simulation and logger in one process, for up to some 100 messages/s"),
 )
 
 
