@@ -198,6 +198,7 @@ def run_nodes(makes: Mapping[str, Callable[[], ManagedNode]], args: list[str] | 
     another's callbacks. Why one failed is printed in one line that begins with its key.
     """
     nodes: dict[str, ManagedNode] = {}
+    executors: list[SingleThreadedExecutor] = []  # which outlive what a signal still does to them
     beside: list[threading.Thread] = []
     failures: dict[str, str] = {}
     name, *_ = makes
@@ -209,10 +210,13 @@ def run_nodes(makes: Mapping[str, Callable[[], ManagedNode]], args: list[str] | 
             with SIGNALS.interrupting():
                 nodes[name] = node = make()
             node.start()
+            executors.append(SingleThreadedExecutor())
+            executors[-1].add_node(node)
             if len(nodes) < len(makes):
-                beside.append(threading.Thread(target=_serve_beside, args=[node], name=name))
+                given = [executors[-1], node]
+                beside.append(threading.Thread(target=_serve_beside, args=given, name=name))
                 beside[-1].start()
-        _serve(node)
+        executors[-1].spin()
     except (KeyboardInterrupt, ExternalShutdownException):
         pass
     except (NodeError, ParameterException, ValueError, OSError) as reason:
@@ -222,29 +226,26 @@ def run_nodes(makes: Mapping[str, Callable[[], ManagedNode]], args: list[str] | 
         if rclpy.ok():
             raise
     finally:
-        rclpy.try_shutdown()
+        if rclpy.ok():  # else rclpy's signal thread is at it, and must not be met there
+            rclpy.try_shutdown()
+        for executor in executors:  # a signal may have woken it before ROS was shut down
+            executor.wake()
         for thread in beside:
             thread.join()
         for name, node in nodes.items():
             if failure := _end(node):
                 failures[name] = failure
+        rclpy.try_shutdown()
         SIGNALS.ignore()
     for name, failure in failures.items():
         print(f"{name}: {failure}", file=sys.stderr)
     return 1 if failures else 0
 
 
-def _serve(node: ManagedNode) -> None:
-    """Answer `node`'s callbacks until ROS is shut down, which raises."""
-    executor = SingleThreadedExecutor()
-    executor.add_node(node)
-    executor.spin()
-
-
-def _serve_beside(node: ManagedNode) -> None:
-    """As `_serve`, in a thread beside the main one; a defect ends the process."""
+def _serve_beside(executor: SingleThreadedExecutor, node: ManagedNode) -> None:
+    """Answer `node`'s callbacks in a thread beside the main one; a defect ends the process."""
     try:
-        _serve(node)
+        executor.spin()
     except ExternalShutdownException:
         pass
     except Exception as defect:
