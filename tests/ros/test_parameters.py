@@ -61,7 +61,7 @@ def test_geometry_is_that_of_the_scene_and_cannot_be_set(
         given = parameter_value_to_python(value)
         assert (tuple(given) if isinstance(expected, tuple) else given) == expected
         assert told[name].read_only
-        result = peer.set(NODE, **{name: "ring" if isinstance(expected, str) else 0.123})
+        result = peer.set(NODE, **{name: "other" if isinstance(expected, str) else 0.123})
         assert not result.successful
         assert result.reason.startswith(f"{name} = ")
         assert "choose another scene" in result.reason

@@ -24,6 +24,7 @@ setup(
             "simulation = planetary_twin.nodes:simulation",
             "logger = planetary_twin.nodes:logger",
             "replay = planetary_twin.nodes:replay",
+            "twin = planetary_twin.nodes:twin",
         ],
         "planetary_twin.commands": [
             "run = planetary_twin.commands:run",

@@ -1,52 +1,62 @@
 """Starts a twin: the simulation, and the logger unless told not to."""
 
 from launch import LaunchDescription
-from launch.actions import DeclareLaunchArgument
+from launch.actions import DeclareLaunchArgument, Shutdown
 from launch.conditions import IfCondition
-from launch.substitutions import LaunchConfiguration, PathJoinSubstitution
+from launch.substitution import Substitution
+from launch.substitutions import (
+    AndSubstitution,
+    EnvironmentVariable,
+    LaunchConfiguration,
+    NotSubstitution,
+    PathJoinSubstitution,
+)
 from launch_ros.actions import Node
 from launch_ros.parameter_descriptions import ParameterValue
 from launch_ros.substitutions import FindPackageShare
 
 _CONFIG = PathJoinSubstitution([FindPackageShare("planetary_twin"), "config", "paper.yaml"])
+_DOMAIN = EnvironmentVariable("ROS_DOMAIN_ID", default_value="0")
 _ARGUMENTS = (
     ("scene", "paper", "packaged scene, or path of a YAML file"),
     ("namespace", "planetary_twin", "one per twin, so that several run side by side"),
-    ("record", "true", "whether the logger records"),
+    ("record", "true", "whether the logger records, into recordings/ of the working directory"),
     ("rate_factor", "1.0", "simulated seconds per second"),
     ("params", _CONFIG, "YAML file with parameters of both nodes"),
+    ("domain", _DOMAIN, "ROS_DOMAIN_ID of the nodes: twins of different domains never meet"),
+    ("composed", "false", "simulation and logger in one process, for up to some 100 messages/s"),
 )
 
 
 def generate_launch_description() -> LaunchDescription:
-    """Arguments and nodes."""
+    """Arguments and nodes; all ends with the simulation."""
     arguments = [
         DeclareLaunchArgument(name, default_value=default, description=description)
         for name, default, description in _ARGUMENTS
     ]
-    given = {name: LaunchConfiguration(name) for name, _, _ in _ARGUMENTS}
-    simulation = Node(
+    record = LaunchConfiguration("record")
+    both = AndSubstitution(record, LaunchConfiguration("composed"))
+    apart = NotSubstitution(both)
+    nodes = [
+        _node("logger", AndSubstitution(record, apart)),
+        _node("simulation", apart, on_exit=Shutdown()),
+        _node("twin", both, on_exit=Shutdown()),
+    ]
+    return LaunchDescription([*arguments, *nodes])
+
+
+def _node(executable: str, condition: Substitution, **options: Shutdown) -> Node:
+    given = {
+        "scene": ParameterValue(LaunchConfiguration("scene"), value_type=str),
+        "rate_factor": ParameterValue(LaunchConfiguration("rate_factor"), value_type=float),
+    }
+    return Node(
         package="planetary_twin",
-        executable="simulation",
-        namespace=given["namespace"],
+        executable=executable,
+        namespace=LaunchConfiguration("namespace"),
         output="screen",
-        parameters=[
-            given["params"],
-            {
-                "scene": ParameterValue(given["scene"], value_type=str),
-                "rate_factor": ParameterValue(given["rate_factor"], value_type=float),
-            },
-        ],
+        additional_env={"ROS_DOMAIN_ID": LaunchConfiguration("domain")},
+        parameters=[LaunchConfiguration("params"), given],
+        condition=IfCondition(condition),
+        **options,
     )
-    logger = Node(
-        package="planetary_twin",
-        executable="logger",
-        namespace=given["namespace"],
-        output="screen",
-        parameters=[
-            given["params"],
-            {"scene": ParameterValue(given["scene"], value_type=str)},
-        ],
-        condition=IfCondition(given["record"]),
-    )
-    return LaunchDescription([*arguments, logger, simulation])

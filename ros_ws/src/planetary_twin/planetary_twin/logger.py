@@ -90,14 +90,8 @@ class Logger(ManagedNode):
         """Create the recording's folder and file."""
         scene = pt.load_scene(self._scene).model_dump(mode="json") if self._scene else None
         directory = Path(self._directory).expanduser()
-        folder = self._folder(directory)
         self._check_topics()
-        try:
-            self._bag = BagWriter(folder)
-        except FileExistsError:
-            raise NodeError(f"name = {self._name}: {folder} exists; choose a free name") from None
-        except OSError as reason:
-            raise NodeError(f"directory = {directory}: {reason.strerror}") from None
+        self._bag = self._new_bag(directory)
         if scene is not None:
             text = yaml.safe_dump(scene, sort_keys=False)
             self._bag.attach("scene.yaml", text.encode(), "application/yaml")
@@ -144,10 +138,25 @@ class Logger(ManagedNode):
         # Under a name of its own: a signal has shut down what the node's name would publish to.
         get_logger("recording").info(f"{bag.file}: {_summary(accounts)}")
 
+    def _new_bag(self, directory: Path) -> BagWriter:
+        while True:
+            folder = self._folder(directory)
+            try:
+                return BagWriter(folder)
+            except OSError as reason:
+                taken = isinstance(reason, FileExistsError) and folder.exists()
+                if not taken:
+                    raise NodeError(f"directory = {directory}: {reason.strerror}") from None
+                if self._name:
+                    refusal = f"name = {self._name}: {folder} exists; choose a free name"
+                    raise NodeError(refusal) from None
+                # Another logger has just taken that one.
+
     def _folder(self, directory: Path) -> Path:
         """Where the recording goes: never elsewhere than in `directory`."""
         if not self._name:
-            return free_folder(directory, "twin")
+            stem = self.get_namespace().strip("/").replace("/", "_")
+            return free_folder(directory, stem or "twin")
         try:
             return named_folder(directory, self._name)
         except ValueError as refusal:

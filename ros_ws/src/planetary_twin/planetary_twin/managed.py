@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import sys
+import threading
 import traceback
 from collections.abc import Callable, Mapping
 from typing import Any
@@ -18,7 +19,7 @@ from rclpy.parameter import Parameter
 from rclpy.qos import QoSProfile
 from rclpy.service import Service
 
-from .parameters import ParameterServices, brief, check_settable, declare_fixed
+from .parameters import ParameterServices, brief, check_settable, declare_fixed, fixed_at
 from .signals import SIGNALS
 
 NAMESPACE = "planetary_twin"
@@ -105,11 +106,17 @@ class ManagedNode(LifecycleNode):
         return super().create_service(*given, **options | {"qos_profile": _REQUESTS})
 
     def set_parameters_atomically(self, parameter_list: list[Parameter]) -> SetParametersResult:
-        """As rclpy's, with a refusal that names the parameter for all that cannot be."""
+        """As rclpy's, with a refusal that names the parameter for all that cannot be.
+
+        What is fixed may be set to what it is: a file that `ros2 param dump` wrote loads.
+        """
         try:
-            for parameter in parameter_list:
+            changing = [p for p in parameter_list if not fixed_at(self, p)]
+            for parameter in changing:
                 check_settable(self, parameter)
-            return super().set_parameters_atomically(parameter_list)
+            if parameter_list and not changing:
+                return SetParametersResult(successful=True)
+            return super().set_parameters_atomically(changing)
         except ValueError as refusal:
             return SetParametersResult(successful=False, reason=str(refusal))
 
@@ -183,32 +190,71 @@ def run_node(
 
     Why it failed is printed in one line that begins with `title`, by default the node's class.
     """
-    node: ManagedNode | None = None
-    failure: str | None = None
+    return run_nodes({title or make.__name__.lower(): make}, args)
+
+
+def run_nodes(makes: Mapping[str, Callable[[], ManagedNode]], args: list[str] | None = None) -> int:
+    """Start nodes in this order and run them until SIGINT, SIGTERM or the end of one of them.
+
+    Each has an executor and a thread of its own, the last of them this one, so that none waits for
+    another's callbacks. Why one failed is printed in one line that begins with its key.
+    """
+    nodes: dict[str, ManagedNode] = {}
+    executors: list[SingleThreadedExecutor] = []  # which outlive what a signal still does to them
+    beside: list[threading.Thread] = []
+    failures: dict[str, str] = {}
+    name, *_ = makes
     SIGNALS.listen()
     try:
         with SIGNALS.interrupting():
             _initialize(args)
-            node = make()
-        node.start()
-        executor = SingleThreadedExecutor()
-        executor.add_node(node)
-        executor.spin()
+        for name, make in makes.items():
+            with SIGNALS.interrupting():
+                nodes[name] = node = make()
+            node.start()
+            executors.append(SingleThreadedExecutor())
+            executors[-1].add_node(node)
+            if len(nodes) < len(makes):
+                given = [executors[-1], node]
+                beside.append(threading.Thread(target=_serve_beside, args=given, name=name))
+                beside[-1].start()
+        executors[-1].spin()
     except (KeyboardInterrupt, ExternalShutdownException):
         pass
     except (NodeError, ParameterException, ValueError, OSError) as reason:
-        failure = str(reason)
+        failures[name] = str(reason)
     except RCLError:
         # A callback that publishes while a signal shuts ROS down is refused: that is the end.
         if rclpy.ok():
             raise
     finally:
-        failure = _end(node) or failure
+        if rclpy.ok():  # else rclpy's signal thread is at it, and must not be met there
+            rclpy.try_shutdown()
+        for executor in executors:  # a signal may have woken it before ROS was shut down
+            executor.wake()
+        for thread in beside:
+            thread.join()
+        for name, node in nodes.items():
+            if failure := _end(node):
+                failures[name] = failure
         rclpy.try_shutdown()
         SIGNALS.ignore()
-    if failure:
-        print(f"{title or make.__name__.lower()}: {failure}", file=sys.stderr)
-    return 1 if failure else 0
+    for name, failure in failures.items():
+        print(f"{name}: {failure}", file=sys.stderr)
+    return 1 if failures else 0
+
+
+def _serve_beside(executor: SingleThreadedExecutor, node: ManagedNode) -> None:
+    """Answer `node`'s callbacks in a thread beside the main one; a defect ends the process."""
+    try:
+        executor.spin()
+    except ExternalShutdownException:
+        pass
+    except Exception as defect:
+        if rclpy.ok():  # else the callback was refused because ROS has been shut down
+            node.get_logger().error(traceback.format_exc())
+            node.failure = f"{type(defect).__name__}: {defect}"
+            rclpy.try_shutdown()
 
 
 def _initialize(args: list[str] | None) -> None:
@@ -218,10 +264,8 @@ def _initialize(args: list[str] | None) -> None:
         raise NodeError(f"--ros-args: {str(refusal).split(', at ')[0]}") from None
 
 
-def _end(node: ManagedNode | None) -> str | None:
+def _end(node: ManagedNode) -> str | None:
     """Close and destroy `node`; returns why it failed, if it did."""
-    if node is None:
-        return None
     try:
         node.close()
     except (NodeError, OSError) as reason:

@@ -26,6 +26,11 @@ def replay() -> int:
     return _run("replay")
 
 
+def twin() -> int:
+    """The simulation and the logger in one process."""
+    return _run("composed")
+
+
 def _run(name: str) -> int:
     for number in (signal.SIGINT, signal.SIGTERM):
         signal.signal(number, _leave)  # until `run_node` takes them

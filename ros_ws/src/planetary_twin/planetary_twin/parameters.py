@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import reprlib
+from array import array
 from collections.abc import Container, Iterator
 from typing import Any
 
@@ -33,7 +34,11 @@ _BRIEF.maxstring = _BRIEF.maxother = 60
 
 def brief(value: Any) -> str:
     """A value as a refusal shows it, whoever sent it: one line of readable length."""
-    return _BRIEF.repr(value)
+    return _BRIEF.repr(_listed(value))
+
+
+def _listed(value: Any) -> Any:
+    return list(value) if isinstance(value, array) else value
 
 
 class ParameterServices(ParameterService):
@@ -65,6 +70,16 @@ class ParameterServices(ParameterService):
             name = brief(messages[0].name) if len(messages) == 1 else "parameters"
             return SetParametersResult(successful=False, reason=f"{name}: {refusal}")
         return self._get_node().set_parameters_atomically(parameters)
+
+
+def fixed_at(node: Node, given: Parameter) -> bool:
+    """Whether `given` is the value of a fixed parameter, in whichever type it was sent."""
+    if not (node.has_parameter(given.name) and node.describe_parameter(given.name).read_only):
+        return False
+    value = node.get_parameter(given.name).value
+    if isinstance(value, float):
+        return number(given.name, given.value) == value
+    return str(_listed(given.value)) == str(_listed(value))
 
 
 def check_settable(node: Node, parameter: Parameter) -> None:

@@ -1,0 +1,85 @@
+"""Runs `ros2` as a user does, and reads what it prints."""
+
+from __future__ import annotations
+
+import os
+import signal
+import subprocess
+import time
+from pathlib import Path
+from typing import Any
+
+import yaml
+
+
+class Ros2:
+    """`ros2` in `folder`, on `domain`, confined to this machine."""
+
+    def __init__(self, domain: int, folder: Path) -> None:
+        self.folder = folder
+        self.started: list[subprocess.Popen[str]] = []
+        self._environment = {
+            **os.environ,
+            "ROS_DOMAIN_ID": str(domain),
+            "ROS_AUTOMATIC_DISCOVERY_RANGE": "LOCALHOST",
+        }
+
+    def __call__(self, *arguments: str) -> str:
+        """All that a command prints."""
+        return subprocess.run(
+            ["ros2", *arguments],
+            cwd=self.folder,
+            env=self._environment,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.STDOUT,
+            text=True,
+            timeout=60,
+        ).stdout
+
+    def start(self, *arguments: str) -> subprocess.Popen[str]:
+        """A command that goes on."""
+        with self._output(len(self.started)).open("w") as output:
+            process = subprocess.Popen(
+                ["ros2", *arguments],
+                cwd=self.folder,
+                env=self._environment,
+                stdout=output,
+                stderr=output,
+                text=True,
+                start_new_session=True,
+            )
+        self.started.append(process)
+        return process
+
+    def interrupt(self, process: subprocess.Popen[str]) -> int:
+        """End it as Ctrl-C does, which reaches all that it has started; returns the exit code."""
+        if process.poll() is None:
+            os.killpg(process.pid, signal.SIGINT)
+        return process.wait(30)
+
+    def output(self, process: subprocess.Popen[str]) -> str:
+        """What a command that goes on has printed so far."""
+        return self._output(self.started.index(process)).read_text(encoding="utf-8")
+
+    def _output(self, number: int) -> Path:
+        return self.folder / f"output_{number}"
+
+    def until(self, words: str, *arguments: str) -> str:
+        """Repeat a command until it prints `words`; fails the test where it does not in time."""
+        deadline = time.monotonic() + 120.0
+        while words not in (printed := self(*arguments)):
+            assert time.monotonic() < deadline, printed
+        return printed
+
+    def call(self, service: str, kind: str, request: str = "{}") -> str:
+        """The answer of a service."""
+        return self("service", "call", service, kind, request).partition("response:")[2]
+
+    def echo(self, topic: str, *options: str) -> Any:
+        """The next message of a topic."""
+        printed = self("topic", "echo", "--once", "--no-lost-messages", topic, *options)
+        return next(iter(yaml.safe_load_all(printed)))
+
+    def value(self, node: str, parameter: str) -> str:
+        """A parameter as `ros2` shows it."""
+        return self("param", "get", node, parameter).partition(": ")[2].strip()

@@ -1,0 +1,68 @@
+"""What runs, what it publishes, and what every field of it means."""
+
+from __future__ import annotations
+
+import re
+
+import pytest
+
+from .command import Ros2
+
+INTERFACES = (
+    *(f"msg/{name}" for name in ("GearboxState", "MeshWaveform", "OperatingPoint")),
+    *(f"srv/{name}" for name in ("NaturalModes", "SetOperatingPoint", "Step")),
+    "msg/RecorderStatus",
+)
+FIELD = re.compile(r"(\w+(?:/\w+)*(?:\[\d*\])?) +(\w+)(.*)")
+
+
+def test_executables_are_found(ros2: Ros2) -> None:
+    listed = ros2("pkg", "executables", "planetary_twin").split("\n")
+    for name in ("simulation", "logger", "replay", "twin"):
+        assert f"planetary_twin {name}" in listed
+
+
+def test_the_simulation_is_found_with_its_topics_and_services(ros2: Ros2, twin: str) -> None:
+    assert twin in ros2("node", "list").split()
+    told = ros2("node", "info", twin)
+    for name in (
+        "/planetary_twin/gearbox_state: planetary_twin_msgs/msg/GearboxState",
+        "/planetary_twin/joint_states: sensor_msgs/msg/JointState",
+        "/diagnostics: diagnostic_msgs/msg/DiagnosticArray",
+        f"{twin}/set_operating_point: planetary_twin_msgs/srv/SetOperatingPoint",
+        f"{twin}/step: planetary_twin_msgs/srv/Step",
+    ):
+        assert name in told
+
+
+def test_a_message_and_a_field_of_it_are_shown(ros2: Ros2, twin: str) -> None:
+    state = ros2.echo("/planetary_twin/gearbox_state")
+    assert state["planets"] == 3 and len(state["sun_planet_dte_mean"]) == 7
+    assert ros2.echo("/planetary_twin/gearbox_state", "--field", "output_power") > 0
+    shown = ros2("topic", "echo", "--once", "/planetary_twin/gearbox_state", "--field", "header")
+    assert "frame_id: gearbox" in shown
+
+
+def test_a_late_joiner_gets_what_is_latched(ros2: Ros2, twin: str) -> None:
+    assert ros2.echo("/planetary_twin/operating_point")["input_torque"] == 63.0
+    printed = ros2("topic", "echo", "--once", "/planetary_twin/robot_description", "--full-length")
+    assert "<robot name=" in printed
+    told = ros2("topic", "info", "-v", "/planetary_twin/operating_point")
+    assert "Reliability: RELIABLE" in told and "Durability: TRANSIENT_LOCAL" in told
+
+
+@pytest.mark.parametrize("interface", INTERFACES)
+def test_every_field_is_explained_with_its_unit(ros2: Ros2, interface: str) -> None:
+    shown = ros2("interface", "show", f"planetary_twin_msgs/{interface}").splitlines()
+    fields = [match for line in shown if (match := FIELD.fullmatch(line))]
+    assert fields
+    for kind, name, comment in (match.groups() for match in fields):
+        assert comment.strip().startswith("# "), name
+        if kind.startswith("float"):
+            assert re.search(r"# \[[^\]]+\]", comment) or name == "values", name
+
+
+def test_all_interfaces_of_the_package_are_among_these(ros2: Ros2) -> None:
+    listed = ros2("interface", "package", "planetary_twin_msgs").split()
+    assert {f"planetary_twin_msgs/{interface}" for interface in INTERFACES} <= set(listed)
+    assert len(listed) == len(INTERFACES)

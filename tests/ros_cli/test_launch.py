@@ -1,0 +1,66 @@
+"""`ros2 launch` starts twins that do not disturb one another, and ends them cleanly."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from rosbags.rosbag2 import Reader
+
+from .command import Ros2
+
+LAUNCH = ("launch", "planetary_twin", "twin.launch.py")
+ARGUMENTS = ("scene", "namespace", "record", "rate_factor", "params", "domain", "composed")
+
+
+def test_every_argument_is_described(ros2: Ros2) -> None:
+    told = ros2(*LAUNCH, "-s")
+    for name in ARGUMENTS:
+        _, _, after = told.partition(f"'{name}':\n")
+        description, default = after.splitlines()[:2]
+        assert len(description.strip()) > 10 and "(default: " in default, name
+
+
+def test_twins_of_two_namespaces_run_and_record_side_by_side(ros2: Ros2) -> None:
+    """One of them in one process, at another rate."""
+    left = ros2.start(*LAUNCH, "namespace:=left")
+    right = ros2.start(*LAUNCH, "namespace:=right", "composed:=true", "rate_factor:=0.5")
+    for name in ("left", "right"):
+        ros2.until("active [3]", "lifecycle", "get", f"/{name}/simulation")
+        ros2.until("active [3]", "lifecycle", "get", f"/{name}/logger")
+    assert ros2.value("/right/simulation", "rate_factor") == "0.5"
+    ros2("param", "set", "/left/simulation", "backlash", "3e-7")
+    assert ros2.value("/left/simulation", "backlash") == "3e-07"
+    assert ros2.value("/right/simulation", "backlash") == "2e-07"
+    assert [ros2.interrupt(process) for process in (left, right)] == [0, 0]
+    for name, other in (("left", "right"), ("right", "left")):
+        (bag,) = Path(ros2.folder, "recordings").glob(f"{name}_*")
+        with Reader(bag) as reader:
+            topics = {c.topic: c.msgcount for c in reader.connections}
+        assert topics[f"/{name}/gearbox_state"] > 100
+        assert not any(topic.startswith(f"/{other}/") for topic in topics)
+
+
+def test_a_twin_of_another_domain_and_scene_is_not_met(ros2: Ros2) -> None:
+    params = ros2.folder / "params.yaml"
+    params.write_text("/**:\n  ros__parameters:\n    backlash: 1.5e-7\n", encoding="utf-8")
+    options = ("domain:=230", "namespace:=far", "scene:=run_up", "record:=false")
+    far = ros2.start(*LAUNCH, *options, f"params:={params}")
+    away = Ros2(230, ros2.folder)
+    try:
+        away.until("active [3]", "lifecycle", "get", "/far/simulation")
+        assert away.value("/far/simulation", "scene") == "run_up"
+        assert away.value("/far/simulation", "backlash") == "1.5e-07"
+        assert "/far/logger" not in away("node", "list").split()
+        assert "/far/simulation" not in ros2("node", "list").split()
+    finally:
+        away("daemon", "stop")
+    assert ros2.interrupt(far) == 0
+
+
+def test_a_simulation_that_cannot_start_ends_the_launch_with_the_reason(ros2: Ros2) -> None:
+    process = ros2.start(*LAUNCH, "namespace:=wrong", "rate_factor:=1000.0")
+    process.wait(60)
+    told = ros2.output(process)
+    assert "simulation: " in told and "rate_factor" in told
+    assert "Traceback" not in told
+    assert "/wrong/logger" not in ros2("node", "list").split()

@@ -1,0 +1,81 @@
+"""`ros2 param` takes numbers as people type them, and says why it takes others not."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+import yaml
+
+from .command import Ros2
+
+
+@pytest.mark.parametrize(
+    ("name", "typed", "shown"),
+    [
+        ("backlash", "3e-7", "3e-07"),
+        ("backlash", "2.5e-7", "2.5e-07"),
+        ("lambda_ratio", "2", "2.0"),
+        ("tolerance", "1e-3", "0.001"),
+    ],
+)
+def test_numbers_are_taken_as_typed(
+    ros2: Ros2, twin: str, name: str, typed: str, shown: str
+) -> None:
+    assert ros2("param", "set", twin, name, typed).strip() == "Set parameter successful"
+    assert ros2.value(twin, name) == shown
+
+
+@pytest.mark.parametrize(
+    ("name", "typed", "told"),
+    [
+        ("backlash", "nan", ("backlash", "nan", "0.001")),
+        ("input_speed", ".inf", ("input_speed", "inf", "1100")),
+        ("backlash", "3", ("backlash", "3.0", "0.001")),
+        ("backlash", "wide", ("backlash = 'wide': must be a number",)),
+        ("backlash", "true", ("backlash = True: must be a number",)),
+        ("backlash", "[1.0, 2.0]", ("backlash = [1.0, 2.0]: must be a number",)),
+        ("tolerance", "5", ("tolerance", "5.0", "0.1")),
+        ("scene", "run_up", ("scene = 'run_up': fixed while the node lives", "-p scene:=VALUE")),
+        ("gap", "1", ("'gap': no such parameter",)),
+    ],
+)
+def test_a_refusal_names_field_value_and_range(
+    ros2: Ros2, twin: str, name: str, typed: str, told: tuple[str, ...]
+) -> None:
+    before = ros2("param", "dump", twin)
+    answer = ros2("param", "set", twin, name, typed)
+    assert answer.startswith("Setting parameter failed: ") and len(answer.splitlines()) == 1
+    assert all(words in answer for words in told), answer
+    assert ros2("param", "dump", twin) == before
+
+
+def test_every_parameter_is_described(ros2: Ros2, twin: str) -> None:
+    described = ros2("param", "describe", twin, "backlash", "scene", "publish_rate")
+    for words in ("[m]", "Max value: 0.001", "[Hz]", "Read only: true", "-p scene:=VALUE"):
+        assert words in described
+    listed = ros2("param", "list", twin, "--param-type")
+    for words in ("backlash (type: double)", "scene (type: string)", "clock (type: boolean)"):
+        assert words in listed
+
+
+def test_what_was_dumped_loads_and_starts(ros2: Ros2, twin: str) -> None:
+    for name, value in (("backlash", "3e-7"), ("lambda_ratio", "2"), ("tolerance", "1e-4")):
+        ros2("param", "set", twin, name, value)
+    dumped = ros2("param", "dump", twin)
+    file = Path(ros2.folder, "dumped.yaml")
+    file.write_text(dumped, encoding="utf-8")
+    for name, value in (("backlash", "1e-7"), ("input_torque", "20"), ("tolerance", "0")):
+        ros2("param", "set", twin, name, value)
+
+    loaded = ros2("param", "load", twin, str(file))
+    assert "failed" not in loaded, loaded
+    assert ros2("param", "dump", twin) == dumped
+
+    renamed = yaml.safe_load(dumped)
+    file.write_text(yaml.dump({"/copy/simulation": renamed[twin]}), encoding="utf-8")
+    place = ("--ros-args", "-r", "__ns:=/copy", "--params-file", str(file))
+    ros2.start("run", "planetary_twin", "simulation", *place)
+    ros2.until("active [3]", "lifecycle", "get", "/copy/simulation")
+    again = yaml.safe_load(ros2("param", "dump", "/copy/simulation"))
+    assert again["/copy/simulation"] == renamed[twin]
