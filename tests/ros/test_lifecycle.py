@@ -206,7 +206,7 @@ def test_what_is_set_while_it_stands_holds_when_it_runs(peer: Peer, start: Start
             assert managed.change(label)
             if label != "activate":
                 assert peer.set(managed.node, backlash=backlash).successful
-        peer.until(lambda value=backlash: points[-1].backlash == value)
+        peer.until(lambda value=backlash: points and points[-1].backlash == value)
 
 
 @pytest.fixture
@@ -249,7 +249,7 @@ def test_a_twin_that_stops_by_itself_leads_through_the_error_state(
     simulation.trigger_activate()
     executor = SingleThreadedExecutor()
     executor.add_node(simulation)
-    simulation.running()._advance = None  # as a defect would: what it does now raises
+    simulation.running()._pass = None  # as a defect would: what it does now raises
     deadline = time.monotonic() + 30.0
     while simulation._state_machine.current_state[1] != "unconfigured":
         assert time.monotonic() < deadline

@@ -7,7 +7,7 @@ from typing import Any
 
 import pytest
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
-from planetary_twin.live import Progress
+from planetary_twin.live import Progress, State
 from planetary_twin.real_time import RealTimeReport
 
 import planetary_twin_py as pt
@@ -26,7 +26,7 @@ class Reports:
     def __init__(self) -> None:
         self.log = [pt.Change(0.0, POINT, 1e-3, FULL)]
         self._now = time.monotonic()
-        begun = Progress(0.0, self._now - 10.0, 0.0, 0, False, False)
+        begun = Progress(0.0, self._now - 10.0, 0.0, 0, False, State.RUNNING)
         self._report = RealTimeReport("/twin", 1.0, PERIOD, self.log, begun)
 
     def __call__(
@@ -38,8 +38,9 @@ class Reports:
         paused: bool = False,
         last: bool = False,
     ) -> DiagnosticArray:
-        now = Progress(simulated, self._now - ago, 0.0, overruns, False, paused)
-        return self._report.message(now, AFFORDABLE, {}, 0, last=last)
+        state = State.PAUSED if paused else State.RUNNING
+        now = Progress(simulated, self._now - ago, 0.0, overruns, False, state)
+        return self._report.message(now, AFFORDABLE, {}, last=last)
 
 
 @pytest.mark.parametrize(
