@@ -56,6 +56,12 @@ class Engine:
         self.train = build_train(scene)
         self.model: Record = new_record(MODEL, train=self.train)
         self.march: Record = new_record(MARCH)
+        # Parts of the march that every window looks at: finding them takes longer than the look.
+        self._end, self._aside = self.march.end, self.march.aside
+        self._repetition, self._last = self.march.repetition, self.march.last
+        standing = (self.march.begin, self.march.end, self.march.repetition.start)
+        self._ledgers = tuple(state.energy for state in standing)
+        self._shown: tuple[float | Fraction, Samples] | None = None
         control = self.march.control
         control.step = control.next_step = control.next_stiff = FIRST_STEP
         control.longest = LONGEST_STEP
@@ -124,23 +130,26 @@ class Engine:
         """The same, and a last sample at `until`."""
         samples = new_samples(self.train, room + 1)
         advance(self.model, self.march, instant(until), NEVER, at, samples)
+        self._shown = until, Samples(*(each[room:] for each in samples))
         return samples
 
     def sample(self, time: float | Fraction) -> Samples:
         """One sample at `time` [s], the end of the last window."""
+        if self._shown is not None and self._shown[0] == time:
+            return self._shown[1]
         return self._advance(time, sampling(1, 1.0), 0)
 
     def change(self, point: OperatingPoint, tolerance: float, time: float | Fraction) -> None:
         """Run on with these from `time` [s], the end of the last window."""
         cut(self.model, self.march, instant(time))
+        self._shown = None
         self.tolerance = tolerance
         self._load(point)
 
     @property
     def reached(self) -> Fraction:
         """End of the last step [s], at or after the end of the last window."""
-        end = self.march.end
-        return int(end.seconds) + Fraction(float(end.time))
+        return int(self._end.seconds) + Fraction(float(self._end.time))
 
     @property
     def control(self) -> Record:
@@ -150,25 +159,25 @@ class Engine:
     @property
     def repeats(self) -> bool:
         """Whether steady running repeats itself, see `integrators.repetition`."""
-        return bool(self.march.repetition.playing)
+        return bool(self._repetition.playing)
 
     @property
     def powers(self) -> np.ndarray:
         """By which the ledger grows at `reached`."""
-        return np.array(self.march.last.power)
+        return np.array(self._last.power)
 
     def take_ledger(self) -> np.ndarray:
         """Integrals of the ledger up to `reached` since they were last taken, see `dynamics.state`.
 
         They begin anew, so that what a window adds is not lost beside what a long run has added.
         """
-        ledger = np.array(self.march.end.energy)
-        for state in (self.march.begin, self.march.end, self.march.repetition.start):
-            state.energy -= ledger
+        _, end, _ = self._ledgers
+        ledger = end.copy()
+        for energy in self._ledgers:
+            energy -= ledger
         return ledger
 
     def stored(self) -> tuple[float, float]:
         """Kinetic and elastic energy at `reached` [J]."""
-        end = self.march.end
-        moving, strained = stored(self.model, end, self.march.aside)
+        moving, strained = stored(self.model, self._end, self._aside)
         return float(moving), float(strained)

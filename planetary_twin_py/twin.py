@@ -51,6 +51,11 @@ class Twin:
         self.scene = scene
         self._names, self._mesh_names = body_names(scene), mesh_names(scene)
         self._engine = start(scene, tolerance)
+        train = self._engine.train
+        self._ratio = train.ratio[: train.bodies].T
+        self._shafts = train.coupling[: train.machines, 0]
+        self._machines = int(train.machines)
+        self._whole_turns = [_WholeTurns.of(ratios) for ratios in self._names.ratio]
         self._clock = Fraction(0)
         self.log = [Change(0.0, scene.operating_point, tolerance, float(sample_rate))]
         """Every operating point, tolerance and sample rate: made again at the same instants, the
@@ -166,14 +171,14 @@ class Twin:
     def _window(self, step: Fraction, first: int, samples: Samples, repeated: bool) -> Window:
         before, begin = self._books, self._end
         self._books, self._end = self._account(), self._engine.sample(self._clock)
-        train, names = self._engine.train, self._names
+        names = self._names
         elapsed = float(self._books[0] - before[0])
         if elapsed > 0.0:
             rate = self._books[1] / elapsed
             stored = (self._books[2] - before[2]) / elapsed
         else:  # a window within one step
             rate, stored = self._engine.powers, float("nan")
-        turned = 2.0 * math.pi * (self._end.turns - begin.turns) @ train.ratio[: train.bodies].T
+        turned = 2.0 * math.pi * (self._end.turns - begin.turns) @ self._ratio
         speed = ((turned + self._end.angle - begin.angle) / float(step))[0]
         mean_speed = np.append(speed, 0.0)[names.place]
         sun, carrier = mean_speed[names.names.index("sun")], mean_speed[-1]
@@ -197,9 +202,9 @@ class Twin:
             angle=self._angles(),
             mean_speed=mean_speed,
             mesh_frequency=self.scene.gearset.teeth.sun * abs(sun - carrier) / (2.0 * math.pi),
-            machine_speed=speed[train.coupling[: train.machines, 0]],
-            machine_torque=rate[IMPULSE : IMPULSE + train.machines],
-            machine_power=rate[WORK : WORK + train.machines],
+            machine_speed=speed[self._shafts],
+            machine_torque=rate[IMPULSE : IMPULSE + self._machines],
+            machine_power=rate[WORK : WORK + self._machines],
             power_loss=float(rate[FRICTION] + rate[BEARING] + rate[CHURNING]),
             stored_power=stored,
         )
@@ -208,12 +213,26 @@ class Twin:
         """Angles modulo a turn, exact in the whole turns of the motor."""
         turns = [int(turn) for turn in self._end.turns[0]]
         relative = np.append(self._end.angle[0], 0.0)[self._names.place]
-        whole = [float(_turned(turns, ratios) % 1) for ratios in self._names.ratio]
+        whole = [body.part(turns) for body in self._whole_turns]
         return np.mod(2.0 * math.pi * np.array(whole) + relative, 2.0 * math.pi)
 
 
-def _turned(turns: list[int], ratios: Ratios) -> Fraction:
-    return sum((turn * ratio for turn, ratio in zip(turns, ratios, strict=False)), Fraction(0))
+class _WholeTurns(NamedTuple):
+    """What whole turns of the motors make of a body, in whole numbers."""
+
+    numerators: tuple[int, ...]
+    denominator: int
+
+    @classmethod
+    def of(cls, ratios: Ratios) -> _WholeTurns:
+        """From its speeds per speed of each motor."""
+        common = math.lcm(*(ratio.denominator for ratio in ratios))
+        return cls(tuple(int(ratio * common) for ratio in ratios), common)
+
+    def part(self, turns: list[int]) -> float:
+        """Part of a turn, in [0, 1), by which the body is turned."""
+        turned = sum(turn * n for turn, n in zip(turns, self.numerators, strict=False))
+        return turned % self.denominator / self.denominator
 
 
 def _check_sample_rate(sample_rate: float) -> None:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-import warnings
 from dataclasses import dataclass
 
 import numpy as np
@@ -133,9 +132,7 @@ def mesh_statistics(samples: np.ndarray) -> dict[str, np.ndarray]:
     if not len(samples):
         samples = np.full((1, *samples.shape[1:]), np.nan)
         dte, force = samples[:, DTE], samples[:, MESH_FORCE]
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore", RuntimeWarning)  # nanmean of a mesh never in contact
-        film, ratio = np.nanmean(samples[:, FILM], axis=0), np.nanmean(samples[:, LAMBDA], axis=0)
+    film, ratio = _mean_in_contact(samples[:, FILM]), _mean_in_contact(samples[:, LAMBDA])
     return {
         "dte_mean": dte.mean(axis=0),
         "dte_rms": dte.std(axis=0),
@@ -149,3 +146,10 @@ def mesh_statistics(samples: np.ndarray) -> dict[str, np.ndarray]:
         "viscous_friction": samples[:, VISCOUS].mean(axis=0),
         "power_loss": samples[:, POWER_LOSS].mean(axis=0),
     }
+
+
+def _mean_in_contact(values: np.ndarray) -> np.ndarray:
+    """Mean of the rows that are numbers, by column; NaN without any."""
+    sound = ~np.isnan(values)
+    with np.errstate(invalid="ignore"):
+        return np.asarray(np.where(sound, values, 0.0).sum(axis=0) / sound.sum(axis=0))
