@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+import fcntl
 import itertools
 import os
 import signal
 import subprocess
 import sys
+import tempfile
 from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from pathlib import Path
 
 import pytest
@@ -19,13 +22,27 @@ _DOMAINS = itertools.count(os.getpid())
 
 
 @pytest.fixture
-def domain(monkeypatch: pytest.MonkeyPatch) -> int:
+def domain(monkeypatch: pytest.MonkeyPatch) -> Iterator[int]:
     """A domain for this test, also in the environment of what it starts."""
-    number = 1 + next(_DOMAINS) % 100
-    monkeypatch.setenv("ROS_DOMAIN_ID", str(number))
-    monkeypatch.setenv("ROS_AUTOMATIC_DISCOVERY_RANGE", "LOCALHOST")
-    monkeypatch.setenv("ROS_PYTHON_CHECK_FIELDS", "1")
-    return number
+    with _free_domain() as number:
+        monkeypatch.setenv("ROS_DOMAIN_ID", str(number))
+        monkeypatch.setenv("ROS_AUTOMATIC_DISCOVERY_RANGE", "LOCALHOST")
+        monkeypatch.setenv("ROS_PYTHON_CHECK_FIELDS", "1")
+        yield number
+
+
+@contextmanager
+def _free_domain() -> Iterator[int]:
+    """The next domain that tests of another process do not use either."""
+    for number in (1 + count % 100 for count in _DOMAINS):
+        path = Path(tempfile.gettempdir()) / f"planetary_twin_test_domain_{number}.lock"
+        with path.open("w") as lock:
+            try:
+                fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
+            except BlockingIOError:
+                continue
+            yield number
+            return
 
 
 Start = Callable[..., "subprocess.Popen[str]"]
