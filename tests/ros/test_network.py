@@ -11,6 +11,7 @@ from pathlib import Path
 import pytest
 from planetary_twin_msgs.msg import GearboxState
 
+from .conftest import Start
 from .peer import TWIN, Peer
 from .processes import bound_addresses, working_in
 
@@ -46,6 +47,21 @@ def test_every_socket_of_a_run_is_bound_to_loopback(twin: None, peer: Peer, tmp_
     assert len(bound) == 3
     for addresses in bound.values():
         assert addresses == {"127.0.0.1"}
+
+
+def test_enforced_security_is_never_left_out_silently(
+    start: Start, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    (tmp_path / "keys/enclaves").mkdir(parents=True)
+    monkeypatch.setenv("ROS_SECURITY_ENABLE", "true")
+    monkeypatch.setenv("ROS_SECURITY_STRATEGY", "Enforce")
+    monkeypatch.setenv("ROS_SECURITY_KEYSTORE", str(tmp_path / "keys"))
+    process = start("planetary_twin.simulation")
+    _, errors = process.communicate(timeout=60)
+    assert process.returncode == 1
+    assert "Traceback" not in errors
+    *_, last = errors.strip().splitlines()
+    assert last.startswith("simulation: the middleware refuses the node: ")
 
 
 @pytest.mark.parametrize("twin", ["SUBNET"], indirect=True)

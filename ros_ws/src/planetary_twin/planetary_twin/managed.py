@@ -210,7 +210,7 @@ def run_nodes(makes: Mapping[str, Callable[[], ManagedNode]], args: list[str] | 
             _initialize(args)
         for name, make in makes.items():
             with SIGNALS.interrupting():
-                nodes[name] = node = make()
+                nodes[name] = node = _made(make)
             node.start()
             executors.append(SingleThreadedExecutor())
             executors[-1].add_node(node)
@@ -262,6 +262,16 @@ def _initialize(args: list[str] | None) -> None:
         rclpy.init(args=args)
     except RuntimeError as refusal:  # RCLError, and what rclpy derives for options it does not know
         raise NodeError(f"--ros-args: {str(refusal).split(', at ')[0]}") from None
+
+
+def _made(make: Callable[[], ManagedNode]) -> ManagedNode:
+    try:
+        return make()
+    except RCLError as refusal:
+        if not rclpy.ok():  # a signal came between
+            raise
+        reason = " ".join(str(refusal).split(", at ")[0].split())
+        raise NodeError(f"the middleware refuses the node: {reason}") from None
 
 
 def _end(node: ManagedNode) -> str | None:
