@@ -7,9 +7,10 @@ from collections import OrderedDict, deque
 from collections.abc import Iterator
 from typing import Any
 
-from ..twin import Twin
+from ..twin import TICKS, Twin
 from ..window import Window
-from .schedule import STATE, TICKS, WAVEFORM, Change, Interval, Run, stamp_of
+from .schedule import Change, Interval, Run, stamp_of
+from .topics import STATE, WAVEFORM
 
 KEPT = 1000  # intervals that wait for their messages
 

@@ -14,9 +14,9 @@ from ..scene import TUNABLES
 from .bag import ACCOUNT_RECORD
 from .decode import Decoder
 from .records import files_of, records_of
+from .topics import POINT, STATE
 
 REPORT = "/diagnostics"
-_STATE, _POINT = "/gearbox_state", "/operating_point"
 
 
 @dataclass
@@ -100,7 +100,7 @@ def read_info(path: Path) -> Info:
     info = Info(files_of(path))
     points: dict[str, Any] = {}
     for file in info.files:
-        decoder = Decoder(lambda topic: topic.endswith((_STATE, _POINT)) or topic == REPORT)
+        decoder = Decoder(_tells)
         schemas: dict[int, Schema] = {}
         names: dict[int, str] = {}
         for record in records_of(file, info.remarks):
@@ -118,6 +118,11 @@ def read_info(path: Path) -> Info:
     return info
 
 
+def _tells(topic: str) -> bool:
+    """Whether messages of a topic are read, not only counted."""
+    return topic == REPORT or topic.endswith((f"/{STATE}", f"/{POINT}"))
+
+
 def _account(info: Info, account: Mapping[str, str]) -> None:
     topic = info.topics.get(account["topic"])
     if topic is not None:
@@ -126,7 +131,7 @@ def _account(info: Info, account: Mapping[str, str]) -> None:
 
 def _learn(info: Info, points: dict[str, Any], topic: str, message: Any) -> None:
     """What a message tells of the run."""
-    if topic.endswith(_STATE):
+    if topic.endswith(f"/{STATE}"):
         info.simulated += message.interval
     elif topic == REPORT:
         for status in message.status:
@@ -136,4 +141,4 @@ def _learn(info: Info, points: dict[str, Any], topic: str, message: Any) -> None
         values = {name: getattr(message, name) for name in TUNABLES}
         new = {k: v for k, v in values.items() if last is None or v != last[k]}
         points[topic] = values
-        info.changes.append(Changed(message.simulated_time, topic.removesuffix(_POINT), new))
+        info.changes.append(Changed(message.simulated_time, topic.removesuffix(f"/{POINT}"), new))

@@ -6,8 +6,7 @@ from collections.abc import Iterable
 from pathlib import Path
 
 from .records import RecordingError
-
-STATE = "gearbox_state"
+from .topics import STATE
 
 
 def choose_namespace(topics: Iterable[str], wanted: str | None, path: str | Path) -> str:

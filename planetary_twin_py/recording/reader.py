@@ -14,9 +14,9 @@ from numpy.typing import NDArray
 from .decode import Decoder
 from .namespaces import choose_namespace
 from .records import files_of, records_of
+from .topics import POINT, STATE, WAVEFORM
 
 SCENE_ATTACHMENT = "scene.yaml"
-STATE, WAVEFORM, OPERATING_POINT = "gearbox_state", "mesh_waveform", "operating_point"
 
 
 @dataclass
@@ -97,9 +97,7 @@ def read_recording(path: str | Path, namespace: str | None = None) -> Recording:
             else:
                 by_topic.setdefault(topic, []).append(message)
     namespace = choose_namespace(by_topic, namespace, path)
-    topics = {
-        name: by_topic.get(f"{namespace}/{name}", []) for name in (STATE, WAVEFORM, OPERATING_POINT)
-    }
+    topics = {name: by_topic.get(f"{namespace}/{name}", []) for name in (STATE, WAVEFORM, POINT)}
     state = _series(topics[STATE])
     planets = int(state["planets"][0])
     return Recording(
@@ -107,7 +105,7 @@ def read_recording(path: str | Path, namespace: str | None = None) -> Recording:
         namespace=namespace,
         planets=planets,
         state=state,
-        operating_point=_series(topics[OPERATING_POINT]),
+        operating_point=_series(topics[POINT]),
         waveform=_waveform(topics[WAVEFORM], 2 * planets),
         scene_yaml=scene_yaml,
         remarks=remarks,
@@ -116,7 +114,7 @@ def read_recording(path: str | Path, namespace: str | None = None) -> Recording:
 
 def _messages(file: Path, remarks: list[str]) -> Iterator[tuple[str, Any]]:
     """Pairs of topic and decoded message, and the scene attachment as ("scene.yaml", bytes)."""
-    decoder = Decoder(lambda topic: topic.rsplit("/", 1)[-1] in (STATE, WAVEFORM, OPERATING_POINT))
+    decoder = Decoder(lambda topic: topic.rsplit("/", 1)[-1] in (STATE, WAVEFORM, POINT))
     for record in records_of(file, remarks):
         if isinstance(record, Attachment) and record.name == SCENE_ATTACHMENT:
             yield SCENE_ATTACHMENT, record.data

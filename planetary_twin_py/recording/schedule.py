@@ -10,13 +10,11 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 from ..scene import TUNABLES
+from ..twin import TICKS
 from .decode import Decoder
 from .origin import Origin, read_origin
 from .records import RecordingError, files_of, records_of
-
-STATE, WAVEFORM, JOINTS = "gearbox_state", "mesh_waveform", "joint_states"
-POINT, ORIGIN = "operating_point", "run_origin"
-TICKS = 10**12  # of a twin's clock, in a second
+from .topics import ORIGIN, POINT, STATE
 
 
 class Interval(NamedTuple):

@@ -16,7 +16,8 @@ from .fields import joint_fields, state_fields, waveform_fields
 from .integrity import damaged_summary
 from .origin import makers_here
 from .records import files_of
-from .schedule import JOINTS, STATE, WAVEFORM, Interval, messages_of, read_runs
+from .schedule import Interval, messages_of, read_runs
+from .topics import JOINTS, STATE, WAVEFORM
 
 BOUND = 10.0  # times the tolerance, by which other machines may differ; each keeps within 3
 
