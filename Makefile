@@ -17,21 +17,25 @@ ifneq ($(AMENT_PREFIX_PATH)$(_ROS_WHEELS_BOOTSTRAP_COMPLETE),)
 unexport LD_LIBRARY_PATH _ROS_WHEELS_BOOTSTRAP_COMPLETE
 endif
 
-.PHONY: setup run test test-fast soak bench view picture lint lock clean
+.PHONY: setup run test suite test-fast soak bench view picture lint lock clean
 
 setup: $(STAMPS)/interfaces $(STAMPS)/kernels $(STAMPS)/nodes
 
 run: setup
 	@$(BIN)/planetary-twin run $(ARGS)
 
+# Ten minutes of running live, beside all other tests.
 test: lint
-	$(BIN)/pytest $(ARGS)
+	@$(MAKE) --no-print-directory --jobs=2 suite soak DURATION=$(or $(DURATION),600)
+
+suite: setup
+	$(BIN)/pytest --ignore=tests/ros/test_soak.py $(ARGS)
 
 test-fast: setup
 	$(BIN)/pytest -m "not slow" $(ARGS)
 
 soak: setup
-	SOAK_DURATION=$(or $(DURATION),3600) $(BIN)/pytest -s tests/ros/test_soak.py
+	SOAK_DURATION=$(or $(DURATION),3600) $(BIN)/pytest -q -s -p no:cacheprovider tests/ros/test_soak.py
 
 lint: setup
 	$(BIN)/ruff check && $(BIN)/ruff format --check && $(BIN)/mypy

@@ -29,8 +29,11 @@ def build_app() -> typer.Typer:
     app.callback()(lambda: None)  # with a single command Typer would drop the command's name
     for module in pkgutil.iter_modules(__path__):
         if not module.name.startswith("_"):
-            command = getattr(importlib.import_module(f"{__name__}.{module.name}"), module.name)
-            app.command(name=module.name)(command)
+            loaded = importlib.import_module(f"{__name__}.{module.name}")
+            command = getattr(loaded, module.name)
+            app.command(name=module.name, context_settings=getattr(loaded, "CONTEXT", None))(
+                command
+            )
     for entry in sorted(entry_points(group=GROUP), key=lambda entry: entry.name):
         command = entry.load()
         if isinstance(command, typer.Typer):

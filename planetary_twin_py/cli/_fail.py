@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from importlib.util import find_spec
 from typing import NoReturn
 
 import typer
@@ -18,18 +19,7 @@ def remark(message: str) -> None:
     typer.secho(f"planetary-twin: {message}", fg="yellow", err=True)
 
 
-def need_plots() -> None:
-    """End the command where the extra for plots is not installed."""
-    try:
-        import matplotlib  # noqa: F401
-    except ImportError:
-        fail("the plots are not installed: pip install 'planetary_twin_py[plots]'")
-
-
-def need_peers() -> None:
-    """End the command where the extra for the solvers to compare with is not installed."""
-    try:
-        import CyRK  # noqa: F401
-        import sksundae  # noqa: F401
-    except ImportError:
-        fail("the peers are not installed: pip install 'planetary_twin_py[bench]'")
+def need(extra: str, *modules: str) -> None:
+    """End the command where the `extra` that brings `modules` is not installed."""
+    if any(find_spec(module) is None for module in modules):
+        fail(f"this needs more packages: pip install 'planetary_twin_py[{extra}]'")

@@ -11,7 +11,7 @@ from typing import Annotated
 
 import typer
 
-from ._fail import fail, need_peers, need_plots
+from ._fail import fail, need
 
 
 def bench(
@@ -35,9 +35,9 @@ def bench(
 ) -> None:
     """Measure speed against error, beside a converged reference by SciPy's DOP853."""
     if peers:
-        need_peers()
+        need("bench", "CyRK", "sksundae")
     if plot is not None:
-        need_plots()
+        need("plots", "matplotlib")
     from rich.console import Console
 
     from ..benchmark.batch import batch_markdown, batch_table, measure_batch

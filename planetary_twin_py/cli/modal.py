@@ -9,7 +9,7 @@ from typing import Annotated
 
 import typer
 
-from ._fail import fail, need_plots
+from ._fail import fail, need
 from ._settings import settings
 
 
@@ -33,7 +33,7 @@ def modal(
     Example: planetary-twin modal wind_turbine_stage --model planar --campbell campbell.png
     """
     if campbell is not None:
-        need_plots()
+        need("plots", "matplotlib")
     from rich.console import Console
     from rich.table import Table
 

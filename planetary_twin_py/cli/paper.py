@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from ._fail import fail, need_plots
+from ._fail import fail, need
 
 if TYPE_CHECKING:
     from rich.table import Table
@@ -29,7 +29,7 @@ def paper(
     """Recompute every table and figure of the paper, and write them beside what it states."""
     if out.suffix != ".md":
         fail(f"--out = {str(out)!r}: must end in .md")
-    need_plots()
+    need("plots", "matplotlib")
     from rich.console import Console
     from rich.progress import Progress
 

@@ -1,0 +1,126 @@
+"""`planetary-twin sweep`: a study over any fields of a scene."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from ._fail import fail, need, remark
+
+if TYPE_CHECKING:
+    from ..studies.plan import Study
+    from ..studies.sweep import Hearer
+    from ..studies.work import Crew, Failure
+
+# Fields of the scene are options, too; click passes on what it does not know.
+CONTEXT = {"allow_extra_args": True, "ignore_unknown_options": True}
+
+
+def sweep(
+    context: typer.Context,
+    scene: Annotated[str, typer.Argument(help="Packaged scene, or path of a YAML file.")],
+    out: Annotated[Path, typer.Option(help="Table to write: .parquet (with units) or .csv.")],
+    samples: Annotated[
+        int | None, typer.Option(help="Draw this many points (Latin hypercube), no grid.")
+    ] = None,
+    duration: Annotated[float, typer.Option(help="Measured seconds of each run.")] = 0.2,
+    settling: Annotated[float, typer.Option(help="Seconds simulated before.")] = 0.05,
+    tolerance: Annotated[float, typer.Option(help="Relative local error of a step.")] = 1e-4,
+    scheduler: Annotated[
+        str | None,
+        typer.Option(
+            metavar="ADDRESS|THREADS",
+            help="A Dask cluster, e.g. tcp://10.0.0.1:8786, or a number of threads here.",
+            show_default="all cores here",
+        ),
+    ] = None,
+) -> None:
+    """Run SCENE at many points: any field of it is an option, with values or a range.
+
+    Values are a list (1000rpm,2000rpm), a grid (1:2:5: five values from 1 to 2) or one of equal
+    ratios (0.01:0.1:5:log); with --samples also a range (1:2, 0.01:0.1:log). What is done survives
+    a kill: the same command goes on where it was. Fields with a dot are given by it:
+    --mesh.damping.loss_factor 0.005:0.02:4.
+
+    Example: planetary-twin sweep paper --backlash 2e-7:3.5e-7:4 --lambda-ratio 1:2:5
+    --input-speed 1000rpm,2000rpm --out study.parquet
+    """
+    need("studies", "pyarrow")
+    from ..scene import load_scene
+    from ..studies.axes import read_axis
+    from ..studies.plan import Settings, grid, latin_hypercube
+    from ..studies.sweep import sweep as run
+    from ..studies.table import FORMATS, write
+
+    try:
+        if out.suffix not in FORMATS:
+            fail(f"--out = {str(out)!r}: must end in {' or '.join(FORMATS)}")
+        loaded = load_scene(scene)
+        axes = [read_axis(loaded, field, text) for field, text in _fields(context.args)]
+        settings = Settings(duration, settling, tolerance=tolerance)
+        study = (
+            grid(loaded, axes, settings)
+            if samples is None
+            else latin_hypercube(loaded, axes, samples, settings=settings)
+        )
+        journal = out.with_name(f"{out.name}.journal")
+        with _crew(scheduler) as crew, _progress(study) as hear:
+            table = run(study, crew, journal, hear)
+        write(table, out)
+        journal.unlink()
+    except (ValueError, OSError) as error:
+        fail(error)
+    failed = len(table) - table["failure"].null_count
+    typer.echo(f"{out}: {len(table)} points, {failed or 'none'} failed")
+
+
+def _fields(given: list[str]) -> Iterator[tuple[str, str]]:
+    """Names and texts of options that are fields: --mesh.ramp 0:1:3 or --mesh.ramp=0:1:3."""
+    rest = iter(given)
+    for option in rest:
+        name, equals, text = option.removeprefix("--").partition("=")
+        if not option.startswith("--") or not name:
+            raise ValueError(f"{option!r}: must be --FIELD VALUES")
+        if not equals:
+            text = next(rest, "")
+        if not text:
+            raise ValueError(f"{option}: has no values")
+        yield name.replace("-", "_"), text
+
+
+@contextmanager
+def _crew(scheduler: str | None) -> Iterator[Crew]:
+    if scheduler is None or scheduler.isdecimal():
+        from ..studies.local import Threads
+
+        yield Threads(None if scheduler is None else int(scheduler))
+        return
+    need("studies", "distributed")
+    from ..studies.cluster import Cluster
+
+    cluster = Cluster(scheduler)
+    try:
+        yield cluster
+    finally:
+        cluster.close()
+
+
+@contextmanager
+def _progress(study: Study) -> Iterator[Hearer]:
+    from rich.console import Console
+    from rich.progress import MofNCompleteColumn, Progress, TimeRemainingColumn
+
+    columns = (*Progress.get_default_columns()[:2], MofNCompleteColumn(), TimeRemainingColumn())
+    with Progress(*columns, console=Console(stderr=True)) as bar:
+        task = bar.add_task("points", total=len(study.points))
+
+        def hear(done: int, failure: Failure | None) -> None:
+            bar.advance(task, done)
+            if failure is not None:
+                remark(failure.reason)
+
+        yield hear

@@ -1,0 +1,87 @@
+"""A run in a row of figures: what a study keeps of each of its points."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import NamedTuple
+
+import numpy as np
+
+from ..scene import Scene
+from ..twin import Twin
+from ..window import Window
+from .plan import Settings
+
+Row = dict[str, float]
+
+
+class Measure(NamedTuple):
+    """A figure over the measured part of a run."""
+
+    unit: str
+    description: str
+
+
+class MeshMeasure(NamedTuple):
+    """A statistic of each mesh, and how one figure is made of those of alike meshes."""
+
+    unit: str
+    description: str
+    over_meshes: Callable[[np.ndarray], np.float64]
+
+
+# Of the whole train, by the names of a window's properties.
+TRAIN = {
+    "efficiency": Measure("", "1 - power loss over the power of the machines that drive"),
+    "power_loss": Measure("W", "tooth friction, bearings and churning, mean"),
+    "input_power": Measure("W", "from the motors into the train, mean"),
+    "output_power": Measure("W", "from the train into the load, mean"),
+    "mesh_frequency": Measure("Hz", "rate at which teeth pass a mesh"),
+}
+# Of the sun meshes and of the ring meshes, by the names of a window's statistics.
+MESH = {
+    "dte_mean": MeshMeasure("m", "DTE, mean", np.mean),
+    "dte_rms": MeshMeasure("m", "DTE, rms of the deviation from the mean, largest", np.max),
+    "dte_peak": MeshMeasure("m", "DTE, largest magnitude", np.max),
+    "mesh_force_mean": MeshMeasure("N", "mesh force, mean", np.mean),
+    "mesh_force_peak": MeshMeasure("N", "mesh force, largest magnitude", np.max),
+    "contact_fraction": MeshMeasure("", "share of time in contact, smallest", np.min),
+    "film_thickness": MeshMeasure("m", "film thickness in contact, mean", np.mean),
+    "lambda_ratio": MeshMeasure("", "specific film thickness in contact, mean", np.mean),
+    "boundary_friction": MeshMeasure("N", "boundary friction of a mesh, mean", np.mean),
+    "viscous_friction": MeshMeasure("N", "viscous friction of a mesh, mean", np.mean),
+    "power_loss": MeshMeasure("W", "tooth friction of all these meshes, mean", np.sum),
+}
+SIDES = ("sun_planet", "planet_ring")
+
+MEASURES: dict[str, Measure] = TRAIN | {
+    f"{side}_{name}": Measure(
+        measure.unit, f"{side.replace('_', '-')} meshes: {measure.description}"
+    )
+    for side in SIDES
+    for name, measure in MESH.items()
+}
+"""Every figure of a row, in its order."""
+
+
+def measure(scene: Scene, settings: Settings) -> Row:
+    """Run `scene` and measure it over the last `settings.duration`.
+
+    Raises:
+        ValueError: the scene cannot be run.
+        ArithmeticError: its integration does not succeed.
+    """
+    twin = Twin(scene, settings.sample_rate, settings.tolerance)
+    if settings.settling:
+        twin.advance(settings.settling)
+    return row(twin.advance(settings.duration))
+
+
+def row(window: Window) -> Row:
+    """The figures of a window."""
+    figures = {name: float(getattr(window, name)) for name in TRAIN}
+    planets = len(window.meshes) // 2
+    for side, meshes in zip(SIDES, (slice(planets), slice(planets, None)), strict=True):
+        for name, measure in MESH.items():
+            figures[f"{side}_{name}"] = float(measure.over_meshes(window.mesh[name][meshes]))
+    return figures

@@ -1,0 +1,80 @@
+"""The outcome of a study as a tidy table: a row for each point, a column for each quantity.
+
+Every column carries its unit and its meaning, and the table all that it follows from.
+"""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping
+from dataclasses import asdict
+from pathlib import Path
+from typing import Any
+
+import pyarrow as pa
+import pyarrow.csv
+import pyarrow.parquet
+
+from ..scene.quantity import unit_of
+from .axes import look_up
+from .measures import MEASURES
+from .plan import Study
+from .work import Failure, Found
+
+FORMATS = (".parquet", ".csv")
+
+
+def tabulate(study: Study, found: Mapping[int, Found]) -> pa.Table:
+    """The table of `study` from what was found at each place; `failure` says why figures lack."""
+    rows = [found[point.place] for point in study.points]
+    columns: list[tuple[pa.Field, Any]] = [
+        _column("point", [point.place for point in study.points], "", "place in the study", "i8")
+    ]
+    for field in study.fields:
+        info, _ = look_up(study.scene, field)
+        values = [point.changes[field] for point in study.points]
+        columns.append(_column(field, values, unit_of(info) or "", info.description or ""))
+    for name, measure in MEASURES.items():
+        figures = [None if isinstance(row, Failure) else row[name] for row in rows]
+        columns.append(_column(name, figures, measure.unit, measure.description, "f8"))
+    reasons = [row.reason if isinstance(row, Failure) else None for row in rows]
+    columns.append(_column("failure", reasons, "", "why there are no figures", "str"))
+    about = {
+        "scene": json.dumps(study.scene.model_dump(mode="json")),
+        "settings": json.dumps(asdict(study.settings)),
+    }
+    schema = pa.schema([field for field, _ in columns], about)
+    return pa.table([array for _, array in columns], schema)
+
+
+def write(table: pa.Table, path: Path) -> None:
+    """Write it in the format of the suffix of `path`, in which never half a file stands.
+
+    Raises:
+        OSError: it cannot be written.
+    """
+    part = path.with_name(f".{path.name}.part")
+    if path.suffix == ".csv":
+        pyarrow.csv.write_csv(
+            table.rename_columns([_heading(field) for field in table.schema]), part
+        )
+    else:
+        pyarrow.parquet.write_table(table, part)
+    part.replace(path)
+
+
+def _heading(field: pa.Field) -> str:
+    """Name with the unit, for a format that has no other place for it."""
+    unit = field.metadata[b"unit"].decode()
+    return f"{field.name} [{unit}]" if unit else field.name
+
+
+_TYPES = {"i8": pa.int64(), "f8": pa.float64(), "str": pa.string()}
+
+
+def _column(
+    name: str, values: list[Any], unit: str, description: str, kind: str | None = None
+) -> tuple[pa.Field, pa.Array]:
+    array = pa.array(values, _TYPES[kind] if kind else None)
+    about = {"unit": unit, "description": description}
+    return pa.field(name, array.type, metadata=about), array

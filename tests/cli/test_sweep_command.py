@@ -1,0 +1,82 @@
+"""`planetary-twin sweep` as it is typed."""
+
+import signal
+import subprocess
+import sys
+import time
+
+import pyarrow.parquet
+import pytest
+from typer.testing import CliRunner
+
+from planetary_twin_py.cli import build_app
+
+QUICK = ["--duration", "0.02", "--settling", "0", "--tolerance", "1e-3"]
+
+
+def run(*arguments):
+    return CliRunner().invoke(build_app(), ["sweep", *map(str, arguments)])
+
+
+def test_any_field_is_an_option_and_what_is_done_is_cleared_away(tmp_path):
+    out = tmp_path / "study.parquet"
+    fields = ["--lambda-ratio", "1:2:2", "--mesh.damping.loss_factor=0.009,0.02"]
+    done = run("paper", *fields, "--out", out, *QUICK)
+    assert done.exit_code == 0, done.output
+    table = pyarrow.parquet.read_table(out)
+    assert table.column_names[1:3] == ["lambda_ratio", "mesh.damping.loss_factor"]
+    assert len(table) == 4 and list(tmp_path.iterdir()) == [out]
+
+
+def test_points_are_drawn_where_samples_are_asked_for(tmp_path):
+    out = tmp_path / "study.csv"
+    done = run("paper", "--backlash", "0.1um:1um:log", "--samples", 3, "--out", out, *QUICK)
+    assert done.exit_code == 0, done.output
+    assert len(out.read_text().splitlines()) == 4
+
+
+@pytest.mark.parametrize(
+    ("arguments", "told"),
+    [
+        (["paper", "--out", "x.txt"], "--out = 'x.txt': must end in .parquet or .csv"),
+        (["paper", "--out", "x.csv"], "no field varies"),
+        (["paper", "--nosuch", "1", "--out", "x.csv"], "nosuch: no such field"),
+        (["paper", "--backlash", "--out", "x.csv"], "--backlash: has no values"),
+        (["paper", "odd", "--out", "x.csv"], "'odd': must be --FIELD VALUES"),
+        (["nosuch", "--backlash", "1e-7", "--out", "x.csv"], "scene = 'nosuch'"),
+        (["paper", "--backlash", "1e-7", "--out", "/nowhere/x.csv"], "/nowhere/x.csv.journal"),
+        (["paper", "--backlash", "1e-7", "--scheduler", "0", "--out", "x.csv"], "workers = 0"),
+    ],
+)
+def test_what_cannot_be_ends_in_one_line(arguments, told, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    done = run(*arguments)
+    assert done.exit_code == 2
+    line = done.output.strip().splitlines()[-1]
+    assert told in line
+
+
+@pytest.mark.slow
+def test_a_killed_study_goes_on_where_it_was(tmp_path):
+    out, journal = tmp_path / "study.parquet", tmp_path / "study.parquet.journal"
+    given = ["sweep", "paper", "--input-torque", "10:60:60", "--out", str(out), "--duration", "0.2"]
+    command = [sys.executable, "-c", "from planetary_twin_py.cli import main; main()", *given]
+    process = subprocess.Popen(command, stderr=subprocess.DEVNULL)
+    deadline = time.monotonic() + 120.0
+    while not journal.exists() or journal.read_bytes().count(b"\n") < 5:
+        assert process.poll() is None and time.monotonic() < deadline
+        time.sleep(0.01)
+    process.send_signal(signal.SIGKILL)
+    process.wait()
+    before = journal.read_bytes().count(b"\n")
+    assert 5 <= before < 60 and not out.exists()
+    kept = journal.read_bytes()
+    again = subprocess.run(command, capture_output=True, text=True, check=True)
+    assert "60 points, none failed" in again.stdout
+    whole = pyarrow.parquet.read_table(out)
+    assert kept.startswith(b'{"key"') and len(whole) == 60 and not journal.exists()
+    one_go = run(
+        "paper", "--input-torque", "10:60:60", "--out", tmp_path / "b.parquet", "--duration", 0.2
+    )
+    assert one_go.exit_code == 0
+    assert whole.equals(pyarrow.parquet.read_table(tmp_path / "b.parquet"), check_metadata=True)

@@ -1,0 +1,65 @@
+"""What the command line says of a field becomes the values that a scene takes."""
+
+import numpy as np
+import pytest
+
+import planetary_twin_py as pt
+from planetary_twin_py.studies.axes import Axis, Span, read_axis
+
+PAPER = pt.load_scene("paper")
+
+
+@pytest.mark.parametrize(
+    ("field", "text", "values"),
+    [
+        ("backlash", "2e-7:3.5e-7:4", np.linspace(2e-7, 3.5e-7, 4)),
+        ("backlash", "0.2 um:0.4 um:3", [2e-7, 3e-7, 4e-7]),
+        ("lubrication.viscosity", "0.01:1:3:log", [0.01, 0.1, 1.0]),
+        ("input_speed", "-100:100:5", [-100.0, -50.0, 0.0, 50.0, 100.0]),
+        ("input_speed", "1000rpm,2000rpm", [pt.rpm(1000), pt.rpm(2000)]),
+        ("operating_point.lambda_ratio", "1.5", [1.5]),
+        ("input_torque", "5,5,7", [5.0, 7.0]),
+    ],
+)
+def test_lists_grids_and_equal_ratios_are_read_with_their_units(field, text, values):
+    axis = read_axis(PAPER, field, text)
+    assert isinstance(axis, Axis) and axis.field == field
+    assert axis.values == pytest.approx(values, rel=1e-12)
+
+
+def test_ends_of_a_grid_are_those_given_to_the_last_bit():
+    values = read_axis(PAPER, "lubrication.viscosity", "0.013:0.97:7:log").values
+    assert (values[0], values[-1]) == (0.013, 0.97)
+
+
+def test_words_are_values_too():
+    assert read_axis(PAPER, "dynamics", "torsional,quasi_static").values == (
+        "torsional",
+        "quasi_static",
+    )
+
+
+def test_a_range_without_a_count_is_one_to_draw_from():
+    assert read_axis(PAPER, "backlash", "1e-7:1e-6:log") == Span("backlash", 1e-7, 1e-6, True)
+    span = read_axis(PAPER, "input_torque", "10:30")
+    assert span.at(np.array([0.0, 0.25, 1.0])) == pytest.approx([10.0, 15.0, 30.0])
+
+
+@pytest.mark.parametrize(
+    ("field", "text", "told"),
+    [
+        ("nosuch", "1:2:3", "nosuch: no such field"),
+        ("backlash", "1:2:3", r"backlash = 1\.0: must be a number within 0 and 0\.001 m"),
+        ("backlash", "1e-7:2e-7:x", r"'1e-7:2e-7:x': 'x' must be a count within 2 and"),
+        ("backlash", "1e-7:2e-7:1", r"'1' must be a count"),
+        ("backlash", "1:2:3:4:5", r"must be a,b,c or a:b:n or a:b"),
+        ("backlash", "1e-7:1e-7:3", r"both ends are the same"),
+        ("backlash", "0:1e-7:3:log", r"must have one sign, and not be 0"),
+        ("dynamics", "torsional:quasi_static:2", r"is no number; list its values"),
+        ("input_speed", "1000 kg", r"input_speed"),
+    ],
+)
+def test_what_cannot_be_is_refused_in_one_line_that_names_the_field(field, text, told):
+    with pytest.raises(ValueError, match=told) as refusal:
+        read_axis(PAPER, field, text)
+    assert "\n" not in str(refusal.value) and field in str(refusal.value)

@@ -1,0 +1,90 @@
+"""A cluster of several processes gives the same table, also when one of them is killed."""
+
+import os
+import re
+import signal
+import subprocess
+import sys
+import time
+
+import pytest
+from studies.small import PAPER, STUDY
+
+from planetary_twin_py.studies.axes import Axis
+from planetary_twin_py.studies.cluster import Cluster
+from planetary_twin_py.studies.local import Threads
+from planetary_twin_py.studies.plan import Settings, grid
+from planetary_twin_py.studies.sweep import sweep
+
+DASK = [sys.executable, "-m", "dask"]
+LOCAL = ["--host", "127.0.0.1", "--no-dashboard"]
+pytestmark = pytest.mark.slow
+
+
+@pytest.fixture
+def scheduler(tmp_path):
+    """Address of a scheduler, and its two workers."""
+    log = (tmp_path / "scheduler.log").open("w+")
+    processes = [
+        subprocess.Popen([*DASK, "scheduler", *LOCAL, "--port", "0"], stdout=log, stderr=log)
+    ]
+    address = until(
+        lambda: re.search(r"tcp://127\.0\.0\.1:\d+", (tmp_path / log.name).read_text())
+    )[0]
+    for _ in range(2):
+        command = [*DASK, "worker", address, *LOCAL, "--nthreads", "1", "--no-nanny"]
+        folder = ["--local-directory", str(tmp_path)]
+        processes.append(subprocess.Popen([*command, *folder], stdout=log, stderr=log))
+    yield address, processes[1:]
+    for process in processes:
+        process.kill()
+        process.wait()
+    log.close()
+
+
+def until(found, patience=60.0):
+    deadline = time.monotonic() + patience
+    while not (result := found()):
+        assert time.monotonic() < deadline
+        time.sleep(0.05)
+    return result
+
+
+def test_a_cluster_gives_the_same_table_to_the_last_bit(scheduler):
+    cluster = Cluster(scheduler[0])
+    try:
+        assert sweep(STUDY, cluster).equals(sweep(STUDY, Threads(1)), check_metadata=True)
+    finally:
+        cluster.close()
+
+
+def test_points_of_a_killed_worker_are_run_by_another(scheduler):
+    address, workers = scheduler
+    study = grid(
+        PAPER,
+        [Axis("input_torque", tuple(range(10, 50)))],
+        Settings(duration=0.2, settling=0.0, tolerance=1e-4),
+    )
+    cluster = Cluster(address)
+    done = []
+
+    def hear(count, failure):
+        done.append((count, failure))
+        if sum(count for count, _ in done) == 5:
+            os.kill(workers[0].pid, signal.SIGKILL)
+
+    try:
+        until(lambda: len(cluster._client.nthreads()) == 2)
+        table = sweep(study, cluster, hear=hear)
+    finally:
+        cluster.close()
+    assert workers[0].wait(10) == -signal.SIGKILL
+    assert not any(failure for _, failure in done)
+    assert table.equals(sweep(study, Threads()), check_metadata=True)
+
+
+def test_an_address_without_a_scheduler_is_told_in_one_line(monkeypatch):
+    monkeypatch.setattr("planetary_twin_py.studies.cluster._PATIENCE", 0.5)
+    with pytest.raises(ValueError, match=r"scheduler = 'tcp://127\.0\.0\.1:1'") as refusal:
+        Cluster("tcp://127.0.0.1:1")
+    assert "\n" not in str(refusal.value)

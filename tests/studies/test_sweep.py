@@ -1,0 +1,126 @@
+"""A study gives the same table whoever runs it; what is done survives; failures are told."""
+
+import threading
+
+import numpy as np
+import pyarrow.parquet
+import pytest
+from studies.small import AXES, PAPER, QUICK, STUDY
+
+import planetary_twin_py as pt
+from planetary_twin_py.studies import work
+from planetary_twin_py.studies.axes import Axis
+from planetary_twin_py.studies.journal import Journal
+from planetary_twin_py.studies.local import AHEAD, Threads
+from planetary_twin_py.studies.measures import MEASURES, measure
+from planetary_twin_py.studies.plan import grid
+from planetary_twin_py.studies.sweep import sweep
+from planetary_twin_py.studies.table import write
+from planetary_twin_py.studies.work import Failure
+
+# So small an addendum that a tooth pair leaves before the next one comes.
+BROKEN = grid(PAPER, [Axis("gearset.addendum", (0.3, 1.0))], QUICK)
+
+
+@pytest.fixture
+def measured(monkeypatch):
+    """What was really run."""
+    scenes = []
+
+    def counted(scene, settings):
+        scenes.append(scene)
+        return measure(scene, settings)
+
+    monkeypatch.setattr(work, "measure", counted)
+    return scenes
+
+
+def test_one_worker_and_several_give_the_same_table_to_the_last_bit():
+    alone = sweep(STUDY, Threads(1))
+    assert len(alone) == len(STUDY.points)
+    for count in (2, 5):
+        assert sweep(STUDY, Threads(count)).equals(alone, check_metadata=True)
+
+
+def test_figures_are_those_of_a_run_of_its_own_over_the_measured_part():
+    table = sweep(STUDY, Threads())
+    scene = PAPER.replace(**STUDY.points[3].changes)
+    whole = pt.simulate(scene, 0.03, 20_000.0, tolerance=1e-3)
+    part = whole.time > 0.01 + 1e-9
+    planets = len(whole.meshes) // 2
+    rows = table.to_pylist()[3]
+    dte, force = whole.dte[part], whole.mesh_force[part]
+    assert rows["sun_planet_dte_mean"] == pytest.approx(dte[:, :planets].mean(), rel=1e-12)
+    assert rows["planet_ring_dte_rms"] == pytest.approx(
+        dte[:, planets:].std(axis=0).max(), rel=1e-12
+    )
+    assert rows["sun_planet_mesh_force_peak"] == np.abs(force[:, :planets]).max()
+    # Of whole steps, which end a little after the samples they hold.
+    assert rows["power_loss"] == pytest.approx(whole.total_power_loss[part].mean(), rel=5e-3)
+
+
+def test_the_table_says_units_meanings_and_what_it_follows_from(tmp_path):
+    table = sweep(STUDY, Threads())
+    write(table, tmp_path / "study.parquet")
+    back = pyarrow.parquet.read_table(tmp_path / "study.parquet")
+    assert back.equals(table, check_metadata=True)
+    assert back.column_names == ["point", "input_torque", "lambda_ratio", *MEASURES, "failure"]
+    assert back.schema.field("input_torque").metadata[b"unit"] == b"N m"
+    assert back.schema.field("power_loss").metadata[b"unit"] == b"W"
+    assert b"scene" in back.schema.metadata and b"settings" in back.schema.metadata
+    write(table, tmp_path / "study.csv")
+    head, first, *_ = (tmp_path / "study.csv").read_text().splitlines()
+    assert head.startswith('"point","input_torque [N m]","lambda_ratio","efficiency"')
+    assert float(first.split(",")[3]) == table["efficiency"][0].as_py()
+
+
+def test_finished_points_are_not_run_again(tmp_path, measured):
+    journal = tmp_path / "journal"
+    first = sweep(grid(PAPER, [AXES[0], Axis("lambda_ratio", (1.0,))], QUICK), Threads(), journal)
+    assert len(measured) == len(first) == 3
+    table = sweep(STUDY, Threads(), journal)
+    assert len(measured) == 6
+    assert sweep(STUDY, Threads()).equals(table, check_metadata=True)
+
+
+def test_a_line_torn_by_a_kill_costs_its_point_alone(tmp_path, measured):
+    journal = tmp_path / "journal"
+    table = sweep(STUDY, Threads(1), journal)
+    text = journal.read_bytes()
+    for end in (len(text) - 1, len(text) - 40, text.rfind(b"\n", 0, -1) + 2):
+        journal.write_bytes(text[:end])
+        measured.clear()
+        assert sweep(STUDY, Threads(1), journal).equals(table)
+        assert len(measured) == 1
+        assert len(Journal(journal).done) == len(STUDY.points)
+
+
+def test_a_point_that_fails_is_told_and_stops_no_other(tmp_path, measured):
+    told = []
+    for _ in range(2):  # it is tried again: what made it fail may have been mended
+        table = sweep(BROKEN, Threads(), tmp_path / "journal", lambda n, why: told.append(why))
+    assert [isinstance(why, Failure) for why in told if why] == [True, True]
+    assert len(measured) == 3
+    bad, good = table.to_pylist()
+    assert bad["failure"].startswith("gearset.addendum = 0.3: ") and bad["efficiency"] is None
+    assert good["failure"] is None and 0.9 < good["efficiency"] < 1.0
+
+
+def test_a_defect_of_ours_is_not_taken_for_a_point_that_fails(monkeypatch):
+    monkeypatch.setattr(work, "measure", lambda *_: {}["defect"])
+    with pytest.raises(KeyError):
+        sweep(STUDY, Threads())
+
+
+def test_only_a_few_points_are_ahead_of_who_takes_them():
+    begun = threading.Semaphore(0)
+    asked = iter(range(1000))
+    found = Threads(2).do(lambda point: begun.release(), (next(asked) for _ in range(1000)))
+    next(found)
+    assert next(asked) <= AHEAD * 2 + 1
+    found.close()
+
+
+def test_no_worker_at_all_is_refused():
+    with pytest.raises(ValueError, match="workers = 0: must be at least 1"):
+        Threads(0)
