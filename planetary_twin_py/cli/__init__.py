@@ -9,9 +9,12 @@ from __future__ import annotations
 
 import importlib
 import pkgutil
+from collections.abc import Callable
 from importlib.metadata import entry_points
 
 import typer
+
+from ._fail import fail
 
 GROUP = "planetary_twin.commands"
 
@@ -21,8 +24,8 @@ def build_app() -> typer.Typer:
     app = typer.Typer(
         name="planetary-twin",
         help="Digital twin of a planetary gearbox: run it, record it, look at it.",
+        epilog="Exit codes: 0 all is well, 1 something was found that is not, 2 a wrong argument.",
         no_args_is_help=True,
-        add_completion=False,
         rich_markup_mode="rich",
         pretty_exceptions_show_locals=False,
     )
@@ -35,12 +38,25 @@ def build_app() -> typer.Typer:
                 command
             )
     for entry in sorted(entry_points(group=GROUP), key=lambda entry: entry.name):
-        command = entry.load()
+        try:
+            command = entry.load()
+        except ImportError as reason:
+            command = _out_of_order(entry.name, reason)
         if isinstance(command, typer.Typer):
             app.add_typer(command, name=entry.name)
         else:
             app.command(name=entry.name)(command)
     return app
+
+
+def _out_of_order(name: str, reason: ImportError) -> Callable[[], None]:
+    """A command that cannot be loaded must not take the others, and the doctor, with it."""
+
+    def command() -> None:
+        fail(f"{name}: {reason}; planetary-twin doctor tells more")
+
+    command.__doc__ = "Out of order: see planetary-twin doctor."
+    return command
 
 
 def main() -> None:

@@ -34,5 +34,6 @@ setup(
             "param = planetary_twin.steering:param",
             "op = planetary_twin.steering:op",
         ],
+        "planetary_twin.checks": ["ros = planetary_twin.checks:check"],
     },
 )

@@ -1,0 +1,66 @@
+"""`planetary-twin doctor`: is the installation sound?"""
+
+from __future__ import annotations
+
+import json
+import sys
+from collections.abc import Iterator
+from importlib.metadata import entry_points
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+if TYPE_CHECKING:
+    from ..doctor.finding import Finding
+
+GROUP = "planetary_twin.checks"
+_COLOURS = {"sound": "green", "absent": "yellow", "broken": "red"}
+
+
+def doctor(
+    json_: Annotated[
+        str | None, typer.Option("--json", metavar="FILE", help="Write findings; - prints them.")
+    ] = None,
+) -> None:
+    """Check the installation part by part, and say how to mend what is missing.
+
+    Exit code 1: a part is broken. Parts that are absent can be done without.
+    """
+    from rich.console import Console
+    from rich.table import Table
+    from rich.text import Text
+
+    console = Console(stderr=json_ == "-")
+    with console.status("looking"):
+        found = list(_findings())
+    table = Table(box=None, pad_edge=False)
+    for heading in ("part", "state", "found", "to mend it"):
+        table.add_column(heading, overflow="fold")
+    for finding in found:
+        colour = _COLOURS[finding.state]
+        state = Text(finding.state, colour)
+        table.add_row(finding.part, state, Text(finding.told), Text(finding.mend))
+    console.print(table)
+    if json_ is not None:
+        text = json.dumps([finding._asdict() for finding in found], indent=2) + "\n"
+        sys.stdout.write(text) if json_ == "-" else Path(json_).write_text(text, "utf-8")
+    if any(finding.state == "broken" for finding in found):
+        raise typer.Exit(1)
+
+
+def _findings() -> Iterator[Finding]:
+    from ..doctor import cache, disk, packages, viewer
+    from ..doctor.finding import Finding
+
+    for part in (packages, cache, disk, viewer):
+        yield from part.check()
+    added = entry_points(group=GROUP)
+    if not added:
+        mend = "see 'Where ROS 2 Jazzy is installed' in the README"
+        yield Finding("nodes", "absent", "the package planetary_twin is not installed", mend)
+    for entry in added:
+        try:
+            yield from entry.load()()
+        except ImportError as reason:
+            yield Finding(entry.name, "broken", str(reason), "source ROS 2, or make setup")

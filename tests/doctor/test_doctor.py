@@ -1,0 +1,109 @@
+"""The doctor tells sound parts from absent and broken ones, and how to mend them."""
+
+import json
+from importlib.metadata import entry_points
+from pathlib import Path
+
+import pytest
+from typer.testing import CliRunner
+
+from planetary_twin_py.cli import build_app
+from planetary_twin_py.cli.doctor import GROUP
+from planetary_twin_py.doctor import cache, disk, packages, viewer
+from planetary_twin_py.doctor.finding import Finding
+
+
+def by_part(findings):
+    return {finding.part: finding for finding in findings}
+
+
+def test_packages_that_lack_are_named_with_the_extra_that_brings_them(monkeypatch):
+    known = packages.version
+    missing = {"mcap", "matplotlib"}
+
+    def version(name):
+        if name in missing:
+            raise packages.PackageNotFoundError(name)
+        return known(name)
+
+    assert {f.state for f in packages.check()} == {"sound"}
+    monkeypatch.setattr(packages, "version", version)
+    found = by_part(packages.check())
+    for extra, package in (("recording", "mcap"), ("view", "mcap"), ("plots", "matplotlib")):
+        assert found[extra].state == "absent" and package in found[extra].told
+        assert f"[{extra}]" in found[extra].mend
+    assert found["studies"].state == "sound"
+
+
+def test_every_extra_of_an_installation_is_looked_at():
+    extras = set(packages.EXTRAS)
+    project = Path(__file__).parents[2] / "pyproject.toml"
+    import tomllib
+
+    declared = set(tomllib.loads(project.read_text())["project"]["optional-dependencies"])
+    assert declared - extras == {"ros", "build", "test"}
+
+
+def test_kernels_not_yet_compiled_and_a_cache_that_cannot_be_written_are_told(
+    tmp_path, monkeypatch
+):
+    home = tmp_path / "cache"
+    monkeypatch.setattr(cache, "cache_folder", lambda: home / "planetary_twin" / "0123")
+    (found,) = cache.check()
+    assert found.state == "absent" and "simulate" in found.mend
+    (home / "planetary_twin" / "0123").mkdir(parents=True)
+    (home / "planetary_twin" / "0123" / "kernel.nbc").write_bytes(b"code")
+    (found,) = cache.check()
+    assert found.state == "sound"
+    monkeypatch.setattr(cache.os, "access", lambda *_: False)
+    (found,) = cache.check()
+    assert found.state == "broken" and "XDG_CACHE_HOME" in found.mend
+
+
+def test_a_folder_without_room_or_rights_is_broken(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    (found,) = disk.check()
+    assert found.state == "sound" and str(tmp_path) in found.told
+    monkeypatch.setattr(disk, "_ENOUGH", 1e12)
+    assert [f.state for f in disk.check()] == ["broken"]
+    monkeypatch.setattr(disk.os, "access", lambda *_: False)
+    (found,) = disk.check()
+    assert found.state == "broken" and "cannot be written" in found.told
+
+
+def test_a_viewer_that_does_not_start_is_broken(tmp_path, monkeypatch):
+    import rerun_cli
+
+    fake = tmp_path / "rerun"
+    fake.write_text("#!/bin/sh\necho no such library >&2\nexit 127\n")
+    fake.chmod(0o755)
+    monkeypatch.setattr(rerun_cli, "__file__", str(tmp_path / "__init__.py"))
+    assert [*viewer.check()] == [
+        Finding("viewer", "broken", "no such library", "pip install --force-reinstall rerun-sdk")
+    ]
+
+
+@pytest.mark.slow
+def test_this_installation_is_sound_and_its_nodes_can_talk(tmp_path):
+    told = tmp_path / "found.json"
+    done = CliRunner().invoke(build_app(), ["doctor", "--json", str(told)])
+    assert done.exit_code == 0, done.output
+    found = {entry["part"]: entry for entry in json.loads(told.read_text())}
+    assert {"python", "model", "kernels", "disk", "viewer", "ros", "shared memory"} <= set(found)
+    assert found["middleware"]["state"] == "sound" and "arrived" in found["middleware"]["told"]
+
+
+def test_what_cannot_be_loaded_is_broken_and_takes_no_other_command_with_it(monkeypatch):
+    (entry,) = entry_points(group=GROUP)
+
+    def broken(_):
+        raise ImportError("librcl.so: cannot open shared object file")
+
+    monkeypatch.setattr(type(entry), "load", broken)
+    done = CliRunner().invoke(build_app(), ["doctor"])
+    assert done.exit_code == 1
+    assert "librcl.so" in done.output
+    done = CliRunner().invoke(build_app(), ["run"])
+    assert done.exit_code == 2
+    assert done.output.strip().endswith("planetary-twin doctor tells more")
+    assert CliRunner().invoke(build_app(), ["modal", "--help"]).exit_code == 0
