@@ -9,9 +9,11 @@ import signal
 import subprocess
 import sys
 import tempfile
+import threading
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
+from typing import IO, Any
 
 import pytest
 from planetary_twin_msgs.msg import OperatingPoint
@@ -45,24 +47,47 @@ def _free_domain() -> Iterator[int]:
             return
 
 
-Start = Callable[..., "subprocess.Popen[str]"]
+class Program(subprocess.Popen[str]):
+    """A process whose standard error is read all the time: it logs there, and would stand still
+    once the pipe is full.
+    """
+
+    def __init__(self, module: str, *arguments: str, cwd: Path) -> None:
+        super().__init__(
+            [sys.executable, "-m", module, *arguments],
+            cwd=cwd,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.PIPE,
+            text=True,
+        )
+        assert self.stderr is not None
+        pipe, self.stderr = self.stderr, None
+        self._lines: list[str] = []
+        self._reader = threading.Thread(target=self._read, args=[pipe], daemon=True)
+        self._reader.start()
+
+    def communicate(self, *given: Any, **options: Any) -> tuple[str, str]:
+        """Standard output and standard error, once the process has ended."""
+        output, _ = super().communicate(*given, **options)
+        self._reader.join()
+        return output, "".join(self._lines)
+
+    def _read(self, pipe: IO[str]) -> None:
+        with pipe:
+            self._lines += pipe
+
+
+Start = Callable[..., Program]
 
 
 @pytest.fixture
 def start(domain: int, tmp_path: Path) -> Iterator[Start]:
     """Start a module with arguments; whatever still runs at the end is killed."""
-    processes: list[subprocess.Popen[str]] = []
+    processes: list[Program] = []
 
-    def run(module: str, *arguments: str) -> subprocess.Popen[str]:
-        process = subprocess.Popen(
-            [sys.executable, "-m", module, *arguments],
-            cwd=tmp_path,
-            stdout=subprocess.PIPE,
-            stderr=subprocess.PIPE,
-            text=True,
-        )
-        processes.append(process)
-        return process
+    def run(module: str, *arguments: str) -> Program:
+        processes.append(Program(module, *arguments, cwd=tmp_path))
+        return processes[-1]
 
     yield run
     for process in processes:
