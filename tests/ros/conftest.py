@@ -93,7 +93,8 @@ def start(domain: int, tmp_path: Path) -> Iterator[Start]:
     for process in processes:
         if process.poll() is None:
             process.send_signal(signal.SIGKILL)
-        process.communicate()
+        process.wait()
+        process.stdout.close()
 
 
 @pytest.fixture

@@ -19,6 +19,8 @@ from rclpy.signals import SignalHandlerOptions
 TWIN = "/planetary_twin"
 LATCHED = QoSProfile(depth=100, durability=DurabilityPolicy.TRANSIENT_LOCAL)
 
+TRANSITION = 30.0  # [s] that configuring a node may take where others keep the machine busy
+
 
 class Peer:
     """Polls with a deadline; never sleeps and hopes."""
@@ -49,13 +51,16 @@ class Peer:
         self.node.create_subscription(kind, topic, heard.append, qos)
         return heard
 
-    def call(self, kind: type, service: str, request: Any) -> Any:
-        """The answer of a service; asks again where the first call after discovery gets lost."""
+    def call(self, kind: type, service: str, request: Any, patience: float = 3.0) -> Any:
+        """The answer of a service; asks again where the first call after discovery gets lost.
+
+        `patience` [s] must be longer than the answer takes where being asked twice matters.
+        """
         client = self.node.create_client(kind, service)
         self.until(client.service_is_ready, 60.0)
         for _ in range(5):
             future = client.call_async(request)
-            deadline = time.monotonic() + 3.0
+            deadline = time.monotonic() + patience
             while not future.done() and time.monotonic() < deadline:
                 self._executor.spin_once(timeout_sec=0.02)
             if future.done():
@@ -77,7 +82,8 @@ class Peer:
     def change_state(self, node: str, transition: str) -> None:
         """Take a lifecycle node through a transition."""
         request = ChangeState.Request(transition=Transition(label=transition))
-        self.until(lambda: self.call(ChangeState, f"{node}/change_state", request).success, 120.0)
+        service = f"{node}/change_state"
+        self.until(lambda: self.call(ChangeState, service, request, TRANSITION).success, 120.0)
 
     def get(self, node: str, name: str) -> float:
         """A parameter that must be a DOUBLE."""

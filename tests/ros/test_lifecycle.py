@@ -23,7 +23,7 @@ from std_srvs.srv import SetBool, Trigger
 from planetary_twin_py._compile import cache_folder
 
 from .conftest import Start
-from .peer import LATCHED, TWIN, Peer
+from .peer import LATCHED, TRANSITION, TWIN, Peer
 from .recordings import counts
 
 NAMES = ("simulation", "logger")
@@ -63,7 +63,8 @@ class Managed:
 
     def change(self, label: str = "", number: int = 0) -> bool:
         request = ChangeState.Request(transition=Transition(label=label, id=number))
-        return self._peer.call(ChangeState, f"{self.node}/change_state", request).success
+        service = f"{self.node}/change_state"
+        return self._peer.call(ChangeState, service, request, TRANSITION).success
 
     @property
     def state(self) -> str:
