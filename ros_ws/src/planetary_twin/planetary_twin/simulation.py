@@ -10,27 +10,18 @@ from concurrent.futures import Future
 
 from diagnostic_msgs.msg import DiagnosticStatus
 from planetary_twin_msgs.srv import NaturalModes, SetOperatingPoint
-from rcl_interfaces.msg import SetParametersResult
 from rclpy.parameter import Parameter
 
 import planetary_twin_py as pt
-from planetary_twin_py.affordable import Affordable, Setting, settings_of
+from planetary_twin_py.affordable import Affordable, Setting
 from planetary_twin_py.robot import frames, robot_description
-from planetary_twin_py.tolerance import AUTOMATIC, LIVE_TOLERANCE, TOLERANCES, ladder_of
 
 from .live import LiveTwin, Progress
 from .managed import ManagedNode, NodeError, run_node
-from .parameters import (
-    brief,
-    coerce,
-    declare_bounded,
-    declare_fixed,
-    declare_geometry,
-    declare_rate_factor,
-    declare_tunable,
-)
+from .parameters import brief
 from .ramps import LONGEST_RAMP
 from .real_time import KEEPS_UP, RealTimeReport
+from .simulation_parameters import TOLERANCE, SimulationParameters, tunables
 from .stamps import STEADY
 from .telemetry import Telemetry
 from .time_services import TimeServices
@@ -40,13 +31,6 @@ _REPORT_PERIOD = 1.0  # [s]
 # After which a thread that waits may take the interpreter from one that is busy: Python's 5 ms,
 # half an interval, would let clients that ask all the time hold the twin up.
 _SWITCH_INTERVAL = 2e-4  # [s]
-_TOLERANCE = pt.Tunable(
-    "tolerance",
-    "",
-    "relative error of a step; 0: the tightest that the time left allows",
-    AUTOMATIC,
-    TOLERANCES[1],
-)
 
 
 class Simulation(ManagedNode):
@@ -61,13 +45,14 @@ class Simulation(ManagedNode):
         self._verdict = KEEPS_UP
         self._submitted: Future[float] | None = None
         self._ramp = 0.0  # [s] in which what is being set is to be reached
-        self._declare()
+        self._given = given = SimulationParameters(self)
+        self.add_post_set_parameters_callback(self._submit)
         self._telemetry = Telemetry(
             self,
-            self._scene,
-            self._frame_prefix + self._frame,
-            self._transforms() if self._with_tf else None,
-            self._with_clock,
+            given.scene,
+            given.frame_prefix + given.frame,
+            self._transforms() if given.tf else None,
+            given.clock,
         )
         self._timer = self.create_timer(_REPORT_PERIOD, self._diagnose, clock=STEADY)
         self.create_service(SetOperatingPoint, "~/set_operating_point", self._set_operating_point)
@@ -85,9 +70,9 @@ class Simulation(ManagedNode):
     def activate(self) -> None:
         """Run from where the twin stands, with what was set while it stood."""
         twin = self._running_twin()
-        twin.set(**self._wanted())
-        affordable = self._affordable(twin)
-        self._live = LiveTwin(twin, 1.0 / self._rate, self._rate_factor, affordable, self)
+        twin.set(**self._given.point())
+        given, affordable = self._given, self._given.affordable(twin)
+        self._live = LiveTwin(twin, 1.0 / given.rate, given.rate_factor, affordable, self)
         self._report = self._new_report(twin, self._live.start())
         self._telemetry.describe(self._urdf)
         if not self.ready():
@@ -177,86 +162,26 @@ class Simulation(ManagedNode):
         """ROS time [ns] of a simulated instant [s]."""
         return self._telemetry.stamp(instant)
 
-    # Parameters.
-
-    def _declare(self) -> None:
-        name = declare_fixed(self, "scene", "paper", "packaged scene, or path of a YAML file")
-        self._frame = declare_fixed(self, "frame_id", "gearbox", "frame of the gearbox's base")
-        self._frame_prefix = declare_fixed(
-            self, "frame_prefix", "", "before the names of all frames; for several twins"
-        )
-        self._with_tf = bool(
-            declare_fixed(self, "tf", True, "publish /tf; false where robot_state_publisher does")
-        )
-        self._rate = declare_bounded(
-            self, "publish_rate", 100.0, (10.0, 1000.0), "messages per simulated second [Hz]"
-        )
-        self._with_clock = bool(
-            declare_fixed(self, "clock", False, "publish simulated time on /clock")
-        )
-        self._sample_rate = declare_bounded(
-            self, "sample_rate", 50e3, (1e3, 1e6), "samples of mesh_waveform [Hz]"
-        )
-        self._rate_factor = declare_rate_factor(self)
-        self._compute_share = declare_bounded(
-            self,
-            "compute_share",
-            0.4,
-            (0.05, 0.9),
-            "share of the time that computing may take where the tolerance is automatic [-]",
-        )
-        ladder_of(declare_tunable(self, _TOLERANCE, AUTOMATIC, "/diagnostics"))
-        self._scene = pt.load_scene(name)
-        declare_geometry(self, "gearset", self._scene.gearset)
-        for tunable in self._scene.tunables.values():
-            default = getattr(self._scene.operating_point, tunable.name)
-            declare_tunable(self, tunable, default, "operating_point")
-        self._scene = self._scene.replace(**self._wanted())
-        numbers = {*pt.TUNABLES, _TOLERANCE.name}
-        self.add_pre_set_parameters_callback(lambda given: coerce(given, numbers))
-        self.add_on_set_parameters_callback(self._validate)
-        self.add_post_set_parameters_callback(self._submit)
-
     def _transforms(self) -> TransformsMessage:
-        return TransformsMessage(frames(self._scene.gearset, self._frame), self._frame_prefix)
+        return TransformsMessage(
+            frames(self._given.scene.gearset, self._given.frame), self._given.frame_prefix
+        )
 
     def _robot_description(self) -> str:
         try:
-            return robot_description(self._scene.gearset, self._frame)
+            return robot_description(self._given.scene.gearset, self._given.frame)
         except OSError as reason:
             raise NodeError(
                 f"{reason.filename}: {reason.strerror}: the gears' meshes are kept there, "
                 "or in another folder that XDG_CACHE_HOME names"
             ) from None
 
-    def _wanted(self) -> dict[str, float]:
-        return {name: self.get_parameter(name).value for name in pt.TUNABLES}
-
-    def _affordable(self, twin: pt.Twin) -> Affordable:
-        """What chooses the setting as the parameters want it, from the twin's present one on."""
-        wanted = self.get_parameter(_TOLERANCE.name).value
-        begin = Setting(twin.tolerance, twin.sample_rate)
-        if self._rate_factor:
-            settings = settings_of(ladder_of(wanted), self._sample_rate)
-        else:  # nothing to keep up with
-            settings = [Setting(wanted or LIVE_TOLERANCE, self._sample_rate)]
-        return Affordable(settings, self._compute_share, self._period, begin)
-
-    def _validate(self, parameters: list[Parameter]) -> SetParametersResult:
-        try:
-            self._scene.replace(**self._wanted() | _tunables(parameters))
-            for wanted in (p.value for p in parameters if p.name == _TOLERANCE.name):
-                ladder_of(wanted)
-        except ValueError as refusal:
-            return SetParametersResult(successful=False, reason=str(refusal))
-        return SetParametersResult(successful=True)
-
     def _submit(self, parameters: list[Parameter]) -> None:
         if self._live is None:
             return
-        if any(p.name == _TOLERANCE.name for p in parameters):
-            self._live.affordable = self._affordable(self._running_twin())
-        values = _tunables(parameters)
+        if any(p.name == TOLERANCE.name for p in parameters):
+            self._live.affordable = self._given.affordable(self._running_twin())
+        values = tunables(parameters)
         if values and self._ramp > 0.0:
             self._submitted = self._live.ramp(values, self._ramp)
         elif values:
@@ -306,19 +231,14 @@ class Simulation(ManagedNode):
         return self._submitted.result(timeout=self._longest_wait)
 
     @property
-    def _period(self) -> float:
-        """Wall time for an interval [s]; the simulated time where it goes as fast as it can."""
-        return 1.0 / (self._rate * (self._rate_factor or 1.0))
-
-    @property
     def _longest_wait(self) -> float:
         """The loop takes orders up between two intervals, so this wait [s] is one interval long."""
-        return 2.0 * self._period + 1.0
+        return 2.0 * self._given.period + 1.0
 
     def _natural_modes(
         self, request: NaturalModes.Request, response: NaturalModes.Response
     ) -> NaturalModes.Response:
-        modes = pt.natural_modes(self._scene)
+        modes = pt.natural_modes(self._given.scene)
         response.frequencies = [float(frequency) for frequency in modes.frequencies]
         response.kinds = list(modes.kinds)
         return response
@@ -346,21 +266,17 @@ class Simulation(ManagedNode):
             self.get_logger().error(status.message)
 
     def _new_twin(self) -> pt.Twin:
-        return pt.Twin(self._scene.replace(**self._wanted()), sample_rate=self._sample_rate)
+        return pt.Twin(self._given.scene_now(), sample_rate=self._given.sample_rate)
 
     def _new_report(self, twin: pt.Twin, begun: Progress) -> RealTimeReport:
         return RealTimeReport(
-            self.get_namespace(), self._rate_factor, self._period, twin.log, begun
+            self.get_namespace(), self._given.rate_factor, self._given.period, twin.log, begun
         )
 
     def _running_twin(self) -> pt.Twin:
         if self._twin is None:
             raise NodeError("the model is not built: configure the node first")
         return self._twin
-
-
-def _tunables(parameters: list[Parameter]) -> dict[str, float]:
-    return {p.name: p.value for p in parameters if p.name in pt.TUNABLES}
 
 
 def main(args: list[str] | None = None) -> int:
