@@ -10,6 +10,7 @@ from ..recording.reader import Recording
 from ..recording.records import RecordingError
 from ..scene import Scene, SceneError, parse_scene
 from .blueprint import blueprint
+from .contacts import log_contacts
 from .events import log_events
 from .gears import log_gears
 from .motion import motion
@@ -48,8 +49,10 @@ def save(recording: Recording, scene: Scene | None, rrd: Path, picture: bool = F
     stream.send_recording_name(recording.path.stem)
     # Active, not only default: a layout that the viewer remembers from before would win otherwise.
     stream.send_blueprint(blueprint(gearset, picture), make_active=True, make_default=True)
-    if gearset is not None:
-        log_gears(stream, gearset, motion(recording))
+    if scene is not None:
+        moved = motion(recording)
+        log_gears(stream, scene.gearset, moved)
+        log_contacts(stream, scene, recording, moved)
     log_plots(stream, recording)
     log_events(stream, recording)
     remark = log_waveform(stream, recording)

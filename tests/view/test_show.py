@@ -39,6 +39,8 @@ def test_rerun_verifies_the_file_and_finds_gears_curves_and_changes(recording, t
         "/gears/sun",
         "/gears/ring",
         "/gears/carrier/pin_3/planet_3",
+        "/gears/carrier/contact/planet_ring_3",
+        "/gears/tooth_load/scale",
         "/mesh/dte_mean",
         "/mesh/viscous_friction",
         "/train/efficiency",
