@@ -8,6 +8,8 @@ import rerun.blueprint as rrb
 
 from ..robot.parts import carrier_radius
 from ..scene.gearset import Gearset
+from . import phase_portrait, spectra
+from .chart import bounds
 from .gears import MILLIMETRES
 from .quantities import MESH, OPERATING_POINT, TRAIN, WAVEFORM
 from .timeline import SIMULATED_TIME
@@ -15,6 +17,7 @@ from .timeline import SIMULATED_TIME
 # At full speed teeth pass too fast for the eye: start slowed down, the viewer's slider is beside.
 PLAYBACK_SPEED = 0.02
 BACKGROUND = (24, 27, 33)
+CHART = (13, 16, 17)  # as of the viewer's own plots
 _ZOOM = 5_000_000  # [ns] of the waveform on either side of the time cursor
 
 
@@ -117,6 +120,7 @@ def _tabs(gearset: Gearset | None) -> rrb.Tabs:
             ],
         ),
         *contact,
+        _spectra(gearset),
         _page("Power and speed", [_train(name) for name in TRAIN]),
         _page("Operating point", [_set_point(name) for name in OPERATING_POINT]),
         active_tab=0,
@@ -126,6 +130,34 @@ def _tabs(gearset: Gearset | None) -> rrb.Tabs:
 def _contact(gearset: Gearset) -> rrb.Vertical:
     curves = rrb.Horizontal(_zoom("mesh_force"), _zoom("dte"))
     return rrb.Vertical(_planet(gearset), curves, row_shares=[7, 3], name="Tooth contact")
+
+
+def _spectra(gearset: Gearset | None) -> rrb.Vertical:
+    spectrum = _chart(
+        "spectrum",
+        "Spectrum of the DTE, sun_planet_1, at the time cursor: amplitude [µm]; n×: mesh harmonics",
+        bounds(spectra.WIDTH, spectra.HEIGHT),
+    )
+    order_map = _chart(
+        "order_map",
+        "Order map of the DTE, sun_planet_1: cycles per turn of the sun; n×: mesh orders",
+        bounds(spectra.WIDTH, spectra.HEIGHT),
+    )
+    portrait = _chart(
+        "phase_portrait",
+        "Phase portrait, sun_planet_1: rate [mm/s] over DTE [µm]",
+        bounds(phase_portrait.WIDTH, phase_portrait.HEIGHT),
+    )
+    return rrb.Vertical(
+        spectrum,
+        *([] if gearset is None else [order_map]),
+        rrb.Horizontal(portrait, _zoom("dte")),
+        name="Spectrum",
+    )
+
+
+def _chart(origin: str, title: str, shown: rrb.VisualBounds2D) -> rrb.Spatial2DView:
+    return rrb.Spatial2DView(origin=origin, name=title, visual_bounds=shown, background=CHART)
 
 
 def _page(name: str, *columns: list[rrb.TimeSeriesView]) -> rrb.Horizontal:

@@ -12,9 +12,12 @@ from ..scene import Scene, SceneError, parse_scene
 from .blueprint import blueprint
 from .contacts import log_contacts
 from .events import log_events
+from .frames import frames, thinned
 from .gears import log_gears
 from .motion import motion
+from .phase_portrait import log_phase_portrait
 from .plots import log_plots
+from .spectra import log_spectra
 from .waveform import log_waveform
 
 APPLICATION = "planetary_twin"
@@ -55,7 +58,11 @@ def save(recording: Recording, scene: Scene | None, rrd: Path, picture: bool = F
         log_contacts(stream, scene, recording, moved)
     log_plots(stream, recording)
     log_events(stream, recording)
-    remark = log_waveform(stream, recording)
+    remarks = [log_waveform(stream, recording)]
+    if windows := frames(recording):
+        remarks.append(thinned(windows))
+        log_spectra(stream, windows, gearset)
+        log_phase_portrait(stream, windows)
     stream.flush()
     stream.disconnect()
-    return [remark] if remark else []
+    return [remark for remark in remarks if remark]
