@@ -14,7 +14,7 @@ from scipy.interpolate import PchipInterpolator
 from ..recording.reader import Recording, read_recording
 from ..recording.records import RecordingError
 from ..view.motion import unwrap
-from .stretches import longest_stretch
+from .stretches import even_stretches, longest_stretch, thinned
 
 Array = NDArray[np.float64]
 QUANTITIES = {"dte": "m", "mesh_force": "N", "friction": "N"}
@@ -60,7 +60,8 @@ class Signal:
                 f"from {low:g} to {high:g} s: {error}; "
                 f"the signal runs from {self.time[0]:g} to {self.time[-1]:g} s"
             ) from None
-        remarks = self.remarks
+        fewer = thinned(self.time, even_stretches(self.time))
+        remarks = (*self.remarks, fewer) if fewer else self.remarks
         if len(part) < len(inside):
             first, last = self.time[part[[0, -1]]]
             remarks += (

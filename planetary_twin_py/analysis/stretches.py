@@ -30,3 +30,16 @@ def longest_stretch(time: NDArray[np.float64]) -> slice:
     if not stretches:
         raise ValueError(f"time: {len(time)} samples, of which no three lie at equal distances")
     return max(stretches, key=lambda part: float(time[part.stop - 1] - time[part.start]))
+
+
+def thinned(time: NDArray[np.float64], stretches: list[slice]) -> str | None:
+    """A remark, where samples are further apart than elsewhere: a busy machine thins them."""
+    rates = [1.0 / float(time[part.start + 1] - time[part.start]) for part in stretches]
+    full = max(rates, default=0.0)
+    few = [k for k, rate in enumerate(rates) if rate < (1.0 - _EVEN) * full]
+    if not few:
+        return None
+    return (
+        f"from {time[stretches[few[0]].start]:.2f} s on, some samples come at {min(rates):.0f} in "
+        f"place of {full:.0f} Hz: spectra show there what folds back from above half of that"
+    )

@@ -8,7 +8,7 @@ import numpy as np
 import rerun as rr
 from numpy.typing import NDArray
 
-from ..analysis.stretches import even_stretches
+from ..analysis.stretches import even_stretches, thinned
 from ..recording.reader import Recording
 from . import timeline
 
@@ -32,6 +32,12 @@ class Frames:
         """For `rr.send_columns`."""
         return timeline.columns(self.time, self.stamp)
 
+    @property
+    def remark(self) -> str | None:
+        """Where samples are thinned, if anywhere."""
+        wave = self.recording.waveform
+        return None if wave is None else thinned(wave.time, self.stretches)
+
     def state(self, name: str) -> Array:
         """A field of GearboxState at the instants (n,): of the interval each lies in."""
         state = self.recording.state
@@ -53,24 +59,6 @@ class Frames:
                 inside = slice(int(ends[0]), int(ends[1]))
                 return wave.time[inside], wave.dte[inside, MESH].astype(np.float64)
         return None
-
-
-def thinned(frames: Frames) -> str | None:
-    """A remark, where samples are further apart than elsewhere: a busy machine thins them."""
-    wave = frames.recording.waveform
-    assert wave is not None
-    rates = {
-        part.start: 1.0 / (wave.time[part.start + 1] - wave.time[part.start])
-        for part in frames.stretches
-    }
-    full = max(rates.values(), default=0.0)
-    few = [start for start, rate in rates.items() if rate < 0.99 * full]
-    if not few:
-        return None
-    return (
-        f"from {wave.time[few[0]]:.2f} s on, some samples come at {min(rates.values()):.0f} "
-        f"in place of {full:.0f} Hz: spectra show there what folds back from above half of that"
-    )
 
 
 def frames(recording: Recording) -> Frames | None:

@@ -12,7 +12,7 @@ from ..scene import Scene, SceneError, parse_scene
 from .blueprint import blueprint
 from .contacts import log_contacts
 from .events import log_events
-from .frames import frames, thinned
+from .frames import frames
 from .gears import log_gears
 from .motion import motion
 from .phase_portrait import log_phase_portrait
@@ -60,7 +60,7 @@ def save(recording: Recording, scene: Scene | None, rrd: Path, picture: bool = F
     log_events(stream, recording)
     remarks = [log_waveform(stream, recording)]
     if windows := frames(recording):
-        remarks.append(thinned(windows))
+        remarks.append(windows.remark)
         log_spectra(stream, windows, gearset)
         log_phase_portrait(stream, windows)
     stream.flush()

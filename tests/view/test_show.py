@@ -33,7 +33,8 @@ def test_rerun_verifies_the_file_and_finds_gears_curves_and_changes(recording, t
     assert remark is None
     rrd = tmp_path / "one.rrd"
     assert save(recording, scene, rrd) == []
-    assert "without error" in rerun("verify", rrd).stdout + rerun("verify", rrd).stderr
+    verified = rerun("verify", rrd)
+    assert "without error" in verified.stdout + verified.stderr
     printed = rerun("print", "-vv", rrd).stdout
     for entity in (
         "/gears/sun",
