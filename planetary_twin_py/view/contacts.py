@@ -34,7 +34,7 @@ _FULL = 0.99  # share of the contacts whose load the scale spans; rare impacts g
 _OVERHANG = 0.06  # of the face width, so that the end shows before the face of the gears
 _THICKEST, _LONGEST = 0.24, 3.0  # radius and bend at the full load [modules]
 _BARS = 48  # steps of the drawn scale
-_NEAR = 1.5  # sample periods within which a sample counts as that of an instant
+_NEAR = 2e-4  # [s] within which a sample counts as that of an instant
 
 
 @dataclass(frozen=True)
@@ -82,7 +82,7 @@ def forces(recording: Recording, time: Array) -> Array:
         return force
     after = np.clip(np.searchsorted(wave.time, time), 1, len(wave.time) - 1)
     nearest = np.where(time - wave.time[after - 1] < wave.time[after] - time, after - 1, after)
-    there = np.abs(wave.time[nearest] - time) < _NEAR * np.median(np.diff(wave.time))
+    there = np.abs(wave.time[nearest] - time) < _NEAR
     force[there] = wave.mesh_force[nearest[there]]
     return force
 
@@ -152,6 +152,14 @@ def _strips(gearset: Gearset, mesh: Contacts, full: float) -> rr.ComponentColumn
     ).partition(carries.sum(axis=1))
 
 
+def newtons(force: float) -> str:
+    """A force as people write it: 900 N, 20 kN, 3 MN."""
+    for size, unit in ((1e6, "MN"), (1e3, "kN")):
+        if force >= size:
+            return f"{force / size:g} {unit}"
+    return f"{force:g} N"
+
+
 def _log_scale(stream: rr.RecordingStream, gearset: Gearset, full: float) -> None:
     """A bar of colours below the gears, with its loads."""
     module = MILLIMETRES * gearset.module
@@ -165,7 +173,7 @@ def _log_scale(stream: rr.RecordingStream, gearset: Gearset, full: float) -> Non
     bar = rr.LineStrips3D(list(bars), colors=colours, radii=0.5 * module)
     stream.log("gears/tooth_load/scale", bar, static=True)
     places = [(left, below), (left + 0.5 * width, y + 3.0 * module), (left + width, below)]
-    labels = ["0", "Load of a tooth pair", f"{full:g} N"]
+    labels = ["0", "Load of a tooth pair", newtons(full)]
     points = rr.Points3D(
         [(*place, 0.0) for place in places],
         labels=labels,

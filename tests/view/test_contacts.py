@@ -12,7 +12,7 @@ from planetary_twin_py.gearset.mount import mount
 from planetary_twin_py.recording.reader import read_recording
 from planetary_twin_py.robot.parts import carrier_radius, gear_of
 from planetary_twin_py.scene import load_scene
-from planetary_twin_py.view.contacts import contacts, forces
+from planetary_twin_py.view.contacts import contacts, forces, newtons
 
 PAPER = load_scene("paper")
 FIVE = PAPER.replace(**{"gearset.planet_angles": tuple(2 * np.pi * k / 5 for k in range(5))})
@@ -124,3 +124,7 @@ def test_forces_are_samples_of_the_waveform_and_means_where_it_has_a_gap(tmp_pat
     assert np.array_equal(found[1], recording.per_mesh("mesh_force_mean")[2])
     recording.waveform = None
     assert np.all(forces(recording, np.array([0.01, 0.04])) > 0.0)
+
+
+def test_loads_are_written_as_people_write_them():
+    assert [newtons(f) for f in (900.0, 2e3, 3e4, 1e6)] == ["900 N", "2 kN", "30 kN", "1 MN"]

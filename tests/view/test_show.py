@@ -28,7 +28,9 @@ def rerun(*arguments):
     return subprocess.run([RERUN, "rrd", *arguments], capture_output=True, text=True, check=True)
 
 
-def test_rerun_verifies_the_file_and_finds_gears_curves_and_changes(recording, tmp_path):
+def test_rerun_verifies_the_file_and_finds_gears_curves_and_changes(tmp_path):
+    file = write_recording(tmp_path / "a.mcap", 0.25, scene_yaml=PAPER.read_text())
+    recording = read_recording(file)
     scene, remark = scene_of(recording)
     assert remark is None
     rrd = tmp_path / "one.rrd"
