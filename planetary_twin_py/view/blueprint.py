@@ -140,7 +140,7 @@ def _spectra(gearset: Gearset | None) -> rrb.Vertical:
     )
     order_map = _chart(
         "order_map",
-        "Order map of the DTE, sun_planet_1: cycles per turn of the sun; n×: mesh orders",
+        "Order map of the DTE, sun_planet_1: cycles per turn of sun against carrier; n×: meshing",
         bounds(spectra.WIDTH, spectra.HEIGHT),
     )
     portrait = _chart(

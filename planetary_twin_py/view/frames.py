@@ -38,6 +38,20 @@ class Frames:
         wave = self.recording.waveform
         return None if wave is None else thinned(wave.time, self.stretches)
 
+    def lasting(self, seconds: float, cycles: float) -> float:
+        """A duration [s] of so many `seconds`, or mesh cycles at the usual speed if that is longer.
+
+        Not longer than the longest stretch of samples.
+        """
+        wave, mesh = self.recording.waveform, self.recording.state["mesh_frequency"]
+        assert wave is not None
+        usual = float(np.nanmedian(mesh)) if np.isfinite(mesh).any() else 0.0
+        longest = max(
+            (float(wave.time[part.stop - 1] - wave.time[part.start]) for part in self.stretches),
+            default=0.0,
+        )
+        return min(max(seconds, cycles / usual if usual > 0.0 else 0.0), max(seconds, longest))
+
     def state(self, name: str) -> Array:
         """A field of GearboxState at the instants (n,): of the interval each lies in."""
         state = self.recording.state

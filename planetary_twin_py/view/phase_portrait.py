@@ -21,8 +21,9 @@ from .round_numbers import ticks
 
 Array = NDArray[np.float64]
 WIDTH, HEIGHT = 420.0, 215.0
-WINDOW = 0.04  # [s]
+WINDOW, CYCLES = 0.04, 4  # [s], or mesh cycles if slower
 FINER = 3  # points of the curve per sample, so that its turns are round
+MOST_POINTS = 6000
 _FLANK = (236, 176, 64)
 _MARGIN = 0.06  # of the range, around the curve
 
@@ -61,12 +62,12 @@ def log_phase_portrait(stream: rr.RecordingStream, frames: Frames) -> None:
 
 
 def _portrait(frames: Frames, number: int, half_backlash: float) -> _Portrait | None:
-    window = frames.window(number, WINDOW)
+    window = frames.window(number, frames.lasting(WINDOW, CYCLES))
     if window is None:
         return None
     time, dte = window
     spline = CubicSpline(time, dte)
-    fine = np.linspace(time[0], time[-1], FINER * len(time))
+    fine = np.linspace(time[0], time[-1], min(FINER * len(time), MOST_POINTS))
     x, y = 1e6 * spline(fine), 1e3 * spline(fine, 1)
     chart = Chart("phase_portrait", WIDTH, HEIGHT, _range(x), _range(y))
     flanks = [1e6 * side * half_backlash for side in (-1.0, 1.0)]

@@ -21,7 +21,7 @@ from .round_numbers import ticks
 
 Array = NDArray[np.float64]
 WIDTH, HEIGHT = 940.0, 215.0
-WINDOW = 0.2  # [s]: resolves 5 Hz
+WINDOW, CYCLES = 0.2, 64  # [s], which resolves 5 Hz, or mesh cycles if slower
 HARMONICS = 8  # of the meshing that are shown
 MARKS = 24  # of its harmonics in a spectrum at most
 DECADES = 4  # of amplitudes that are shown
@@ -48,7 +48,7 @@ def log_spectra(stream: rr.RecordingStream, frames: Frames, gearset: Gearset | N
 
 def _spectrum(frames: Frames, number: int) -> tuple[Array, Array]:
     """Frequencies [Hz] and amplitudes [um] around an instant, none where samples are missing."""
-    window = frames.window(number, WINDOW)
+    window = frames.window(number, frames.lasting(WINDOW, CYCLES))
     if window is None:
         return np.empty(0), np.empty(0)
     time, dte = window
@@ -137,7 +137,7 @@ def _log_scale(stream: rr.RecordingStream, chart: Chart, top: int) -> None:
 def _orders(frames: Frames, number: int, reach: float) -> Array:
     """Largest amplitude [um] in each row of the image; NaN where the samples tell none."""
     rows = int(HEIGHT)
-    window = frames.window(number, WINDOW)
+    window = frames.window(number, frames.lasting(WINDOW, CYCLES))
     if window is None:
         return np.full(rows, np.nan)
     time, dte = window

@@ -76,6 +76,16 @@ def test_near_a_gap_windows_move_aside_and_none_spans_it(recording):
             assert np.isfinite(dte).all()
 
 
+def test_windows_of_slow_gears_last_as_many_mesh_cycles_as_there_are_samples_for(recording):
+    windows = frames(recording)
+    assert windows.lasting(0.2, 64) == 0.2
+    recording.state["mesh_frequency"][:] = 100.0
+    assert windows.lasting(0.2, 64) == pytest.approx(0.64)
+    assert windows.lasting(0.2, 640) == pytest.approx(1.0, abs=1e-4)
+    recording.state["mesh_frequency"][:] = np.nan
+    assert windows.lasting(0.2, 64) == 0.2
+
+
 def test_thinned_samples_are_told(recording):
     assert frames(recording).remark is None
     wave = recording.waveform
