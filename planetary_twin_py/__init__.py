@@ -11,6 +11,23 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
+    from .analysis.orders import (
+        ByAngle,
+        OrderMap,
+        OrderSpectrum,
+        mesh_order,
+        order_map,
+        order_spectrum,
+        resample_by_angle,
+    )
+    from .analysis.spectrum import (
+        Line,
+        PowerDensity,
+        Spectrum,
+        amplitude_spectrum,
+        power_density,
+        strongest_lines,
+    )
     from .batch import Outcome, simulate_many
     from .modal.modes import NaturalModes
     from .modal.natural import natural_modes
@@ -31,6 +48,14 @@ if TYPE_CHECKING:
     from .window import Waveform, Window
 
 _HOME = {
+    "analysis.orders": (
+        "ByAngle", "OrderMap", "OrderSpectrum", "mesh_order", "order_map", "order_spectrum",
+        "resample_by_angle",
+    ),
+    "analysis.spectrum": (
+        "Line", "PowerDensity", "Spectrum", "amplitude_spectrum", "power_density",
+        "strongest_lines",
+    ),
     "batch": ("Outcome", "simulate_many"),
     "modal.modes": ("NaturalModes",),
     "modal.natural": ("natural_modes",),
@@ -48,26 +73,39 @@ _MODULE_OF = {name: module for module, names in _HOME.items() for name in names}
 
 __all__ = [
     "TUNABLES",
+    "ByAngle",
     "Change",
     "Energy",
+    "Line",
     "NaturalModes",
     "OperatingPoint",
+    "OrderMap",
+    "OrderSpectrum",
     "Outcome",
+    "PowerDensity",
     "Result",
     "Scene",
     "SceneError",
+    "Spectrum",
     "Stats",
     "Tunable",
     "Twin",
     "Waveform",
     "Window",
+    "amplitude_spectrum",
     "load_scene",
+    "mesh_order",
     "natural_modes",
+    "order_map",
+    "order_spectrum",
     "packaged_scenes",
     "parse_scene",
+    "power_density",
+    "resample_by_angle",
     "rpm",
     "simulate",
     "simulate_many",
+    "strongest_lines",
 ]
 
 

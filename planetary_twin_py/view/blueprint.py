@@ -2,15 +2,22 @@
 
 from __future__ import annotations
 
+import math
+
 import rerun.blueprint as rrb
 
+from ..robot.parts import carrier_radius
 from ..scene.gearset import Gearset
+from . import phase_portrait, spectra
+from .chart import bounds
 from .gears import MILLIMETRES
 from .quantities import MESH, OPERATING_POINT, TRAIN, WAVEFORM
 from .timeline import SIMULATED_TIME
 
 # At full speed teeth pass too fast for the eye: start slowed down, the viewer's slider is beside.
 PLAYBACK_SPEED = 0.02
+BACKGROUND = (24, 27, 33)
+CHART = (13, 16, 17)  # as of the viewer's own plots
 _ZOOM = 5_000_000  # [ns] of the waveform on either side of the time cursor
 
 
@@ -26,7 +33,7 @@ def blueprint(gearset: Gearset | None, picture: bool = False) -> rrb.Blueprint:
     )
     left = changes if gearset is None else rrb.Vertical(_gears(gearset), changes, row_shares=[4, 1])
     return rrb.Blueprint(
-        rrb.Horizontal(left, _tabs(), column_shares=[5, 6]),
+        rrb.Horizontal(left, _tabs(gearset), column_shares=[5, 6]),
         rrb.TimePanel(
             state="collapsed",
             timeline=SIMULATED_TIME,
@@ -48,17 +55,36 @@ def _gears(gearset: Gearset) -> rrb.Spatial3DView:
     return rrb.Spatial3DView(
         origin="gears",
         name=f"Gears: {teeth.sun}, {teeth.planet} and {teeth.ring} teeth, {held}",
-        background=rrb.Background(color=(24, 27, 33)),
+        background=rrb.Background(color=BACKGROUND),
         line_grid=rrb.LineGrid3D(visible=False),
         eye_controls=rrb.EyeControls3D(
-            position=(0.3 * reach, -0.75 * reach, 2.1 * reach),
-            look_target=(0.0, 0.0, 0.0),
+            position=(0.3 * reach, -0.8 * reach, 2.15 * reach),
+            look_target=(0.0, -0.04 * reach, 0.0),
             eye_up=(0.0, 1.0, 0.0),
         ),
     )
 
 
-def _tabs() -> rrb.Tabs:
+def _planet(gearset: Gearset) -> rrb.Spatial3DView:
+    """The first planet between sun and ring, from a place on the carrier in front of it."""
+    psi = gearset.planet_angles[0]
+    outwards = (math.cos(psi), math.sin(psi))
+    x, y = (MILLIMETRES * carrier_radius(gearset) * part for part in outwards)
+    away = MILLIMETRES * (0.5 * gearset.face_width + 1.25 * gearset.module * gearset.teeth.planet)
+    return rrb.Spatial3DView(
+        origin="gears/carrier",
+        contents=["/gears/sun", "/gears/ring", "/gears/carrier/**"],
+        name="Planet 1 between sun and ring, seen from the carrier: tooth pairs in contact",
+        background=rrb.Background(color=BACKGROUND),
+        line_grid=rrb.LineGrid3D(visible=False),
+        eye_controls=rrb.EyeControls3D(
+            position=(x, y, away), look_target=(x, y, 0.0), eye_up=(*outwards, 0.0)
+        ),
+    )
+
+
+def _tabs(gearset: Gearset | None) -> rrb.Tabs:
+    contact = [] if gearset is None else [_contact(gearset)]
     return rrb.Tabs(
         _page(
             "Overview",
@@ -93,10 +119,45 @@ def _tabs() -> rrb.Tabs:
                 _mesh("power_loss"),
             ],
         ),
+        *contact,
+        _spectra(gearset),
         _page("Power and speed", [_train(name) for name in TRAIN]),
         _page("Operating point", [_set_point(name) for name in OPERATING_POINT]),
         active_tab=0,
     )
+
+
+def _contact(gearset: Gearset) -> rrb.Vertical:
+    curves = rrb.Horizontal(_zoom("mesh_force"), _zoom("dte"))
+    return rrb.Vertical(_planet(gearset), curves, row_shares=[7, 3], name="Tooth contact")
+
+
+def _spectra(gearset: Gearset | None) -> rrb.Vertical:
+    spectrum = _chart(
+        "spectrum",
+        "Spectrum of the DTE, sun_planet_1, at the time cursor: amplitude [µm]; n×: mesh harmonics",
+        bounds(spectra.WIDTH, spectra.HEIGHT),
+    )
+    order_map = _chart(
+        "order_map",
+        "Order map of the DTE, sun_planet_1: cycles per turn of sun against carrier; n×: meshing",
+        bounds(spectra.WIDTH, spectra.HEIGHT),
+    )
+    portrait = _chart(
+        "phase_portrait",
+        "Phase portrait, sun_planet_1: rate [mm/s] over DTE [µm]",
+        bounds(phase_portrait.WIDTH, phase_portrait.HEIGHT),
+    )
+    return rrb.Vertical(
+        spectrum,
+        *([] if gearset is None else [order_map]),
+        rrb.Horizontal(portrait, _zoom("dte")),
+        name="Spectrum",
+    )
+
+
+def _chart(origin: str, title: str, shown: rrb.VisualBounds2D) -> rrb.Spatial2DView:
+    return rrb.Spatial2DView(origin=origin, name=title, visual_bounds=shown, background=CHART)
 
 
 def _page(name: str, *columns: list[rrb.TimeSeriesView]) -> rrb.Horizontal:

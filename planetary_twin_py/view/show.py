@@ -10,10 +10,14 @@ from ..recording.reader import Recording
 from ..recording.records import RecordingError
 from ..scene import Scene, SceneError, parse_scene
 from .blueprint import blueprint
+from .contacts import log_contacts
 from .events import log_events
+from .frames import frames
 from .gears import log_gears
 from .motion import motion
+from .phase_portrait import log_phase_portrait
 from .plots import log_plots
+from .spectra import log_spectra
 from .waveform import log_waveform
 
 APPLICATION = "planetary_twin"
@@ -48,11 +52,17 @@ def save(recording: Recording, scene: Scene | None, rrd: Path, picture: bool = F
     stream.send_recording_name(recording.path.stem)
     # Active, not only default: a layout that the viewer remembers from before would win otherwise.
     stream.send_blueprint(blueprint(gearset, picture), make_active=True, make_default=True)
-    if gearset is not None:
-        log_gears(stream, gearset, motion(recording))
+    if scene is not None:
+        moved = motion(recording)
+        log_gears(stream, scene.gearset, moved)
+        log_contacts(stream, scene, recording, moved)
     log_plots(stream, recording)
     log_events(stream, recording)
-    remark = log_waveform(stream, recording)
+    remarks = [log_waveform(stream, recording)]
+    if windows := frames(recording):
+        remarks.append(windows.remark)
+        log_spectra(stream, windows, gearset)
+        log_phase_portrait(stream, windows)
     stream.flush()
     stream.disconnect()
-    return [remark] if remark else []
+    return [remark for remark in remarks if remark]

@@ -1,0 +1,135 @@
+"""`planetary-twin spectrum`: the lines in the vibration of a mesh, by frequency or by order."""
+
+from __future__ import annotations
+
+import json
+import sys
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+from ._fail import fail, need_plots, remark
+
+if TYPE_CHECKING:
+    from rich.console import Console
+
+    from ..analysis.mesh_spectrum import MeshSpectrum
+    from ..analysis.signals import Signal
+
+LINES = 12
+
+
+def spectrum(
+    file: Annotated[
+        Path, typer.Argument(help="Recording, or the .npz file that `simulate --out` wrote.")
+    ],
+    order: Annotated[
+        bool, typer.Option("--order", help="Over cycles per turn of the sun against the carrier.")
+    ] = False,
+    mesh: Annotated[str, typer.Option(help="Which mesh.")] = "sun_planet_1",
+    quantity: Annotated[str, typer.Option(help="dte, mesh_force or friction.")] = "dte",
+    from_: Annotated[
+        float | None, typer.Option("--from", help="Begin: simulated time in seconds.")
+    ] = None,
+    to: Annotated[float | None, typer.Option(help="End: simulated time in seconds.")] = None,
+    out: Annotated[Path | None, typer.Option(help="Write it all: .png or .csv.")] = None,
+    json_: Annotated[
+        str | None, typer.Option("--json", metavar="FILE", help="Write figures; - prints them.")
+    ] = None,
+) -> None:
+    """List the highest lines in the spectrum of one mesh, and which are harmonics of the meshing.
+
+    Example: planetary-twin spectrum recordings/NAME --order --from 2 --to 4 --out spectrum.png
+    """
+    if out is not None and out.suffix not in (".png", ".csv"):
+        fail(f"--out = {str(out)!r}: must end in .png or .csv")
+    if out is not None and out.suffix == ".png":
+        need_plots()
+    from rich.console import Console
+
+    from ..analysis.mesh_spectrum import frequency_spectrum_of, order_spectrum_of
+    from ..analysis.signals import QUANTITIES, read_signal
+
+    try:
+        signal = read_signal(file, mesh, quantity).within(from_, to)
+        found = (order_spectrum_of if order else frequency_spectrum_of)(signal, _sun_teeth(signal))
+        if out is not None:
+            axis = "order [cycles per turn]" if order else "frequency [Hz]"
+            labels = (axis, f"amplitude of {quantity} [{QUANTITIES[quantity]}]")
+            title = f"{file.name}: {mesh}, {signal.time[0]:.3f} to {signal.time[-1]:.3f} s"
+            _write(found, out, title, labels)
+    except (ValueError, OSError) as error:
+        fail(error)
+    for line in signal.remarks:
+        remark(line)
+    figures = _figures(signal, found, "order" if order else "frequency_hz")
+    _tell(Console(stderr=json_ == "-"), figures, QUANTITIES[quantity])
+    if json_ is not None:
+        text = json.dumps(figures, indent=2) + "\n"
+        sys.stdout.write(text) if json_ == "-" else Path(json_).write_text(text, "utf-8")
+
+
+def _sun_teeth(signal: Signal) -> int | None:
+    from ..scene import parse_scene
+
+    if signal.scene_yaml is None:
+        return None
+    return parse_scene(signal.scene_yaml).gearset.teeth.sun
+
+
+def _figures(signal: Signal, found: MeshSpectrum, axis: str) -> dict[str, Any]:
+    return {
+        "from_s": float(signal.time[0]),
+        "to_s": float(signal.time[-1]),
+        "samples": len(signal.samples),
+        "resolution": float(found.axis[1]),
+        "mean": float(signal.samples.mean()),
+        "lines": [
+            {
+                axis: line.place,
+                "amplitude": line.amplitude,
+                "mesh_orders": found.in_mesh_orders(line.place),
+                "harmonic": found.harmonic(line.place),
+            }
+            for line in found.lines(LINES)
+        ],
+    }
+
+
+def _tell(console: Console, figures: dict[str, Any], unit: str) -> None:
+    from rich.table import Table
+
+    table = Table(box=None, pad_edge=False)
+    axis = "order" if figures["lines"] and "order" in figures["lines"][0] else "frequency_hz"
+    headings = ("order" if axis == "order" else "frequency [Hz]", f"amplitude [{unit}]")
+    for heading in (*headings, "mesh orders"):
+        table.add_column(heading, justify="right", no_wrap=True)
+    table.add_column("")
+    for line in figures["lines"]:
+        orders, harmonic = line["mesh_orders"], line["harmonic"]
+        table.add_row(
+            f"{line[axis]:.3f}",
+            f"{line['amplitude']:.4g}",
+            "-" if orders is None else f"{orders:.4f}",
+            "" if harmonic is None else f"harmonic {harmonic} of the meshing",
+        )
+    console.print(table)
+    console.print(
+        f"from {figures['from_s']:.4f} to {figures['to_s']:.4f} s, resolved to "
+        f"{figures['resolution']:.4g}, mean {figures['mean']:.6g} {unit}",
+        highlight=False,
+    )
+
+
+def _write(found: MeshSpectrum, out: Path, title: str, labels: tuple[str, str]) -> None:
+    if out.suffix == ".csv":
+        import numpy as np
+
+        table = np.column_stack((found.axis, found.amplitude))
+        np.savetxt(out, table, delimiter=",", header=",".join(labels), comments="")
+        return
+    from ..plots.spectrum import spectrum_plot
+    from ..plots.style import save
+
+    save(spectrum_plot(found, title, labels), str(out))

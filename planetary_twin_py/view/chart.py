@@ -1,0 +1,128 @@
+"""Charts over something else than time, drawn into a plane: frame, ticks, curves that change.
+
+The viewer's own plots have time as their axis. These are of line strips and labelled points, in
+units of about a pixel, x to the right and y upwards from the lower left corner of the frame.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+import rerun as rr
+import rerun.blueprint as rrb
+from numpy.typing import NDArray
+
+Array = NDArray[np.float64]
+Colour = tuple[int, int, int]
+FRAME, GRID, TEXT = (120, 126, 136), (44, 48, 55), (205, 210, 218)
+_MARGINS = (64.0, 40.0, 64.0, 34.0)  # left, right, below, above
+_LABEL = 12.0  # from the frame to a label, whose text stands that much below its point
+
+
+@dataclass(frozen=True)
+class Chart:
+    """A frame at `path` of `width` and `height`, with the values at its edges."""
+
+    path: str
+    width: float
+    height: float
+    x: tuple[float, float]
+    y: tuple[float, float]
+
+    def place(self, x: Array, y: Array) -> NDArray[np.float32]:
+        """Points (n, 2) in the plane, whose second axis runs down, cut off at the frame's edges."""
+        across = np.clip((x - self.x[0]) / (self.x[1] - self.x[0]), 0.0, 1.0)
+        up = np.clip((y - self.y[0]) / (self.y[1] - self.y[0]), 0.0, 1.0)
+        return np.column_stack((self.width * across, -self.height * up)).astype(np.float32)
+
+    def upright(self, x: float) -> NDArray[np.float32]:
+        """A line from bottom to top at `x`."""
+        return self.place(np.array([x, x]), np.array(self.y))
+
+    def level(self, y: float) -> NDArray[np.float32]:
+        """A line from left to right at `y`."""
+        return self.place(np.array(self.x), np.array([y, y]))
+
+
+@dataclass(frozen=True)
+class Ticks:
+    """Where an axis is marked, and with what."""
+
+    values: Sequence[float] | Array
+    texts: Sequence[str]
+
+
+def bounds(width: float, height: float) -> rrb.VisualBounds2D:
+    """What a view of a chart shows: the frame and the labels around it."""
+    left, right, below, above = _MARGINS
+    return rrb.VisualBounds2D(
+        x_range=rr.encodings.Range1D((-left, width + right)),
+        y_range=rr.encodings.Range1D((-height - above, below)),
+    )
+
+
+def grid(chart: Chart, x: Ticks, y: Ticks) -> list[NDArray[np.float32]]:
+    """The lines of the grid, and the frame last."""
+    box = np.array([(0, 0), (1, 0), (1, -1), (0, -1), (0, 0)]) * (chart.width, chart.height)
+    lines = [chart.upright(value) for value in x.values]
+    return [*lines, *(chart.level(value) for value in y.values), box.astype(np.float32)]
+
+
+def labels(chart: Chart, x: Ticks, y: Ticks) -> tuple[NDArray[np.float32], list[str]]:
+    """Places (n, 2) and texts of the marks on both axes."""
+    below = [(chart.upright(value)[0, 0], 0.4 * _LABEL) for value in x.values]
+    beside = [(-2.3 * _LABEL, chart.level(value)[0, 1] - _LABEL) for value in y.values]
+    return np.array([*below, *beside], dtype=np.float32), [*x.texts, *y.texts]
+
+
+def log_frame(stream: rr.RecordingStream, chart: Chart, x: Ticks, y: Ticks, name: str) -> None:
+    """Log frame, grid and marks for good, and the x axis' `name` below."""
+    lines = grid(chart, x, y)
+    colours = [GRID] * (len(lines) - 1) + [FRAME]
+    frame = rr.LineStrips2D(lines, colors=colours, radii=0.5, draw_order=-10.0)
+    stream.log(f"{chart.path}/frame", frame, static=True)
+    places, texts = labels(chart, x, y)
+    places = np.vstack((places, (0.5 * chart.width, 2.5 * _LABEL)))
+    stream.log(f"{chart.path}/marks", texts_at(places, [*texts, name]), static=True)
+
+
+def texts_at(places: NDArray[np.float32], texts: Sequence[str]) -> rr.Points2D:
+    """Texts at places (n, 2) in the plane."""
+    return rr.Points2D(places, labels=list(texts), colors=TEXT, radii=0.0, show_labels=True)
+
+
+def send_strips(
+    stream: rr.RecordingStream,
+    path: str,
+    index: list[rr.TimeColumn],
+    rows: Sequence[Sequence[NDArray[np.float32]]],
+    style: dict[str, Any],
+) -> None:
+    """Send line strips, those of each row at its instant; `style` as of `rr.LineStrips2D`."""
+    stream.log(path, rr.LineStrips2D.from_fields(**style), static=True)
+    strips = [strip for row in rows for strip in row]
+    columns = rr.LineStrips2D.columns(strips=strips).partition([len(row) for row in rows])
+    rr.send_columns(path, index, columns, recording=stream)
+
+
+def send_labels(
+    stream: rr.RecordingStream,
+    path: str,
+    index: list[rr.TimeColumn],
+    rows: Sequence[tuple[NDArray[np.float32], Sequence[str]]],
+) -> None:
+    """Send labels, those of each row (places (n, 2), texts) at its instant."""
+    stream.log(
+        path,
+        rr.Points2D.from_fields(colors=[TEXT], radii=[0.0], show_labels=True),
+        static=True,
+    )
+    places = np.concatenate([np.asarray(place).reshape(-1, 2) for place, _ in rows])
+    texts = [text for _, row in rows for text in row]
+    columns = rr.Points2D.columns(positions=places, labels=texts).partition(
+        [len(row) for _, row in rows]
+    )
+    rr.send_columns(path, index, columns, recording=stream)

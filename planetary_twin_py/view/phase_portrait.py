@@ -1,0 +1,91 @@
+"""Phase portrait of a mesh around the time cursor: DTE against its rate.
+
+Steady running is a loop that closes on itself; teeth that separate travel through the backlash,
+between the marks, at nearly constant rate.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import NamedTuple
+
+import numpy as np
+import rerun as rr
+from numpy.typing import NDArray
+from scipy.interpolate import CubicSpline
+
+from .chart import GRID, Chart, Ticks, grid, labels, send_labels, send_strips
+from .frames import Frames
+from .plots import mesh_colours
+from .round_numbers import ticks
+
+Array = NDArray[np.float64]
+WIDTH, HEIGHT = 420.0, 215.0
+WINDOW, CYCLES = 0.04, 4  # [s], or mesh cycles if slower
+FINER = 3  # points of the curve per sample, so that its turns are round
+MOST_POINTS = 6000
+_FLANK = (236, 176, 64)
+_MARGIN = 0.06  # of the range, around the curve
+
+
+class _Portrait(NamedTuple):
+    chart: Chart
+    curve: NDArray[np.float32]
+    flanks: list[NDArray[np.float32]]
+    x: Ticks
+    y: Ticks
+
+
+def log_phase_portrait(stream: rr.RecordingStream, frames: Frames) -> None:
+    """Log /phase_portrait, with axes that follow its size."""
+    point = frames.recording.operating_point
+    rows = np.searchsorted(point.time, frames.time, side="right") - 1
+    half = [0.5 * float(point["backlash"][row]) if row >= 0 else math.nan for row in rows]
+    found = [_portrait(frames, number, half[number]) for number in range(len(frames.time))]
+    index, colour = frames.index, mesh_colours(frames.recording.planets)[0]
+    send_strips(
+        stream, "phase_portrait/grid", index,
+        [grid(p.chart, p.x, p.y) if p else [] for p in found],
+        {"colors": [GRID], "radii": [0.5], "draw_order": -10.0},
+    )  # fmt: skip
+    send_strips(
+        stream, "phase_portrait/flanks", index, [p.flanks if p else [] for p in found],
+        {"colors": [_FLANK], "radii": [0.5], "draw_order": -5.0},
+    )  # fmt: skip
+    send_strips(
+        stream, "phase_portrait/curve", index, [[p.curve] if p else [] for p in found],
+        {"colors": [colour], "radii": [0.5]},
+    )  # fmt: skip
+    none = np.empty((0, 2), dtype=np.float32)
+    marks = [labels(p.chart, p.x, p.y) if p else (none, []) for p in found]
+    send_labels(stream, "phase_portrait/marks", index, marks)
+
+
+def _portrait(frames: Frames, number: int, half_backlash: float) -> _Portrait | None:
+    window = frames.window(number, frames.lasting(WINDOW, CYCLES))
+    if window is None:
+        return None
+    time, dte = window
+    spline = CubicSpline(time, dte)
+    fine = np.linspace(time[0], time[-1], min(FINER * len(time), MOST_POINTS))
+    x, y = 1e6 * spline(fine), 1e3 * spline(fine, 1)
+    chart = Chart("phase_portrait", WIDTH, HEIGHT, _range(x), _range(y))
+    flanks = [1e6 * side * half_backlash for side in (-1.0, 1.0)]
+    return _Portrait(
+        chart,
+        chart.place(x, y),
+        [chart.upright(at) for at in flanks if chart.x[0] < at < chart.x[1]],
+        _marks(chart.x),
+        _marks(chart.y),
+    )
+
+
+def _range(values: Array) -> tuple[float, float]:
+    low, high = float(values.min()), float(values.max())
+    margin = _MARGIN * (high - low) or 1e-6
+    return low - margin, high + margin
+
+
+def _marks(ends: tuple[float, float]) -> Ticks:
+    values = ticks(*ends, 5)
+    return Ticks(values, [f"{value:.6g}" for value in values])

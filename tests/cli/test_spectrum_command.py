@@ -1,0 +1,95 @@
+"""`planetary-twin spectrum` from the outside."""
+
+import json
+import subprocess
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+from PIL import Image
+from synthetic_recording import BLOCK, SAMPLE_PERIOD, write_recording
+from typer.testing import CliRunner
+
+from planetary_twin_py.analysis.signals import of_recording
+from planetary_twin_py.cli import build_app
+from planetary_twin_py.recording.reader import read_recording
+from planetary_twin_py.scene import load_scene
+
+RUN = [sys.executable, "-c", "from planetary_twin_py.cli import main; main()"]
+PAPER = Path(load_scene.__code__.co_filename).parent / "packaged" / "paper.yaml"
+
+
+def planetary_twin(*arguments):
+    return subprocess.run([*RUN, *map(str, arguments)], capture_output=True, text=True, timeout=120)
+
+
+@pytest.fixture(scope="module")
+def file(tmp_path_factory):
+    path = tmp_path_factory.mktemp("bag") / "one.mcap"
+    return write_recording(path, 1.0, scene_yaml=PAPER.read_text())
+
+
+@pytest.mark.parametrize(("options", "axis"), [([], "frequency_hz"), (["--order"], "order")])
+def test_lines_are_named_as_harmonics_of_the_meshing(file, options, axis):
+    """The synthetic DTE repeats with the meshing: 500 Hz at 1000 rpm, order 30 of the sun."""
+    done = planetary_twin("spectrum", file, *options, "--to", 0.24, "--json", "-")
+    assert done.returncode == 0, done.stderr
+    figures = json.loads(done.stdout)
+    first = {"frequency_hz": 500.0, "order": 30.0}[axis]
+    for line in figures["lines"]:
+        assert line["harmonic"] == round(line[axis] / first)
+        assert line[axis] == pytest.approx(line["harmonic"] * first, rel=2e-3)
+    assert "harmonic 1 of the meshing" in done.stderr
+
+
+def test_a_picture_and_a_table_are_written(file, tmp_path):
+    for name in ("a.png", "a.csv"):
+        done = planetary_twin(
+            "spectrum", file, "--mesh", "planet_ring_2", "--quantity", "mesh_force",
+            "--from", 0.3, "--out", tmp_path / name,
+        )  # fmt: skip
+        assert done.returncode == 0, done.stderr
+    assert Image.open(tmp_path / "a.png").size[0] == 800
+    table = np.genfromtxt(tmp_path / "a.csv", delimiter=",", names=True)
+    assert table.dtype.names == ("frequency_Hz", "amplitude_of_mesh_force_N")
+    assert table["amplitude_of_mesh_force_N"][0] == pytest.approx(63.0 / 0.0111772 / 3, rel=0.02)
+
+
+def test_samples_of_simulate_are_analysed_too(tmp_path):
+    npz = tmp_path / "run.npz"
+    planetary_twin("simulate", "paper", "--duration", 0.1, "--out", npz)
+    done = planetary_twin("spectrum", npz, "--order", "--from", 0.05, "--json", "-")
+    assert done.returncode == 0, done.stderr
+    line = json.loads(done.stdout)["lines"][0]
+    assert line["order"] == pytest.approx(30.0, abs=0.3)
+    assert line["harmonic"] is None
+
+
+def test_lost_blocks_leave_the_longest_stretch_and_are_told(file):
+    recording = read_recording(file)
+    wave = recording.waveform
+    lost = np.r_[0 : 20 * BLOCK, 25 * BLOCK : 70 * BLOCK]
+    wave.time, wave.dte = wave.time[lost], wave.dte[lost]
+    signal = of_recording(recording, "sun_planet_1", "dte").within(0.1, None)
+    assert len(signal.samples) == 45 * BLOCK
+    assert signal.sample_rate == pytest.approx(1.0 / SAMPLE_PERIOD)
+    assert "samples are missing" in signal.remarks[-1]
+
+
+def test_users_errors_are_one_line_each(file, tmp_path):
+    (tmp_path / "a.npz").write_bytes(b"PK\3\4nothing")
+    for arguments, reason in [
+        ([tmp_path / "missing"], "no such file"),
+        ([tmp_path / "missing.npz"], "no such file"),
+        ([tmp_path / "a.npz"], "no samples of `simulate`"),
+        ([file, "--mesh", "sun"], "mesh = 'sun': must be one of sun_planet_1"),
+        ([file, "--quantity", "noise"], "quantity = 'noise': must be one of dte"),
+        ([file, "--from", "7"], "from 7 to 1 s"),
+        ([file, "--out", "a.pdf"], "must end in .png or .csv"),
+        ([file, "--out", tmp_path / "no" / "a.csv"], "a.csv"),
+    ]:
+        done = CliRunner().invoke(build_app(), ["spectrum", *map(str, arguments)])
+        assert done.exit_code == 2
+        assert done.stderr.count("\n") == 1, done.stderr
+        assert reason in done.stderr

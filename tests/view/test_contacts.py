@@ -1,0 +1,130 @@
+"""Tooth pairs in contact stand where both flanks and the line of action meet."""
+
+import math
+
+import numpy as np
+import pytest
+from synthetic_recording import write_recording
+
+from planetary_twin_py.gearset.geometry import pitch_radius, planet_ring_path, sun_planet_path
+from planetary_twin_py.gearset.kinematics import speed_ratios
+from planetary_twin_py.gearset.mount import mount
+from planetary_twin_py.recording.reader import read_recording
+from planetary_twin_py.robot.parts import carrier_radius, gear_of
+from planetary_twin_py.scene import load_scene
+from planetary_twin_py.view.contacts import contacts, forces, newtons
+
+PAPER = load_scene("paper")
+FIVE = PAPER.replace(**{"gearset.planet_angles": tuple(2 * np.pi * k / 5 for k in range(5))})
+HELD_RING = load_scene("wind_turbine_stage")
+SUN_ANGLE = np.linspace(-0.7, 0.9, 301)  # against the carrier
+
+
+def off_flank(gear, angle, point):
+    """Distance [m] from points (n, p, 2) about the gear's centre to the nearest of its flanks.
+
+    Counted along the base circle, where flanks of one kind are a base pitch apart: that is their
+    distance along the normal. Both kinds of flank are given, (2, n, p).
+    """
+    radius = np.hypot(point[..., 0], point[..., 1])
+    local = np.arctan2(point[..., 1], point[..., 0]) - angle[:, None]
+    pitch = 2 * math.pi / gear.teeth
+    half = gear.half_thickness(radius)
+    away = [np.mod(local - side * half + 0.5 * pitch, pitch) - 0.5 * pitch for side in (1, -1)]
+    return np.abs(away) * gear.base_radius
+
+
+def gears_of_mesh(scene, mesh):
+    """First and second gear of a mesh: teeth, angle seen from the carrier, and centre."""
+    gearset = scene.gearset
+    ring, i = divmod(mesh, gearset.planets)
+    ratio = speed_ratios(gearset.tooth_numbers, "carrier", "sun")
+    stand = mount(gearset.tooth_numbers, gearset.planet_angles)
+    psi = gearset.planet_angles[i]
+    centre = carrier_radius(gearset) * np.array([math.cos(psi), math.sin(psi)])
+    turned = {name: float(ratio[name]) * SUN_ANGLE for name in ("sun", "planet", "ring")}
+    sun = gear_of(gearset, gearset.teeth.sun), stand.sun + turned["sun"], np.zeros(2)
+    planet = gear_of(gearset, gearset.teeth.planet), stand.planets[i] + turned["planet"], centre
+    annulus = (
+        gear_of(gearset, gearset.teeth.ring, True), stand.ring + turned["ring"], np.zeros(2)
+    )  # fmt: skip
+    return (planet, annulus) if ring else (sun, planet)
+
+
+@pytest.mark.parametrize("scene", [PAPER, FIVE, HELD_RING], ids=["paper", "five", "turbine"])
+@pytest.mark.parametrize("flank", [1.0, -1.0], ids=["drive", "coast"])
+def test_contacts_lie_on_the_flanks_of_both_gears_that_push_each_other(scene, flank):
+    """Sun and planet turn in opposite senses: both touch with flanks that face the same one."""
+    for mesh in range(2 * scene.gearset.planets):
+        found = contacts(scene, mesh, SUN_ANGLE, np.full(len(SUN_ANGLE), 1000.0 * flank))
+        there = found.load > 0.0
+        facing = (-flank, flank) if mesh >= scene.gearset.planets else (flank, flank)
+        for (gear, angle, centre), side in zip(gears_of_mesh(scene, mesh), facing, strict=True):
+            counter_clockwise, clockwise = off_flank(gear, angle, found.point - centre)
+            own, other = counter_clockwise, clockwise
+            if side < 0:
+                own, other = other, own
+            assert own[there].max() < 1e-9
+            assert other[there].min() > 0.2 * gear.module
+
+
+@pytest.mark.parametrize("flank", [1.0, -1.0], ids=["drive", "coast"])
+def test_contacts_lie_on_the_line_of_action_within_the_path_of_contact(flank):
+    """It touches both base circles, so the push acts on each gear with its base radius as lever."""
+    gearset = PAPER.gearset
+    for mesh, path in ((1, sun_planet_path), (4, planet_ring_path)):
+        reach = path(gearset.tooth_numbers, gearset.pressure_angle, gearset.addendum)
+        found = contacts(PAPER, mesh, SUN_ANGLE, np.full(len(SUN_ANGLE), flank))
+        there = found.load > 0.0
+        for gear, _, centre in gears_of_mesh(PAPER, mesh):
+            arm, push = (found.point - centre)[there], found.push[there]
+            lever = arm[:, 0] * push[:, 1] - arm[:, 1] * push[:, 0]
+            assert np.allclose(np.abs(lever), gear.base_radius, atol=1e-12)
+        assert np.allclose(np.hypot(*found.push[there].T), 1.0)
+        centre = gears_of_mesh(PAPER, mesh)[0][2]
+        psi = gearset.planet_angles[1]
+        teeth = gearset.teeth.ring if mesh == 4 else gearset.teeth.sun
+        pitch_point = pitch_radius(teeth, gearset.module) * np.array([np.cos(psi), np.sin(psi)])
+        past = np.einsum("ij,ij->i", found.point[there] - pitch_point, found.push[there])
+        pitch = np.pi * gearset.module * np.cos(gearset.pressure_angle)
+        assert past.min() == pytest.approx(-reach.approach * pitch, abs=0.02 * pitch)
+        assert past.max() == pytest.approx(reach.recess * pitch, abs=0.02 * pitch)
+
+
+def test_pairs_share_the_whole_force_and_an_open_mesh_has_none():
+    force = np.where(SUN_ANGLE < 0.2, 1500.0, 0.0)
+    found = contacts(PAPER, 0, SUN_ANGLE, force)
+    assert np.allclose(found.load.sum(axis=1), force)
+    pairs = (found.load > 0).sum(axis=1)
+    assert set(pairs[force > 0]) == {1, 2}
+    reach = sun_planet_path(PAPER.gearset.tooth_numbers, PAPER.gearset.pressure_angle, 1.0)
+    assert pairs[force > 0].mean() == pytest.approx(reach.contact_ratio, abs=0.05)
+
+
+def test_load_torque_follows_from_the_pushes_on_the_sun():
+    """The moment of all pushes about the sun's axis is that of the forces on its base circle."""
+    force = np.full(len(SUN_ANGLE), 1000.0)
+    moment = 0.0
+    for mesh in range(3):
+        found = contacts(PAPER, mesh, SUN_ANGLE, force)
+        lever = found.point[..., 0] * found.push[..., 1] - found.point[..., 1] * found.push[..., 0]
+        moment += (found.load * lever).sum(axis=1)
+    base = gear_of(PAPER.gearset, 30).base_radius
+    assert np.allclose(moment, 3 * 1000.0 * base)
+
+
+def test_forces_are_samples_of_the_waveform_and_means_where_it_has_a_gap(tmp_path):
+    recording = read_recording(write_recording(tmp_path / "a.mcap", 0.05))
+    wave = recording.waveform
+    wave.mesh_force[:] = -7.0
+    kept = (wave.time < 0.02) | (wave.time > 0.03)
+    wave.time, wave.mesh_force = wave.time[kept], wave.mesh_force[kept]
+    found = forces(recording, np.array([0.0101, 0.0255, 0.04]))
+    assert np.all(found[[0, 2]] == -7.0)
+    assert np.array_equal(found[1], recording.per_mesh("mesh_force_mean")[2])
+    recording.waveform = None
+    assert np.all(forces(recording, np.array([0.01, 0.04])) > 0.0)
+
+
+def test_loads_are_written_as_people_write_them():
+    assert [newtons(f) for f in (900.0, 2e3, 3e4, 1e6)] == ["900 N", "2 kN", "30 kN", "1 MN"]

@@ -1,0 +1,144 @@
+"""What is seen of windows of the DTE: spectrum, order map and phase portrait."""
+
+import subprocess
+import time
+from pathlib import Path
+
+import numpy as np
+import pytest
+import rerun as rr
+import rerun_cli
+from synthetic_recording import BLOCK, write_recording
+
+from planetary_twin_py.recording.reader import read_recording
+from planetary_twin_py.scene import load_scene
+from planetary_twin_py.view.chart import Chart
+from planetary_twin_py.view.colour_map import shade
+from planetary_twin_py.view.frames import MOST, frames
+from planetary_twin_py.view.phase_portrait import log_phase_portrait
+from planetary_twin_py.view.round_numbers import one_digit, round_up, ticks
+from planetary_twin_py.view.show import save
+from planetary_twin_py.view.spectra import HEIGHT, _orders, _spectrum, log_spectra
+
+RERUN = Path(rerun_cli.__file__).parent / "rerun"
+
+
+@pytest.fixture
+def recording(tmp_path):
+    return read_recording(write_recording(tmp_path / "a.mcap", 1.0))
+
+
+def test_the_file_holds_spectrum_order_map_and_phase_portrait(recording, tmp_path):
+    assert save(recording, load_scene("paper"), tmp_path / "a.rrd") == []
+    printed = subprocess.run(
+        [RERUN, "rrd", "print", tmp_path / "a.rrd"], capture_output=True, text=True, check=True
+    ).stdout
+    for entity in (
+        "/spectrum/dte",
+        "/spectrum/mesh_harmonics",
+        "/order_map/image",
+        "/order_map/cursor",
+        "/phase_portrait/curve",
+        "/phase_portrait/marks",
+    ):
+        assert entity in printed
+
+
+def test_the_spectrum_at_an_instant_has_the_lines_of_that_instant(recording):
+    """500 Hz at 1000 rpm; from 0.75 s on 1000 Hz at 2000 rpm."""
+    windows = frames(recording)
+    for at, mesh in ((0.1, 500.0), (0.9, 1000.0)):
+        frequency, amplitude = _spectrum(windows, int(np.abs(windows.time - at).argmin()))
+        assert frequency[1 + amplitude[1:].argmax()] == pytest.approx(mesh, abs=5.0)
+
+
+def test_the_order_map_keeps_the_meshing_at_its_order_at_any_speed(recording):
+    windows, reach = frames(recording), 8.5 * 30
+    for at in (0.1, 0.9):
+        levels = _orders(windows, int(np.abs(windows.time - at).argmin()), reach)
+        assert levels.argmax() == pytest.approx(30 / reach * HEIGHT, abs=1.0)
+
+
+def test_near_a_gap_windows_move_aside_and_none_spans_it(recording):
+    wave = recording.waveform
+    kept = np.r_[0 : 45 * BLOCK, 55 * BLOCK : 58 * BLOCK, 60 * BLOCK : 100 * BLOCK]
+    wave.time, wave.stamp, wave.dte = wave.time[kept], wave.stamp[kept], wave.dte[kept]
+    windows = frames(recording)
+    for number, now in enumerate(windows.time):
+        found = windows.window(number, 0.2)
+        if 0.4501 < now < 0.599:
+            assert found is None
+        else:
+            moments, dte = found
+            assert moments[-1] - moments[0] == pytest.approx(0.2, abs=4e-5)
+            assert np.diff(moments).max() < 2.1e-5
+            assert moments[0] - 2.1e-5 < now < moments[-1] + 2.1e-5
+            assert np.isfinite(dte).all()
+
+
+def test_windows_of_slow_gears_last_as_many_mesh_cycles_as_there_are_samples_for(recording):
+    windows = frames(recording)
+    assert windows.lasting(0.2, 64) == 0.2
+    recording.state["mesh_frequency"][:] = 100.0
+    assert windows.lasting(0.2, 64) == pytest.approx(0.64)
+    assert windows.lasting(0.2, 640) == pytest.approx(1.0, abs=1e-4)
+    recording.state["mesh_frequency"][:] = np.nan
+    assert windows.lasting(0.2, 64) == 0.2
+
+
+def test_thinned_samples_are_told(recording):
+    assert frames(recording).remark is None
+    wave = recording.waveform
+    kept = np.r_[0 : 50 * BLOCK, 50 * BLOCK : 100 * BLOCK : 8]
+    wave.time, wave.stamp, wave.dte = wave.time[kept], wave.stamp[kept], wave.dte[kept]
+    assert "some samples come at 6250 in place of 50000 Hz" in frames(recording).remark
+
+
+def test_without_samples_there_is_nothing_to_show(recording):
+    recording.waveform = None
+    assert frames(recording) is None
+
+
+def test_long_recordings_take_no_more_windows_than_half_a_minute_and_few_seconds(
+    recording, tmp_path
+):
+    wave, times = recording.waveform, 100
+    wave.time = np.arange(len(wave.time) * times) * 2e-5
+    wave.stamp = np.arange(len(wave.time)) * 20_000 + wave.stamp[0]
+    wave.dte = np.tile(wave.dte[:, :1], (times, 1))
+    state = recording.state
+    state.time = np.linspace(0.01, 100.0, len(state.time))
+    windows = frames(recording)
+    assert len(windows.time) == MOST
+    stream = rr.RecordingStream("planetary_twin")
+    stream.save(tmp_path / "a.rrd")
+    began = time.process_time()
+    log_spectra(stream, windows, load_scene("paper").gearset)
+    log_phase_portrait(stream, windows)
+    stream.flush()
+    stream.disconnect()
+    assert time.process_time() - began < 15.0
+    assert (tmp_path / "a.rrd").stat().st_size < 40e6
+
+
+def test_a_chart_puts_values_where_its_axes_say_and_cuts_at_its_frame():
+    chart = Chart("a", 200.0, 100.0, (0.0, 4.0), (-1.0, 1.0))
+    places = chart.place(np.array([0.0, 1.0, 9.0]), np.array([-1.0, 0.0, 9.0]))
+    assert places.tolist() == [[0.0, 0.0], [50.0, -50.0], [200.0, -100.0]]
+
+
+def test_scales_end_and_step_at_round_numbers():
+    assert [round_up(v) for v in (0.9, 1.0, 1.1, 3.0, 6e-5)] == pytest.approx([1, 1, 2, 5, 1e-4])
+    assert [one_digit(v) for v in (1.2, 2.0, 870.0)] == [2.0, 2.0, 900.0]
+    assert ticks(-0.13, 0.21, 5).tolist() == pytest.approx([-0.1, 0.0, 0.1, 0.2])
+
+
+def test_the_colour_map_brightens_in_even_steps():
+    colours = shade(np.linspace(0.0, 1.0, 33)).astype(float) / 255.0
+    linear = np.where(colours <= 0.04045, colours / 12.92, ((colours + 0.055) / 1.055) ** 2.4)
+    luminance = linear @ (0.2126, 0.7152, 0.0722)
+    lightness = 116.0 * np.cbrt(np.maximum(luminance, 0.008856)) - 16.0  # CIE 1976
+    assert lightness[-1] - lightness[0] > 75.0
+    assert np.all(np.diff(lightness) > 0.5)
+    assert np.diff(lightness).max() < 2.0 * np.diff(lightness)[1:].mean()
+    assert shade(np.array([-1.0, 2.0])).tolist() == shade(np.array([0.0, 1.0])).tolist()
