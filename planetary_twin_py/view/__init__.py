@@ -1,6 +1,7 @@
-"""Looking at a recording in Rerun; `show.save` puts together what the other files make.
+"""Looking at recordings in Rerun; `show.save` puts together what the other files make.
 
 gears (with motion: solids that turn), plots, waveform and events (curves and changes), quantities
-(titles and units), timeline (simulated and ROS time), blueprint (layout), viewer (the window) and
-screenshot (a picture without a display).
+(titles and units), timeline (simulated and ROS time), layer and overlay (several recordings over
+one another), blueprint (layout), viewer (the window and the page) and screenshot (a picture without
+a display).
 """

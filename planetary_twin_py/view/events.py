@@ -7,20 +7,21 @@ import rerun as rr
 
 from ..recording.reader import Recording
 from . import timeline
+from .layer import Layer
 from .quantities import OPERATING_POINT
 
 _COLOUR = (120, 196, 140)
 
 
-def log_events(stream: rr.RecordingStream, recording: Recording) -> None:
+def log_events(layer: Layer, recording: Recording) -> None:
     """Log each change at /changes, and every set-point as steps at /operating_point/NAME."""
     point = recording.operating_point
     if not len(point):
         return
-    text = [sentence(recording, row) for row in range(len(point))]
+    text = [layer.label(sentence(recording, row)) for row in range(len(point))]
     index = timeline.columns(point.time, point.stamp)
     level = ["INFO"] * len(text)
-    rr.send_columns("changes", index, rr.TextLog.columns(text=text, level=level), recording=stream)
+    layer.send_columns("changes", index, rr.TextLog.columns(text=text, level=level))
     # The last values hold to the end of the recording.
     last = len(recording.state) - 1
     index = timeline.columns(
@@ -28,13 +29,10 @@ def log_events(stream: rr.RecordingStream, recording: Recording) -> None:
         np.append(point.stamp, recording.state.stamp[last]),
     )
     for name, quantity in OPERATING_POINT.items():
-        style = rr.SeriesLines(
-            names=[name], colors=[_COLOUR], widths=2.0, interpolation_mode="StepAfter"
-        )
-        stream.log(f"operating_point/{name}", style, static=True)
+        style = layer.lines([name], [_COLOUR], steps=True)
+        layer.log(f"operating_point/{name}", style, static=True)
         values = quantity.factor * np.append(point[name], point[name][-1])
-        columns = rr.Scalars.columns(scalars=values)
-        rr.send_columns(f"operating_point/{name}", index, columns, recording=stream)
+        layer.send_columns(f"operating_point/{name}", index, rr.Scalars.columns(scalars=values))
 
 
 def sentence(recording: Recording, row: int) -> str:

@@ -7,14 +7,26 @@ wrapper that leaves the viewer running when it is stopped: so the viewer itself 
 from __future__ import annotations
 
 import os
+import signal
 import socket
 import subprocess
 import sys
-from collections.abc import Sequence
+import tempfile
+import time
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager, suppress
+from dataclasses import dataclass
 from pathlib import Path
 from typing import IO
+from urllib.parse import quote
 
 import rerun_cli
+
+_PATIENCE = 20.0  # [s] longest wait for the page and the data to be served
+
+
+class ViewerError(RuntimeError):
+    """The viewer does not do what it is for; the message says why in one line."""
 
 
 def has_display() -> bool:
@@ -24,13 +36,75 @@ def has_display() -> bool:
     return bool(os.environ.get("DISPLAY") or os.environ.get("WAYLAND_DISPLAY"))
 
 
-def show(rrd: Path) -> int:
-    """Show `rrd` in a window and wait until it is closed; returns the viewer's exit code."""
-    viewer = start_viewer(free_port(), [str(rrd)])
+@dataclass(frozen=True)
+class Viewer:
+    """A viewer that runs: what it takes data from, and the page it shows in a browser if any."""
+
+    process: subprocess.Popen[bytes]
+    data: int
+    """Port to log to."""
+    page: int | None = None
+    """Port of the page."""
+
+    @property
+    def url(self) -> str:
+        """Where to log to."""
+        return f"rerun+http://127.0.0.1:{self.data}/proxy"
+
+    @property
+    def address(self) -> str:
+        """What to open in a browser."""
+        return f"http://127.0.0.1:{self.page}/?url={quote(self.url, safe='')}"
+
+
+@contextmanager
+def window(*arguments: str) -> Iterator[Viewer]:
+    """A viewer in a window of its own, ended at the end of the context."""
+    with _started(Viewer(start_viewer(port := free_port(), arguments), port)) as viewer:
+        yield viewer
+
+
+@contextmanager
+def page(port: int | None, *arguments: str) -> Iterator[Viewer]:
+    """A viewer in a browser: the page on `port`, the data on the next; None: on free ones.
+
+    Raises:
+        ViewerError: a port is taken, or what the viewer says.
+    """
+    shown, data = (free_port(), free_port()) if port is None else (port, port + 1)
+    for taken in (shown, data):
+        if _answers(taken):
+            raise ViewerError(f"port = {taken}: is taken; the page needs one and the one after it")
+    options = ["--serve-web", "--web-viewer-port", str(shown), *arguments]
+    with (
+        tempfile.TemporaryFile() as output,
+        _started(Viewer(start_viewer(data, options, output), data, shown)) as viewer,
+    ):
+        deadline = time.monotonic() + _PATIENCE
+        while not (_answers(shown) and _answers(data)):
+            if time.monotonic() > deadline or viewer.process.poll() is not None:
+                raise ViewerError(f"the page cannot be served: {last_words(output)}")
+            time.sleep(0.1)
+        yield viewer
+
+
+@contextmanager
+def _started(viewer: Viewer) -> Iterator[Viewer]:
     try:
-        return viewer.wait()
+        yield viewer
     finally:
-        stop_viewer(viewer)
+        stop_viewer(viewer.process)
+
+
+@contextmanager
+def until_interrupted() -> Iterator[None]:
+    """Leave the context at Ctrl-C or SIGTERM, as if it had come to its end."""
+    before = signal.signal(signal.SIGTERM, signal.default_int_handler)
+    try:
+        with suppress(KeyboardInterrupt):
+            yield
+    finally:
+        signal.signal(signal.SIGTERM, before)
 
 
 def start_viewer(
@@ -59,3 +133,16 @@ def free_port() -> int:
     with socket.socket() as probe:
         probe.bind(("127.0.0.1", 0))
         return int(probe.getsockname()[1])
+
+
+def last_words(output: IO[bytes]) -> str:
+    """The last line that the viewer printed."""
+    output.seek(0)
+    lines = [line for line in output.read().decode(errors="replace").splitlines() if line.strip()]
+    return lines[-1] if lines else "it printed nothing"
+
+
+def _answers(port: int) -> bool:
+    """Whether something listens on a port of the loopback interface."""
+    with socket.socket() as probe:
+        return probe.connect_ex(("127.0.0.1", port)) == 0
