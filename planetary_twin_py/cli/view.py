@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import tempfile
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
@@ -11,6 +12,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from ._fail import fail, remark
+from ._live import look_at_twin, tell
 
 if TYPE_CHECKING:
     from ..recording.reader import Recording
@@ -19,13 +21,13 @@ if TYPE_CHECKING:
 
 def view(
     files: Annotated[
-        list[Path],
+        list[Path] | None,
         typer.Argument(
-            metavar="FILE...",
-            help="Recordings, each an .mcap file or the folder of one; more than one lie over "
-            "one another.",
+            metavar="[FILE]...",
+            help="Recordings, each an .mcap file or the folder of one: several lie over one "
+            "another. Without: the twin that runs.",
         ),
-    ],
+    ] = None,
     save: Annotated[Path | None, typer.Option(help="Write a Rerun file (.rrd) instead.")] = None,
     screenshot: Annotated[
         Path | None, typer.Option(help="Write a picture (.png) instead; needs no display.")
@@ -36,19 +38,25 @@ def view(
     serve: Annotated[
         bool, typer.Option("--serve", help="Show it in a browser instead, until Ctrl-C.")
     ] = False,
-    port: Annotated[
-        int | None,
-        typer.Option(help="Of the page; its data are on the next. Without: free ones.", min=1024),
-    ] = None,
     scene: Annotated[
         str | None, typer.Option(help="Scene to draw, in place of the one in the recording.")
     ] = None,
     namespace: Annotated[
-        str | None, typer.Option(help="Which gearbox, if a recording holds several.")
+        str | None, typer.Option(help="Which gearbox, where there are several.")
+    ] = None,
+    duration: Annotated[
+        float | None, typer.Option(help="Seconds to watch a twin that runs.", min=0.1)
     ] = None,
 ) -> None:
-    """Open recordings in Rerun: gears in 3-D, plots, one time cursor."""
+    """Open recordings, or a running twin, in Rerun: gears in 3-D, plots, one time cursor."""
     with _one_line_errors():
+        if not files:
+            if screenshot is not None:
+                fail("screenshot: is of a recording; name one")
+            look_at_twin(namespace, scene, save, serve, duration)
+            return
+        if duration is not None:
+            fail("duration: is of a twin that runs, not of a recording")
         shown = [_read(file, namespace) for file in files]
         drawn = _scene(shown[0], scene)
         if save is not None:
@@ -56,13 +64,14 @@ def view(
         if screenshot is not None:
             _picture(shown, drawn, screenshot, at)
         if serve:
-            _serve(shown, drawn, port)
+            _serve(shown, drawn)
         elif save is None and screenshot is None:
             _window(shown, drawn)
 
 
 @contextmanager
 def _one_line_errors() -> Iterator[None]:
+    os.environ.setdefault("RUST_LOG", "off")  # what goes wrong is raised, too, and told once
     try:
         import rerun  # noqa: F401
     except ImportError:
@@ -136,15 +145,15 @@ def _window(shown: Sequence[Recording], scene: Scene | None) -> None:
             fail(f"the viewer ended with exit code {code}")
 
 
-def _serve(shown: Sequence[Recording], scene: Scene | None, port: int | None) -> None:
+def _serve(shown: Sequence[Recording], scene: Scene | None) -> None:
     from ..view import viewer
 
     with (
         _written(shown, scene) as rrd,
         viewer.until_interrupted(),
-        viewer.page(port, str(rrd), "--server-memory-limit", "50%") as page,
+        viewer.page(str(rrd), "--server-memory-limit", "50%") as page,
     ):
-        typer.echo(f"{page.address}\non this machine only; Ctrl-C ends it")
+        tell(page)
         if code := page.process.wait():
             fail(f"the viewer ended with exit code {code}")
 

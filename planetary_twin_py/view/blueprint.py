@@ -25,6 +25,7 @@ class Mode(NamedTuple):
 
 
 FILE, PICTURE = Mode("paused", "expanded"), Mode("paused", "hidden")
+LIVE = Mode("following", "expanded")
 
 
 def blueprint(

@@ -39,24 +39,37 @@ MILLIMETRES = 1e3
 MARK = (250, 250, 250)  # of tooth 0, so that slow turning shows
 
 
-def log_gears(layer: Layer, gearset: Gearset, motion: Motion) -> None:
-    """Log the gearset's solids once and their rotations over time."""
-    stand = mount(gearset.tooth_numbers, gearset.planet_angles)
-    teeth, carrier = gearset.teeth, motion.angle["carrier"]
+def log_gears(layer: Layer, gearset: Gearset) -> None:
+    """Log the gearset's solids."""
+    teeth = gearset.teeth
     _solid(layer, "gears/sun", sun(gearset), SUN, gear_of(gearset, teeth.sun))
-    _turn(layer, "gears/sun", motion, stand.sun + motion.angle["sun"])
     _solid(layer, "gears/ring", ring(gearset), RING, gear_of(gearset, teeth.ring, True))
-    _turn(layer, "gears/ring", motion, stand.ring + motion.angle["ring"])
     _solid(layer, "gears/carrier", spider(gearset), CARRIER)
-    _turn(layer, "gears/carrier", motion, carrier)
     for i, psi in enumerate(gearset.planet_angles):
-        at, name = f"gears/carrier/pin_{i + 1}", f"planet_{i + 1}"
         radius = MILLIMETRES * carrier_radius(gearset)
         centre = rr.Transform3D(translation=[radius * math.cos(psi), radius * math.sin(psi), 0.0])
-        layer.log(at, centre, static=True)
-        _solid(layer, at, pin(gearset), PIN)
-        _solid(layer, f"{at}/{name}", planet(gearset), PLANET, gear_of(gearset, teeth.planet))
-        _turn(layer, f"{at}/{name}", motion, stand.planets[i] + motion.angle[name] - carrier)
+        layer.log(_pin(i), centre, static=True)
+        _solid(layer, _pin(i), pin(gearset), PIN)
+        _solid(layer, _planet(i), planet(gearset), PLANET, gear_of(gearset, teeth.planet))
+
+
+def log_motion(layer: Layer, gearset: Gearset, motion: Motion) -> None:
+    """Log how the solids turn."""
+    stand = mount(gearset.tooth_numbers, gearset.planet_angles)
+    carrier = motion.angle["carrier"]
+    _turn(layer, "gears/sun", motion, stand.sun + motion.angle["sun"])
+    _turn(layer, "gears/ring", motion, stand.ring + motion.angle["ring"])
+    _turn(layer, "gears/carrier", motion, carrier)
+    for i, angle in enumerate(stand.planets):
+        _turn(layer, _planet(i), motion, angle + motion.angle[f"planet_{i + 1}"] - carrier)
+
+
+def _pin(i: int) -> str:
+    return f"gears/carrier/pin_{i + 1}"
+
+
+def _planet(i: int) -> str:
+    return f"{_pin(i)}/planet_{i + 1}"
 
 
 def _solid(

@@ -41,8 +41,9 @@ class Layer:
     def send_columns(
         self, path: str, index: list[rr.TimeColumn], columns: Iterable[ComponentColumn]
     ) -> None:
-        """Log columns at `path`."""
-        self.stream.send_columns(self._place(path), index, columns)
+        """Log columns at `path`, if they have rows: the viewer fails on a time without any."""
+        if len(index[0].as_arrow_array()):
+            self.stream.send_columns(self._place(path), index, columns)
 
     def label(self, text: str) -> str:
         """`text` after the recording's name, where there are several."""

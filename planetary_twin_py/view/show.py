@@ -13,7 +13,7 @@ from ..recording.records import RecordingError
 from ..scene import Scene, SceneError, parse_scene
 from .blueprint import FILE, Mode, blueprint
 from .events import log_events
-from .gears import log_gears
+from .gears import log_gears, log_motion
 from .layer import Layer
 from .motion import motion
 from .overlay import DIFFERENCE, difference, names_of
@@ -47,17 +47,14 @@ def save(
     """
     check_scene(scene, recording)
     names = names_of([recording, *others])
-    stream = rr.RecordingStream(APPLICATION)
-    try:
-        stream.save(rrd)
-    except RuntimeError as error:
-        raise RecordingError(f"{rrd}: cannot be written: {error}") from None
+    stream = to_file(rrd)
     stream.send_recording_name(", ".join(name for name in names if name) or recording.path.stem)
     compared = names[0] if others else None
     send_layout(stream, scene, mode, compared)
     layers = [Layer(stream, name, order) for order, name in enumerate(names)]
     if scene is not None:
-        log_gears(layers[0], scene.gearset, motion(recording))
+        log_gears(layers[0], scene.gearset)
+        log_motion(layers[0], scene.gearset, motion(recording))
     remarks = []
     for layer, shown in zip(layers, (recording, *others), strict=True):
         remarks += log_curves(layer, shown)
@@ -66,6 +63,23 @@ def save(
     stream.flush()
     stream.disconnect()
     return remarks
+
+
+def to_file(rrd: Path) -> rr.RecordingStream:
+    """A stream into a Rerun file."""
+    stream = rr.RecordingStream(APPLICATION)
+    try:
+        stream.save(rrd)
+    except RuntimeError as error:
+        raise RecordingError(f"{rrd}: cannot be written: {error}") from None
+    return stream
+
+
+def to_viewer(url: str) -> rr.RecordingStream:
+    """A stream to a viewer that runs."""
+    stream = rr.RecordingStream(APPLICATION)
+    stream.connect_grpc(url)
+    return stream
 
 
 def check_scene(scene: Scene | None, recording: Recording) -> None:

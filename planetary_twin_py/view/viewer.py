@@ -22,6 +22,8 @@ from urllib.parse import quote
 
 import rerun_cli
 
+_PORTS = (9090, 9091)  # of the page and of its data, for those who forward them
+_ENDING = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
 _PATIENCE = 20.0  # [s] longest wait for the page and the data to be served
 
 
@@ -65,16 +67,13 @@ def window(*arguments: str) -> Iterator[Viewer]:
 
 
 @contextmanager
-def page(port: int | None, *arguments: str) -> Iterator[Viewer]:
-    """A viewer in a browser: the page on `port`, the data on the next; None: on free ones.
+def page(*arguments: str) -> Iterator[Viewer]:
+    """A viewer in a browser, on ports that stay the same as long as they are free.
 
     Raises:
-        ViewerError: a port is taken, or what the viewer says.
+        ViewerError: what the viewer says where it cannot be.
     """
-    shown, data = (free_port(), free_port()) if port is None else (port, port + 1)
-    for taken in (shown, data):
-        if _answers(taken):
-            raise ViewerError(f"port = {taken}: is taken; the page needs one and the one after it")
+    shown, data = (free_port() if _answers(port) else port for port in _PORTS)
     options = ["--serve-web", "--web-viewer-port", str(shown), *arguments]
     with (
         tempfile.TemporaryFile() as output,
@@ -98,13 +97,14 @@ def _started(viewer: Viewer) -> Iterator[Viewer]:
 
 @contextmanager
 def until_interrupted() -> Iterator[None]:
-    """Leave the context at Ctrl-C or SIGTERM, as if it had come to its end."""
-    before = signal.signal(signal.SIGTERM, signal.default_int_handler)
+    """Leave the context at Ctrl-C, SIGTERM or SIGHUP, as if it had come to its end."""
+    before = {number: signal.signal(number, signal.default_int_handler) for number in _ENDING}
     try:
         with suppress(KeyboardInterrupt):
             yield
     finally:
-        signal.signal(signal.SIGTERM, before)
+        for number, handler in before.items():
+            signal.signal(number, handler)
 
 
 def start_viewer(
@@ -115,7 +115,10 @@ def start_viewer(
     command = [str(binary), "--bind", "127.0.0.1", "--port", str(port), *arguments]
     # A viewer only, without a first-time greeting, and without a line for each thing it does.
     environment = {"RUST_LOG": "error", **os.environ, "RERUN_APP_ONLY": "true"}
-    return subprocess.Popen(command, stdout=output, stderr=output, env=environment)
+    # In a session of its own: Ctrl-C reaches only who started it, who ends it in order.
+    return subprocess.Popen(
+        command, stdout=output, stderr=output, env=environment, start_new_session=True
+    )
 
 
 def stop_viewer(viewer: subprocess.Popen[bytes]) -> None:
