@@ -8,8 +8,9 @@ from pathlib import Path
 
 import numpy as np
 from planetary_twin_msgs.msg import GearboxState, OperatingPoint
-from rerun.chunk import RrdReader
+from rerun.chunk import McapReader, RrdReader
 
+from .conftest import Start
 from .peer import TWIN, Peer
 
 COMMAND = [sys.executable, "-c", "from planetary_twin_py.cli import main; main()", "view"]
@@ -49,3 +50,26 @@ def test_a_running_twin_is_drawn_and_where_there_is_none_one_line_says_so(
         "or name a recording\n"
     )
     assert not (tmp_path / "nobody.rrd").exists()
+
+
+def test_rerun_itself_finds_gears_that_turn_and_named_joints_in_the_file(
+    peer: Peer, start: Start, tmp_path: Path
+) -> None:
+    logger = start("planetary_twin.logger", "--ros-args", "-p", "name:=bag")
+    start("planetary_twin.simulation")
+    states = peer.listen(GearboxState, f"{TWIN}/gearbox_state")
+    peer.until(lambda: len(states) > 100, 120.0)
+    logger.terminate()
+    peer.until(lambda: logger.poll() is not None)
+    solids, names, turning = set(), [], 0
+    for chunk in McapReader(tmp_path / "recordings/bag/bag_0.mcap").stream():
+        columns = chunk.to_record_batch()
+        if "Asset3D:blob" in columns.schema.names:
+            solids.add(chunk.entity_path.split("/")[-2])
+        if "SeriesLines:names" in columns.schema.names:
+            names += columns.column("SeriesLines:names").to_pylist()[0]
+        if chunk.entity_path == "/tf" and "Transform3D:quaternion" in columns.schema.names:
+            turning += chunk.num_rows
+    assert {"sun", "planet_3", "ring", "carrier"} <= solids
+    assert {"sun_joint", "planet_3_joint"} <= set(names)
+    assert turning > 100
