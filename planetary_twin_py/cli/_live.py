@@ -6,6 +6,7 @@ What hears the twin needs ROS: it comes with the ROS package, through an entry p
 from __future__ import annotations
 
 import itertools
+import os
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from importlib.metadata import entry_points
@@ -23,6 +24,7 @@ if TYPE_CHECKING:
 
 _GROUP = "planetary_twin.live"
 _NAMESPACE = "/planetary_twin"
+_YIELDING = 10  # niceness: where the processor is short, the twin goes first
 _MEMORY = "1GB"  # of what is shown; where it is full, the oldest goes
 
 Begin = Callable[[], "rr.RecordingStream"]
@@ -42,6 +44,7 @@ def look_at_twin(
         fail("a running twin is heard by the nodes' package, which is not installed")
     chosen = None if scene is None else load_scene(scene)
     namespace = namespace or _NAMESPACE
+    os.nice(_YIELDING)  # also what is started here
     with until_interrupted(), _looked_at(save, serve) as (begin, closed):
         view = LiveView(namespace, begin, chosen)
         try:
