@@ -2,6 +2,6 @@
 
 gears (with motion: solids that turn), plots, waveform and events (curves and changes), quantities
 (titles and units), timeline (simulated and ROS time), layer and overlay (several recordings over
-one another), blueprint (layout), viewer (the window and the page) and screenshot (a picture without
-a display).
+one another), live (a running twin), blueprint (layout), viewer (the window and the page) and
+screenshot (a picture without a display).
 """
