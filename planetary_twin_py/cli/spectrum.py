@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from ._fail import fail, need_plots, remark
+from ._fail import fail, need, remark
 
 if TYPE_CHECKING:
     from rich.console import Console
@@ -45,7 +45,7 @@ def spectrum(
     if out is not None and out.suffix not in (".png", ".csv"):
         fail(f"--out = {str(out)!r}: must end in .png or .csv")
     if out is not None and out.suffix == ".png":
-        need_plots()
+        need("plots", "matplotlib")
     from rich.console import Console
 
     from ..analysis.mesh_spectrum import frequency_spectrum_of, order_spectrum_of

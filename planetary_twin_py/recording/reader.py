@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from dataclasses import dataclass, field, fields
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, field, fields, replace
 from pathlib import Path
 from typing import Any
 
@@ -17,6 +17,7 @@ from .records import files_of, records_of
 from .topics import POINT, STATE, WAVEFORM
 
 SCENE_ATTACHMENT = "scene.yaml"
+TOPICS = (STATE, WAVEFORM, POINT)
 
 
 @dataclass
@@ -97,24 +98,29 @@ def read_recording(path: str | Path, namespace: str | None = None) -> Recording:
             else:
                 by_topic.setdefault(topic, []).append(message)
     namespace = choose_namespace(by_topic, namespace, path)
-    topics = {name: by_topic.get(f"{namespace}/{name}", []) for name in (STATE, WAVEFORM, POINT)}
-    state = _series(topics[STATE])
+    topics = {name: by_topic.get(f"{namespace}/{name}", []) for name in TOPICS}
+    recording = assemble(topics, Path(path), namespace)
+    return replace(recording, scene_yaml=scene_yaml, remarks=remarks)
+
+
+def assemble(messages: Mapping[str, list[Any]], path: Path, namespace: str) -> Recording:
+    """What messages tell, by the names in `TOPICS`; at least one is a GearboxState."""
+    state = _series(messages[STATE])
     planets = int(state["planets"][0])
     return Recording(
-        path=Path(path),
+        path=path,
         namespace=namespace,
         planets=planets,
         state=state,
-        operating_point=_series(topics[POINT]),
-        waveform=_waveform(topics[WAVEFORM], 2 * planets),
-        scene_yaml=scene_yaml,
-        remarks=remarks,
+        operating_point=_series(messages[POINT]),
+        waveform=_waveform(messages[WAVEFORM], 2 * planets),
+        scene_yaml=None,
     )
 
 
 def _messages(file: Path, remarks: list[str]) -> Iterator[tuple[str, Any]]:
     """Pairs of topic and decoded message, and the scene attachment as ("scene.yaml", bytes)."""
-    decoder = Decoder(lambda topic: topic.rsplit("/", 1)[-1] in (STATE, WAVEFORM, POINT))
+    decoder = Decoder(lambda topic: topic.rsplit("/", 1)[-1] in TOPICS)
     for record in records_of(file, remarks):
         if isinstance(record, Attachment) and record.name == SCENE_ATTACHMENT:
             yield SCENE_ATTACHMENT, record.data

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from typing import Literal, NamedTuple
 
 import rerun.blueprint as rrb
 
@@ -11,6 +12,7 @@ from ..scene.gearset import Gearset
 from . import phase_portrait, spectra
 from .chart import bounds
 from .gears import MILLIMETRES
+from .overlay import DIFFERENCE
 from .quantities import MESH, OPERATING_POINT, TRAIN, WAVEFORM
 from .timeline import SIMULATED_TIME
 
@@ -21,10 +23,23 @@ CHART = (13, 16, 17)  # as of the viewer's own plots
 _ZOOM = 5_000_000  # [ns] of the waveform on either side of the time cursor
 
 
-def blueprint(gearset: Gearset | None, picture: bool = False) -> rrb.Blueprint:
-    """The layout of a recording; without a gearset there are no gears to show.
+class Mode(NamedTuple):
+    """What the layout is for."""
 
-    `picture`: for a still picture, without the viewer's menu.
+    play_state: Literal["paused", "following"]
+    menu: Literal["expanded", "hidden"]
+
+
+FILE, PICTURE = Mode("paused", "expanded"), Mode("paused", "hidden")
+LIVE = Mode("following", "expanded")
+
+
+def blueprint(
+    gearset: Gearset | None, mode: Mode = FILE, compared: str | None = None
+) -> rrb.Blueprint:
+    """The layout of recordings; without a gearset there are no gears to show.
+
+    `compared`: the recording that the others are compared with, where there are several.
     """
     changes = rrb.TextLogView(
         origin="changes",
@@ -33,14 +48,14 @@ def blueprint(gearset: Gearset | None, picture: bool = False) -> rrb.Blueprint:
     )
     left = changes if gearset is None else rrb.Vertical(_gears(gearset), changes, row_shares=[4, 1])
     return rrb.Blueprint(
-        rrb.Horizontal(left, _tabs(gearset), column_shares=[5, 6]),
+        rrb.Horizontal(left, _tabs(gearset, compared), column_shares=[5, 6]),
         rrb.TimePanel(
             state="collapsed",
             timeline=SIMULATED_TIME,
             playback_speed=PLAYBACK_SPEED,
-            play_state="paused",
+            play_state=mode.play_state,
         ),
-        rrb.TopPanel(state="hidden" if picture else "expanded"),
+        rrb.TopPanel(state=mode.menu),
         rrb.BlueprintPanel(state="collapsed"),
         rrb.SelectionPanel(state="collapsed"),
         auto_views=False,
@@ -83,7 +98,9 @@ def _planet(gearset: Gearset) -> rrb.Spatial3DView:
     )
 
 
-def _tabs(gearset: Gearset | None) -> rrb.Tabs:
+def _tabs(gearset: Gearset | None, compared: str | None) -> rrb.Tabs:
+    several = compared is not None
+    difference = [] if compared is None else [_difference(compared)]
     contact = [] if gearset is None else [_contact(gearset)]
     return rrb.Tabs(
         _page(
@@ -94,7 +111,12 @@ def _tabs(gearset: Gearset | None) -> rrb.Tabs:
                 _mesh("boundary_friction", legend=False),
                 _mesh("viscous_friction", legend=False),
             ],
-            [_train("power_loss"), _train("efficiency"), _train("speed"), _set_point("backlash")],
+            [
+                _train("power_loss", several),
+                _train("efficiency", several),
+                _train("speed", several),
+                _set_point("backlash", several),
+            ],
         ),
         _page(
             "Transmission error",
@@ -121,8 +143,9 @@ def _tabs(gearset: Gearset | None) -> rrb.Tabs:
         ),
         *contact,
         _spectra(gearset),
-        _page("Power and speed", [_train(name) for name in TRAIN]),
-        _page("Operating point", [_set_point(name) for name in OPERATING_POINT]),
+        _page("Power and speed", [_train(name, several) for name in TRAIN]),
+        _page("Operating point", [_set_point(name, several) for name in OPERATING_POINT]),
+        *difference,
         active_tab=0,
     )
 
@@ -168,19 +191,25 @@ def _mesh(name: str, legend: bool = True) -> rrb.TimeSeriesView:
     return _plot(f"mesh/{name}", MESH[name].heading, legend)
 
 
-def _train(name: str) -> rrb.TimeSeriesView:
+def _train(name: str, several: bool) -> rrb.TimeSeriesView:
     quantity, fields = TRAIN[name]
-    return _plot(f"train/{name}", quantity.heading, legend=len(fields) > 1)
+    return _plot(f"train/{name}", quantity.heading, legend=several or len(fields) > 1)
 
 
-def _set_point(name: str) -> rrb.TimeSeriesView:
-    return _plot(f"operating_point/{name}", OPERATING_POINT[name].heading, legend=False)
+def _set_point(name: str, several: bool) -> rrb.TimeSeriesView:
+    return _plot(f"operating_point/{name}", OPERATING_POINT[name].heading, several)
 
 
-def _range(name: str) -> rrb.TimeSeriesView:
+def _difference(compared: str) -> rrb.Horizontal:
+    less = f" less that of {compared}"
+    views = [show(name, DIFFERENCE, less) for name in WAVEFORM for show in (_zoom, _range)]
+    return _page("Difference", views)
+
+
+def _range(name: str, below: str = "", less: str = "") -> rrb.TimeSeriesView:
     quantity = WAVEFORM[name]
-    title = f"{quantity.title}, smallest and largest sample [{quantity.unit}]"
-    return _plot(f"range/{name}", title, legend=False)
+    title = f"{quantity.title}{less}, smallest and largest sample [{quantity.unit}]"
+    return _plot(f"{below}/range/{name}", title, legend=False)
 
 
 def _plot(origin: str, title: str, legend: bool) -> rrb.TimeSeriesView:
@@ -189,7 +218,7 @@ def _plot(origin: str, title: str, legend: bool) -> rrb.TimeSeriesView:
     return rrb.TimeSeriesView(origin=origin, name=title, plot_legend=corner)
 
 
-def _zoom(name: str) -> rrb.TimeSeriesView:
+def _zoom(name: str, below: str = "", less: str = "") -> rrb.TimeSeriesView:
     quantity = WAVEFORM[name]
     window = rrb.VisibleTimeRange(
         SIMULATED_TIME,
@@ -197,8 +226,8 @@ def _zoom(name: str) -> rrb.TimeSeriesView:
         end=rrb.TimeRangeBoundary.cursor_relative(nanos=_ZOOM),
     )
     return rrb.TimeSeriesView(
-        origin=f"waveform/{name}",
-        name=f"{quantity.title} around the time cursor, every sample [{quantity.unit}]",
+        origin=f"{below}/waveform/{name}",
+        name=f"{quantity.title}{less} around the time cursor, every sample [{quantity.unit}]",
         plot_legend=rrb.PlotLegend(rrb.Corner2D.RightTop),
         time_ranges=window,
         axis_x=rrb.TimeAxis(link="Independent", view_range=window.range),

@@ -15,6 +15,8 @@ import rerun as rr
 import rerun.blueprint as rrb
 from numpy.typing import NDArray
 
+from .layer import Layer
+
 Array = NDArray[np.float64]
 Colour = tuple[int, int, int]
 FRAME, GRID, TEXT = (120, 126, 136), (44, 48, 55), (205, 210, 218)
@@ -78,15 +80,15 @@ def labels(chart: Chart, x: Ticks, y: Ticks) -> tuple[NDArray[np.float32], list[
     return np.array([*below, *beside], dtype=np.float32), [*x.texts, *y.texts]
 
 
-def log_frame(stream: rr.RecordingStream, chart: Chart, x: Ticks, y: Ticks, name: str) -> None:
+def log_frame(layer: Layer, chart: Chart, x: Ticks, y: Ticks, name: str) -> None:
     """Log frame, grid and marks for good, and the x axis' `name` below."""
     lines = grid(chart, x, y)
     colours = [GRID] * (len(lines) - 1) + [FRAME]
     frame = rr.LineStrips2D(lines, colors=colours, radii=0.5, draw_order=-10.0)
-    stream.log(f"{chart.path}/frame", frame, static=True)
+    layer.log(f"{chart.path}/frame", frame, static=True)
     places, texts = labels(chart, x, y)
     places = np.vstack((places, (0.5 * chart.width, 2.5 * _LABEL)))
-    stream.log(f"{chart.path}/marks", texts_at(places, [*texts, name]), static=True)
+    layer.log(f"{chart.path}/marks", texts_at(places, [*texts, name]), static=True)
 
 
 def texts_at(places: NDArray[np.float32], texts: Sequence[str]) -> rr.Points2D:
@@ -95,27 +97,27 @@ def texts_at(places: NDArray[np.float32], texts: Sequence[str]) -> rr.Points2D:
 
 
 def send_strips(
-    stream: rr.RecordingStream,
+    layer: Layer,
     path: str,
     index: list[rr.TimeColumn],
     rows: Sequence[Sequence[NDArray[np.float32]]],
     style: dict[str, Any],
 ) -> None:
     """Send line strips, those of each row at its instant; `style` as of `rr.LineStrips2D`."""
-    stream.log(path, rr.LineStrips2D.from_fields(**style), static=True)
+    layer.log(path, rr.LineStrips2D.from_fields(**style), static=True)
     strips = [strip for row in rows for strip in row]
     columns = rr.LineStrips2D.columns(strips=strips).partition([len(row) for row in rows])
-    rr.send_columns(path, index, columns, recording=stream)
+    layer.send_columns(path, index, columns)
 
 
 def send_labels(
-    stream: rr.RecordingStream,
+    layer: Layer,
     path: str,
     index: list[rr.TimeColumn],
     rows: Sequence[tuple[NDArray[np.float32], Sequence[str]]],
 ) -> None:
     """Send labels, those of each row (places (n, 2), texts) at its instant."""
-    stream.log(
+    layer.log(
         path,
         rr.Points2D.from_fields(colors=[TEXT], radii=[0.0], show_labels=True),
         static=True,
@@ -125,4 +127,4 @@ def send_labels(
     columns = rr.Points2D.columns(positions=places, labels=texts).partition(
         [len(row) for _, row in rows]
     )
-    rr.send_columns(path, index, columns, recording=stream)
+    layer.send_columns(path, index, columns)

@@ -26,6 +26,7 @@ from ..scene.gearset import Gearset
 from . import timeline
 from .colour_map import shade
 from .gears import MILLIMETRES
+from .layer import Layer
 from .motion import Motion
 from .round_numbers import one_digit
 
@@ -49,9 +50,7 @@ class Contacts:
     load: Array
 
 
-def log_contacts(
-    stream: rr.RecordingStream, scene: Scene, recording: Recording, motion: Motion
-) -> None:
+def log_contacts(layer: Layer, scene: Scene, recording: Recording, motion: Motion) -> None:
     """Log the tooth pairs in contact at the instants of `motion`, and the scale of their loads."""
     force = forces(recording, motion.time)
     found = [
@@ -65,8 +64,8 @@ def log_contacts(
     index = timeline.columns(motion.time, motion.stamp)
     for name, mesh in zip(recording.meshes, found, strict=True):
         columns = _strips(scene.gearset, mesh, full)
-        rr.send_columns(f"gears/carrier/contact/{name}", index, columns, recording=stream)
-    _log_scale(stream, scene.gearset, full)
+        layer.send_columns(f"gears/carrier/contact/{name}", index, columns)
+    _log_scale(layer, scene.gearset, full)
 
 
 def forces(recording: Recording, time: Array) -> Array:
@@ -160,7 +159,7 @@ def newtons(force: float) -> str:
     return f"{force:g} N"
 
 
-def _log_scale(stream: rr.RecordingStream, gearset: Gearset, full: float) -> None:
+def _log_scale(layer: Layer, gearset: Gearset, full: float) -> None:
     """A bar of colours below the gears, with its loads."""
     module = MILLIMETRES * gearset.module
     reach = 0.5 * gearset.teeth.ring * module
@@ -171,7 +170,7 @@ def _log_scale(stream: rr.RecordingStream, gearset: Gearset, full: float) -> Non
     bars[:, 0, 0], bars[:, 1, 0], bars[:, :, 1] = edges[:-1], edges[1:], y
     colours = shade((np.arange(_BARS) + 0.5) / _BARS)
     bar = rr.LineStrips3D(list(bars), colors=colours, radii=0.5 * module)
-    stream.log("gears/tooth_load/scale", bar, static=True)
+    layer.log("gears/tooth_load/scale", bar, static=True)
     places = [(left, below), (left + 0.5 * width, y + 3.0 * module), (left + width, below)]
     labels = ["0", "Load of a tooth pair", newtons(full)]
     points = rr.Points3D(
@@ -181,4 +180,4 @@ def _log_scale(stream: rr.RecordingStream, gearset: Gearset, full: float) -> Non
         show_labels=True,
         colors=(200, 205, 215),
     )
-    stream.log("gears/tooth_load/loads", points, static=True)
+    layer.log("gears/tooth_load/loads", points, static=True)

@@ -7,34 +7,35 @@ import rerun as rr
 
 from ..recording.reader import Recording
 from . import timeline
+from .layer import Layer
 from .quantities import OPERATING_POINT
 
 _COLOUR = (120, 196, 140)
 
 
-def log_events(stream: rr.RecordingStream, recording: Recording) -> None:
-    """Log each change at /changes, and every set-point as steps at /operating_point/NAME."""
+def log_events(layer: Layer, recording: Recording, known: int = 0) -> None:
+    """Log each change at /changes, and every set-point as steps at /operating_point/NAME.
+
+    The first `known` operating points have been logged before.
+    """
     point = recording.operating_point
     if not len(point):
         return
-    text = [sentence(recording, row) for row in range(len(point))]
-    index = timeline.columns(point.time, point.stamp)
+    text = [layer.label(sentence(recording, row)) for row in range(known, len(point))]
+    index = timeline.columns(point.time[known:], point.stamp[known:])
     level = ["INFO"] * len(text)
-    rr.send_columns("changes", index, rr.TextLog.columns(text=text, level=level), recording=stream)
+    layer.send_columns("changes", index, rr.TextLog.columns(text=text, level=level))
     # The last values hold to the end of the recording.
     last = len(recording.state) - 1
     index = timeline.columns(
-        np.append(point.time, recording.state.time[last]),
-        np.append(point.stamp, recording.state.stamp[last]),
+        np.append(point.time[known:], recording.state.time[last]),
+        np.append(point.stamp[known:], recording.state.stamp[last]),
     )
     for name, quantity in OPERATING_POINT.items():
-        style = rr.SeriesLines(
-            names=[name], colors=[_COLOUR], widths=2.0, interpolation_mode="StepAfter"
-        )
-        stream.log(f"operating_point/{name}", style, static=True)
-        values = quantity.factor * np.append(point[name], point[name][-1])
-        columns = rr.Scalars.columns(scalars=values)
-        rr.send_columns(f"operating_point/{name}", index, columns, recording=stream)
+        style = layer.lines([name], [_COLOUR], steps=True)
+        layer.log(f"operating_point/{name}", style, static=True)
+        values = quantity.factor * np.append(point[name][known:], point[name][-1])
+        layer.send_columns(f"operating_point/{name}", index, rr.Scalars.columns(scalars=values))
 
 
 def sentence(recording: Recording, row: int) -> str:

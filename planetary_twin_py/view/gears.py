@@ -32,34 +32,48 @@ from ..robot.parts import (
 )
 from ..scene.gearset import Gearset
 from . import timeline
+from .layer import Layer
 from .motion import Motion
 
 MILLIMETRES = 1e3
 MARK = (250, 250, 250)  # of tooth 0, so that slow turning shows
 
 
-def log_gears(recording: rr.RecordingStream, gearset: Gearset, motion: Motion) -> None:
-    """Log the gearset's solids once and their rotations over time."""
-    stand = mount(gearset.tooth_numbers, gearset.planet_angles)
-    teeth, carrier = gearset.teeth, motion.angle["carrier"]
-    _solid(recording, "gears/sun", sun(gearset), SUN, gear_of(gearset, teeth.sun))
-    _turn(recording, "gears/sun", motion, stand.sun + motion.angle["sun"])
-    _solid(recording, "gears/ring", ring(gearset), RING, gear_of(gearset, teeth.ring, True))
-    _turn(recording, "gears/ring", motion, stand.ring + motion.angle["ring"])
-    _solid(recording, "gears/carrier", spider(gearset), CARRIER)
-    _turn(recording, "gears/carrier", motion, carrier)
+def log_gears(layer: Layer, gearset: Gearset) -> None:
+    """Log the gearset's solids."""
+    teeth = gearset.teeth
+    _solid(layer, "gears/sun", sun(gearset), SUN, gear_of(gearset, teeth.sun))
+    _solid(layer, "gears/ring", ring(gearset), RING, gear_of(gearset, teeth.ring, True))
+    _solid(layer, "gears/carrier", spider(gearset), CARRIER)
     for i, psi in enumerate(gearset.planet_angles):
-        at, name = f"gears/carrier/pin_{i + 1}", f"planet_{i + 1}"
         radius = MILLIMETRES * carrier_radius(gearset)
         centre = rr.Transform3D(translation=[radius * math.cos(psi), radius * math.sin(psi), 0.0])
-        recording.log(at, centre, static=True)
-        _solid(recording, at, pin(gearset), PIN)
-        _solid(recording, f"{at}/{name}", planet(gearset), PLANET, gear_of(gearset, teeth.planet))
-        _turn(recording, f"{at}/{name}", motion, stand.planets[i] + motion.angle[name] - carrier)
+        layer.log(_pin(i), centre, static=True)
+        _solid(layer, _pin(i), pin(gearset), PIN)
+        _solid(layer, _planet(i), planet(gearset), PLANET, gear_of(gearset, teeth.planet))
+
+
+def log_motion(layer: Layer, gearset: Gearset, motion: Motion) -> None:
+    """Log how the solids turn."""
+    stand = mount(gearset.tooth_numbers, gearset.planet_angles)
+    carrier = motion.angle["carrier"]
+    _turn(layer, "gears/sun", motion, stand.sun + motion.angle["sun"])
+    _turn(layer, "gears/ring", motion, stand.ring + motion.angle["ring"])
+    _turn(layer, "gears/carrier", motion, carrier)
+    for i, angle in enumerate(stand.planets):
+        _turn(layer, _planet(i), motion, angle + motion.angle[f"planet_{i + 1}"] - carrier)
+
+
+def _pin(i: int) -> str:
+    return f"gears/carrier/pin_{i + 1}"
+
+
+def _planet(i: int) -> str:
+    return f"{_pin(i)}/planet_{i + 1}"
 
 
 def _solid(
-    recording: rr.RecordingStream,
+    layer: Layer,
     path: str,
     solid: TriangleMesh,
     colour: tuple[int, int, int],
@@ -75,7 +89,7 @@ def _solid(
         triangle_indices=solid.faces,
         vertex_colors=colours,
     )
-    recording.log(path, mesh, static=True)
+    layer.log(path, mesh, static=True)
 
 
 def _of_tooth_zero(solid: TriangleMesh, gear: SpurGear) -> NDArray[np.bool_]:
@@ -87,19 +101,10 @@ def _of_tooth_zero(solid: TriangleMesh, gear: SpurGear) -> NDArray[np.bool_]:
     return np.repeat(inside.reshape(-1, 4).all(axis=1), 4)
 
 
-def _turn(
-    recording: rr.RecordingStream, path: str, motion: Motion, angle: NDArray[np.float64]
-) -> None:
-    """Rotations about z by columns; a member that stands still gets one static rotation."""
-    quaternions = np.zeros((len(angle), 4), dtype=np.float32)
-    quaternions[:, 2], quaternions[:, 3] = np.sin(0.5 * angle), np.cos(0.5 * angle)
-    if np.ptp(angle) == 0.0:
-        still = rr.Transform3D(quaternion=rr.Quaternion(xyzw=quaternions[0]))
-        recording.log(path, still, static=True)
-        return
-    rr.send_columns(
-        path,
-        timeline.columns(motion.time, motion.stamp),
-        rr.Transform3D.columns(quaternion=quaternions),
-        recording=recording,
-    )
+def _turn(layer: Layer, path: str, motion: Motion, angle: NDArray[np.float64]) -> None:
+    """Rotations about z by columns; of a member that stands still, the first holds."""
+    rows = slice(0, 1 if np.ptp(angle) == 0.0 else len(angle))
+    quaternions = np.zeros((len(angle[rows]), 4), dtype=np.float32)
+    quaternions[:, 2], quaternions[:, 3] = np.sin(0.5 * angle[rows]), np.cos(0.5 * angle[rows])
+    index = timeline.columns(motion.time[rows], motion.stamp[rows])
+    layer.send_columns(path, index, rr.Transform3D.columns(quaternion=quaternions))

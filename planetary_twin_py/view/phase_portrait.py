@@ -10,12 +10,12 @@ import math
 from typing import NamedTuple
 
 import numpy as np
-import rerun as rr
 from numpy.typing import NDArray
 from scipy.interpolate import CubicSpline
 
 from .chart import GRID, Chart, Ticks, grid, labels, send_labels, send_strips
 from .frames import Frames
+from .layer import Layer
 from .plots import mesh_colours
 from .round_numbers import ticks
 
@@ -36,7 +36,7 @@ class _Portrait(NamedTuple):
     y: Ticks
 
 
-def log_phase_portrait(stream: rr.RecordingStream, frames: Frames) -> None:
+def log_phase_portrait(layer: Layer, frames: Frames) -> None:
     """Log /phase_portrait, with axes that follow its size."""
     point = frames.recording.operating_point
     rows = np.searchsorted(point.time, frames.time, side="right") - 1
@@ -44,21 +44,21 @@ def log_phase_portrait(stream: rr.RecordingStream, frames: Frames) -> None:
     found = [_portrait(frames, number, half[number]) for number in range(len(frames.time))]
     index, colour = frames.index, mesh_colours(frames.recording.planets)[0]
     send_strips(
-        stream, "phase_portrait/grid", index,
+        layer, "phase_portrait/grid", index,
         [grid(p.chart, p.x, p.y) if p else [] for p in found],
         {"colors": [GRID], "radii": [0.5], "draw_order": -10.0},
     )  # fmt: skip
     send_strips(
-        stream, "phase_portrait/flanks", index, [p.flanks if p else [] for p in found],
+        layer, "phase_portrait/flanks", index, [p.flanks if p else [] for p in found],
         {"colors": [_FLANK], "radii": [0.5], "draw_order": -5.0},
     )  # fmt: skip
     send_strips(
-        stream, "phase_portrait/curve", index, [[p.curve] if p else [] for p in found],
+        layer, "phase_portrait/curve", index, [[p.curve] if p else [] for p in found],
         {"colors": [colour], "radii": [0.5]},
     )  # fmt: skip
     none = np.empty((0, 2), dtype=np.float32)
     marks = [labels(p.chart, p.x, p.y) if p else (none, []) for p in found]
-    send_labels(stream, "phase_portrait/marks", index, marks)
+    send_labels(layer, "phase_portrait/marks", index, marks)
 
 
 def _portrait(frames: Frames, number: int, half_backlash: float) -> _Portrait | None:

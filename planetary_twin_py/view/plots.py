@@ -11,40 +11,40 @@ from numpy.typing import NDArray
 
 from ..recording.reader import Recording
 from . import timeline
+from .layer import Colour, Layer
 from .quantities import MESH, TRAIN
 
 _SUN_PLANET_HUE, _PLANET_RING_HUE = 0.58, 0.09  # blue and orange, told apart by most eyes
-_TRAIN_COLOURS = ((236, 176, 64), (150, 158, 170), (205, 104, 86))
+TRAIN_COLOURS = ((236, 176, 64), (150, 158, 170), (205, 104, 86))
 
 
-def log_plots(stream: rr.RecordingStream, recording: Recording) -> None:
+def log_plots(layer: Layer, recording: Recording) -> None:
     """Log every quantity of the state: /mesh/NAME with one series per mesh, and /train/NAME."""
     state = recording.state
     index = timeline.columns(state.time, state.stamp)
     colours = mesh_colours(recording.planets)
     for name, quantity in MESH.items():
         values = quantity.factor * recording.per_mesh(name)
-        log_series(stream, f"mesh/{name}", index, values, recording.meshes, colours)
+        log_series(layer, f"mesh/{name}", index, values, recording.meshes, colours)
     for name, (quantity, fields) in TRAIN.items():
         values = quantity.factor * np.column_stack([state[field] for field in fields])
-        log_series(stream, f"train/{name}", index, values, fields, _TRAIN_COLOURS)
+        log_series(layer, f"train/{name}", index, values, fields, TRAIN_COLOURS)
 
 
 def log_series(
-    stream: rr.RecordingStream,
+    layer: Layer,
     path: str,
     index: list[rr.TimeColumn],
     values: NDArray[np.float64],
     names: Sequence[str],
-    colours: Sequence[tuple[int, int, int]],
+    colours: Sequence[Colour],
 ) -> None:
     """Log `values` (rows, series) as lines at `path`."""
-    style = rr.SeriesLines(names=list(names), colors=list(colours[: len(names)]), widths=1.5)
-    stream.log(path, style, static=True)
-    rr.send_columns(path, index, rr.Scalars.columns(scalars=values), recording=stream)
+    layer.log(path, layer.lines(names, colours), static=True)
+    layer.send_columns(path, index, rr.Scalars.columns(scalars=values))
 
 
-def mesh_colours(planets: int) -> list[tuple[int, int, int]]:
+def mesh_colours(planets: int) -> list[Colour]:
     """Tints of blue for the sun's meshes, of orange for the ring's, in the meshes' order."""
     shades = np.linspace(0.78, 0.3, planets)
     tints = [

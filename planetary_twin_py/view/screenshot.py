@@ -16,14 +16,14 @@ from typing import IO
 from rerun.experimental import ViewerClient
 
 from .timeline import SIMULATED_TIME
-from .viewer import free_port, start_viewer, stop_viewer
+from .viewer import ViewerError, free_port, last_words, start_viewer, stop_viewer
 
 _START_LIMIT = 30.0  # [s] a cold start with a software renderer takes 2 to 5 s
 _NOTICES = 4.0  # [s] the viewer's notices about its start stay in the picture for 2 to 3 s
 _SETTLE_LIMIT = 30.0  # [s] curves and solids are loaded as they are needed, seen in 1 to 3 s
 
 
-class ScreenshotError(RuntimeError):
+class ScreenshotError(ViewerError):
     """The viewer could not make a picture; the message says why in one line."""
 
 
@@ -92,5 +92,4 @@ def _reason(output: IO[bytes]) -> str:
             "no Vulkan driver is installed: a software one suffices, "
             "on Debian and Ubuntu the package mesa-vulkan-drivers"
         )
-    lines = [line for line in printed.splitlines() if line.strip()]
-    return f"the viewer ended at once: {lines[-1] if lines else 'it printed nothing'}"
+    return f"the viewer ended at once: {last_words(output)}"

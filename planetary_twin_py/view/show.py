@@ -1,7 +1,9 @@
-"""A recording as one Rerun stream: gears, curves and changes, with the layout that shows them."""
+"""Recordings as one Rerun stream: gears, curves and changes, with the layout that shows them."""
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+from dataclasses import replace
 from pathlib import Path
 
 import rerun as rr
@@ -9,12 +11,14 @@ import rerun as rr
 from ..recording.reader import Recording
 from ..recording.records import RecordingError
 from ..scene import Scene, SceneError, parse_scene
-from .blueprint import blueprint
+from .blueprint import FILE, Mode, blueprint
 from .contacts import log_contacts
 from .events import log_events
 from .frames import frames
-from .gears import log_gears
+from .gears import log_gears, log_motion
+from .layer import Layer
 from .motion import motion
+from .overlay import DIFFERENCE, difference, names_of
 from .phase_portrait import log_phase_portrait
 from .plots import log_plots
 from .spectra import log_spectra
@@ -33,36 +37,98 @@ def scene_of(recording: Recording) -> tuple[Scene | None, str | None]:
         return None, f"{recording.path}: its scene cannot be read, so no gears are drawn: {error}"
 
 
-def save(recording: Recording, scene: Scene | None, rrd: Path, picture: bool = False) -> list[str]:
+def save(
+    recording: Recording,
+    scene: Scene | None,
+    rrd: Path,
+    others: Sequence[Recording] = (),
+    mode: Mode = FILE,
+) -> list[str]:
     """Save `recording` as Rerun file `rrd`; returns remarks on what is left out, line by line.
 
-    `picture`: with the layout of a still picture, without the viewer's menu.
+    Curves of the `others` lie over it, and what their waveforms are more than its own is drawn,
+    too; gears and spectra are those of `recording` alone.
     """
-    gearset = scene.gearset if scene else None
-    if scene is not None and scene.gearset.planets != recording.planets:
-        raise RecordingError(
-            f"scene = {scene.name}: has {scene.gearset.planets} planets, "
-            f"the recording {recording.planets}"
-        )
+    check_scene(scene, recording)
+    names = names_of([recording, *others])
+    stream = to_file(rrd)
+    stream.send_recording_name(", ".join(name for name in names if name) or recording.path.stem)
+    compared = names[0] if others else None
+    send_layout(stream, scene, mode, compared)
+    layers = [Layer(stream, name, order) for order, name in enumerate(names)]
+    remarks = _log_first(layers[0], recording, scene)
+    for layer, shown in zip(layers, (recording, *others), strict=True):
+        remarks += log_curves(layer, shown)
+    for layer, other in zip(layers[1:], others, strict=True):
+        remarks += _log_difference(layer, recording, other)
+    stream.flush()
+    stream.disconnect()
+    return remarks
+
+
+def to_file(rrd: Path) -> rr.RecordingStream:
+    """A stream into a Rerun file."""
     stream = rr.RecordingStream(APPLICATION)
     try:
         stream.save(rrd)
     except RuntimeError as error:
         raise RecordingError(f"{rrd}: cannot be written: {error}") from None
-    stream.send_recording_name(recording.path.stem)
+    return stream
+
+
+def to_viewer(url: str) -> rr.RecordingStream:
+    """A stream to a viewer that runs."""
+    stream = rr.RecordingStream(APPLICATION)
+    stream.connect_grpc(url)
+    return stream
+
+
+def check_scene(scene: Scene | None, recording: Recording) -> None:
+    """Raise `RecordingError` where `scene` is of another gearbox."""
+    if scene is not None and scene.gearset.planets != recording.planets:
+        raise RecordingError(
+            f"scene = {scene.name}: has {scene.gearset.planets} planets, "
+            f"the recording {recording.planets}"
+        )
+
+
+def send_layout(
+    stream: rr.RecordingStream, scene: Scene | None, mode: Mode, compared: str | None = None
+) -> None:
+    """Send the layout that shows what is drawn; `compared` is what others are compared with."""
+    layout = blueprint(scene.gearset if scene else None, mode, compared)
     # Active, not only default: a layout that the viewer remembers from before would win otherwise.
-    stream.send_blueprint(blueprint(gearset, picture), make_active=True, make_default=True)
+    stream.send_blueprint(layout, make_active=True, make_default=True)
+
+
+def log_curves(layer: Layer, recording: Recording) -> list[str]:
+    """Log all but the gears; returns remarks."""
+    log_plots(layer, recording)
+    log_events(layer, recording)
+    remark = log_waveform(layer, recording)
+    return [remark] if remark else []
+
+
+def _log_first(layer: Layer, recording: Recording, scene: Scene | None) -> list[str]:
+    """Log what has room for one recording: gears, tooth contacts, spectra; returns remarks."""
     if scene is not None:
         moved = motion(recording)
-        log_gears(stream, scene.gearset, moved)
-        log_contacts(stream, scene, recording, moved)
-    log_plots(stream, recording)
-    log_events(stream, recording)
-    remarks = [log_waveform(stream, recording)]
-    if windows := frames(recording):
-        remarks.append(windows.remark)
-        log_spectra(stream, windows, gearset)
-        log_phase_portrait(stream, windows)
-    stream.flush()
-    stream.disconnect()
-    return [remark for remark in remarks if remark]
+        log_gears(layer, scene.gearset)
+        log_motion(layer, scene.gearset, moved)
+        log_contacts(layer, scene, recording, moved)
+    windows = frames(recording)
+    if windows is None:
+        return []
+    log_spectra(layer, windows, scene.gearset if scene else None)
+    log_phase_portrait(layer, windows)
+    return [windows.remark] if windows.remark else []
+
+
+def _log_difference(layer: Layer, first: Recording, other: Recording) -> list[str]:
+    try:
+        less = difference(first, other)
+    except RecordingError as reason:
+        return [str(reason)]
+    # What it says of left out samples has been said of the recording itself.
+    log_waveform(replace(layer, below=DIFFERENCE, order=layer.order - 1), less)
+    return []

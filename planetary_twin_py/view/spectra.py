@@ -16,6 +16,7 @@ from ..scene.gearset import Gearset
 from .chart import Chart, Ticks, log_frame, send_labels, send_strips, texts_at
 from .colour_map import shade
 from .frames import Frames
+from .layer import Layer
 from .plots import mesh_colours
 from .round_numbers import ticks
 
@@ -34,16 +35,16 @@ _CURSOR = (235, 235, 235)
 _SUPERSCRIPT = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 
 
-def log_spectra(stream: rr.RecordingStream, frames: Frames, gearset: Gearset | None) -> None:
+def log_spectra(layer: Layer, frames: Frames, gearset: Gearset | None) -> None:
     """Log /spectrum, and with a gearset to tell the orders /order_map."""
     found = [_spectrum(frames, number) for number in range(len(frames.time))]
     highest = max((a[1:].max() for _, a in found if len(a) > 1), default=0.0)
     if highest <= 0.0:
         return
     top = math.ceil(math.log10(highest))
-    _log_spectrum(stream, frames, found, top)
+    _log_spectrum(layer, frames, found, top)
     if gearset is not None:
-        _log_order_map(stream, frames, gearset.teeth.sun, top)
+        _log_order_map(layer, frames, gearset.teeth.sun, top)
 
 
 def _spectrum(frames: Frames, number: int) -> tuple[Array, Array]:
@@ -56,16 +57,14 @@ def _spectrum(frames: Frames, number: int) -> tuple[Array, Array]:
     return amplitude_spectrum(_MICRO * dte, rate)
 
 
-def _log_spectrum(
-    stream: rr.RecordingStream, frames: Frames, found: list[tuple[Array, Array]], top: int
-) -> None:
+def _log_spectrum(layer: Layer, frames: Frames, found: list[tuple[Array, Array]], top: int) -> None:
     mesh = frames.state("mesh_frequency")
     nyquist = max(frequency[-1] for frequency, _ in found if len(frequency))
     reach = min(nyquist, HARMONICS * float(np.nanmax(mesh, initial=0.0)) * 1.02 or nyquist)
     chart = Chart("spectrum", WIDTH, HEIGHT, (0.0, reach), (top - DECADES, top))
     marks = ticks(0.0, reach, 8)
     log_frame(
-        stream,
+        layer,
         chart,
         Ticks(marks, [f"{mark:g}" for mark in marks]),
         _decades(top),
@@ -77,17 +76,17 @@ def _log_spectrum(
         level = np.log10(np.maximum(amplitude[shown], 1e-30))
         curves.append([chart.place(frequency[shown], level)] if len(level) else [])
     colour = mesh_colours(frames.recording.planets)[0]
-    send_strips(stream, "spectrum/dte", frames.index, curves, {"colors": [colour], "radii": [0.6]})
+    send_strips(layer, "spectrum/dte", frames.index, curves, {"colors": [colour], "radii": [0.6]})
     style = {"colors": [_MESH_MARK], "radii": [0.4], "draw_order": -5.0}
     marked = [_harmonics(chart, f) if curve else [] for f, curve in zip(mesh, curves, strict=True)]
     lines = [[chart.upright(at) for at, _ in row] for row in marked]
-    send_strips(stream, "spectrum/mesh_harmonics", frames.index, lines, style)
+    send_strips(layer, "spectrum/mesh_harmonics", frames.index, lines, style)
     texts = [
         (np.array([chart.upright(at)[1] - (0.0, 24.0) for at, text in row if text], np.float32),
          [text for _, text in row if text])
         for row in marked
     ]  # fmt: skip
-    send_labels(stream, "spectrum/mesh_orders", frames.index, texts)
+    send_labels(layer, "spectrum/mesh_orders", frames.index, texts)
 
 
 def _harmonics(chart: Chart, mesh: float) -> list[tuple[float, str]]:
@@ -100,7 +99,7 @@ def _harmonics(chart: Chart, mesh: float) -> list[tuple[float, str]]:
     return [(h * mesh, "" if h % every else f"{h}×") for h in range(1, count + 1)]
 
 
-def _log_order_map(stream: rr.RecordingStream, frames: Frames, teeth: int, top: int) -> None:
+def _log_order_map(layer: Layer, frames: Frames, teeth: int, top: int) -> None:
     """An image with a column for every instant; beside it the scale of its colours."""
     reach = (HARMONICS + 0.5) * teeth
     chart = Chart("order_map", WIDTH, HEIGHT, (frames.time[0], frames.time[-1]), (0.0, reach))
@@ -109,29 +108,29 @@ def _log_order_map(stream: rr.RecordingStream, frames: Frames, teeth: int, top: 
     colours[np.isnan(levels)] = 0
     nearest = np.rint(np.linspace(0, len(frames.time) - 1, int(WIDTH))).astype(np.intp)
     image = np.ascontiguousarray(colours[::-1, nearest])
-    stream.log("order_map/image", rr.Transform3D(translation=(0.0, -HEIGHT, 0.0)), static=True)
-    stream.log("order_map/image", rr.Image(image, draw_order=-20.0), static=True)
+    layer.log("order_map/image", rr.Transform3D(translation=(0.0, -HEIGHT, 0.0)), static=True)
+    layer.log("order_map/image", rr.Image(image, draw_order=-20.0), static=True)
     marks, orders = ticks(*chart.x, 12), [float(teeth * h) for h in range(1, HARMONICS + 1)]
     x = Ticks(marks, [f"{mark:g}" for mark in marks])
     y = Ticks(orders, [f"{h}× {order:g}" for h, order in enumerate(orders, start=1)])
-    log_frame(stream, chart, x, y, "Simulated time [s]")
-    _log_scale(stream, chart, top)
+    log_frame(layer, chart, x, y, "Simulated time [s]")
+    _log_scale(layer, chart, top)
     cursor = [[chart.upright(time)] for time in frames.time]
     style = {"colors": [_CURSOR], "radii": [0.6]}
-    send_strips(stream, "order_map/cursor", frames.index, cursor, style)
+    send_strips(layer, "order_map/cursor", frames.index, cursor, style)
 
 
-def _log_scale(stream: rr.RecordingStream, chart: Chart, top: int) -> None:
+def _log_scale(layer: Layer, chart: Chart, top: int) -> None:
     """A bar of colours above the map, with the amplitudes of its ends."""
     left, right, y = chart.width - 240.0, chart.width - 90.0, -chart.height - 14.0
     edges = np.linspace(left, right, _BARS + 1)
     bars = [np.array([(a, y), (b, y)], np.float32) for a, b in pairwise(edges)]
     colours = shade((np.arange(_BARS) + 0.5) / _BARS)
     bar = rr.LineStrips2D(bars, colors=colours, radii=4.0)
-    stream.log("order_map/scale", bar, static=True)
+    layer.log("order_map/scale", bar, static=True)
     ends = _decades(top).texts[0], f"{_decades(top).texts[-1]} µm"
     places = np.array([(left - 28.0, y - 12.0), (right + 38.0, y - 12.0)], np.float32)
-    stream.log("order_map/amplitudes", texts_at(places, ends), static=True)
+    layer.log("order_map/amplitudes", texts_at(places, ends), static=True)
 
 
 def _orders(frames: Frames, number: int, reach: float) -> Array:

@@ -40,6 +40,7 @@ def test_users_errors_are_one_line_each(file, tmp_path):
     for arguments, reason in [
         (["view", tmp_path / "missing"], "no such file"),
         (["view", __file__], "not an MCAP file"),
+        (["view", file, file, "--scene", "paper", "--save", tmp_path / "a.rrd"], "shown twice"),
         (["view", file, "--scene", "papyrus"], "papyrus"),
         (["view", file, "--scene", "paper", "--save", tmp_path / "no" / "a.rrd"], "a.rrd"),
         (["view", file, "--scene", "paper", "--screenshot", "a.png", "--at", "9"], "at = 9"),

@@ -1,17 +1,22 @@
 """Pictures without display and graphics card."""
 
+import copy
 import os
 from pathlib import Path
 
 import numpy as np
 import psutil
 import pytest
+import rerun as rr
 from PIL import Image
 from synthetic_recording import write_recording
 
 from planetary_twin_py.recording.reader import read_recording
 from planetary_twin_py.scene import load_scene
+from planetary_twin_py.view.blueprint import PICTURE
 from planetary_twin_py.view.gears import SUN
+from planetary_twin_py.view.layer import Layer
+from planetary_twin_py.view.plots import TRAIN_COLOURS
 from planetary_twin_py.view.screenshot import ScreenshotError, save_screenshot
 from planetary_twin_py.view.show import save
 
@@ -19,11 +24,15 @@ DRIVERS = [*Path("/usr/share/vulkan/icd.d").glob("*.json"), *Path("/etc/vulkan/i
 
 
 @pytest.fixture(scope="module")
-def rrd(tmp_path_factory):
-    folder = tmp_path_factory.mktemp("view")
-    recording = read_recording(write_recording(folder / "one.mcap", 0.2))
-    save(recording, load_scene("paper"), folder / "one.rrd", picture=True)
-    return folder / "one.rrd"
+def recording(tmp_path_factory):
+    return read_recording(write_recording(tmp_path_factory.mktemp("bag") / "one.mcap", 0.2))
+
+
+@pytest.fixture(scope="module")
+def rrd(recording, tmp_path_factory):
+    file = tmp_path_factory.mktemp("view") / "one.rrd"
+    save(recording, load_scene("paper"), file, mode=PICTURE)
+    return file
 
 
 def viewers():
@@ -43,6 +52,24 @@ def test_the_picture_shows_gears_on_the_left_and_follows_the_time_cursor(rrd, tm
     assert sun.mean() > 0.02
     assert (np.abs(left[0] - left[1]).sum(axis=2) > 60).mean() > 0.005
     assert viewers() == []
+
+
+@pytest.mark.slow
+@pytest.mark.skipif(not DRIVERS, reason="no Vulkan driver on this machine")
+def test_the_picture_of_two_recordings_shows_the_other_one_in_paler_curves(
+    recording, rrd, tmp_path
+):
+    other = copy.deepcopy(recording)
+    other.path = Path("other")
+    other.state.columns["power_loss"] = 2.0 * recording.state["power_loss"]
+    save(recording, load_scene("paper"), tmp_path / "two.rrd", [other], PICTURE)
+    colour = np.array(Layer(rr.RecordingStream("any"), "other", 1).shade(TRAIN_COLOURS[0]))
+    pale = []
+    for file in (rrd, tmp_path / "two.rrd"):
+        save_screenshot(file, tmp_path / "a.png", 0.05)
+        picture = np.asarray(Image.open(tmp_path / "a.png").convert("RGB"), dtype=int)
+        pale.append((np.abs(picture - colour).sum(axis=2) < 20).sum())
+    assert pale[1] > pale[0] + 200
 
 
 @pytest.mark.skipif(os.name != "posix", reason="the Vulkan loader's variables")

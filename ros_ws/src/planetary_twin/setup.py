@@ -26,6 +26,7 @@ setup(
             "replay = planetary_twin.nodes:replay",
             "twin = planetary_twin.nodes:twin",
         ],
+        "planetary_twin.live": ["follow = planetary_twin.watching:follow"],
         "planetary_twin.commands": [
             "run = planetary_twin.commands:run",
             "replay = planetary_twin.commands:replay",

@@ -1,0 +1,130 @@
+"""A running twin, drawn batch after batch by what draws a recording."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Mapping
+from pathlib import Path
+from typing import Any
+
+import rerun as rr
+
+from ..recording.decode import Decoder
+from ..recording.origin import read_origin
+from ..recording.reader import TOPICS, Recording, assemble
+from ..recording.topics import ORIGIN, POINT, STATE, WAVEFORM
+from ..scene import Scene
+from .blueprint import LIVE
+from .events import log_events
+from .gears import log_gears, log_motion
+from .layer import Layer
+from .motion import motion
+from .plots import log_plots
+from .show import check_scene, send_layout
+from .waveform import log_waveform
+
+_TIME = {STATE: "simulated_time", WAVEFORM: "start_time", POINT: "simulated_time"}
+Messages = dict[str, list[Any]]
+
+
+class LiveView:
+    """Draws what a twin publishes, each run (from one reset to the next) into a stream of its own.
+
+    `begin` opens the stream of a run; `scene` is drawn in place of the one that the twin tells,
+    before which nothing is drawn.
+    """
+
+    def __init__(
+        self, namespace: str, begin: Callable[[], rr.RecordingStream], scene: Scene | None = None
+    ) -> None:
+        self._namespace = namespace
+        self._begin = begin
+        self._chosen = scene
+        self._told: Scene | None = None
+        self._decoder = Decoder(lambda topic: True)
+        self._waiting: Messages = {name: [] for name in TOPICS}
+        self._run: _Run | None = None
+
+    def take(self, records: Iterable[Any]) -> None:
+        """Draw what MCAP records tell: schemas and channels, then messages in their order.
+
+        Raises:
+            RecordingError: the scene is of another gearbox, or cannot be read.
+        """
+        for record in records:
+            if found := self._decoder.read(record):
+                topic, message = found
+                name = topic.rpartition("/")[2]
+                if name == ORIGIN:
+                    self._told = read_origin(message.data).scene
+                elif name in self._waiting:
+                    self._waiting[name].append(message)
+        scene = self._chosen or self._told
+        while scene is not None and self._draw(scene):
+            self.close()
+
+    def close(self) -> None:
+        """Send what is left."""
+        if self._run is not None:
+            self._run.end()
+            self._run = None
+
+    def _draw(self, scene: Scene) -> bool:
+        """Draw what belongs to one run; returns whether another has begun."""
+        if self._run is None:
+            if not self._waiting[STATE]:
+                return False
+            self._run = _Run(self._namespace, self._begin(), scene)
+        now: Messages = {}
+        for name, messages in self._waiting.items():
+            cut = _cut(messages, _TIME[name], self._run.reached[name])
+            now[name], self._waiting[name] = messages[:cut], messages[cut:]
+        if any(now.values()):
+            self._run.draw(now)
+        return bool(self._waiting[STATE])
+
+
+class _Run:
+    """One run of a twin on the screen."""
+
+    def __init__(self, namespace: str, stream: rr.RecordingStream, scene: Scene) -> None:
+        self.reached = dict.fromkeys(TOPICS, 0.0)
+        self._namespace = namespace
+        self._scene = scene
+        self._layer = Layer(stream)
+        self._last: Messages = {STATE: [], POINT: []}
+        send_layout(stream, scene, LIVE)
+        log_gears(self._layer, scene.gearset)
+
+    def draw(self, new: Messages) -> None:
+        """Draw messages that follow those before."""
+        known = len(self._last[POINT])
+        points, states = (self._last[name] + new[name] for name in (POINT, STATE))
+        shown = self._recording({**new, POINT: points, STATE: states})
+        check_scene(self._scene, shown)
+        log_motion(self._layer, self._scene.gearset, motion(shown))
+        log_events(self._layer, shown, known)
+        log_waveform(self._layer, shown)
+        if new[STATE]:
+            log_plots(self._layer, self._recording(new))
+        for name, messages in new.items():
+            if messages:
+                self.reached[name] = getattr(messages[-1], _TIME[name])
+        for name, before in self._last.items():
+            self._last[name] = (before + new[name])[-1:]
+
+    def end(self) -> None:
+        """Send what is left."""
+        self._layer.stream.flush()
+        self._layer.stream.disconnect()
+
+    def _recording(self, messages: Mapping[str, list[Any]]) -> Recording:
+        return assemble(messages, Path(self._namespace), self._namespace)
+
+
+def _cut(messages: list[Any], time: str, reached: float) -> int:
+    """How many messages come before simulated time goes back."""
+    for count, message in enumerate(messages):
+        if getattr(message, time) < reached:
+            return count
+        reached = getattr(message, time)
+    return len(messages)

@@ -1,0 +1,75 @@
+"""A running twin is looked at as it runs."""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+from pathlib import Path
+
+import numpy as np
+from planetary_twin_msgs.msg import GearboxState, OperatingPoint
+from rerun.chunk import McapReader, RrdReader
+
+from .conftest import Start
+from .peer import TWIN, Peer
+
+COMMAND = [sys.executable, "-c", "from planetary_twin_py.cli import main; main()", "view"]
+
+
+def _view(*options: str) -> subprocess.Popen[str]:
+    return subprocess.Popen(
+        [*COMMAND, *options], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True
+    )
+
+
+def test_a_running_twin_is_drawn_and_where_there_is_none_one_line_says_so(
+    peer: Peer, points: list[OperatingPoint], tmp_path: Path
+) -> None:
+    states = peer.listen(GearboxState, f"{TWIN}/gearbox_state")
+    shown, nobody = (
+        _view("--duration", "4", "--namespace", name, "--save", f"{tmp_path}/{name}.rrd")
+        for name in ("planetary_twin", "nobody")
+    )
+    peer.until(lambda: shown.poll() is not None and nobody.poll() is not None, 60.0)
+    assert shown.returncode == 0, shown.communicate()
+    times = []
+    static = set()
+    for chunk in RrdReader(tmp_path / "planetary_twin.rrd").stream():
+        if chunk.is_static:
+            static.add(chunk.entity_path)
+        elif chunk.entity_path == "/mesh/dte_mean":
+            times += chunk.to_record_batch().column("simulated_time").cast("int64").to_pylist()
+    assert "/gears/carrier/pin_1/planet_1" in static
+    heard = np.rint(1e9 * np.array([state.simulated_time for state in states]))
+    assert np.all(np.diff(times) > 0)
+    assert len(np.intersect1d(times, heard)) >= 100  # of 400: the machine may be busy
+    assert nobody.returncode == 2
+    _, errors = nobody.communicate()
+    assert errors == (
+        "planetary-twin: no twin publishes in /nobody: start one with `planetary-twin run`, "
+        "or name a recording\n"
+    )
+    assert not (tmp_path / "nobody.rrd").exists()
+
+
+def test_rerun_itself_finds_gears_that_turn_and_named_joints_in_the_file(
+    peer: Peer, start: Start, tmp_path: Path
+) -> None:
+    logger = start("planetary_twin.logger", "--ros-args", "-p", "name:=bag")
+    start("planetary_twin.simulation")
+    states = peer.listen(GearboxState, f"{TWIN}/gearbox_state")
+    peer.until(lambda: len(states) > 100, 120.0)
+    logger.terminate()
+    peer.until(lambda: logger.poll() is not None)
+    solids, names, turning = set(), [], 0
+    for chunk in McapReader(tmp_path / "recordings/bag/bag_0.mcap").stream():
+        columns = chunk.to_record_batch()
+        if "Asset3D:blob" in columns.schema.names:
+            solids.add(chunk.entity_path.split("/")[-2])
+        if "SeriesLines:names" in columns.schema.names:
+            names += columns.column("SeriesLines:names").to_pylist()[0]
+        if chunk.entity_path == "/tf" and "Transform3D:quaternion" in columns.schema.names:
+            turning += chunk.num_rows
+    assert {"sun", "planet_3", "ring", "carrier"} <= solids
+    assert {"sun_joint", "planet_3_joint"} <= set(names)
+    assert turning > 100
