@@ -42,7 +42,8 @@ def number(name):
         return st.booleans()
     if name.startswith("float"):
         return st.floats(width=int(name[5:]))
-    low, high = (0, 255) if name in ("byte", "char") else (np.iinfo(name).min, np.iinfo(name).max)
+    # rosbags takes a byte for a signed number, as its arrays of them are not.
+    low, high = (0, {"byte": 127, "char": 255}[name]) if name in ("byte", "char") else (np.iinfo(name).min, np.iinfo(name).max)
     return st.integers(int(low), int(high))
 
 
@@ -54,9 +55,8 @@ def messages(kind):
 def assert_same(row, message):
     """A row of a structured array, and a message that rosbags has decoded."""
     if dataclasses.is_dataclass(message):
-        for field in dataclasses.fields(message):
-            if field.init:
-                assert_same(row[field.name], getattr(message, field.name))
+        for name, _ in TYPES.fielddefs[message.__msgtype__][1]:
+            assert_same(row[name], getattr(message, name))
     elif isinstance(message, list):
         assert len(row.dtype) == len(message)
         for k, element in enumerate(message):
