@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from dataclasses import dataclass, field, fields
+import math
+from dataclasses import dataclass, field
+from functools import cached_property
 from pathlib import Path
 from typing import Any
 
@@ -11,10 +12,12 @@ import numpy as np
 from mcap.records import Attachment
 from numpy.typing import NDArray
 
-from .decode import Decoder
+from .decode import Topics
+from .layout import Layouts
 from .namespaces import choose_namespace
-from .records import files_of, records_of
+from .records import files_of, sections_of
 from .topics import POINT, STATE, WAVEFORM
+from .waveform import Blocks, Ranges, Source, Waveform, stamps
 
 SCENE_ATTACHMENT = "scene.yaml"
 
@@ -38,32 +41,41 @@ class Series:
 
 
 @dataclass
-class Waveform:
-    """Every sample of every mesh: `time` [s] and `stamp` [ns] (n,), the rest (n, meshes).
-
-    `block` holds the index of the first sample of each recorded block.
-    """
-
-    time: NDArray[np.float64]
-    stamp: NDArray[np.int64]
-    block: NDArray[np.int64]
-    dte: NDArray[np.float32]
-    mesh_force: NDArray[np.float32]
-    friction: NDArray[np.float32]
-
-
-@dataclass
 class Recording:
-    """What a recording holds of one gearbox; `remarks` says in lines what could not be read."""
+    """What a recording holds of one gearbox; `remarks` says in lines what could not be read.
+
+    States are held whole; samples stay in the file until they are asked for.
+    """
 
     path: Path
     namespace: str
     planets: int
     state: Series
     operating_point: Series
-    waveform: Waveform | None
+    blocks: Blocks
     scene_yaml: str | None
     remarks: list[str] = field(default_factory=list)
+
+    @cached_property
+    def ranges(self) -> Ranges | None:
+        """Smallest and largest sample of each block; None without mesh_waveform."""
+        return self.blocks.ranges()
+
+    @cached_property
+    def waveform(self) -> Waveform | None:
+        """Every sample of the whole recording, read when it is first asked for.
+
+        At 50 kHz and six meshes that is 4 MB for each second: of a long recording rather ask for
+        `samples` of a stretch.
+        """
+        return self.samples(-math.inf, math.inf)
+
+    def samples(self, begin: float, end: float) -> Waveform | None:
+        """Every sample of the blocks that touch a stretch of simulated time [s], read anew.
+
+        None where there is no such block. Raises `OSError` where the file is gone.
+        """
+        return self.blocks.waveform(begin, end)
 
     @property
     def meshes(self) -> tuple[str, ...]:
@@ -87,65 +99,72 @@ def read_recording(path: str | Path, namespace: str | None = None) -> Recording:
     `namespace` chooses among several gearboxes in one file; without it the file must hold one.
     Raises `RecordingError` where there is nothing to read.
     """
-    remarks: list[str] = []
-    by_topic: dict[str, list[Any]] = {}
-    scene_yaml = None
+    found = _Found()
     for file in files_of(Path(path)):
-        for topic, message in _messages(file, remarks):
-            if topic == SCENE_ATTACHMENT:
-                scene_yaml = scene_yaml or message.decode()
-            else:
-                by_topic.setdefault(topic, []).append(message)
-    namespace = choose_namespace(by_topic, namespace, path)
-    topics = {name: by_topic.get(f"{namespace}/{name}", []) for name in (STATE, WAVEFORM, POINT)}
-    state = _series(topics[STATE])
-    planets = int(state["planets"][0])
+        found.read(file)
+    namespace = choose_namespace(found.rows, namespace, path)
+    state = _series(found.rows[f"{namespace}/{STATE}"])
     return Recording(
         path=Path(path),
         namespace=namespace,
-        planets=planets,
+        planets=int(state["planets"][0]),
         state=state,
-        operating_point=_series(topics[POINT]),
-        waveform=_waveform(topics[WAVEFORM], 2 * planets),
-        scene_yaml=scene_yaml,
-        remarks=remarks,
+        operating_point=_series(found.rows.get(f"{namespace}/{POINT}", [])),
+        blocks=found.blocks.get(f"{namespace}/{WAVEFORM}", Blocks()),
+        scene_yaml=found.scene_yaml,
+        remarks=found.remarks,
     )
 
 
-def _messages(file: Path, remarks: list[str]) -> Iterator[tuple[str, Any]]:
-    """Pairs of topic and decoded message, and the scene attachment as ("scene.yaml", bytes)."""
-    decoder = Decoder(lambda topic: topic.rsplit("/", 1)[-1] in (STATE, WAVEFORM, POINT))
-    for record in records_of(file, remarks):
-        if isinstance(record, Attachment) and record.name == SCENE_ATTACHMENT:
-            yield SCENE_ATTACHMENT, record.data
-        elif found := decoder.read(record):
-            yield found
+class _Found:
+    """What files hold, by topic: rows of structured arrays, and blocks of the waveform."""
+
+    def __init__(self) -> None:
+        self.rows: dict[str, list[NDArray[Any]]] = {}
+        self.blocks: dict[str, Blocks] = {}
+        self.scene_yaml: str | None = None
+        self.remarks: list[str] = []
+
+    def read(self, file: Path) -> None:
+        """Take what a file holds."""
+        topics = Topics(lambda topic: topic.rpartition("/")[2] in (STATE, WAVEFORM, POINT))
+        sources: dict[int, Source] = {}
+        for section in sections_of(file, self.remarks):
+            messages: dict[int, list[bytes]] = {}
+            for record in section.records:
+                if isinstance(record, Attachment) and record.name == SCENE_ATTACHMENT:
+                    self.scene_yaml = self.scene_yaml or record.data.decode()
+                elif found := topics.of(record):
+                    channel = record.channel_id
+                    if channel not in sources:
+                        layouts = Layouts(topics.types.fielddefs, found[1])
+                        sources[channel] = Source(file, channel, found[0], layouts)
+                    messages.setdefault(channel, []).append(record.data)
+            for channel, data in messages.items():
+                self._take(sources[channel], section.place, data)
+
+    def _take(self, source: Source, place: int, messages: list[bytes]) -> None:
+        for rows in source.arrays(messages):
+            if source.topic.endswith(WAVEFORM):
+                self.blocks.setdefault(source.topic, Blocks()).take(source, place, rows)
+            else:
+                self.rows.setdefault(source.topic, []).append(rows)
 
 
-def _nanoseconds(messages: list[Any]) -> NDArray[np.int64]:
-    stamps = [message.header.stamp for message in messages]
-    return np.array([stamp.sec * 1_000_000_000 + stamp.nanosec for stamp in stamps], dtype=np.int64)
-
-
-def _series(messages: list[Any]) -> Series:
-    if not messages:
+def _series(parts: list[NDArray[Any]]) -> Series:
+    if not parts:
         return Series(np.empty(0), np.empty(0, np.int64), {})
-    names = [column.name for column in fields(messages[0]) if column.name != "header"]
-    rows = {name: np.array([getattr(row, name) for row in messages]) for name in names}
-    return Series(rows["simulated_time"], _nanoseconds(messages), rows)
-
-
-def _waveform(messages: list[Any], meshes: int) -> Waveform | None:
-    if not messages:
-        return None
-    counts = np.array([message.samples for message in messages])
-    block = np.concatenate(([0], np.cumsum(counts)))
-    offsets = [np.arange(message.samples) * message.sample_period for message in messages]
-    start = np.repeat([message.start_time for message in messages], counts)
     columns = {
-        name: np.concatenate([getattr(message, name).reshape(meshes, -1).T for message in messages])
-        for name in ("dte", "mesh_force", "friction")
+        name: _column([rows[name] for rows in parts])
+        for name in parts[0].dtype.names or ()
+        if name != "header"
     }
-    offset = np.concatenate(offsets)
-    stamp = np.repeat(_nanoseconds(messages), counts) + np.rint(offset * 1e9).astype(np.int64)
-    return Waveform(start + offset, stamp, block[:-1], **columns)
+    stamp = np.concatenate([stamps(rows) for rows in parts])
+    return Series(columns["simulated_time"], stamp, columns)
+
+
+def _column(parts: list[NDArray[Any]]) -> NDArray[Any]:
+    column = np.concatenate(parts)
+    if column.dtype.kind == "S":
+        return np.asarray(np.char.decode(column, "utf-8"))
+    return column.astype(column.dtype.newbyteorder("="), copy=False)

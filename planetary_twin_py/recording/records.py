@@ -36,7 +36,7 @@ MAGIC = b"\x89MCAP0\r\n"
 _LONGEST_RECORD = 256 * 2**20
 _HEAD = struct.Struct("<BQ")  # opcode and length of a record
 _MESSAGE = struct.Struct("<HIQQ")  # channel, sequence, log time and publish time of a message
-_TOLD = {
+_TOLD: dict[int, Any] = {
     Opcode.SCHEMA: Schema,
     Opcode.CHANNEL: Channel,
     Opcode.ATTACHMENT: Attachment,

@@ -10,7 +10,8 @@ from __future__ import annotations
 import numpy as np
 import rerun as rr
 
-from ..recording.reader import Recording, Waveform
+from ..recording.reader import Recording
+from ..recording.waveform import Waveform
 from . import timeline
 from .plots import log_series, mesh_colours
 from .quantities import WAVEFORM
