@@ -30,7 +30,11 @@ from planetary_twin_py.recording.topics import JOINTS, POINT, STATE, WAVEFORM
 
 REPEATED = (STATE, WAVEFORM, JOINTS, POINT, "/tf", "/diagnostics")
 TIMES = ("simulated_time", "start_time")  # fields that go on with the run [s]
-COMMANDS = {"view": ("view", "--save"), "info": ("info", "--json"), "picture": ("view", "--screenshot")}
+COMMANDS = {
+    "view": ("view", "--save"),
+    "info": ("info", "--json"),
+    "picture": ("view", "--screenshot"),
+}
 
 
 class Cost(NamedTuple):
@@ -116,7 +120,9 @@ def _advance(row: Any, shift: int, number: int) -> None:
 
 def main() -> None:
     """Print one table."""
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawTextHelpFormatter)
+    parser = argparse.ArgumentParser(
+        description=__doc__, formatter_class=argparse.RawTextHelpFormatter
+    )
     parser.add_argument("recording", type=Path)
     parser.add_argument("--seconds", type=float, nargs="+", default=[10.0, 60.0, 600.0])
     parser.add_argument("--keep", type=Path, help="folder in which the recordings are left")

@@ -13,6 +13,7 @@ from ._fail import fail, remark
 if TYPE_CHECKING:
     from ..recording.reader import Recording
     from ..scene import Scene
+    from ..view.detail import Stretch
 
 
 def view(
@@ -30,6 +31,13 @@ def view(
     namespace: Annotated[
         str | None, typer.Option(help="Which gearbox, if the recording holds several.")
     ] = None,
+    from_: Annotated[
+        float | None,
+        typer.Option("--from", help="Show every sample from this simulated time [s] on."),
+    ] = None,
+    to: Annotated[
+        float | None, typer.Option(help="Show every sample up to this simulated time [s].")
+    ] = None,
 ) -> None:
     """Open a recording in Rerun: gears in 3-D, plots, one time cursor."""
     try:
@@ -42,12 +50,13 @@ def view(
 
     try:
         recording, drawn = _load(file, namespace, scene)
+        detail = _detail(recording, from_, to)
         if save is not None:
-            _save(recording, drawn, save)
+            _save(recording, drawn, save, detail)
         if screenshot is not None:
-            _picture(recording, drawn, screenshot, at)
+            _picture(recording, drawn, screenshot, at, detail)
         if save is None and screenshot is None:
-            _window(recording, drawn)
+            _window(recording, drawn, detail)
     except (RecordingError, SceneError, ScreenshotError) as error:
         fail(error)
     except OSError as error:
@@ -70,15 +79,37 @@ def _load(file: Path, namespace: str | None, scene: str | None) -> tuple[Recordi
     return recording, drawn
 
 
-def _save(recording: Recording, scene: Scene | None, rrd: Path) -> None:
+def _detail(recording: Recording, begin: float | None, end: float | None) -> Stretch | None:
+    """The stretch that is asked for, None where it is left to the viewer."""
+    from ..recording.records import RecordingError
+
+    if begin is None and end is None:
+        return None
+    first, last = float(recording.state.time[0]), float(recording.state.time[-1])
+    stretch = first if begin is None else begin, last if end is None else end
+    if not (stretch[0] < stretch[1] and stretch[0] < last and stretch[1] > 0.0):
+        raise RecordingError(
+            f"--from {stretch[0]:g} --to {stretch[1]:g}: must be a stretch within "
+            f"{first:g} to {last:g} s"
+        )
+    return stretch
+
+
+def _save(recording: Recording, scene: Scene | None, rrd: Path, detail: Stretch | None) -> None:
     from ..view import show
 
-    for line in show.save(recording, scene, rrd):
+    for line in show.save(recording, scene, rrd, detail=detail):
         remark(line)
     typer.echo(f"{rrd}: {rrd.stat().st_size / 1e6:.1f} MB; opens with: rerun {rrd}")
 
 
-def _picture(recording: Recording, scene: Scene | None, png: Path, at: float | None) -> None:
+def _picture(
+    recording: Recording,
+    scene: Scene | None,
+    png: Path,
+    at: float | None,
+    detail: Stretch | None,
+) -> None:
     from ..recording.records import RecordingError
     from ..view import show
     from ..view.screenshot import save_screenshot
@@ -88,19 +119,19 @@ def _picture(recording: Recording, scene: Scene | None, png: Path, at: float | N
         raise RecordingError(f"at = {at:g}: the recording runs from {first:g} to {last:g} s")
     with tempfile.TemporaryDirectory() as folder:
         rrd = Path(folder) / "picture.rrd"
-        show.save(recording, scene, rrd, picture=True)
+        show.save(recording, scene, rrd, picture=True, detail=detail)
         save_screenshot(rrd, png, last if at is None else at)
     typer.echo(f"{png}")
 
 
-def _window(recording: Recording, scene: Scene | None) -> None:
+def _window(recording: Recording, scene: Scene | None, detail: Stretch | None) -> None:
     from ..view import show, viewer
 
     if not viewer.has_display():
         fail("no display to open a window on: use --save OUT.rrd or --screenshot OUT.png")
     with tempfile.TemporaryDirectory() as folder:
         rrd = Path(folder) / f"{recording.path.stem}.rrd"
-        for line in show.save(recording, scene, rrd):
+        for line in show.save(recording, scene, rrd, detail=detail):
             remark(line)
         if code := viewer.show(rrd):
             fail(f"the viewer ended with exit code {code}")

@@ -91,7 +91,9 @@ class _Walk:
 
     def __init__(self, definitions: Definitions, message: bytes) -> None:
         if message[:2] not in (b"\0\0", b"\0\1"):
-            raise LayoutError(f"begins with {message[:2].hex() or 'nothing'}, only plain CDR is read")
+            raise LayoutError(
+                f"begins with {message[:2].hex() or 'nothing'}, only plain CDR is read"
+            )
         self._definitions, self._message = definitions, message
         self._order = "<" if message[1] else ">"
         self._place = _ENCAPSULATION

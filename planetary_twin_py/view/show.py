@@ -10,6 +10,7 @@ from ..recording.reader import Recording
 from ..recording.records import RecordingError
 from ..scene import Scene, SceneError, parse_scene
 from .blueprint import blueprint
+from .detail import Stretch, overview, stretches
 from .events import log_events
 from .gears import log_gears
 from .motion import motion
@@ -29,10 +30,17 @@ def scene_of(recording: Recording) -> tuple[Scene | None, str | None]:
         return None, f"{recording.path}: its scene cannot be read, so no gears are drawn: {error}"
 
 
-def save(recording: Recording, scene: Scene | None, rrd: Path, picture: bool = False) -> list[str]:
+def save(
+    recording: Recording,
+    scene: Scene | None,
+    rrd: Path,
+    picture: bool = False,
+    detail: Stretch | None = None,
+) -> list[str]:
     """Save `recording` as Rerun file `rrd`; returns remarks on what is left out, line by line.
 
-    `picture`: with the layout of a still picture, without the viewer's menu.
+    `picture`: with the layout of a still picture, without the viewer's menu; `detail`: the stretch
+    of simulated time [s] that is shown sample by sample, instead of where something happens.
     """
     gearset = scene.gearset if scene else None
     if scene is not None and scene.gearset.planets != recording.planets:
@@ -50,9 +58,10 @@ def save(recording: Recording, scene: Scene | None, rrd: Path, picture: bool = F
     stream.send_blueprint(blueprint(gearset, picture), make_active=True, make_default=True)
     if gearset is not None:
         log_gears(stream, gearset, motion(recording))
-    log_plots(stream, recording)
+    in_detail = stretches(recording) if detail is None else [detail]
+    log_plots(stream, overview(recording, in_detail))
     log_events(stream, recording)
-    remark = log_waveform(stream, recording)
+    remark = log_waveform(stream, recording, in_detail)
     stream.flush()
     stream.disconnect()
     return [remark] if remark else []

@@ -27,7 +27,9 @@ def values(draw, field):
     if sort == Nodetype.NAME:
         return draw(messages(of))
     if sort == Nodetype.BASE:
-        return draw(st.text(max_size=5).filter(str.isprintable) if of[0] == "string" else number(of[0]))
+        return draw(
+            st.text(max_size=5).filter(str.isprintable) if of[0] == "string" else number(of[0])
+        )
     element, size = of
     size = draw(SIZES) if sort == Nodetype.SEQUENCE else size
     if element[0] == Nodetype.BASE and element[1][0] != "string":
@@ -43,7 +45,11 @@ def number(name):
     if name.startswith("float"):
         return st.floats(width=int(name[5:]))
     # rosbags takes a byte for a signed number, as its arrays of them are not.
-    low, high = (0, {"byte": 127, "char": 255}[name]) if name in ("byte", "char") else (np.iinfo(name).min, np.iinfo(name).max)
+    low, high = (
+        (0, {"byte": 127, "char": 255}[name])
+        if name in ("byte", "char")
+        else (np.iinfo(name).min, np.iinfo(name).max)
+    )
     return st.integers(int(low), int(high))
 
 
@@ -95,7 +101,9 @@ def test_messages_of_the_same_size_that_lie_otherwise_are_told_apart():
     assert len({len(message) for message in raw[:4]}) == 1
     arrays = list(Layouts(TYPES.fielddefs, kind).arrays(raw))
     assert [len(rows) for rows in arrays] == [2, 1, 1, 1]
-    found = [[str(status["name"], "utf-8") for status in row["status"]] for a in arrays for row in a]
+    found = [
+        [str(status["name"], "utf-8") for status in row["status"]] for a in arrays for row in a
+    ]
     assert found == [list(names) for names in order]
 
 
