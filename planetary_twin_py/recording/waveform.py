@@ -77,7 +77,8 @@ class _Batch(NamedTuple):
     place: int
     time: NDArray[np.float64]
     stamp: NDArray[np.int64]
-    end: float  # simulated time of the last sample [s]
+    begin: float  # simulated time of the first sample [s]
+    end: float  # and of the last
     lowest: list[NDArray[np.float32]]  # in the order of QUANTITIES
     highest: list[NDArray[np.float32]]
 
@@ -108,6 +109,7 @@ class Blocks:
                 place,
                 rows["start_time"].astype(np.float64),
                 stamps(rows),
+                float(rows["start_time"].min()),
                 float(last.max()),
                 [np.fmin.reduce(values, axis=2) for values in samples],
                 [np.fmax.reduce(values, axis=2) for values in samples],
@@ -163,7 +165,7 @@ class Blocks:
         wanted = {
             (batch.source, batch.place): None
             for batch in self._batches
-            if batch.time.min() <= end and batch.end >= begin
+            if batch.begin <= end and batch.end >= begin
         }
         for source, place in wanted:
             records = section_at(source.file, place)

@@ -56,7 +56,7 @@ def overview(recording: Recording, detail: list[Stretch]) -> Recording:
 
 
 def first_rows(time: NDArray[np.float64], detail: list[Stretch]) -> NDArray[np.intp]:
-    """First row of each group of rows that make one of the overview; in `detail` each is its own."""
+    """First row of each group that makes one row of the overview; in `detail` each is its own."""
     step = math.ceil(len(time) / MOST_ROWS)
     single = np.zeros(len(time) + 1, dtype=bool)
     for begin, end in detail:
