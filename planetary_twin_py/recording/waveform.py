@@ -39,13 +39,14 @@ class Waveform:
 class Ranges:
     """Smallest and largest sample of each recorded block.
 
-    `time` [s] and `stamp` [ns] (blocks,) are those of its first sample; `lowest[name]` and
-    `highest[name]` (blocks, meshes), for "dte" [m], "mesh_force" [N] and "friction" [N]; a sample
-    that is NaN does not count.
+    `time` [s] and `stamp` [ns] (blocks,) are those of its first sample, `period` [s] is from one
+    sample to the next; `lowest[name]` and `highest[name]` (blocks, meshes), for "dte" [m],
+    "mesh_force" [N] and "friction" [N]; a sample that is NaN does not count.
     """
 
     time: NDArray[np.float64]
     stamp: NDArray[np.int64]
+    period: NDArray[np.float64]
     lowest: Values
     highest: Values
 
@@ -77,6 +78,7 @@ class _Batch(NamedTuple):
     place: int
     time: NDArray[np.float64]
     stamp: NDArray[np.int64]
+    period: NDArray[np.float64]
     begin: float  # simulated time of the first sample [s]
     end: float  # and of the last
     lowest: list[NDArray[np.float32]]  # in the order of QUANTITIES
@@ -109,6 +111,7 @@ class Blocks:
                 place,
                 rows["start_time"].astype(np.float64),
                 stamps(rows),
+                rows["sample_period"].astype(np.float64),
                 float(rows["start_time"].min()),
                 float(last.max()),
                 [np.fmin.reduce(values, axis=2) for values in samples],
@@ -127,9 +130,11 @@ class Blocks:
             }
             for end in ("lowest", "highest")
         ]
-        time = np.concatenate([batch.time for batch in self._batches])
-        stamp = np.concatenate([batch.stamp for batch in self._batches])
-        return Ranges(time, stamp, *ends)
+        time, stamp, period = (
+            np.concatenate([getattr(batch, name) for batch in self._batches])
+            for name in ("time", "stamp", "period")
+        )
+        return Ranges(time, stamp, period, *ends)
 
     def waveform(self, begin: float, end: float) -> Waveform | None:
         """The samples of all blocks that touch the stretch of simulated time [s]; None if none."""

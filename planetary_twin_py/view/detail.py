@@ -34,7 +34,8 @@ def stretches(recording: Recording) -> list[Stretch]:
     """Where `recording` is shown sample by sample: all of it, if `MOST_SAMPLES` reach for that."""
     begin, end = recording.state.time.min(), recording.state.time.max()
     begin = max(begin - recording.state["interval"][0], 0.0)
-    room = MOST_SAMPLES / recording.state["sample_rate"].max()
+    ranges = recording.ranges
+    room = math.inf if ranges is None else MOST_SAMPLES * ranges.period.min()
     if end - begin <= room:
         return [(begin, end)]
     happened = np.unique(np.append(begin, recording.operating_point.time))

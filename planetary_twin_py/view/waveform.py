@@ -11,6 +11,7 @@ from itertools import pairwise
 
 import numpy as np
 import rerun as rr
+from numpy.typing import NDArray
 
 from ..recording.reader import Recording
 from ..recording.waveform import Ranges, Waveform
@@ -34,7 +35,7 @@ def log_waveform(
         return f"{recording.path}: no mesh_waveform message in it, so no samples are shown"
     _log_ranges(stream, recording, ranges, detail)
     for begin, end in detail:
-        _log_stretch(stream, recording, begin, end)
+        _log_stretch(stream, recording, np.arange(begin, end, _CHUNK * ranges.period.min()), end)
     begin, end = detail[0]
     if begin <= ranges.time[0] and end >= recording.state.time[-1]:
         return None
@@ -63,12 +64,10 @@ def _log_ranges(
 
 
 def _log_stretch(
-    stream: rr.RecordingStream, recording: Recording, begin: float, end: float
+    stream: rr.RecordingStream, recording: Recording, begins: NDArray[np.float64], end: float
 ) -> None:
-    """Log the samples from `begin` to `end` [s], a part of them at a time."""
-    length = _CHUNK / float(recording.state["sample_rate"].max())
-    edges = [*np.arange(begin, end, length), np.nextafter(end, np.inf)]
-    for first, last in pairwise(edges):
+    """Log the samples up to `end` [s], from one of `begins` to the next at a time."""
+    for first, last in pairwise([*begins, np.nextafter(end, np.inf)]):
         waveform = recording.samples(first, last)
         if waveform is not None:
             _log_samples(stream, recording, waveform, first, last)
