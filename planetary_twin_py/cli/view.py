@@ -16,6 +16,9 @@ if TYPE_CHECKING:
     from ..view.detail import Stretch
 
 
+_SEEN = 0.5  # [s] on either side of the time cursor, in a picture that cannot be zoomed
+
+
 def view(
     file: Annotated[Path, typer.Argument(help="Recording: an .mcap file or the folder of one.")],
     save: Annotated[Path | None, typer.Option(help="Write a Rerun file (.rrd) instead.")] = None,
@@ -117,10 +120,11 @@ def _picture(
     first, last = recording.state.time[0], recording.state.time[-1]
     if at is not None and not first <= at <= last:
         raise RecordingError(f"at = {at:g}: the recording runs from {first:g} to {last:g} s")
+    at = last if at is None else at
     with tempfile.TemporaryDirectory() as folder:
         rrd = Path(folder) / "picture.rrd"
-        show.save(recording, scene, rrd, picture=True, detail=detail)
-        save_screenshot(rrd, png, last if at is None else at)
+        show.save(recording, scene, rrd, picture=True, detail=detail or (at - _SEEN, at + _SEEN))
+        save_screenshot(rrd, png, at)
     typer.echo(f"{png}")
 
 
