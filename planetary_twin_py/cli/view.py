@@ -2,21 +2,26 @@
 
 from __future__ import annotations
 
+import math
 import os
 import tempfile
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, NamedTuple
 
 import typer
 
-from ._fail import fail, remark
+from ._fail import fail, need, remark
 from ._live import look_at_twin, tell
 
 if TYPE_CHECKING:
     from ..recording.reader import Recording
+    from ..recording.waveform import Stretch
     from ..scene import Scene
+
+
+_SEEN = 0.5  # [s] on either side of the time cursor, in a picture that cannot be zoomed
 
 
 def view(
@@ -44,38 +49,48 @@ def view(
     namespace: Annotated[
         str | None, typer.Option(help="Which gearbox, where there are several.")
     ] = None,
-    duration: Annotated[
-        float | None, typer.Option(help="Seconds to watch a twin that runs.", min=0.1)
+    during: Annotated[
+        str | None,
+        typer.Option(
+            metavar="BEGIN:END",
+            help="Show every sample of this stretch of simulated time [s]; of a running twin, "
+            "look for so long.",
+        ),
     ] = None,
 ) -> None:
     """Open recordings, or a running twin, in Rerun: gears in 3-D, plots, one time cursor."""
     with _one_line_errors():
+        asked = _read_stretch(during)
         if not files:
             if screenshot is not None:
                 fail("screenshot: is of a recording; name one")
-            look_at_twin(namespace, scene, save, serve, duration)
+            lasting = None if asked is None else asked[1] - max(asked[0], 0.0)
+            look_at_twin(namespace, scene, save, serve, lasting)
             return
-        if duration is not None:
-            fail("duration: is of a twin that runs, not of a recording")
-        shown = [_read(file, namespace) for file in files]
-        drawn = _scene(shown[0], scene)
+        recordings = [_read(file, namespace) for file in files]
+        shown = _Shown(recordings, _scene(recordings[0], scene), _detail(recordings[0], asked))
         if save is not None:
-            _save(shown, drawn, save)
+            _save(shown, save)
         if screenshot is not None:
-            _picture(shown, drawn, screenshot, at)
+            _picture(shown, screenshot, at)
         if serve:
-            _serve(shown, drawn)
+            _serve(shown)
         elif save is None and screenshot is None:
-            _window(shown, drawn)
+            _window(shown)
+
+
+class _Shown(NamedTuple):
+    """What is looked at: the first recording under the others, its gears, the stretch in detail."""
+
+    recordings: list[Recording]
+    scene: Scene | None
+    detail: Stretch | None
 
 
 @contextmanager
 def _one_line_errors() -> Iterator[None]:
     os.environ.setdefault("RUST_LOG", "off")  # what goes wrong is raised, too, and told once
-    try:
-        import rerun  # noqa: F401
-    except ImportError:
-        fail("the viewer is not installed: pip install 'planetary_twin_py[view]'")
+    need("view", "rerun", "mcap", "rosbags")
     from ..recording.records import RecordingError
     from ..scene import SceneError
     from ..view.viewer import ViewerError
@@ -109,35 +124,66 @@ def _scene(recording: Recording, chosen: str | None) -> Scene | None:
     return drawn
 
 
-def _save(shown: Sequence[Recording], scene: Scene | None, rrd: Path) -> None:
-    _write(shown, scene, rrd)
+def _read_stretch(text: str | None) -> Stretch | None:
+    """Begin and end [s] of BEGIN:END; an end left out is infinite."""
+    if text is None:
+        return None
+    begin, colon, end = text.partition(":")
+    try:
+        found = float(begin or -math.inf), float(end or math.inf)
+    except ValueError:
+        found = math.nan, math.nan
+    if not (colon and found[0] < found[1]):
+        fail(f"--during {text!r}: must be BEGIN:END in seconds, e.g. 2.5:3 or 10: or :5")
+    return found
+
+
+def _detail(recording: Recording, asked: Stretch | None) -> Stretch | None:
+    """The stretch that is asked for, None where it is left to the viewer."""
+    from ..recording.records import RecordingError
+
+    if asked is None:
+        return None
+    first, last = float(recording.state.time[0]), float(recording.state.time[-1])
+    begin, end = max(asked[0], 0.0), min(asked[1], last)
+    if not begin < end:
+        raise RecordingError(
+            f"--during {asked[0]:g}:{asked[1]:g}: the recording runs from {first:g} to {last:g} s"
+        )
+    return begin, end
+
+
+def _save(shown: _Shown, rrd: Path) -> None:
+    _write(shown, rrd)
     typer.echo(f"{rrd}: {rrd.stat().st_size / 1e6:.1f} MB; opens with: rerun {rrd}")
 
 
-def _picture(shown: Sequence[Recording], scene: Scene | None, png: Path, at: float | None) -> None:
+def _picture(shown: _Shown, png: Path, at: float | None) -> None:
     from ..recording.records import RecordingError
     from ..view.blueprint import PICTURE
     from ..view.screenshot import save_screenshot
     from ..view.show import save
 
-    first, *others = shown
+    first, *others = shown.recordings
     begin, end = first.state.time[0], first.state.time[-1]
     if at is not None and not begin <= at <= end:
         raise RecordingError(f"at = {at:g}: the recording runs from {begin:g} to {end:g} s")
+    at = end if at is None else at
+    detail = shown.detail or (at - _SEEN, at + _SEEN)
     with tempfile.TemporaryDirectory() as folder:
         rrd = Path(folder) / "picture.rrd"
-        save(first, scene, rrd, others, PICTURE)
-        save_screenshot(rrd, png, end if at is None else at)
+        save(first, shown.scene, rrd, others, PICTURE, detail)
+        save_screenshot(rrd, png, at)
     typer.echo(f"{png}")
 
 
-def _window(shown: Sequence[Recording], scene: Scene | None) -> None:
+def _window(shown: _Shown) -> None:
     from ..view import viewer
 
     if not viewer.has_display():
         fail("no display to open a window on: use --serve, --save OUT.rrd or --screenshot OUT.png")
     with (
-        _written(shown, scene) as rrd,
+        _written(shown) as rrd,
         viewer.until_interrupted(),
         viewer.window(str(rrd)) as window,
     ):
@@ -145,11 +191,11 @@ def _window(shown: Sequence[Recording], scene: Scene | None) -> None:
             fail(f"the viewer ended with exit code {code}")
 
 
-def _serve(shown: Sequence[Recording], scene: Scene | None) -> None:
+def _serve(shown: _Shown) -> None:
     from ..view import viewer
 
     with (
-        _written(shown, scene) as rrd,
+        _written(shown) as rrd,
         viewer.until_interrupted(),
         viewer.page(str(rrd), "--server-memory-limit", "50%") as page,
     ):
@@ -159,17 +205,17 @@ def _serve(shown: Sequence[Recording], scene: Scene | None) -> None:
 
 
 @contextmanager
-def _written(shown: Sequence[Recording], scene: Scene | None) -> Iterator[Path]:
+def _written(shown: _Shown) -> Iterator[Path]:
     """A Rerun file for as long as it is looked at."""
     with tempfile.TemporaryDirectory() as folder:
-        rrd = Path(folder) / f"{shown[0].path.stem}.rrd"
-        _write(shown, scene, rrd)
+        rrd = Path(folder) / f"{shown.recordings[0].path.stem}.rrd"
+        _write(shown, rrd)
         yield rrd
 
 
-def _write(shown: Sequence[Recording], scene: Scene | None, rrd: Path) -> None:
+def _write(shown: _Shown, rrd: Path) -> None:
     from ..view.show import save
 
-    first, *others = shown
-    for line in save(first, scene, rrd, others):
+    first, *others = shown.recordings
+    for line in save(first, shown.scene, rrd, others, detail=shown.detail):
         remark(line)

@@ -11,17 +11,20 @@ from rosbags.typesys import Stores, get_types_from_msg, get_typestore
 from .records import RecordingError
 
 
-class Decoder:
-    """Decodes the topics of one file that are `wanted`, given its records in order."""
+class Topics:
+    """The topics of one file that are `wanted`, given its records in order.
+
+    `types` are those of the definitions met so far.
+    """
 
     def __init__(self, wanted: Callable[[str], bool]) -> None:
         self._wanted = wanted
-        self._types = get_typestore(Stores.EMPTY)
+        self.types = get_typestore(Stores.EMPTY)
         self._schemas: dict[int, Schema] = {}
         self._channels: dict[int, Channel] = {}
 
-    def read(self, record: Any) -> tuple[str, Any] | None:
-        """Topic and message, where the record is a message of a wanted topic.
+    def of(self, record: Any) -> tuple[str, str] | None:
+        """Topic and type, where the record is a message of a wanted topic.
 
         Raises:
             RecordingError: a wanted topic is encoded in a way that cannot be read.
@@ -34,8 +37,7 @@ class Decoder:
                 self._learn(record)
         elif isinstance(record, Message) and record.channel_id in self._channels:
             channel = self._channels[record.channel_id]
-            kind = self._schemas[channel.schema_id].name
-            return channel.topic, self._types.deserialize_cdr(record.data, kind)
+            return channel.topic, self._schemas[channel.schema_id].name
         return None
 
     def _learn(self, channel: Channel) -> None:
@@ -46,4 +48,22 @@ class Decoder:
                 "only ros2msg/cdr can be read"
             )
         found = get_types_from_msg(schema.data.decode(), schema.name)
-        self._types.register({k: v for k, v in found.items() if k not in self._types.types})
+        self.types.register({k: v for k, v in found.items() if k not in self.types.types})
+
+
+class Decoder:
+    """Decodes the topics of one file that are `wanted`, given its records in order."""
+
+    def __init__(self, wanted: Callable[[str], bool]) -> None:
+        self._topics = Topics(wanted)
+
+    def read(self, record: Any) -> tuple[str, Any] | None:
+        """Topic and message, where the record is a message of a wanted topic.
+
+        Raises:
+            RecordingError: a wanted topic is encoded in a way that cannot be read.
+        """
+        if found := self._topics.of(record):
+            topic, kind = found
+            return topic, self._topics.types.deserialize_cdr(record.data, kind)
+        return None

@@ -3,20 +3,27 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
+from copy import deepcopy
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, NamedTuple
 
+import numpy as np
 from mcap.records import Channel, Message, Metadata, Schema
+from numpy.typing import NDArray
 
 from ..scene import TUNABLES
 from .bag import ACCOUNT_RECORD
 from .decode import Decoder
+from .index import UNSOUND, Index
 from .records import files_of, records_of
+from .schedule import stamp_of
 from .topics import POINT, STATE
 
 REPORT = "/diagnostics"
+REPORTED = {"real_time_factor_mean", "overruns"}
+_ROUNDING = 1e3  # [ns]; intervals are many times as long
 
 
 @dataclass
@@ -38,14 +45,16 @@ class TopicInfo:
         span = self.last - self.first
         return (self.recorded - 1) / (span * 1e-9) if span > 0 else math.nan
 
-    def take(self, log_time: int) -> None:
-        """Count a message."""
-        if self.recorded:
-            self.longest_gap = max(self.longest_gap, log_time - self.last)
-        else:
-            self.first = log_time
-        self.last = max(self.last, log_time)
-        self.recorded += 1
+    def take(self, times: Sequence[int] | NDArray[np.int64]) -> None:
+        """Count messages by their log times, which come after those taken before."""
+        if not len(times):
+            return
+        if not self.recorded:
+            self.first = self.last = int(times[0])
+        newest = np.maximum.accumulate([self.last, *times])
+        self.longest_gap = max(self.longest_gap, int((times - newest[:-1]).max()))
+        self.last = int(newest[-1])
+        self.recorded += len(times)
 
 
 class Changed(NamedTuple):
@@ -94,28 +103,121 @@ class Info:
 def read_info(path: Path) -> Info:
     """Read the recording at `path`: an .mcap file or a folder of them.
 
+    A finished file is asked for its index, and no more of it is read than must be.
     Raises:
         RecordingError: there is none.
     """
     info = Info(files_of(path))
     points: dict[str, Any] = {}
     for file in info.files:
-        decoder = Decoder(_tells)
-        schemas: dict[int, Schema] = {}
-        names: dict[int, str] = {}
-        for record in records_of(file, info.remarks):
-            if isinstance(record, Schema):
-                schemas[record.id] = record
-            elif isinstance(record, Channel):
-                names[record.id] = record.topic
-                info.topics.setdefault(record.topic, TopicInfo(schemas[record.schema_id].name))
-            elif isinstance(record, Message):
-                info.topics[names[record.channel_id]].take(record.log_time)
-            elif isinstance(record, Metadata) and record.name == ACCOUNT_RECORD:
-                _account(info, record.metadata)
-            if found := decoder.read(record):
-                _learn(info, points, *found)
+        more, more_points = deepcopy(info), dict(points)
+        try:
+            _look_up(more, more_points, Index(file))
+        except UNSOUND:  # torn before it had an index, or damaged
+            _read(info, points, file)
+        else:
+            info, points = more, more_points
     return info
+
+
+def _read(info: Info, points: dict[str, Any], file: Path) -> None:
+    """Learn from every record of a file."""
+    decoder = Decoder(_tells)
+    schemas: dict[int, Schema] = {}
+    names: dict[int, str] = {}
+    times: dict[str, list[int]] = {}
+    for record in records_of(file, info.remarks):
+        if isinstance(record, Schema):
+            schemas[record.id] = record
+        elif isinstance(record, Channel):
+            names[record.id] = record.topic
+            info.topics.setdefault(record.topic, TopicInfo(schemas[record.schema_id].name))
+        elif isinstance(record, Message):
+            times.setdefault(names[record.channel_id], []).append(record.log_time)
+        elif isinstance(record, Metadata) and record.name == ACCOUNT_RECORD:
+            _account(info, record.metadata)
+        if found := decoder.read(record):
+            _learn(info, points, *found)
+    for name, taken in times.items():
+        info.topics[name].take(taken)
+
+
+def _look_up(info: Info, points: dict[str, Any], index: Index) -> None:
+    """Learn the same from the index of a file, and from the few messages that are needed."""
+    decoder = Decoder(_tells)
+    for schema in index.schemas.values():
+        decoder.read(schema)
+    changes = []
+    for number, channel in index.channels.items():
+        decoder.read(channel)
+        times = index.times[number]
+        kind = index.schemas[channel.schema_id].name
+        info.topics.setdefault(channel.topic, TopicInfo(kind)).take(times)
+        messages = _Messages(index, number, decoder)
+        if channel.topic.endswith(f"/{STATE}"):
+            info.simulated += _simulated(messages)
+        elif channel.topic.endswith(f"/{POINT}"):
+            changes += [(times[k], channel.topic, messages[k]) for k in range(len(times))]
+        elif channel.topic == REPORT:
+            info.report |= _report(messages)
+    for _, topic, message in sorted(changes, key=lambda change: change[0]):
+        _learn(info, points, topic, message)
+    for record in index.metadata:
+        if record.name == ACCOUNT_RECORD:
+            _account(info, record.metadata)
+
+
+class _Messages(Sequence[Any]):
+    """The messages of a channel, each decoded when it is asked for."""
+
+    def __init__(self, index: Index, channel: int, decoder: Decoder) -> None:
+        self._index, self._channel, self._decoder = index, channel, decoder
+
+    def __len__(self) -> int:
+        return len(self._index.times[self._channel])
+
+    def __getitem__(self, number: Any) -> Any:
+        found = self._decoder.read(self._index.message(self._channel, number))
+        return found[1] if found else None
+
+
+def _simulated(states: Sequence[Any]) -> float:
+    """Simulated time that states cover [s].
+
+    Those of one run, of which none is missing, cover what lies between their ends: so only the
+    halves are looked at in which a run ends or a message is missing.
+    """
+
+    def covered(first: int, last: int) -> float:
+        """By the states after `first`."""
+        if first == last:
+            return 0.0
+        begin, end = states[first], states[last]
+        if end.sequence - begin.sequence == last - first and _same_run(begin, end):
+            return float(end.simulated_time - begin.simulated_time)
+        if last == first + 1:
+            return float(end.interval)
+        middle = (first + last) // 2
+        return covered(first, middle) + covered(middle, last)
+
+    return states[0].interval + covered(0, len(states) - 1) if len(states) else 0.0
+
+
+def _same_run(begin: Any, end: Any) -> bool:
+    """Whether ROS time and simulated time went on by the same."""
+    simulated = end.simulated_time - begin.simulated_time
+    return abs(stamp_of(end) - stamp_of(begin) - simulated * 1e9) < _ROUNDING
+
+
+def _report(reports: Sequence[Any]) -> dict[str, str]:
+    """The newest figures of each name that is asked for, as far back as there are others."""
+    found: dict[str, str] = {}
+    for number in reversed(range(len(reports))):
+        for status in reports[number].status:
+            found = {item.key: item.value for item in status.values} | found
+        if found.keys() >= REPORTED:
+            break
+    return found
 
 
 def _tells(topic: str) -> bool:

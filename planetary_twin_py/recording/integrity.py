@@ -16,6 +16,8 @@ _FOOTER = struct.Struct("<BQQQI")  # opcode, length, start of summary, of its of
 
 def damaged_summary(file: Path) -> bool:
     """Whether the summary of a finished file fails its checksum (MCAP 0, section Footer)."""
+    if file.stat().st_size < _FOOTER.size + len(MAGIC):
+        return True
     with file.open("rb") as stream:
         stream.seek(-_FOOTER.size - len(MAGIC), 2)
         begin = stream.tell()

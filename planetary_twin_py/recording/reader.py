@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, field, fields, replace
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from functools import cached_property
 from pathlib import Path
 from typing import Any
 
@@ -11,10 +13,12 @@ import numpy as np
 from mcap.records import Attachment
 from numpy.typing import NDArray
 
-from .decode import Decoder
+from .decode import Topics
+from .layout import Layouts
 from .namespaces import choose_namespace
-from .records import files_of, records_of
+from .records import files_of, sections_of
 from .topics import POINT, STATE, WAVEFORM
+from .waveform import Blocks, Held, Ranges, Samples, Source, Stretch, Waveform, joined, stamps
 
 SCENE_ATTACHMENT = "scene.yaml"
 TOPICS = (STATE, WAVEFORM, POINT)
@@ -39,32 +43,46 @@ class Series:
 
 
 @dataclass
-class Waveform:
-    """Every sample of every mesh: `time` [s] and `stamp` [ns] (n,), the rest (n, meshes).
-
-    `block` holds the index of the first sample of each recorded block.
-    """
-
-    time: NDArray[np.float64]
-    stamp: NDArray[np.int64]
-    block: NDArray[np.int64]
-    dte: NDArray[np.float32]
-    mesh_force: NDArray[np.float32]
-    friction: NDArray[np.float32]
-
-
-@dataclass
 class Recording:
-    """What a recording holds of one gearbox; `remarks` says in lines what could not be read."""
+    """What a recording holds of one gearbox; `remarks` says in lines what could not be read.
+
+    States are held whole; samples stay in the file until they are asked for.
+    """
 
     path: Path
     namespace: str
     planets: int
     state: Series
     operating_point: Series
-    waveform: Waveform | None
+    blocks: Samples
     scene_yaml: str | None
     remarks: list[str] = field(default_factory=list)
+
+    @cached_property
+    def ranges(self) -> Ranges | None:
+        """Smallest and largest sample of each block; None without mesh_waveform."""
+        return self.blocks.ranges()
+
+    @cached_property
+    def waveform(self) -> Waveform | None:
+        """Every sample of the whole recording, read when it is first asked for.
+
+        At 50 kHz and six meshes that is 4 MB for each second: of a long recording rather ask for
+        `samples` of a stretch.
+        """
+        return self.samples(-math.inf, math.inf)
+
+    def samples(self, begin: float, end: float) -> Waveform | None:
+        """Every sample of the blocks that touch a stretch of simulated time [s], read anew.
+
+        None where there is no such block. Raises `OSError` where the file is gone.
+        """
+        return self.blocks.waveform(begin, end)
+
+    def within(self, stretches: Sequence[Stretch]) -> Recording:
+        """The same with the samples of these stretches alone, held in memory; in their order."""
+        found = [self.samples(begin, end) for begin, end in stretches]
+        return replace(self, blocks=Held(joined([part for part in found if part is not None])))
 
     @property
     def meshes(self) -> tuple[str, ...]:
@@ -88,70 +106,83 @@ def read_recording(path: str | Path, namespace: str | None = None) -> Recording:
     `namespace` chooses among several gearboxes in one file; without it the file must hold one.
     Raises `RecordingError` where there is nothing to read.
     """
-    remarks: list[str] = []
-    by_topic: dict[str, list[Any]] = {}
-    scene_yaml = None
+    found = _Found()
     for file in files_of(Path(path)):
-        for topic, message in _messages(file, remarks):
-            if topic == SCENE_ATTACHMENT:
-                scene_yaml = scene_yaml or message.decode()
-            else:
-                by_topic.setdefault(topic, []).append(message)
-    namespace = choose_namespace(by_topic, namespace, path)
-    topics = {name: by_topic.get(f"{namespace}/{name}", []) for name in TOPICS}
-    recording = assemble(topics, Path(path), namespace)
-    return replace(recording, scene_yaml=scene_yaml, remarks=remarks)
+        found.read(file)
+    namespace = choose_namespace(found.rows, namespace, path)
+    rows = {name: found.rows.get(f"{namespace}/{name}", []) for name in (STATE, POINT)}
+    blocks = found.blocks.get(f"{namespace}/{WAVEFORM}", Blocks())
+    recording = assemble(rows, blocks, Path(path), namespace)
+    return replace(recording, scene_yaml=found.scene_yaml, remarks=found.remarks)
 
 
-def assemble(messages: Mapping[str, list[Any]], path: Path, namespace: str) -> Recording:
-    """What messages tell, by the names in `TOPICS`; at least one is a GearboxState."""
-    state = _series(messages[STATE])
-    planets = int(state["planets"][0])
+def assemble(
+    rows: Mapping[str, list[NDArray[Any]]], blocks: Samples, path: Path, namespace: str
+) -> Recording:
+    """What structured arrays of messages tell, by the names of their topics; of states, at least
+    one.
+    """
+    state = _series(rows[STATE])
     return Recording(
         path=path,
         namespace=namespace,
-        planets=planets,
+        planets=int(state["planets"][0]),
         state=state,
-        operating_point=_series(messages[POINT]),
-        waveform=_waveform(messages[WAVEFORM], 2 * planets),
+        operating_point=_series(rows[POINT]),
+        blocks=blocks,
         scene_yaml=None,
     )
 
 
-def _messages(file: Path, remarks: list[str]) -> Iterator[tuple[str, Any]]:
-    """Pairs of topic and decoded message, and the scene attachment as ("scene.yaml", bytes)."""
-    decoder = Decoder(lambda topic: topic.rsplit("/", 1)[-1] in TOPICS)
-    for record in records_of(file, remarks):
-        if isinstance(record, Attachment) and record.name == SCENE_ATTACHMENT:
-            yield SCENE_ATTACHMENT, record.data
-        elif found := decoder.read(record):
-            yield found
+class _Found:
+    """What files hold, by topic: rows of structured arrays, and blocks of the waveform."""
+
+    def __init__(self) -> None:
+        self.rows: dict[str, list[NDArray[Any]]] = {}
+        self.blocks: dict[str, Blocks] = {}
+        self.scene_yaml: str | None = None
+        self.remarks: list[str] = []
+
+    def read(self, file: Path) -> None:
+        """Take what a file holds."""
+        topics = Topics(lambda topic: topic.rpartition("/")[2] in TOPICS)
+        sources: dict[int, Source] = {}
+        for section in sections_of(file, self.remarks):
+            messages: dict[int, list[bytes]] = {}
+            for record in section.records:
+                if isinstance(record, Attachment) and record.name == SCENE_ATTACHMENT:
+                    self.scene_yaml = self.scene_yaml or record.data.decode()
+                elif found := topics.of(record):
+                    channel = record.channel_id
+                    if channel not in sources:
+                        layouts = Layouts(topics.types.fielddefs, found[1])
+                        sources[channel] = Source(file, channel, found[0], layouts)
+                    messages.setdefault(channel, []).append(record.data)
+            for channel, data in messages.items():
+                self._take(sources[channel], section.place, data)
+
+    def _take(self, source: Source, place: int, messages: list[bytes]) -> None:
+        for rows in source.arrays(messages):
+            if source.topic.endswith(WAVEFORM):
+                self.blocks.setdefault(source.topic, Blocks()).take(source, place, rows)
+            else:
+                self.rows.setdefault(source.topic, []).append(rows)
 
 
-def _nanoseconds(messages: list[Any]) -> NDArray[np.int64]:
-    stamps = [message.header.stamp for message in messages]
-    return np.array([stamp.sec * 1_000_000_000 + stamp.nanosec for stamp in stamps], dtype=np.int64)
-
-
-def _series(messages: list[Any]) -> Series:
-    if not messages:
+def _series(parts: list[NDArray[Any]]) -> Series:
+    if not parts:
         return Series(np.empty(0), np.empty(0, np.int64), {})
-    names = [column.name for column in fields(messages[0]) if column.name != "header"]
-    rows = {name: np.array([getattr(row, name) for row in messages]) for name in names}
-    return Series(rows["simulated_time"], _nanoseconds(messages), rows)
-
-
-def _waveform(messages: list[Any], meshes: int) -> Waveform | None:
-    if not messages:
-        return None
-    counts = np.array([message.samples for message in messages])
-    block = np.concatenate(([0], np.cumsum(counts)))
-    offsets = [np.arange(message.samples) * message.sample_period for message in messages]
-    start = np.repeat([message.start_time for message in messages], counts)
     columns = {
-        name: np.concatenate([getattr(message, name).reshape(meshes, -1).T for message in messages])
-        for name in ("dte", "mesh_force", "friction")
+        name: _column([rows[name] for rows in parts])
+        for name in parts[0].dtype.names or ()
+        if name != "header"
     }
-    offset = np.concatenate(offsets)
-    stamp = np.repeat(_nanoseconds(messages), counts) + np.rint(offset * 1e9).astype(np.int64)
-    return Waveform(start + offset, stamp, block[:-1], **columns)
+    stamp = np.concatenate([stamps(rows) for rows in parts])
+    return Series(columns["simulated_time"], stamp, columns)
+
+
+def _column(parts: list[NDArray[Any]]) -> NDArray[Any]:
+    column = np.concatenate(parts)
+    if column.dtype.kind == "S":
+        return np.asarray(np.char.decode(column, "utf-8"))
+    return column.astype(column.dtype.newbyteorder("="), copy=False)

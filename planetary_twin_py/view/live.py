@@ -2,16 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Iterable
 from pathlib import Path
 from typing import Any
 
 import rerun as rr
+from numpy.typing import NDArray
 
-from ..recording.decode import Decoder
+from ..recording.decode import Topics
+from ..recording.layout import Layouts
 from ..recording.origin import read_origin
 from ..recording.reader import TOPICS, Recording, assemble
 from ..recording.topics import ORIGIN, POINT, STATE, WAVEFORM
+from ..recording.waveform import Held, waveform_of
 from ..scene import Scene
 from .blueprint import LIVE
 from .events import log_events
@@ -23,7 +26,7 @@ from .show import check_scene, send_layout
 from .waveform import log_waveform
 
 _TIME = {STATE: "simulated_time", WAVEFORM: "start_time", POINT: "simulated_time"}
-Messages = dict[str, list[Any]]
+Messages = dict[str, list[NDArray[Any]]]  # of one row each
 
 
 class LiveView:
@@ -40,7 +43,8 @@ class LiveView:
         self._begin = begin
         self._chosen = scene
         self._told: Scene | None = None
-        self._decoder = Decoder(lambda topic: True)
+        self._topics = Topics(lambda topic: True)
+        self._layouts: dict[str, Layouts] = {}
         self._waiting: Messages = {name: [] for name in TOPICS}
         self._run: _Run | None = None
 
@@ -51,11 +55,11 @@ class LiveView:
             RecordingError: the scene is of another gearbox, or cannot be read.
         """
         for record in records:
-            if found := self._decoder.read(record):
-                topic, message = found
-                name = topic.rpartition("/")[2]
+            if found := self._topics.of(record):
+                name = found[0].rpartition("/")[2]
+                (message,) = self._layout(*found).arrays([record.data])
                 if name == ORIGIN:
-                    self._told = read_origin(message.data).scene
+                    self._told = read_origin(message["data"][0].decode()).scene
                 elif name in self._waiting:
                     self._waiting[name].append(message)
         scene = self._chosen or self._told
@@ -67,6 +71,11 @@ class LiveView:
         if self._run is not None:
             self._run.end()
             self._run = None
+
+    def _layout(self, topic: str, kind: str) -> Layouts:
+        if topic not in self._layouts:
+            self._layouts[topic] = Layouts(self._topics.types.fielddefs, kind)
+        return self._layouts[topic]
 
     def _draw(self, scene: Scene) -> bool:
         """Draw what belongs to one run; returns whether another has begun."""
@@ -103,12 +112,13 @@ class _Run:
         check_scene(self._scene, shown)
         log_motion(self._layer, self._scene.gearset, motion(shown))
         log_events(self._layer, shown, known)
-        log_waveform(self._layer, shown)
+        if wave := shown.waveform:
+            log_waveform(self._layer, shown, [(float(wave.time[0]), float(wave.time[-1]))])
         if new[STATE]:
             log_plots(self._layer, self._recording(new))
         for name, messages in new.items():
             if messages:
-                self.reached[name] = getattr(messages[-1], _TIME[name])
+                self.reached[name] = float(messages[-1][_TIME[name]][0])
         for name, before in self._last.items():
             self._last[name] = (before + new[name])[-1:]
 
@@ -117,14 +127,15 @@ class _Run:
         self._layer.stream.flush()
         self._layer.stream.disconnect()
 
-    def _recording(self, messages: Mapping[str, list[Any]]) -> Recording:
-        return assemble(messages, Path(self._namespace), self._namespace)
+    def _recording(self, messages: Messages) -> Recording:
+        samples = Held(waveform_of(messages[WAVEFORM]))
+        return assemble(messages, samples, Path(self._namespace), self._namespace)
 
 
-def _cut(messages: list[Any], time: str, reached: float) -> int:
+def _cut(messages: list[NDArray[Any]], time: str, reached: float) -> int:
     """How many messages come before simulated time goes back."""
     for count, message in enumerate(messages):
-        if getattr(message, time) < reached:
+        if message[time][0] < reached:
             return count
-        reached = getattr(message, time)
+        reached = float(message[time][0])
     return len(messages)

@@ -8,8 +8,9 @@ from dataclasses import replace
 
 import numpy as np
 
-from ..recording.reader import Recording, Waveform
+from ..recording.reader import Recording
 from ..recording.records import RecordingError
+from ..recording.waveform import Held, Waveform
 
 DIFFERENCE = "difference"
 """What the differences stand below."""
@@ -53,7 +54,7 @@ def difference(first: Recording, other: Recording) -> Recording:
             f"{other.path}: no sample is of the same instant as one of {first.path}, "
             "so no difference is drawn"
         )
-    return replace(other, waveform=less)
+    return replace(other, blocks=Held(less))
 
 
 def _less(first: Waveform, other: Waveform) -> Waveform:

@@ -10,9 +10,11 @@ import rerun as rr
 
 from ..recording.reader import Recording
 from ..recording.records import RecordingError
+from ..recording.waveform import Stretch
 from ..scene import Scene, SceneError, parse_scene
 from .blueprint import FILE, Mode, blueprint
 from .contacts import log_contacts
+from .detail import overview, stretches
 from .events import log_events
 from .frames import frames
 from .gears import log_gears, log_motion
@@ -43,11 +45,13 @@ def save(
     rrd: Path,
     others: Sequence[Recording] = (),
     mode: Mode = FILE,
+    detail: Stretch | None = None,
 ) -> list[str]:
     """Save `recording` as Rerun file `rrd`; returns remarks on what is left out, line by line.
 
     Curves of the `others` lie over it, and what their waveforms are more than its own is drawn,
-    too; gears and spectra are those of `recording` alone.
+    too; gears and spectra are those of `recording` alone. `detail`: the stretch of simulated time
+    that is shown sample by sample, instead of where something happens.
     """
     check_scene(scene, recording)
     names = names_of([recording, *others])
@@ -56,11 +60,14 @@ def save(
     compared = names[0] if others else None
     send_layout(stream, scene, mode, compared)
     layers = [Layer(stream, name, order) for order, name in enumerate(names)]
-    remarks = _log_first(layers[0], recording, scene)
+    in_detail = stretches(recording) if detail is None else [detail]
+    remarks = []
     for layer, shown in zip(layers, (recording, *others), strict=True):
-        remarks += log_curves(layer, shown)
+        remarks += log_curves(layer, shown, in_detail)
+    sampled = recording.within(in_detail)
+    remarks += _log_first(layers[0], sampled, scene)
     for layer, other in zip(layers[1:], others, strict=True):
-        remarks += _log_difference(layer, recording, other)
+        remarks += _log_difference(layer, sampled, other.within(in_detail), in_detail)
     stream.flush()
     stream.disconnect()
     return remarks
@@ -101,11 +108,11 @@ def send_layout(
     stream.send_blueprint(layout, make_active=True, make_default=True)
 
 
-def log_curves(layer: Layer, recording: Recording) -> list[str]:
-    """Log all but the gears; returns remarks."""
-    log_plots(layer, recording)
+def log_curves(layer: Layer, recording: Recording, detail: list[Stretch]) -> list[str]:
+    """Log all but the gears, samples in `detail`; returns remarks."""
+    log_plots(layer, overview(recording, detail))
     log_events(layer, recording)
-    remark = log_waveform(layer, recording)
+    remark = log_waveform(layer, recording, detail)
     return [remark] if remark else []
 
 
@@ -124,11 +131,13 @@ def _log_first(layer: Layer, recording: Recording, scene: Scene | None) -> list[
     return [windows.remark] if windows.remark else []
 
 
-def _log_difference(layer: Layer, first: Recording, other: Recording) -> list[str]:
+def _log_difference(
+    layer: Layer, first: Recording, other: Recording, detail: list[Stretch]
+) -> list[str]:
     try:
         less = difference(first, other)
     except RecordingError as reason:
         return [str(reason)]
     # What it says of left out samples has been said of the recording itself.
-    log_waveform(replace(layer, below=DIFFERENCE, order=layer.order - 1), less)
+    log_waveform(replace(layer, below=DIFFERENCE, order=layer.order - 1), less, detail)
     return []

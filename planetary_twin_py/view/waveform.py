@@ -1,4 +1,4 @@
-"""Every sample of the vibration: its range for the overview, and the samples of two meshes to zoom.
+"""The vibration: its range for the overview, and the samples of two meshes to zoom.
 
 The range (smallest and largest value in each recorded block) of all meshes shows the whole run at a
 hundredth of the samples. One mesh of each kind is shown sample by sample: all of them would make
@@ -7,51 +7,80 @@ the file three times as large, and they repeat the same curve at another phase.
 
 from __future__ import annotations
 
-import numpy as np
+from itertools import pairwise
 
-from ..recording.reader import Recording, Waveform
+import numpy as np
+from numpy.typing import NDArray
+
+from ..recording.reader import Recording
+from ..recording.waveform import Ranges, Stretch, Waveform
 from . import timeline
+from .detail import first_rows
 from .layer import Layer
 from .plots import log_series, mesh_colours
 from .quantities import WAVEFORM
 
-# 30 s at 50 kHz: some 100 MB in the viewer. A longer recording shows the samples of its first part.
-MOST_SAMPLES = 1_500_000
 _CHUNK = 50_000  # samples sent at once, so that the viewer loads only the part it shows
 
 
-def log_waveform(layer: Layer, recording: Recording) -> str | None:
-    """Log ranges at /range/NAME and samples at /waveform/NAME; a remark if samples are left out."""
-    waveform = recording.waveform
-    if waveform is None or not len(waveform.time):
+def log_waveform(layer: Layer, recording: Recording, detail: list[Stretch]) -> str | None:
+    """Log ranges at /range/NAME and samples of `detail` at /waveform/NAME.
+
+    Returns a remark if samples are left out.
+    """
+    ranges = recording.ranges
+    if ranges is None:
         return f"{recording.path}: no mesh_waveform message in it, so no samples are shown"
-    _log_ranges(layer, recording, waveform)
-    for start in range(0, min(len(waveform.time), MOST_SAMPLES), _CHUNK):
-        _log_samples(layer, recording, waveform, slice(start, min(start + _CHUNK, MOST_SAMPLES)))
-    if len(waveform.time) <= MOST_SAMPLES:
+    _log_ranges(layer, recording, ranges, detail)
+    for begin, end in detail:
+        _log_stretch(layer, recording, np.arange(begin, end, _CHUNK * ranges.period.min()), end)
+    begin, end = detail[0]
+    if begin <= ranges.time[0] and end >= recording.state.time[-1]:
         return None
+    shown = f"{begin:g} to {end:g} s" if len(detail) == 1 else "the start and the changes"
     return (
-        f"single samples are shown up to {waveform.time[MOST_SAMPLES]:.1f} s of "
-        f"{waveform.time[-1]:.1f} s, their range to the end"
+        f"single samples are shown of {shown} ({sum(b - a for a, b in detail):.1f} s of "
+        f"{recording.state.time[-1]:.1f} s), their range of the whole; "
+        "--during chooses another stretch"
     )
 
 
-def _log_ranges(layer: Layer, recording: Recording, waveform: Waveform) -> None:
-    index = timeline.columns(waveform.time[waveform.block], waveform.stamp[waveform.block])
+def _log_ranges(layer: Layer, recording: Recording, ranges: Ranges, detail: list[Stretch]) -> None:
+    begins = first_rows(ranges.time, detail)
+    index = timeline.columns(ranges.time[begins], ranges.stamp[begins])
     names = [f"{mesh}_{end}" for mesh in recording.meshes for end in ("min", "max")]
     colours = [colour for colour in mesh_colours(recording.planets) for _ in range(2)]
     for name, quantity in WAVEFORM.items():
-        samples = getattr(waveform, name)
-        ends = [reduce.reduceat(samples, waveform.block, axis=0) for reduce in (np.fmin, np.fmax)]
-        values = quantity.factor * np.stack(ends, axis=2).reshape(len(waveform.block), -1)
+        ends = (
+            np.fmin.reduceat(ranges.lowest[name], begins, axis=0),
+            np.fmax.reduceat(ranges.highest[name], begins, axis=0),
+        )
+        values = quantity.factor * np.stack(ends, axis=2).reshape(len(begins), -1)
         log_series(layer, f"range/{name}", index, values, names, colours)
 
 
-def _log_samples(layer: Layer, recording: Recording, waveform: Waveform, part: slice) -> None:
+def _log_stretch(
+    layer: Layer, recording: Recording, begins: NDArray[np.float64], end: float
+) -> None:
+    """Log the samples up to `end` [s], from one of `begins` to the next at a time."""
+    for first, last in pairwise([*begins, np.nextafter(end, np.inf)]):
+        waveform = recording.samples(first, last)
+        if waveform is not None:
+            _log_samples(layer, recording, waveform, first, last)
+
+
+def _log_samples(
+    layer: Layer,
+    recording: Recording,
+    waveform: Waveform,
+    first: float,
+    last: float,
+) -> None:
+    part = (first <= waveform.time) & (waveform.time < last)
     index = timeline.columns(waveform.time[part], waveform.stamp[part])
     shown = [0, recording.planets]  # sun_planet_1 and planet_ring_1
     names = [recording.meshes[mesh] for mesh in shown]
     colours = [mesh_colours(recording.planets)[mesh] for mesh in shown]
     for name, quantity in WAVEFORM.items():
-        values = quantity.factor * getattr(waveform, name)[part][:, shown].astype(np.float64)
+        values = quantity.factor * getattr(waveform, name)[:, shown][part].astype(np.float64)
         log_series(layer, f"waveform/{name}", index, values, names, colours)

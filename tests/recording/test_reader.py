@@ -2,10 +2,12 @@
 
 import numpy as np
 import pytest
+from mcap.records import Attachment, Channel, Message, Metadata, Schema
+from mcap.stream_reader import StreamReader
 from synthetic_recording import BLOCK, SAMPLE_PERIOD, START_NS, state, waveform, write_recording
 
 from planetary_twin_py.recording.reader import read_recording
-from planetary_twin_py.recording.records import RecordingError
+from planetary_twin_py.recording.records import TORN, RecordingError, records_of
 
 DURATION = 0.3
 
@@ -114,3 +116,51 @@ def test_what_is_no_recording_says_so_in_one_line(tmp_path):
         with pytest.raises(RecordingError, match=reason) as caught:
             read_recording(path)
         assert "\n" not in str(caught.value)
+
+
+def test_samples_of_a_stretch_are_those_of_the_blocks_it_touches(sound):
+    recording = read_recording(sound)
+    whole = recording.waveform
+    part = recording.samples(0.105, 0.12)
+    first = np.searchsorted(whole.time, part.time[0])
+    rows = slice(first, first + len(part.time))
+    assert part.time[0] == pytest.approx(0.10002) and part.time[-1] == pytest.approx(0.12)
+    for name in ("time", "stamp", "dte", "mesh_force", "friction"):
+        assert np.array_equal(getattr(part, name), getattr(whole, name)[rows])
+    assert recording.samples(5.0, 6.0) is None
+
+
+def test_ranges_are_those_of_the_samples(sound):
+    recording = read_recording(sound)
+    whole, ranges = recording.waveform, recording.ranges
+    assert np.array_equal(ranges.time, whole.time[whole.block])
+    assert np.array_equal(ranges.stamp, whole.stamp[whole.block])
+    for name in ("dte", "mesh_force", "friction"):
+        samples = getattr(whole, name)
+        assert np.array_equal(ranges.lowest[name], np.fmin.reduceat(samples, whole.block))
+        assert np.array_equal(ranges.highest[name], np.fmax.reduceat(samples, whole.block))
+
+
+def test_records_of_a_damaged_file_are_those_before_the_damage_as_mcap_reads_them(sound, tmp_path):
+    whole, original = sound.read_bytes(), list(records_of(sound, []))
+    damaged = tmp_path / "damaged.mcap"
+    kinds = (Schema, Channel, Message, Attachment, Metadata)
+    generator = np.random.default_rng(1)
+    for place in [*generator.integers(8, len(whole), 60), *range(8, 60), *range(-60, 0)]:
+        data = bytearray(whole)
+        data[place] ^= 1 << int(generator.integers(8))
+        damaged.write_bytes(data[: int(generator.integers(8, len(whole)))] if place % 3 else data)
+        found = list(records_of(damaged, remarks := []))
+        expected, sound_end = [], True
+        with damaged.open("rb") as stream:
+            try:
+                for record in StreamReader(stream, validate_crcs=True).records:
+                    if isinstance(record, kinds):
+                        expected.append(record)
+            except TORN:
+                sound_end = False
+        if 0 <= place < 60:  # the length of the first record, which mcap goes by or not
+            assert found == original[: len(found)]
+        else:
+            assert found == expected
+            assert (remarks == []) == sound_end

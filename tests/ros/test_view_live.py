@@ -27,7 +27,7 @@ def test_a_running_twin_is_drawn_and_where_there_is_none_one_line_says_so(
 ) -> None:
     states = peer.listen(GearboxState, f"{TWIN}/gearbox_state")
     shown, nobody = (
-        _view("--duration", "4", "--namespace", name, "--save", f"{tmp_path}/{name}.rrd")
+        _view("--during", ":4", "--namespace", name, "--save", f"{tmp_path}/{name}.rrd")
         for name in ("planetary_twin", "nobody")
     )
     peer.until(lambda: shown.poll() is not None and nobody.poll() is not None, 60.0)

@@ -81,14 +81,10 @@ def test_changes_are_told_with_old_and_new_value(recording):
     assert sentence(recording, 3) == "lambda_ratio = 2, was 1; input_speed = 2000 rpm, was 1000"
 
 
-def test_a_minute_at_50_khz_stays_below_a_quarter_gigabyte_and_says_what_is_left_out(tmp_path):
-    recording = read_recording(write_recording(tmp_path / "a.mcap", 0.2))
-    wave = recording.waveform
-    times = 60 * 5
-    wave.time = np.arange(len(wave.time) * times) * 2e-5
-    wave.stamp = np.tile(wave.stamp, times)
-    wave.block = np.arange(0, len(wave.time), 500)
-    wave.dte, wave.mesh_force = np.tile(wave.dte, (times, 1)), np.tile(wave.mesh_force, (times, 1))
+def test_of_a_long_recording_detail_is_shown_where_something_happens(tmp_path, monkeypatch):
+    monkeypatch.setattr("planetary_twin_py.view.detail.MOST_SAMPLES", 20_000)  # 0.4 s
+    recording = read_recording(write_recording(tmp_path / "a.mcap", 1.0))
     (remark,) = save(recording, None, tmp_path / "a.rrd")
-    assert remark.startswith("single samples are shown up to 30.0 s of 60.0 s")
-    assert (tmp_path / "a.rrd").stat().st_size < 250e6
+    assert remark.startswith("single samples are shown of the start and the changes (0.4 s of 1.0")
+    (remark,) = save(recording, None, tmp_path / "b.rrd", detail=(0.3, 0.5))
+    assert remark.startswith("single samples are shown of 0.3 to 0.5 s (0.2 s of 1.0 s)")

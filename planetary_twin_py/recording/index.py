@@ -1,0 +1,95 @@
+"""Where messages stand in a finished file, by its own index: one of them is found without the rest.
+
+The index is trusted as far as its checksum and its own figures go; `verify` reads every byte.
+"""
+
+from __future__ import annotations
+
+import struct
+from collections.abc import Iterator
+from functools import lru_cache
+from pathlib import Path
+from typing import Any, BinaryIO
+
+import numpy as np
+from mcap.opcode import Opcode
+from mcap.reader import make_reader
+from mcap.records import Channel, ChunkIndex, Message, Metadata, Schema
+from numpy.typing import NDArray
+
+from .integrity import damaged_summary
+from .records import TORN, section_at
+
+_HEAD = struct.Struct("<BQHI")  # opcode, length, channel, bytes of entries (MCAP 0, Message Index)
+_ENTRY = np.dtype([("log_time", "<u8"), ("offset", "<u8")])
+UNSOUND: tuple[type[Exception], ...] = (*TORN, KeyError)
+_KEPT = 8  # sections, so that neighbours are not unpacked again
+
+
+class Index:
+    """Of a finished file: its channels, and `times[channel]` of their messages [ns]."""
+
+    def __init__(self, file: Path) -> None:
+        """Read the index of `file`.
+
+        Raises:
+            one of `UNSOUND`: there is none, or none that agrees with itself.
+        """
+        if damaged_summary(file):
+            raise ValueError("no sound summary")
+        with file.open("rb") as stream:
+            reader = make_reader(stream)
+            summary = reader.get_summary()
+            if summary is None or summary.statistics is None:
+                raise ValueError("no summary")
+            self.schemas: dict[int, Schema] = summary.schemas
+            self.channels: dict[int, Channel] = summary.channels
+            self.metadata: list[Metadata] = list(reader.iter_metadata())
+            found: dict[int, list[tuple[int, NDArray[Any]]]] = {c: [] for c in self.channels}
+            for chunk in summary.chunk_indexes:
+                for channel, entries in _entries(stream, chunk):
+                    found[channel].append((chunk.chunk_start_offset, entries))
+            self.times = {c: _joined([e["log_time"] for _, e in f]) for c, f in found.items()}
+            self._places = {c: _joined([[p] * len(e) for p, e in f]) for c, f in found.items()}
+            counts = summary.statistics.channel_message_counts
+            if any(counts.get(c, 0) != len(times) for c, times in self.times.items()):
+                raise ValueError("not every message is in the index")
+        self._section = lru_cache(_KEPT)(lambda place: section_at(file, place))
+
+    def message(self, channel: int, number: int) -> Message:
+        """Message `number` of a channel, counted from 0 in file order.
+
+        Raises:
+            one of `UNSOUND`: it cannot be read.
+        """
+        places = self._places[channel]
+        first = int(np.searchsorted(places, places[number]))
+        alike = [
+            record
+            for record in self._section(int(places[number]))
+            if isinstance(record, Message) and record.channel_id == channel
+        ]
+        if len(alike) <= number - first:
+            raise ValueError("the index tells of a message that is not there")
+        return alike[number - first]
+
+
+def _entries(stream: BinaryIO, chunk: ChunkIndex) -> Iterator[tuple[int, NDArray[Any]]]:
+    """What the index says of a chunk: channels, and where their messages are."""
+    stream.seek(chunk.chunk_start_offset + chunk.chunk_length)
+    data = stream.read(chunk.message_index_length)
+    place = 0
+    while place < len(data):
+        opcode, length, channel, size = _HEAD.unpack_from(data, place)
+        if opcode != Opcode.MESSAGE_INDEX or length != size + 6:
+            raise ValueError("no message index")
+        entries = np.frombuffer(data, _ENTRY, size // _ENTRY.itemsize, place + _HEAD.size)
+        times = entries["log_time"]
+        if ((times < chunk.message_start_time) | (times > chunk.message_end_time)).any():
+            raise ValueError("times that the chunk does not span")
+        yield channel, entries
+        place += _HEAD.size + size
+
+
+def _joined(parts: list[Any]) -> NDArray[np.int64]:
+    return np.concatenate([np.empty(0, np.int64), *(np.asarray(p, np.int64) for p in parts)])
