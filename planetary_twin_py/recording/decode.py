@@ -2,11 +2,15 @@
 
 from __future__ import annotations
 
+import struct
 from collections.abc import Callable
+from functools import lru_cache
 from typing import Any
 
 from mcap.records import Channel, Message, Schema
-from rosbags.typesys import Stores, get_types_from_msg, get_typestore
+from rosbags.serde import SerdeError
+from rosbags.typesys import Stores, TypesysError, get_types_from_msg, get_typestore
+from rosbags.typesys.store import Typestore
 
 from .records import RecordingError
 
@@ -16,9 +20,8 @@ class Decoder:
 
     def __init__(self, wanted: Callable[[str], bool]) -> None:
         self._wanted = wanted
-        self._types = get_typestore(Stores.EMPTY)
         self._schemas: dict[int, Schema] = {}
-        self._channels: dict[int, Channel] = {}
+        self._channels: dict[int, tuple[str, str, Typestore]] = {}
 
     def read(self, record: Any) -> tuple[str, Any] | None:
         """Topic and message, where the record is a message of a wanted topic.
@@ -30,20 +33,31 @@ class Decoder:
             self._schemas[record.id] = record
         elif isinstance(record, Channel):
             if self._wanted(record.topic):
-                self._channels[record.id] = record
-                self._learn(record)
+                schema = self._schemas[record.schema_id]
+                self._channels[record.id] = record.topic, schema.name, _types(record, schema)
         elif isinstance(record, Message) and record.channel_id in self._channels:
-            channel = self._channels[record.channel_id]
-            kind = self._schemas[channel.schema_id].name
-            return channel.topic, self._types.deserialize_cdr(record.data, kind)
+            topic, kind, types = self._channels[record.channel_id]
+            try:
+                return topic, types.deserialize_cdr(record.data, kind)
+            except (SerdeError, struct.error, ValueError, IndexError) as reason:
+                raise RecordingError(f"{topic}: not as the file describes it: {reason}") from None
         return None
 
-    def _learn(self, channel: Channel) -> None:
-        schema = self._schemas[channel.schema_id]
-        if schema.encoding != "ros2msg" or channel.message_encoding != "cdr":
-            raise RecordingError(
-                f"{channel.topic}: encoded as {schema.encoding}/{channel.message_encoding}, "
-                "only ros2msg/cdr can be read"
-            )
-        found = get_types_from_msg(schema.data.decode(), schema.name)
-        self._types.register({k: v for k, v in found.items() if k not in self._types.types})
+
+def _types(channel: Channel, schema: Schema) -> Typestore:
+    if schema.encoding != "ros2msg" or channel.message_encoding != "cdr":
+        raise RecordingError(
+            f"{channel.topic}: encoded as {schema.encoding}/{channel.message_encoding}, "
+            "only ros2msg/cdr can be read"
+        )
+    try:
+        return _types_of(schema.data, schema.name)
+    except (TypesysError, UnicodeDecodeError):
+        raise RecordingError(f"{channel.topic}: its definition cannot be read") from None
+
+
+@lru_cache(maxsize=32)  # takes 20 ms, and the files of a recording have the same definitions
+def _types_of(definition: bytes, name: str) -> Typestore:
+    types = get_typestore(Stores.EMPTY)
+    types.register(get_types_from_msg(definition.decode(), name))
+    return types
