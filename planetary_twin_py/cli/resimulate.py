@@ -42,8 +42,8 @@ def resimulate(
     from rich.console import Console
     from rich.progress import Progress
 
+    from ..recording.branch import Branch
     from ..recording.namespaces import choose_namespace
-    from ..recording.resimulate import Branch
     from ..recording.resimulate import resimulate as simulate_again
     from ..recording.tape import Tape
 

@@ -176,6 +176,11 @@ class _Told:
                 _cut(runs, before, after)
 
 
+def nanoseconds(ticks: int) -> int:
+    """A time of the clock's ticks in [ns]."""
+    return round(ticks * 1_000_000_000 / TICKS)
+
+
 def stamp_of(message: Any) -> int:
     """ROS time of a message [ns]."""
     return int(message.header.stamp.sec) * 1_000_000_000 + int(message.header.stamp.nanosec)

@@ -11,8 +11,9 @@ from typer.testing import CliRunner
 
 import planetary_twin_py as pt
 from planetary_twin_py.cli import build_app
+from planetary_twin_py.recording.branch import Branch
 from planetary_twin_py.recording.reader import read_recording
-from planetary_twin_py.recording.resimulate import Branch, resimulate
+from planetary_twin_py.recording.resimulate import resimulate
 from planetary_twin_py.recording.tape import Tape
 from planetary_twin_py.recording.verify import verify
 from planetary_twin_py.view.show import scene_of
