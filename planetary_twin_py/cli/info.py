@@ -14,11 +14,15 @@ from ._fail import fail, remark
 if TYPE_CHECKING:
     from rich.console import Console
 
+    from ..recording.events import Event
     from ..recording.info import Info
 
 
 def info(
     file: Annotated[Path, typer.Argument(help="Recording: an .mcap file or the folder of one.")],
+    events: Annotated[
+        bool, typer.Option(help="Also what happened: looks at every interval, which takes longer.")
+    ] = False,
     json_: Annotated[
         str | None, typer.Option("--json", metavar="FILE", help="Write figures; - prints them.")
     ] = None,
@@ -34,16 +38,36 @@ def info(
 
     try:
         found = read_info(file)
+        happened = _events(file, found) if events else None
     except RecordingError as error:
         fail(error)
     except OSError as error:
         fail(f"{error.filename}: {error.strerror}")
     for line in found.remarks:
         remark(line)
-    _tell(Console(stderr=json_ == "-"), found)
+    console = Console(stderr=json_ == "-")
+    _tell(console, found)
+    for namespace, event in happened or []:
+        text = f"{namespace} run {event.run:<3} {event.time:10.4f} s  {event.text}"
+        console.print(text, highlight=False, soft_wrap=True)
     if json_ is not None:
-        text = json.dumps(found.figures(), indent=2) + "\n"
+        figures = found.figures()
+        if happened is not None:
+            figures["changes"] = [change._asdict() for change in found.changes]
+            figures["events"] = [{"namespace": n, **event._asdict()} for n, event in happened]
+        text = json.dumps(figures, indent=2) + "\n"
         sys.stdout.write(text) if json_ == "-" else Path(json_).write_text(text, "utf-8")
+
+
+def _events(file: Path, found: Info) -> list[tuple[str, Event]]:
+    """What happened to each gearbox."""
+    from ..recording.events import read_events
+    from ..recording.topics import STATE
+
+    names = [
+        topic.removesuffix(f"/{STATE}") for topic in found.topics if topic.endswith(f"/{STATE}")
+    ]
+    return [(name, event) for name in sorted(names) for event in read_events(file, name, [])]
 
 
 def _tell(console: Console, found: Info) -> None:

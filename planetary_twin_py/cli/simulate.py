@@ -13,7 +13,10 @@ from ._fail import fail
 from ._settings import settings
 
 if TYPE_CHECKING:
+    from rich.console import Console
+
     from ..result import Result
+    from ..scene import Scene
 
 
 def simulate(
@@ -25,7 +28,9 @@ def simulate(
         list[str] | None,
         typer.Option("--set", metavar="NAME=VALUE", help="Change a field: mesh.ramp=0, or 3e-7 m."),
     ] = None,
-    out: Annotated[Path | None, typer.Option(help="Write the samples: .npz or .csv.")] = None,
+    out: Annotated[
+        Path | None, typer.Option(help="Write samples (.npz, .csv) or a recording (.mcap, folder).")
+    ] = None,
     json_: Annotated[
         str | None, typer.Option("--json", metavar="FILE", help="Write figures; - prints them.")
     ] = None,
@@ -41,12 +46,14 @@ def simulate(
 
     console = Console(stderr=json_ == "-")
     try:
-        if out is not None and out.suffix not in _WRITERS:
-            fail(f"--out = {str(out)!r}: must end in {' or '.join(_WRITERS)}")
+        if out is not None and out.suffix not in (*_WRITERS, *_RECORDINGS):
+            fail(f"--out = {str(out)!r}: must end in {', '.join(_WRITERS)} or .mcap, or in nothing")
         loaded = load_scene(scene).replace(**settings(set_ or []))
         with console.status(f"simulating {duration:g} s of {loaded.name}"):
             result = run(loaded, duration, sample_rate, tolerance=tolerance)
-        if out is not None:
+        if out is not None and out.suffix in _RECORDINGS:
+            _record(console, out, loaded, duration, sample_rate, tolerance)
+        elif out is not None:
             _WRITERS[out.suffix](result, out)
     except (ValueError, OSError) as error:
         fail(error)
@@ -56,6 +63,19 @@ def simulate(
     if json_ is not None:
         text = json.dumps(figures, indent=2) + "\n"
         sys.stdout.write(text) if json_ == "-" else Path(json_).write_text(text, "utf-8")
+
+
+def _record(console: Console, out: Path, scene: Scene, *how: float) -> None:
+    from rich.progress import Progress
+
+    try:
+        from ..recording.offline import Plan, record
+    except ImportError:
+        fail("what records is not installed: pip install 'planetary_twin_py[recording]'")
+    plan = Plan(scene, *how)
+    with Progress(console=console, transient=True, disable=not console.is_terminal) as progress:
+        task = progress.add_task("recording", total=plan.duration)
+        record(plan, out, lambda time: progress.update(task, completed=time))
 
 
 def _figures(result: Result) -> dict[str, float]:
@@ -116,3 +136,4 @@ def _write_csv(result: Result, path: Path) -> None:
 
 
 _WRITERS = {".npz": _write_npz, ".csv": _write_csv}
+_RECORDINGS = (".mcap", "")

@@ -5,12 +5,13 @@ from __future__ import annotations
 from bisect import bisect_left
 from collections import OrderedDict, deque
 from collections.abc import Iterator
-from typing import Any
+from dataclasses import replace
+from typing import Any, NamedTuple
 
 from ..twin import TICKS, Twin
 from ..window import Window
-from .schedule import Change, Interval, Run, stamp_of
-from .topics import STATE, WAVEFORM
+from .schedule import Change, Interval, Run, stamp_of, without_gaps
+from .topics import WAVEFORM
 
 KEPT = 1000  # intervals that wait for their messages
 
@@ -57,32 +58,36 @@ def _holds(window: Window, block: Any) -> bool:
     return len(time) > 0 and bool(time[0] == block.start_time)
 
 
+class Step(NamedTuple):
+    """An interval simulated again, and the changes from its begin on."""
+
+    interval: Interval
+    changes: list[Change]
+    window: Window
+
+
+def steps(run: Run) -> Iterator[Step]:
+    """The intervals of a run, simulated one after another."""
+    first = run.intervals[0]
+    twin = Twin(run.origin.scene, first.sample_rate, first.tolerance)
+    waiting = deque(run.changes)
+    for interval in run.intervals:
+        changes = []
+        while waiting and waiting[0].time <= twin.time:
+            changes.append(waiting.popleft())
+            twin.set(**changes[-1].values)
+        twin.set_tolerance(interval.tolerance)
+        twin.set_sample_rate(interval.sample_rate)
+        window = twin.advance((interval.end - interval.begin) / TICKS)
+        yield Step(interval, changes, window)
+
+
 def _windows(runs: list[Run], remarks: list[str]) -> Iterator[tuple[Interval, Window]]:
     """Every recorded interval simulated again, run after run."""
     for run in runs:
-        twin: Twin | None = None
-        changes = deque(run.changes)
-        number, reached = run.intervals[0].number - 1, 0
-        for interval in run.intervals:
-            if twin is None:
-                twin = Twin(run.origin.scene, interval.sample_rate, interval.tolerance)
-            missing = interval.number - number - 1
-            if missing * (interval.end - interval.begin) != interval.begin - reached:
-                remarks.append(
-                    f"{missing} messages of {STATE} are missing before {twin.time:g} s, and what "
-                    "they told is not known: what follows cannot be simulated again"
-                )
-                return
-            for _ in range(missing):
-                _advance(twin, interval, changes)
-            yield interval, _advance(twin, interval, changes)
-            number, reached = interval.number, interval.end
-
-
-def _advance(twin: Twin, interval: Interval, changes: deque[Change]) -> Window:
-    """The next interval, with what changes at its begin."""
-    while changes and changes[0].time <= twin.time:
-        twin.set(**changes.popleft().values)
-    twin.set_tolerance(interval.tolerance)
-    twin.set_sample_rate(interval.sample_rate)
-    return twin.advance((interval.end - interval.begin) / TICKS)
+        whole = without_gaps(run, remarks)
+        for interval, _, window in steps(replace(run, intervals=whole)):
+            if interval.recorded:
+                yield interval, window
+        if whole[-1] != run.intervals[-1]:
+            return

@@ -2,29 +2,37 @@
 
 from __future__ import annotations
 
+import struct
 from collections.abc import Callable
-from typing import Any
+from functools import lru_cache
+from typing import Any, NamedTuple
 
 from mcap.records import Channel, Message, Schema
-from rosbags.typesys import Stores, get_types_from_msg, get_typestore
+from rosbags.serde import SerdeError
+from rosbags.typesys import Stores, TypesysError, get_types_from_msg, get_typestore
+from rosbags.typesys.store import Typestore
 
 from .records import RecordingError
 
 
-class Topics:
-    """The topics of one file that are `wanted`, given its records in order.
+class Described(NamedTuple):
+    """A topic, its type, and the types that its definition tells."""
 
-    `types` are those of the definitions met so far.
-    """
+    topic: str
+    kind: str
+    types: Typestore
+
+
+class Topics:
+    """The topics of one file that are `wanted`, given its records in order."""
 
     def __init__(self, wanted: Callable[[str], bool]) -> None:
         self._wanted = wanted
-        self.types = get_typestore(Stores.EMPTY)
         self._schemas: dict[int, Schema] = {}
-        self._channels: dict[int, Channel] = {}
+        self._channels: dict[int, Described] = {}
 
-    def of(self, record: Any) -> tuple[str, str] | None:
-        """Topic and type, where the record is a message of a wanted topic.
+    def of(self, record: Any) -> Described | None:
+        """The topic, where the record is a message of a wanted topic.
 
         Raises:
             RecordingError: a wanted topic is encoded in a way that cannot be read.
@@ -33,22 +41,12 @@ class Topics:
             self._schemas[record.id] = record
         elif isinstance(record, Channel):
             if self._wanted(record.topic):
-                self._channels[record.id] = record
-                self._learn(record)
+                schema = self._schemas[record.schema_id]
+                types = _types(record, schema)
+                self._channels[record.id] = Described(record.topic, schema.name, types)
         elif isinstance(record, Message) and record.channel_id in self._channels:
-            channel = self._channels[record.channel_id]
-            return channel.topic, self._schemas[channel.schema_id].name
+            return self._channels[record.channel_id]
         return None
-
-    def _learn(self, channel: Channel) -> None:
-        schema = self._schemas[channel.schema_id]
-        if schema.encoding != "ros2msg" or channel.message_encoding != "cdr":
-            raise RecordingError(
-                f"{channel.topic}: encoded as {schema.encoding}/{channel.message_encoding}, "
-                "only ros2msg/cdr can be read"
-            )
-        found = get_types_from_msg(schema.data.decode(), schema.name)
-        self.types.register({k: v for k, v in found.items() if k not in self.types.types})
 
 
 class Decoder:
@@ -63,7 +61,29 @@ class Decoder:
         Raises:
             RecordingError: a wanted topic is encoded in a way that cannot be read.
         """
-        if found := self._topics.of(record):
-            topic, kind = found
-            return topic, self._topics.types.deserialize_cdr(record.data, kind)
-        return None
+        found = self._topics.of(record)
+        if found is None:
+            return None
+        try:
+            return found.topic, found.types.deserialize_cdr(record.data, found.kind)
+        except (SerdeError, struct.error, ValueError, IndexError) as reason:
+            raise RecordingError(f"{found.topic}: not as the file describes it: {reason}") from None
+
+
+def _types(channel: Channel, schema: Schema) -> Typestore:
+    if schema.encoding != "ros2msg" or channel.message_encoding != "cdr":
+        raise RecordingError(
+            f"{channel.topic}: encoded as {schema.encoding}/{channel.message_encoding}, "
+            "only ros2msg/cdr can be read"
+        )
+    try:
+        return _types_of(schema.data, schema.name)
+    except (TypesysError, UnicodeDecodeError):
+        raise RecordingError(f"{channel.topic}: its definition cannot be read") from None
+
+
+@lru_cache(maxsize=32)  # takes 20 ms, and the files of a recording have the same definitions
+def _types_of(definition: bytes, name: str) -> Typestore:
+    types = get_typestore(Stores.EMPTY)
+    types.register(get_types_from_msg(definition.decode(), name))
+    return types

@@ -1,6 +1,6 @@
 """Where messages stand in a finished file, by its own index: one of them is found without the rest.
 
-The index is trusted as far as its checksum and its own figures go; `verify` reads every byte.
+It is trusted where the whole file is as it was written.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ from mcap.reader import make_reader
 from mcap.records import Channel, ChunkIndex, Message, Metadata, Schema
 from numpy.typing import NDArray
 
-from .integrity import damaged_summary
+from .integrity import damaged_data, damaged_summary
 from .records import TORN, section_at
 
 _HEAD = struct.Struct("<BQHI")  # opcode, length, channel, bytes of entries (MCAP 0, Message Index)
@@ -35,8 +35,8 @@ class Index:
         Raises:
             one of `UNSOUND`: there is none, or none that agrees with itself.
         """
-        if damaged_summary(file):
-            raise ValueError("no sound summary")
+        if damaged_summary(file) or damaged_data(file):
+            raise ValueError("not as it was written")
         with file.open("rb") as stream:
             reader = make_reader(stream)
             summary = reader.get_summary()

@@ -86,6 +86,8 @@ class Info:
                 "published": topic.recorded + (topic.lost or 0),
                 "recorded": topic.recorded,
                 "lost": topic.lost,
+                "rate_hz": None if math.isnan(topic.rate) else topic.rate,
+                "longest_gap_s": topic.longest_gap * 1e-9,
             }
             for name, topic in self.topics.items()
         }

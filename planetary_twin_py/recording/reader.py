@@ -155,8 +155,8 @@ class _Found:
                 elif found := topics.of(record):
                     channel = record.channel_id
                     if channel not in sources:
-                        layouts = Layouts(topics.types.fielddefs, found[1])
-                        sources[channel] = Source(file, channel, found[0], layouts)
+                        layouts = Layouts(found.types.fielddefs, found.kind)
+                        sources[channel] = Source(file, channel, found.topic, layouts)
                     messages.setdefault(channel, []).append(record.data)
             for channel, data in messages.items():
                 self._take(sources[channel], section.place, data)

@@ -30,7 +30,8 @@ from mcap.opcode import Opcode
 from mcap.records import Attachment, Channel, Chunk, DataEnd, Message, Metadata, Schema
 from mcap.stream_reader import CRCValidationError, get_chunk_data_stream
 
-MAGIC = b"\x89MCAP0\r\n"
+from .integrity import MAGIC, damaged_summary
+
 # The longest record a sound recording holds is a chunk of a few MiB: a torn length field may
 # claim any size, and nothing near memory's size must be allocated for it.
 _LONGEST_RECORD = 256 * 2**20
@@ -76,24 +77,71 @@ def records_of(file: Path, remarks: list[str]) -> Iterator[Any]:
 
 def sections_of(file: Path, remarks: list[str]) -> Iterator[Section]:
     """The same records, section by section."""
-    sound = 0
+    known = _Known()
+    sound, ended = 0, False
     with file.open("rb") as stream, ThreadPoolExecutor(os.cpu_count()) as threads:
         if stream.read(len(MAGIC)) != MAGIC:
             raise RecordingError(f"{file}: no recording: not an MCAP file")
         try:
             for piece, opened in _in_order(_pieces(stream), threads):
-                records = opened()
+                ended = ended or piece.opcode == Opcode.DATA_END  # what follows only repeats
+                records = [] if ended else known.described(opened())
                 sound = piece.end
                 if records:
                     yield Section(piece.place, records)
+            if remark := _at_the_end(file, ended):
+                remarks.append(remark)
         except UnsupportedCompressionError as missing:
             raise RecordingError(f"{file}: {missing}") from None
         except TORN as reason:
-            lost = file.stat().st_size - sound
-            remarks.append(
-                f"{file.name}: ends torn, the last {lost} of {file.stat().st_size} bytes "
-                f"are not readable ({type(reason).__name__}); everything before is sound"
-            )
+            remarks.append(_torn(file, sound, reason))
+    if known.strays:
+        remarks.append(
+            f"{file.name}: {known.strays} messages are of topics whose description is lost"
+        )
+
+
+class _Known:
+    """The topics described so far; counts messages of others in `strays`."""
+
+    def __init__(self) -> None:
+        self._schemas: set[int] = set()
+        self._channels: set[int] = set()
+        self.strays = 0
+
+    def described(self, records: list[Any]) -> list[Any]:
+        """`records` but channels without a schema, and messages without a channel."""
+        return [record for record in records if self._is_described(record)]
+
+    def _is_described(self, record: Any) -> bool:
+        if isinstance(record, Message):
+            known = record.channel_id in self._channels
+            self.strays += not known
+            return known
+        if isinstance(record, Schema):
+            self._schemas.add(record.id)
+        elif isinstance(record, Channel):
+            if record.schema_id not in self._schemas:
+                return False
+            self._channels.add(record.id)
+        return True
+
+
+def _at_the_end(file: Path, ended: bool) -> str:
+    """What is not sound of a file that is there to its end."""
+    if not ended:
+        return f"{file.name}: the end of its data is not marked; some may be missing"
+    return f"{file.name}: its summary is damaged" if damaged_summary(file) else ""
+
+
+def _torn(file: Path, sound: int, reason: Exception) -> str:
+    if isinstance(reason, CRCValidationError) and isinstance(reason.record, DataEnd):
+        return f"{file.name}: its data fail their checksum: what was read may be wrong or lacking"
+    size = file.stat().st_size
+    return (
+        f"{file.name}: ends torn, the last {size - sound} of {size} bytes "
+        f"are not readable ({type(reason).__name__}); everything before is sound"
+    )
 
 
 def section_at(file: Path, place: int) -> list[Any]:
@@ -211,7 +259,10 @@ def _fields(content: bytes) -> ReadDataStream:
 
 def _torn_errors() -> tuple[type[Exception], ...]:
     """What a record cut in the middle raises: at its end, in its fields, in its compressed data."""
-    errors: tuple[type[Exception], ...] = (McapError, struct.error, ValueError, EOFError)
+    errors: tuple[type[Exception], ...] = (
+        *(McapError, struct.error, ValueError, EOFError),
+        *(MemoryError, OverflowError),  # of a length that cannot be
+    )
     try:
         import zstandard
     except ImportError:

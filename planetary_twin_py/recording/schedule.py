@@ -26,6 +26,7 @@ class Interval(NamedTuple):
     end: int
     tolerance: float
     sample_rate: float  # [Hz]
+    recorded: bool = True  # else its message is missing, and known from those around it
 
 
 class Change(NamedTuple):
@@ -61,6 +62,30 @@ def read_runs(path: Path, namespace: str, remarks: list[str]) -> list[Run]:
     for name, message in messages_of(path, namespace, tuple(take), remarks):
         take[name](message)
     return told.runs(path, remarks)
+
+
+def without_gaps(run: Run, remarks: list[str]) -> list[Interval]:
+    """Intervals of a run with those between whose messages are missing, as far as they are known.
+
+    These are taken to be like the next: `remarks` says where that cannot be, and the rest is lost.
+    """
+    whole: list[Interval] = []
+    number, reached, stamp = run.intervals[0].number - 1, 0, run.origin.begins
+    for interval in run.intervals:
+        length, missing = interval.end - interval.begin, interval.number - number - 1
+        if missing * length != interval.begin - reached:
+            remarks.append(
+                f"{missing} messages of {STATE} are missing before {reached / TICKS:g} s, and what "
+                "they told is not known: what follows cannot be simulated again"
+            )
+            break
+        for n in range(1, missing + 1):
+            end = reached + n * length
+            between = stamp + (interval.stamp - stamp) * n // (missing + 1)
+            whole.append(Interval(number + n, between, end - length, end, *interval[4:6], False))
+        whole.append(interval)
+        number, reached, stamp = interval.number, interval.end, interval.stamp
+    return whole
 
 
 def messages_of(
@@ -149,6 +174,11 @@ class _Told:
                     f"from {before.time:g} s on, that run cannot be simulated again"
                 )
                 _cut(runs, before, after)
+
+
+def nanoseconds(ticks: int) -> int:
+    """A time of the clock's ticks in [ns]."""
+    return round(ticks * 1_000_000_000 / TICKS)
 
 
 def stamp_of(message: Any) -> int:

@@ -13,6 +13,7 @@ from mcap.reader import make_reader
 from mcap.records import Channel, Message, Schema, Statistics
 from mcap.summary import Summary
 
+from .integrity import damaged_summary
 from .records import TORN, RecordingError, files_of, records_of
 from .rosbag2 import Extent, Topic
 
@@ -118,7 +119,11 @@ class Tape:
 
 
 def _summary(file: Path) -> tuple[Summary | None, Statistics | None]:
-    """What a finished file says of itself; nothing where it was torn before it could."""
+    """What a finished file says of itself; nothing where it was torn before it could, or is
+    damaged.
+    """
+    if damaged_summary(file):
+        return None, None
     with file.open("rb") as stream:
         try:
             summary = make_reader(stream).get_summary()

@@ -13,9 +13,7 @@ import numpy as np
 from ..window import Window
 from .again import Again
 from .fields import joint_fields, state_fields, waveform_fields
-from .integrity import damaged_summary
 from .origin import makers_here
-from .records import files_of
 from .schedule import Interval, messages_of, read_runs
 from .topics import JOINTS, STATE, WAVEFORM
 
@@ -71,12 +69,6 @@ def verify(
     runs = read_runs(path, namespace, verdict.remarks)
     here = makers_here()
     verdict.same_makers = all(run.origin.makers == here for run in runs)
-    if not verdict.remarks:  # else there is a torn end, which is told already
-        verdict.remarks += [
-            f"{file.name}: its summary is damaged"
-            for file in files_of(path)
-            if damaged_summary(file)
-        ]
     again, strays = Again(runs, verdict.remarks), Counter[str]()
     for topic, message in messages_of(path, namespace, (STATE, WAVEFORM, JOINTS), []):
         if found := again.interval_of(topic, message):

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from difflib import get_close_matches
 from importlib import resources
 from pathlib import Path
 from typing import Any, Literal, Self
@@ -108,7 +110,7 @@ class Scene(Section):
             for part in path[:-1]:
                 node = node.get(part, {}) if isinstance(node, dict) else {}
             if not isinstance(node, dict) or path[-1] not in node:
-                raise SceneError(f"{name}: no such field")
+                raise SceneError(f"{name}: no such field{_close(name, data)}")
             node[path[-1]] = value
         return _validated(data)
 
@@ -118,6 +120,21 @@ def _validated(data: Any) -> Scene:
         return Scene.model_validate(data)
     except ValidationError as error:
         raise SceneError(explain(error, Scene).removeprefix("operating_point.")) from None
+
+
+def _close(name: str, data: dict[str, Any]) -> str:
+    """Names that `name` may be meant for, in words; empty without any."""
+    known = [*TUNABLES, *_paths(data)]
+    found = get_close_matches(name, known, 3, 0.7)
+    return f"; close to it are {', '.join(found)}" if found else ""
+
+
+def _paths(node: Any) -> Iterator[str]:
+    """Dotted names of all fields below `node`."""
+    if isinstance(node, dict):
+        for name, below in node.items():
+            yield name
+            yield from (f"{name}.{path}" for path in _paths(below))
 
 
 def packaged_scenes() -> tuple[str, ...]:

@@ -9,7 +9,7 @@ from typing import Any
 import rerun as rr
 from numpy.typing import NDArray
 
-from ..recording.decode import Topics
+from ..recording.decode import Described, Topics
 from ..recording.layout import Layouts
 from ..recording.origin import read_origin
 from ..recording.reader import TOPICS, Recording, assemble
@@ -56,8 +56,8 @@ class LiveView:
         """
         for record in records:
             if found := self._topics.of(record):
-                name = found[0].rpartition("/")[2]
-                (message,) = self._layout(*found).arrays([record.data])
+                name = found.topic.rpartition("/")[2]
+                (message,) = self._layout(found).arrays([record.data])
                 if name == ORIGIN:
                     self._told = read_origin(message["data"][0].decode()).scene
                 elif name in self._waiting:
@@ -72,10 +72,10 @@ class LiveView:
             self._run.end()
             self._run = None
 
-    def _layout(self, topic: str, kind: str) -> Layouts:
-        if topic not in self._layouts:
-            self._layouts[topic] = Layouts(self._topics.types.fielddefs, kind)
-        return self._layouts[topic]
+    def _layout(self, of: Described) -> Layouts:
+        if of.topic not in self._layouts:
+            self._layouts[of.topic] = Layouts(of.types.fielddefs, of.kind)
+        return self._layouts[of.topic]
 
     def _draw(self, scene: Scene) -> bool:
         """Draw what belongs to one run; returns whether another has begun."""

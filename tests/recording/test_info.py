@@ -2,12 +2,14 @@
 
 import json
 
+import numpy as np
 import pytest
 from mcap.records import Message
 from twin_recording import NAMESPACE, record
 from typer.testing import CliRunner
 
 from planetary_twin_py.cli import build_app
+from planetary_twin_py.recording.events import read_events
 from planetary_twin_py.recording.index import Index
 from planetary_twin_py.recording.info import read_info
 from planetary_twin_py.recording.records import records_of
@@ -90,8 +92,54 @@ def test_a_file_without_a_sound_index_or_with_a_damaged_chunk_is_read_whole(soun
         ("torn", whole[: len(whole) // 2], 1),
         ("cut", whole[:20], 1),
         ("damaged", bytes(flipped), 1),
-        ("unsummed", whole[:-300] + bytes([whole[-300] ^ 1]) + whole[-299:], 0),
+        ("unsummed", whole[:-300] + bytes([whole[-300] ^ 1]) + whole[-299:], 1),
     ):
         file = tmp_path / f"{name}.mcap"
         file.write_bytes(data)
         assert len(read_info(file).remarks) == remarks
+
+
+def test_the_command_tells_what_happened(sound, tmp_path):
+    file = tmp_path / "figures.json"
+    answer = CliRunner().invoke(build_app(), ["info", str(sound), "--events", "--json", str(file)])
+    assert answer.exit_code == 0, answer.output
+    figures = json.loads(file.read_text())
+    events = [(event["run"], round(event["time"], 9), event["text"]) for event in figures["events"]]
+    assert [event for event in events if "contact" not in event[2]] == [
+        (1, 0.0, "starts"),
+        (1, 0.0, "tolerance = 0.001"),
+        (1, 0.0, "waveform at 10000 Hz"),
+        (1, 0.15, "tolerance = 0.01"),
+        (1, 0.2, "waveform at 5000 Hz"),
+        (2, 0.0, "starts again, after a reset"),
+        (2, 0.0, "tolerance = 0.001"),
+        (2, 0.0, "waveform at 10000 Hz"),
+    ]
+    assert all(text in answer.output for _, _, text in events)
+    assert figures["changes"][1]["values"] == {"backlash": 3e-7, "lambda_ratio": 1.5}
+    state = figures["topics"][f"{NAMESPACE}/gearbox_state"]
+    assert state["rate_hz"] == pytest.approx(40 / 1.09)
+    assert state["longest_gap_s"] == pytest.approx(0.7099)
+
+
+def test_contact_that_is_lost_and_messages_that_are_missing_are_told(tmp_path):
+    def alter(topic, number, row):
+        if topic != "gearbox_state" or number not in (4, 5, 8):
+            return {**row} if topic != "gearbox_state" else {**row, **_kept(row)}
+        return None if number == 8 else {**row, **_kept(row), "sun_planet_contact_fraction": APART}
+
+    file = record(tmp_path / "bag", alter)
+    told = [(round(e.time, 9), e.text) for e in read_events(file, NAMESPACE, []) if e.run == 1]
+    assert told[3:6] == [
+        (0.03, "contact is lost for a time at sun_planet_2"),
+        (0.05, "contact is kept at every mesh"),
+        (0.08, "1 messages of gearbox_state are missing before"),
+    ]
+
+
+APART = np.array([1.0, 0.9, 1.0, *[np.nan] * 4])
+
+
+def _kept(row):
+    names = ("sun_planet_contact_fraction", "planet_ring_contact_fraction")
+    return {name: np.where(np.isnan(row[name]), np.nan, 1.0) for name in names}

@@ -1,0 +1,56 @@
+"""`planetary-twin export`: a recording as tables for other tools."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from ._fail import fail, remark
+
+
+def export(
+    file: Annotated[Path, typer.Argument(help="Recording: an .mcap file or the folder of one.")],
+    out: Annotated[Path, typer.Option(help="Folder; or a file, for one topic: gears.parquet.")],
+    format_: Annotated[
+        str | None, typer.Option("--format", help="parquet, csv or npz; or as --out ends.")
+    ] = None,
+    topics: Annotated[
+        str, typer.Option(help="gearbox_state,operating_point,mesh_waveform; all unless given.")
+    ] = "",
+    namespace: Annotated[
+        str | None, typer.Option(help="Which gearbox, if the recording holds several.")
+    ] = None,
+) -> None:
+    """Write FILE as tables: a row per message, of the waveform a row per sample. SI units.
+
+    Example: planetary-twin export recordings/NAME --out tables --format csv
+    """
+    try:
+        import pyarrow  # noqa: F401
+    except ImportError:
+        fail("the tables are not installed: pip install 'planetary_twin_py[analysis]'")
+    from rich.console import Console
+    from rich.progress import Progress
+
+    from ..recording.export import Export
+    from ..recording.export import export as write
+
+    console = Console()
+    chosen = Export(out, format_, [name for name in topics.split(",") if name], namespace)
+    try:
+        with Progress(console=console, transient=True, disable=not console.is_terminal) as progress:
+            task = progress.add_task("writing", total=None)
+            done = write(
+                file, chosen, lambda at, end: progress.update(task, completed=at, total=end)
+            )
+    except ValueError as error:
+        fail(error)
+    except OSError as error:
+        fail(error if error.filename is None else f"{error.filename}: {error.strerror}")
+    for line in done.remarks:
+        remark(line)
+    for path, rows in done.rows.items():
+        told = f"{path}: {rows} rows, {path.stat().st_size / 1e6:.1f} MB"
+        console.print(told, highlight=False, soft_wrap=True)

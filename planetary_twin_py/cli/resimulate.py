@@ -1,0 +1,73 @@
+"""`planetary-twin resimulate`: a recorded run again, with other values from an instant on."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from ._fail import fail, remark
+from ._settings import settings
+
+
+def resimulate(
+    file: Annotated[Path, typer.Argument(help="Recording: an .mcap file or the folder of one.")],
+    set_: Annotated[
+        list[str] | None,
+        typer.Option("--set", metavar="NAME=VALUE", help="What differs: lambda_ratio=1; repeat."),
+    ] = None,
+    from_: Annotated[
+        float, typer.Option("--from", help="Simulated instant from which it differs [s].")
+    ] = 0.0,
+    duration: Annotated[
+        float | None, typer.Option(help="Length of the new run [s]; as recorded unless given.")
+    ] = None,
+    out: Annotated[
+        Path | None, typer.Option(help="New folder; by default beside FILE, its name and _again.")
+    ] = None,
+    run: Annotated[
+        int | None, typer.Option(help="Which run, from 1, if there are several; or the last.")
+    ] = None,
+    namespace: Annotated[
+        str | None, typer.Option(help="Which gearbox, if the recording holds several.")
+    ] = None,
+) -> None:
+    """Ask what would have been: simulate FILE again with other values, into a second recording.
+
+    What is set stays so; everything else changes when it was changed in FILE.
+
+    Example: planetary-twin resimulate recordings/NAME --set lambda_ratio=1.0 --from 3.0
+    """
+    from rich.console import Console
+    from rich.progress import Progress
+
+    from ..recording.branch import Branch
+    from ..recording.namespaces import choose_namespace
+    from ..recording.resimulate import resimulate as simulate_again
+    from ..recording.tape import Tape
+
+    folder = out or file.with_name(f"{file.stem}_again")
+    console = Console()
+    try:
+        branch = Branch(settings(set_ or []), from_, duration, run)
+        chosen = choose_namespace(Tape(file).topics, namespace, file)
+        with Progress(console=console, transient=True, disable=not console.is_terminal) as progress:
+            task = progress.add_task("simulating", total=None)
+            made = simulate_again(
+                file,
+                chosen,
+                branch,
+                folder,
+                lambda time, end: progress.update(task, completed=time, total=end),
+            )
+    except FileExistsError:
+        fail(f"out = {folder}: exists; choose a free name")
+    except OSError as error:
+        fail(f"{error.filename}: {error.strerror}")
+    except (ValueError, ArithmeticError) as error:
+        fail(error)
+    for line in made.remarks:
+        remark(line)
+    told = f"as recorded up to {made.begins:g} s, then as set up to {made.end:g} s: {made.file}"
+    console.print(told, highlight=False, soft_wrap=True)
