@@ -41,8 +41,7 @@ def run(
     ] = None,
 ) -> None:
     """Run a gearbox live on ROS 2, change it while it runs, and record it."""
-    for number in (signal.SIGTERM, signal.SIGHUP):
-        signal.signal(number, _interrupt)
+    interrupt_on_signals()
     options = {
         "scene": scene,
         "duration": duration,
@@ -120,6 +119,12 @@ def _values(scene: str, settings: list[str]) -> dict[str, float]:
         values[name] = value
     point = pt.load_scene(scene).replace(**values).operating_point
     return {name: getattr(point, name) for name in values}
+
+
+def interrupt_on_signals() -> None:
+    """Let SIGTERM and SIGHUP end a command as Ctrl-C does."""
+    for number in (signal.SIGTERM, signal.SIGHUP):
+        signal.signal(number, _interrupt)
 
 
 def _interrupt(number: int, frame: FrameType | None) -> None:

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import contextlib
 import inspect
-import signal
 from dataclasses import dataclass
 from pathlib import Path
-from types import FrameType
 from typing import Annotated, Any
 
 import typer
+
+from .commands import interrupt_on_signals
 
 
 @dataclass(frozen=True)
@@ -63,8 +63,7 @@ def replay(**given: Any) -> None:
 
     While it plays: services replay/pause, replay/step and replay/seek, parameter rate_factor.
     """
-    for number in (signal.SIGTERM, signal.SIGHUP):
-        signal.signal(number, _interrupt)
+    interrupt_on_signals()
     remappings = given.pop("remap") or []
     parameters = given | {
         "file": str(given["file"]),
@@ -83,7 +82,3 @@ def replay(**given: Any) -> None:
 vars(replay)["__signature__"] = inspect.signature(Options, eval_str=True).replace(
     return_annotation=None
 )
-
-
-def _interrupt(number: int, frame: FrameType | None) -> None:
-    raise KeyboardInterrupt
