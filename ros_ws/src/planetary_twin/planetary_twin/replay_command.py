@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import contextlib
 import inspect
+import sys
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Annotated, Any
@@ -65,6 +66,10 @@ def replay(**given: Any) -> None:
     """
     interrupt_on_signals()
     remappings = given.pop("remap") or []
+    for rule in remappings:
+        if ":=" not in rule:
+            print(f"planetary-twin replay: --remap {rule}: must be OLD:=NEW", file=sys.stderr)
+            raise typer.Exit(1)
     parameters = given | {
         "file": str(given["file"]),
         "duration": given["duration"] or 0.0,
