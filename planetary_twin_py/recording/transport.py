@@ -16,7 +16,7 @@ class Transport:
     changes or the tape is held.
     """
 
-    def __init__(self, position: int, rate_factor: float) -> None:
+    def __init__(self, position: int, rate_factor: float = 1.0) -> None:
         self._position = position
         self._since = 0.0
         self._rate_factor = rate_factor

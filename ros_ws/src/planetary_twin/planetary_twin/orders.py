@@ -66,6 +66,8 @@ class Orders:
 
     def refuse(self, reason: str) -> None:
         """Answer all that is left with `reason`."""
+        with self._lock:
+            self._gathering = None
         while not self._queue.empty():
             _, future = self._queue.get()
             future.set_exception(ValueError(reason))

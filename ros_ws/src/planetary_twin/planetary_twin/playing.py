@@ -50,19 +50,19 @@ class Stretch(NamedTuple):
 
 
 class Player:
-    """Plays `rate_factor` recorded seconds per second, to absolute deadlines on the steady clock,
-    or as fast as it goes where that is 0.
+    """Plays so many recorded seconds per second, to absolute deadlines on the steady clock, or as
+    fast as it goes where the rate factor is 0.
 
     A cue that is late is played at once and none is left out: the tape catches up by itself. Where
     it is paused at an instant, all up to and at that instant has been played. Orders are carried
     out between two cues; their futures give the recorded instant [s] of that.
     """
 
-    def __init__(self, stretch: Stretch, rate_factor: float, paused: bool, stage: Stage) -> None:
+    def __init__(self, stretch: Stretch, paused: bool, stage: Stage) -> None:
         self._stretch = stretch
         self._stage = stage
         self._paused = paused
-        self._transport = Transport(stretch.begin, rate_factor)
+        self._transport = Transport(stretch.begin)
         self._orders = Orders(self._set)
         self._cues: Iterator[Cue] | None = None
         self._next: Cue | None = None
@@ -71,9 +71,10 @@ class Player:
         self.lateness = 0.0
         """The longest that a cue came after its instant [s]."""
 
-    def start(self) -> None:
+    def start(self, rate_factor: float) -> None:
         """Begin as soon as the stage is ready, or go on where `stop` left off."""
         self._stop.clear()
+        self._transport.set_rate(rate_factor, time.monotonic(), self._upcoming)
         self._thread = threading.Thread(target=self._run, name="tape", daemon=True)
         self._thread.start()
 

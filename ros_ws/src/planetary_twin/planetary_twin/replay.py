@@ -90,12 +90,11 @@ class Replay(ManagedNode):
         stretch = Stretch(
             self._begin, self._end, self._loop, lambda begin: self._cues(tape, begin, ticking)
         )
-        rate_factor = self.get_parameter(_RATE).value
-        self._player = Player(stretch, rate_factor, self._start_paused, self)
+        self._player = Player(stretch, self._start_paused, self)
 
     def activate(self) -> None:
         """Begin as soon as subscribers had time to be found, or go on."""
-        self._player.start()
+        self._player.start(self.get_parameter(_RATE).value)
         self._active = True
 
     def deactivate(self) -> None:
@@ -202,7 +201,7 @@ class Replay(ManagedNode):
 
     def _submit(self, parameters: list[Parameter]) -> None:
         for value in (p.value for p in parameters if p.name == _RATE):
-            if self._player is not None:
+            if self._active:
                 self._player.set_rate(value)
 
     def _stretch(self, tape: Tape) -> tuple[int, int]:
