@@ -113,7 +113,7 @@ def numbers(states: list[GearboxState]) -> list[int]:
 
 def expect(peer: Peer, states: list[GearboxState], first: int, last: int) -> None:
     """These and no others have come, and are forgotten."""
-    peer.until(lambda: len(states) > last - first, 10.0)
+    peer.until(lambda: len(states) > last - first, 60.0)
     assert numbers(states) == list(range(first, last + 1))
     states.clear()
 
