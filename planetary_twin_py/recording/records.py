@@ -151,6 +151,16 @@ def section_at(file: Path, place: int) -> list[Any]:
         return _opened(_piece(stream))
 
 
+def chunk_at(file: Path, place: int) -> list[Any]:
+    """The records of the chunk that an index tells of; raises one of `TORN` where there is none."""
+    with file.open("rb") as stream:
+        stream.seek(place)
+        piece = _piece(stream)
+    if piece.opcode != Opcode.CHUNK:
+        raise McapError(f"no chunk at {place}")
+    return _opened(piece)
+
+
 class _Piece(NamedTuple):
     """A record as it stands in the file."""
 

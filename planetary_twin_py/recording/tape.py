@@ -3,22 +3,17 @@
 from __future__ import annotations
 
 import heapq
-from collections import deque
-from collections.abc import Iterable, Iterator
+from collections import Counter
+from collections.abc import Collection, Iterable, Iterator
 from pathlib import Path
 from typing import NamedTuple
 
 import yaml
-from mcap.reader import make_reader
-from mcap.records import Channel, Message, Schema, Statistics
-from mcap.summary import Summary
+from mcap.records import Channel, Message, Schema
 
-from .integrity import damaged_summary
-from .records import TORN, RecordingError, files_of, records_of
+from .records import RecordingError, files_of
 from .rosbag2 import Extent, Topic
-
-# Messages stand in a file in the order a recorder got to them: far less than this apart.
-_DISORDER = 1_000_000_000  # [ns]
+from .segment import DISORDER, open_segment
 
 
 class Cue(NamedTuple):
@@ -32,25 +27,35 @@ class Cue(NamedTuple):
 class Tape:
     """What there is to play at `path`: an .mcap file, also a torn one, or a folder of them.
 
-    `topics` by name; `length` [ns] from the first message to the last; `remarks` says in lines
-    what could not be read, and grows while a damaged file is played.
+    `chosen` are the topics to play, by default all. `topics` has them by name, `counts` their
+    messages; `start` [ns] is the log time of the first message of any topic, `length` [ns] the time
+    from it to the last; `remarks` says in lines what could not be read, and grows while a damaged
+    file is played.
     Raises `RecordingError` where there is nothing to play.
     """
 
-    def __init__(self, path: Path) -> None:
+    def __init__(self, path: Path, chosen: Collection[str] = ()) -> None:
         self.remarks: list[str] = []
         self.topics: dict[str, Topic] = {}
-        self._files = files_of(path)
-        self._extent = Extent()
-        for file in self._files:
-            self._index(file)
-        if not self._extent.start:
+        self.counts: Counter[str] = Counter()
+        extent = Extent()
+        self._segments = [open_segment(file, self._tell) for file in files_of(path)]
+        held = {c.topic for s in self._segments for c, _ in s.contents.channels.values()}
+        for name in chosen:
+            if name not in held:
+                raise RecordingError(f"topics: {name}: {path} holds {', '.join(sorted(held))}")
+        for segment in self._segments:
+            for channel, schema in segment.contents.channels.values():
+                if not chosen or channel.topic in chosen:
+                    self._add(channel, schema, path)
+            self.counts += segment.contents.counts
+            if segment.contents.extent.start:
+                extent.include(segment.contents.extent.start)
+                extent.include(segment.contents.extent.end)
+        if not extent.start:
             raise RecordingError(f"{path}: holds no message")
-
-    @property
-    def length(self) -> int:
-        """From the first message to the last [ns]."""
-        return self._extent.end - self._extent.start
+        self.start = extent.start
+        self.length = extent.end - extent.start
 
     def cues(self, begin: int = 0, end: int | None = None) -> Iterator[Cue]:
         """Messages from `begin` to `end` [ns after the first message] in the order of log time.
@@ -58,78 +63,49 @@ class Tape:
         Before them, at `begin`, come the messages a subscriber joining then would still get:
         the newest ones of latched topics.
         """
-        latched = {
-            name: deque[Cue](maxlen=topic.kept) for name, topic in self.topics.items() if topic.kept
-        }
-        for cue in _in_order(self._read()):
-            if cue.time < begin:
-                if cue.topic in latched:
-                    latched[cue.topic].append(cue)
-                continue
-            yield from _newest(latched.values(), begin)
-            latched.clear()
+        for topic, message in self._latched(self.start + begin):
+            yield Cue(begin, topic, message.data)
+        for cue in _in_order(self._read(begin)):
             if end is not None and cue.time > end:
                 return
             yield cue
 
-    def _read(self) -> Iterator[Cue]:
-        """Every message, in file order."""
-        for file in self._files:
-            remarks: list[str] = []
-            names: dict[int, str] = {}
-            for record in records_of(file, remarks):
-                if isinstance(record, Channel):
-                    names[record.id] = record.topic
-                elif isinstance(record, Message):
-                    time = record.log_time - self._extent.start
-                    yield Cue(time, names[record.channel_id], record.data)
-            self.remarks += [remark for remark in remarks if remark not in self.remarks]
+    def _read(self, begin: int) -> Iterator[Cue]:
+        """Messages from `begin` on, in file order."""
+        for segment in self._segments:
+            if segment.contents.extent.end >= self.start + begin:
+                for topic, message in segment.messages(self.start + begin):
+                    if topic in self.topics:
+                        yield Cue(message.log_time - self.start, topic, message.data)
 
-    def _index(self, file: Path) -> None:
-        """Learn topics and extent: from the summary, or from every record of a torn file."""
-        summary, statistics = _summary(file)
-        if summary is not None and statistics is not None:
-            for channel in summary.channels.values():
-                self._add(channel, summary.schemas, file)
-            if statistics.message_count:
-                self._extent.include(statistics.message_start_time)
-                self._extent.include(statistics.message_end_time)
-            return
-        schemas: dict[int, Schema] = {}
-        for record in records_of(file, self.remarks):
-            if isinstance(record, Schema):
-                schemas[record.id] = record
-            elif isinstance(record, Channel):
-                self._add(record, schemas, file)
-            elif isinstance(record, Message):
-                self._extent.include(record.log_time)
+    def _latched(self, before: int) -> list[tuple[str, Message]]:
+        """What is in force before a log time [ns], oldest first."""
+        missing = {name: topic.kept for name, topic in self.topics.items() if topic.kept}
+        found: list[tuple[str, Message]] = []
+        for segment in reversed(self._segments):
+            if not missing or before <= self.start:
+                break
+            for name, messages in segment.newest(missing, before).items():
+                found += [(name, message) for message in messages]
+                missing[name] -= len(messages)
+            missing = {name: count for name, count in missing.items() if count}
+        return sorted(found, key=lambda pair: pair[1].log_time)
 
-    def _add(self, channel: Channel, schemas: dict[int, Schema], file: Path) -> None:
-        schema = schemas.get(channel.schema_id)
+    def _add(self, channel: Channel, schema: Schema | None, path: Path) -> None:
         if schema is None or channel.message_encoding != "cdr":
             raise RecordingError(
-                f"{file}: {channel.topic} is encoded as {channel.message_encoding or 'nothing'}, "
+                f"{path}: {channel.topic} is encoded as {channel.message_encoding or 'nothing'}, "
                 "only ROS 2 messages (cdr) can be played"
             )
         known = self.topics.setdefault(channel.topic, _topic(channel, schema))
         if known.type != schema.name:
             raise RecordingError(
-                f"{file}: {channel.topic} holds both {known.type} and {schema.name}"
+                f"{path}: {channel.topic} holds both {known.type} and {schema.name}"
             )
 
-
-def _summary(file: Path) -> tuple[Summary | None, Statistics | None]:
-    """What a finished file says of itself; nothing where it was torn before it could, or is
-    damaged.
-    """
-    if damaged_summary(file):
-        return None, None
-    with file.open("rb") as stream:
-        try:
-            summary = make_reader(stream).get_summary()
-        except TORN:
-            return None, None
-    return summary, summary.statistics if summary else None
+    def _tell(self, remark: str) -> None:
+        if remark not in self.remarks:
+            self.remarks.append(remark)
 
 
 def _topic(channel: Channel, schema: Schema) -> Topic:
@@ -149,12 +125,7 @@ def _in_order(cues: Iterable[Cue]) -> Iterator[Cue]:
     for number, cue in enumerate(cues):
         heapq.heappush(waiting, (cue.time, number, cue))
         newest = max(newest, cue.time)
-        while waiting[0][0] < newest - _DISORDER:
+        while waiting[0][0] < newest - DISORDER:
             yield heapq.heappop(waiting)[2]
     while waiting:
         yield heapq.heappop(waiting)[2]
-
-
-def _newest(latched: Iterable[Iterable[Cue]], begin: int) -> list[Cue]:
-    earlier = sorted((cue for cues in latched for cue in cues), key=lambda cue: cue.time)
-    return [cue._replace(time=begin) for cue in earlier]

@@ -6,8 +6,10 @@ import contextlib
 import zlib
 from collections import Counter
 from pathlib import Path
+from typing import NamedTuple
 
 from mcap.exceptions import McapError
+from mcap.reader import make_reader
 from mcap.records import Channel, Message
 from mcap.stream_reader import StreamReader
 from planetary_twin_msgs.msg import GearboxState
@@ -34,3 +36,25 @@ def torn_states(file: Path) -> list[GearboxState]:
             elif isinstance(record, Message) and channels[record.channel_id].endswith("_state"):
                 states.append(deserialize_message(record.data, GearboxState))
     return states
+
+
+class Heard(NamedTuple):
+    """A topic of a finished bag, in the order of log time."""
+
+    type: str
+    type_hash: str
+    offered_qos: str
+    messages: list[bytes]
+
+
+def read_all(folder: Path) -> dict[str, Heard]:
+    """Topics by name, read by MCAP's own reader."""
+    topics: dict[str, Heard] = {}
+    (file,) = folder.glob("*.mcap")
+    with file.open("rb") as stream:
+        for schema, channel, message in make_reader(stream).iter_messages():
+            assert schema is not None
+            described = (channel.metadata[k] for k in ("topic_type_hash", "offered_qos_profiles"))
+            topic = topics.setdefault(channel.topic, Heard(schema.name, *described, []))
+            topic.messages.append(message.data)
+    return topics

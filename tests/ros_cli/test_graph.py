@@ -10,7 +10,7 @@ from .command import Ros2
 
 INTERFACES = (
     *(f"msg/{name}" for name in ("GearboxState", "MeshWaveform", "OperatingPoint")),
-    *(f"srv/{name}" for name in ("NaturalModes", "SetOperatingPoint", "Step")),
+    *(f"srv/{name}" for name in ("NaturalModes", "Seek", "SetOperatingPoint", "Step")),
     "msg/RecorderStatus",
 )
 FIELD = re.compile(r"(\w+(?:/\w+)*(?:\[\d*\])?) +(\w+)(.*)")

@@ -29,7 +29,7 @@ setup(
         "planetary_twin.live": ["follow = planetary_twin.watching:follow"],
         "planetary_twin.commands": [
             "run = planetary_twin.commands:run",
-            "replay = planetary_twin.commands:replay",
+            "replay = planetary_twin.replay_command:replay",
             "bench-live = planetary_twin.benchmark.command:bench_live",
             "monitor = planetary_twin.steering:monitor",
             "param = planetary_twin.steering:param",

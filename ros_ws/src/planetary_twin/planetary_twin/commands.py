@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import contextlib
 import json
 import signal
 import sys
@@ -42,8 +41,7 @@ def run(
     ] = None,
 ) -> None:
     """Run a gearbox live on ROS 2, change it while it runs, and record it."""
-    for number in (signal.SIGTERM, signal.SIGHUP):
-        signal.signal(number, _interrupt)
+    interrupt_on_signals()
     options = {
         "scene": scene,
         "duration": duration,
@@ -57,29 +55,6 @@ def run(
     except (ValueError, OSError) as reason:
         print(f"planetary-twin run: {reason}", file=sys.stderr)
         raise typer.Exit(1) from None
-
-
-def replay(
-    file: Annotated[Path, typer.Argument(help="Recording: an .mcap file or the folder of one.")],
-    rate_factor: Annotated[
-        float, typer.Option(help="Recorded seconds per second.", min=0.01, max=100.0)
-    ] = 1.0,
-    start: Annotated[float, typer.Option(help="Recorded time to begin at [s].", min=0.0)] = 0.0,
-    duration: Annotated[
-        float | None, typer.Option(help="Recorded time to play [s]; without: to the end.", min=1e-9)
-    ] = None,
-    loop: Annotated[bool, typer.Option(help="Play again and again, until Ctrl-C.")] = False,
-) -> None:
-    """Publish a recording again, byte for byte and in its own time."""
-    for number in (signal.SIGTERM, signal.SIGHUP):
-        signal.signal(number, _interrupt)
-    options = {"file": str(file), "rate_factor": rate_factor, "start": start, "loop": loop}
-    code = 0
-    with contextlib.suppress(KeyboardInterrupt):
-        from .showing import replay_shown
-
-        code = replay_shown({**options, "duration": duration or 0.0})
-    raise typer.Exit(code)
 
 
 def _run(
@@ -144,6 +119,12 @@ def _values(scene: str, settings: list[str]) -> dict[str, float]:
         values[name] = value
     point = pt.load_scene(scene).replace(**values).operating_point
     return {name: getattr(point, name) for name in values}
+
+
+def interrupt_on_signals() -> None:
+    """Let SIGTERM and SIGHUP end a command as Ctrl-C does."""
+    for number in (signal.SIGTERM, signal.SIGHUP):
+        signal.signal(number, _interrupt)
 
 
 def _interrupt(number: int, frame: FrameType | None) -> None:

@@ -1,4 +1,4 @@
-"""What a running twin is told from other threads, and does between two intervals."""
+"""What a thread that runs a twin or plays a tape is told by others, and does in between."""
 
 from __future__ import annotations
 
@@ -7,12 +7,14 @@ import threading
 from collections.abc import Callable, Mapping
 from concurrent.futures import Future
 from functools import partial
+from typing import Any
 
 Order = Callable[[], float]
+_PATIENCE = 60.0  # [s] longest wait for an order to be carried out
 
 
 class Orders:
-    """Carried out in the order given; each future is the simulated instant [s] of that.
+    """Carried out in the order given; each future is the instant [s] of that.
 
     Changes that follow one another between two intervals become one, of what was given last: they
     would hold from the same instant, and a flood of them must not hold the twin up.
@@ -56,9 +58,7 @@ class Orders:
             except ValueError as refusal:
                 answers.append(partial(future.set_exception, refusal))
             except Exception as defect:
-                answers.append(
-                    partial(future.set_exception, ValueError(f"the twin stopped: {defect}"))
-                )
+                answers.append(partial(future.set_exception, ValueError(f"stopped: {defect}")))
                 for answer in answers:
                     answer()
                 raise
@@ -66,6 +66,8 @@ class Orders:
 
     def refuse(self, reason: str) -> None:
         """Answer all that is left with `reason`."""
+        with self._lock:
+            self._gathering = None
         while not self._queue.empty():
             _, future = self._queue.get()
             future.set_exception(ValueError(reason))
@@ -80,3 +82,13 @@ class Orders:
             if self._gathering is not None and self._gathering[0] is gathered:
                 self._gathering = None
         return self._change(gathered)
+
+
+def answer(response: Any, order: Callable[[], Future[float]], told: Callable[[float], str]) -> Any:
+    """Fill in what came of an order: `told` turns its instant [s] into the message."""
+    try:
+        response.message = told(order().result(timeout=_PATIENCE))
+        response.success = True
+    except (ValueError, TimeoutError) as refusal:
+        response.success, response.message = False, str(refusal)
+    return response

@@ -124,6 +124,18 @@ def declare_bounded(
     return _declare_number(node, name, default, descriptor)
 
 
+def declare_changing(
+    node: Node, name: str, default: float, limits: tuple[float, float], description: str
+) -> float:
+    """Declare a number within `limits` that may change while the node lives; return its value."""
+    descriptor = ParameterDescriptor(
+        description=description,
+        additional_constraints="a finite number, also written 1 or 2e-7; takes effect at once",
+        floating_point_range=[FloatingPointRange(from_value=limits[0], to_value=limits[1])],
+    )
+    return _declare_number(node, name, default, descriptor)
+
+
 def declare_rate_factor(node: Node) -> float:
     """Declare simulated seconds per second and return the value; 0 is as fast as it goes.
 

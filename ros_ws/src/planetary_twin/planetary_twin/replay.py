@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import itertools
 import sys
 import time
 from collections.abc import Iterator, Mapping
@@ -10,18 +9,20 @@ from pathlib import Path
 from typing import Any, Protocol
 
 import rclpy
-from rclpy.duration import Duration
+from rcl_interfaces.msg import SetParametersResult
 from rclpy.logging import get_logger
-from rclpy.publisher import Publisher
+from rclpy.parameter import Parameter
 
-from planetary_twin_py.recording.rosbag2 import Topic
+from planetary_twin_py.recording.clock import CLOCK, with_clock
+from planetary_twin_py.recording.renaming import moved
 from planetary_twin_py.recording.tape import Cue, Tape
 
 from .managed import ManagedNode, NodeError, run_node
-from .parameters import declare_bounded, declare_fixed
-from .playing import Player
-from .qos import publisher_qos
-from .topics import message_class
+from .outlets import Outlets
+from .pacing import AS_FAST_AS_IT_GOES, FASTEST, SLOWEST, check_rate_factor
+from .parameters import coerce, declare_bounded, declare_changing, declare_fixed
+from .playing import Player, Stretch
+from .playing_services import PlayingServices
 
 # Participants find one another at once, or, where a packet of the first exchange got lost, with the
 # next announcement: every 3 s. A subscriber that was there before must not miss the first messages.
@@ -29,6 +30,7 @@ _DISCOVERY = 4.0  # [s]
 _DELIVERY = 2.0  # [s] longest wait for subscribers to acknowledge the last messages
 _LONGEST = 1e7  # [s]
 _SHOW_PERIOD = 0.1  # [s]
+_RATE = "rate_factor"
 
 
 class Listener(Protocol):
@@ -40,55 +42,64 @@ class Listener(Protocol):
     def warn(self, text: str) -> None:
         """A line that the user should know of."""
 
-    def move(self, played: float, length: float) -> None:
-        """`played` of `length` [s] are over."""
+    def move(self, instant: float, end: float) -> None:
+        """What is played stands at `instant` [s] of the recording and goes to `end`."""
 
 
 class Replay(ManagedNode):
-    """Configure opens the recording, activate plays it, deactivate pauses; it ends by itself."""
+    """Configure opens the recording, activate plays it, deactivate holds it; it ends by itself."""
 
     def __init__(
         self, given: Mapping[str, Any] | None = None, listener: Listener | None = None
     ) -> None:
         super().__init__("replay", given)
         self._listener = listener or _Log()
-        self._path = declare_fixed(self, "file", "", "recording: an .mcap file or its folder")
-        self._rate_factor = declare_bounded(
-            self, "rate_factor", 1.0, (0.01, 100.0), "recorded seconds per second [-]"
-        )
-        self._start = declare_bounded(
-            self, "start", 0.0, (0.0, _LONGEST), "recorded time to begin at [s]"
-        )
-        self._duration = declare_bounded(
-            self, "duration", 0.0, (0.0, _LONGEST), "recorded time to play [s]; 0: to the end"
-        )
-        self._loop = declare_fixed(self, "loop", False, "play again and again")
-        self._outlets: dict[str, Publisher] = {}
+        self._declare()
+        self._tape: Tape | None = None
+        self._outlets: Outlets | None = None
         self._player: Player | None = None
+        self._active = False
+        self._begin = self._end = 0  # [ns]
         self._told = 0
         self._opened = 0.0
-        self._length = 0.0
         self._played = 0
         self._shown = 0.0
+        PlayingServices(self, self)
 
     def configure(self) -> None:
         """Open the recording and offer its topics."""
         if not self._path:
             raise NodeError("file is not given: -p file:=RECORDING")
-        tape = Tape(Path(self._path).expanduser())
-        begin, end = self._stretch(tape)
-        self._length = (end - begin) * 1e-9
-        self._warn_of_damage(tape)
-        self._outlets = {name: self._offer(topic) for name, topic in tape.topics.items()}
+        tape = self._tape = Tape(Path(self._path).expanduser(), self._chosen)
+        self._told = self._played = 0
+        self._warn_of_damage()
+        self._begin, self._end = self._stretch(tape)
+        topics = dict(tape.topics)
+        ticking = self._clock_rate > 0.0 and CLOCK.name not in topics
+        if ticking:
+            topics[CLOCK.name] = CLOCK
+        elif self._clock_rate:
+            self._listener.warn(
+                f"clock = {self._clock_rate:g}: {self._path} holds /clock, played as is"
+            )
+        names = (
+            moved(topics, self._namespace) if self._namespace else {name: name for name in topics}
+        )
+        self._outlets = Outlets(self, topics.values(), names)
         self._opened = time.monotonic()
-        self._player = Player(self._cues(tape, begin, end), self._rate_factor, self)
+        stretch = Stretch(
+            self._begin, self._end, self._loop, lambda begin: self._cues(tape, begin, ticking)
+        )
+        self._player = Player(stretch, self._start_paused, self)
 
     def activate(self) -> None:
-        """Begin as soon as subscribers had time to be found, or go on after a pause."""
-        self._player.start()
+        """Begin as soon as subscribers had time to be found, or go on."""
+        self._player.start(self.get_parameter(_RATE).value)
+        self._active = True
 
     def deactivate(self) -> None:
-        """Pause."""
+        """Hold the tape."""
+        self._active = False
         self._player.stop()
 
     def close(self) -> None:
@@ -96,13 +107,12 @@ class Replay(ManagedNode):
         player, self._player = self._player, None
         if player is None:
             return
+        self._active = False
         player.stop()
         self._listener.say(
             f"replayed {self._played} messages, at most {player.lateness * 1e3:.1f} ms late"
         )
-        for outlet in self._outlets.values():
-            self.destroy_publisher(outlet)
-        self._outlets = {}
+        self._outlets.close()
 
     # Called by the player, in its thread.
 
@@ -112,34 +122,87 @@ class Replay(ManagedNode):
 
     def begin(self) -> None:
         """Say what is played, and who else publishes it."""
-        count = len(self._outlets)
-        self._listener.say(f"replaying {self._length:.2f} s of {count} topics from {self._path}")
-        shared = [name for name in self._outlets if self.count_publishers(name) > 1]
-        if shared:
+        length = (self._end - self._begin) * 1e-9
+        self._listener.say(
+            f"replaying {length:.2f} s of {len(self._outlets)} topics from {self._path}"
+        )
+        if shared := self._outlets.shared():
             self._listener.warn(f"others publish too, subscribers hear both: {', '.join(shared)}")
 
     def play(self, cue: Cue) -> None:
         """Publish a message as it was recorded."""
-        self._outlets[cue.topic].publish(cue.data)
+        self._outlets.publish(cue)
         self._played += 1
         now = time.monotonic()
         if now - self._shown > _SHOW_PERIOD:
             self._shown = now
-            played = cue.time * 1e-9
-            self._listener.move(played % self._length if self._loop else played, self._length)
+            self._listener.move(cue.time * 1e-9, self._end * 1e-9)
 
     def ended(self) -> None:
         """End the process once the last messages are with their subscribers."""
-        deadline = time.monotonic() + _DELIVERY
-        for outlet in self._outlets.values():
-            remaining = max(deadline - time.monotonic(), 0.0)
-            outlet.wait_for_all_acked(Duration(seconds=remaining))
+        self._outlets.wait(_DELIVERY)
         rclpy.try_shutdown(context=self.context)
 
     def stopped(self, defect: Exception) -> None:
         """End the process with the reason; a publisher refuses once a signal has shut ROS down."""
         if self.context.ok():
             self.fail(f"{self._path}: {type(defect).__name__}: {defect}")
+
+    # Called by the services.
+
+    def playing(self) -> Player:
+        """The player."""
+        if self._player is None or not self._active:
+            raise ValueError("the replay is not active, so its time stands still")
+        return self._player
+
+    def stamp(self, instant: float) -> int:
+        """The recorder's time [ns] of a recorded instant [s]."""
+        return self._tape.start + round(instant * 1e9)
+
+    def _declare(self) -> None:
+        self._path = declare_fixed(self, "file", "", "recording: an .mcap file or its folder")
+        check_rate_factor(
+            declare_changing(
+                self,
+                _RATE,
+                1.0,
+                (AS_FAST_AS_IT_GOES, FASTEST),
+                f"recorded seconds per second, {SLOWEST:g} to {FASTEST:g}; 0: no limit [-]",
+            )
+        )
+        self._start = declare_bounded(
+            self, "start", 0.0, (0.0, _LONGEST), "recorded time to begin at [s]"
+        )
+        self._duration = declare_bounded(
+            self, "duration", 0.0, (0.0, _LONGEST), "recorded time to play [s]; 0: to the end"
+        )
+        self._loop = declare_fixed(self, "loop", False, "play again and again")
+        self._start_paused = declare_fixed(self, "start_paused", False, "begin paused")
+        self._clock_rate = declare_bounded(
+            self, "clock", 0.0, (0.0, 1000.0), "/clock per recorded second [Hz]; 0: none"
+        )
+        self._namespace = declare_fixed(
+            self, "namespace", "", "publish below it what was recorded below another"
+        )
+        chosen = declare_fixed(self, "topics", [""], "recorded topics to play; empty: all")
+        self._chosen = [topic for topic in chosen if topic]
+        self.add_pre_set_parameters_callback(lambda given: coerce(given, {_RATE}))
+        self.add_on_set_parameters_callback(self._validate)
+        self.add_post_set_parameters_callback(self._submit)
+
+    def _validate(self, parameters: list[Parameter]) -> SetParametersResult:
+        try:
+            for value in (p.value for p in parameters if p.name == _RATE):
+                check_rate_factor(value)
+        except ValueError as refusal:
+            return SetParametersResult(successful=False, reason=str(refusal))
+        return SetParametersResult(successful=True)
+
+    def _submit(self, parameters: list[Parameter]) -> None:
+        for value in (p.value for p in parameters if p.name == _RATE):
+            if self._active:
+                self._player.set_rate(value)
 
     def _stretch(self, tape: Tape) -> tuple[int, int]:
         """Begin and end [ns] of what is played, after the first message."""
@@ -154,40 +217,18 @@ class Replay(ManagedNode):
             raise NodeError(f"loop: what is left of {self._path} has no length")
         return begin, end
 
-    def _cues(self, tape: Tape, begin: int, end: int) -> Iterator[Cue]:
-        """What is played, `time` counted from activation."""
-        for turn in itertools.count() if self._loop else range(1):
-            for cue in tape.cues(begin, end):
-                yield cue._replace(time=cue.time - begin + turn * (end - begin))
-            self._warn_of_damage(tape)
+    def _cues(self, tape: Tape, begin: int, ticking: bool) -> Iterator[Cue]:
+        if ticking:
+            yield from with_clock(tape, begin, self._end, self._clock_rate)
+        else:
+            yield from tape.cues(begin, self._end)
+        self._warn_of_damage()
 
-    def _warn_of_damage(self, tape: Tape) -> None:
-        for remark in tape.remarks[self._told :]:
+    def _warn_of_damage(self) -> None:
+        remarks = self._tape.remarks
+        for remark in remarks[self._told :]:
             self._listener.warn(remark)
-        self._told = len(tape.remarks)
-
-    def _offer(self, topic: Topic) -> Publisher:
-        """A publisher like the recorded ones; raises `NodeError` where that cannot be had."""
-        try:
-            kind = message_class(topic.type)
-            qos = publisher_qos(topic)
-        except ImportError:
-            raise NodeError(f"{topic.name}: message type {topic.type} is not installed") from None
-        except (KeyError, ValueError, TypeError) as defect:
-            raise NodeError(f"{topic.name}: recorded QoS is unreadable: {defect!r}") from None
-        outlet = self.create_publisher(kind, topic.name, qos)
-        if topic.type_hash not in ("", self._type_hash(outlet)):
-            raise NodeError(f"{topic.name}: recorded with another version of {topic.type}")
-        return outlet
-
-    def _type_hash(self, outlet: Publisher) -> str:
-        """Hash of the installed message type, which only the graph tells."""
-        own = (self.get_name(), self.get_namespace())
-        return next(
-            str(info.topic_type_hash)
-            for info in self.get_publishers_info_by_topic(outlet.topic_name)
-            if (info.node_name, info.node_namespace) == own
-        )
+        self._told = len(remarks)
 
 
 class _Log:
@@ -202,7 +243,7 @@ class _Log:
     def warn(self, text: str) -> None:
         self._logger.warning(text)
 
-    def move(self, played: float, length: float) -> None:
+    def move(self, instant: float, end: float) -> None:
         pass
 
 

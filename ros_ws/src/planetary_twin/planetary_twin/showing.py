@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 from rich.console import Console
@@ -36,16 +36,20 @@ class Bar:
         """A line that the user should know of."""
         self._console.print(f"warning: {text}", style="yellow", highlight=False, soft_wrap=True)
 
-    def move(self, played: float, length: float) -> None:
-        """Show that `played` of `length` [s] are over."""
-        text = f"{played:.1f} / {length:.1f} s"
-        self.progress.update(self._task, completed=played, total=length, description=text)
+    def move(self, instant: float, end: float) -> None:
+        """Show that what is played stands at `instant` [s] of the recording and goes to `end`."""
+        text = f"{instant:.1f} / {end:.1f} s"
+        self.progress.update(self._task, completed=instant, total=end, description=text)
 
 
-def replay_shown(parameters: Mapping[str, Any]) -> int:
-    """Run a replay node with these parameters to its end; returns the exit code."""
+def replay_shown(parameters: Mapping[str, Any], remappings: Sequence[str]) -> int:
+    """Run a replay node with these parameters to its end; returns the exit code.
+
+    `remappings` are ROS's: OLD:=NEW.
+    """
     stay_on_this_machine()
     bar = Bar(Console())
-
+    rules = [word for rule in remappings for word in ("-r", rule)]
+    args = ["--ros-args", *rules] if rules else []
     with bar.progress:
-        return run_node(lambda: Replay(parameters, bar), [], title="planetary-twin replay")
+        return run_node(lambda: Replay(parameters, bar), args, title="planetary-twin replay")

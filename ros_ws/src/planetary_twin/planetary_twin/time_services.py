@@ -2,17 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from concurrent.futures import Future
-from typing import Any, Protocol
+from typing import Protocol
 
 from planetary_twin_msgs.srv import Step
 from rclpy.node import Node
 from std_srvs.srv import SetBool, Trigger
 
 from .live import LiveTwin
-
-_PATIENCE = 60.0  # [s] longest wait for an order to be carried out
+from .orders import answer
 
 
 class Clockwork(Protocol):
@@ -39,7 +37,7 @@ class TimeServices:
 
     def _pause(self, request: SetBool.Request, response: SetBool.Response) -> SetBool.Response:
         word = "paused" if request.data else "runs"
-        return _answer(
+        return answer(
             response,
             lambda: self._clockwork.running().pause(request.data),
             lambda instant: f"{word} from {instant:.9g} s",
@@ -52,19 +50,9 @@ class TimeServices:
             response.stamp.sec, response.stamp.nanosec = stamp
             return ""
 
-        return _answer(response, lambda: self._clockwork.running().step(request.duration), told)
+        return answer(response, lambda: self._clockwork.running().step(request.duration), told)
 
     def _reset(self, request: Trigger.Request, response: Trigger.Response) -> Trigger.Response:
-        return _answer(
+        return answer(
             response, self._clockwork.reset, lambda instant: f"begins anew at {instant:.9g} s"
         )
-
-
-def _answer(response: Any, order: Callable[[], Future[float]], told: Callable[[float], str]) -> Any:
-    """Fill in what came of an order."""
-    try:
-        response.message = told(order().result(timeout=_PATIENCE))
-        response.success = True
-    except (ValueError, TimeoutError) as refusal:
-        response.success, response.message = False, str(refusal)
-    return response

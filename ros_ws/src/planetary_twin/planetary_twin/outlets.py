@@ -1,0 +1,86 @@
+"""Publishers like those that were recorded."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Iterable, Mapping
+
+from rclpy.duration import Duration
+from rclpy.exceptions import NameValidationException
+from rclpy.node import Node
+from rclpy.publisher import Publisher
+
+from planetary_twin_py.recording.rosbag2 import Topic
+from planetary_twin_py.recording.tape import Cue
+
+from .managed import NodeError
+from .qos import publisher_qos
+from .topics import message_class
+
+
+class Outlets:
+    """A publisher for each topic, of its recorded type and QoS, under the name that `names` gives.
+
+    Raises `NodeError` where that cannot be had.
+    """
+
+    def __init__(self, node: Node, topics: Iterable[Topic], names: Mapping[str, str]) -> None:
+        self._node = node
+        self._names = names
+        self._publishers: dict[str, Publisher] = {}
+        try:
+            for topic in topics:
+                self._offer(topic)
+        except NodeError:
+            self.close()
+            raise
+
+    def __len__(self) -> int:
+        return len(self._publishers)
+
+    def publish(self, cue: Cue) -> None:
+        """Publish a message as it was recorded."""
+        self._publishers[cue.topic].publish(cue.data)
+
+    def shared(self) -> list[str]:
+        """Names of the topics that others publish too."""
+        names = (self._names[topic] for topic in self._publishers)
+        return [name for name in names if self._node.count_publishers(name) > 1]
+
+    def wait(self, seconds: float) -> None:
+        """Wait until subscribers have acknowledged what was published, or `seconds` are over."""
+        deadline = time.monotonic() + seconds
+        for publisher in self._publishers.values():
+            remaining = max(deadline - time.monotonic(), 0.0)
+            publisher.wait_for_all_acked(Duration(seconds=remaining))
+
+    def close(self) -> None:
+        """Let the publishers go."""
+        for publisher in self._publishers.values():
+            self._node.destroy_publisher(publisher)
+        self._publishers = {}
+
+    def _offer(self, topic: Topic) -> None:
+        name = self._names[topic.name]
+        try:
+            kind = message_class(topic.type)
+            qos = publisher_qos(topic)
+        except ImportError:
+            raise NodeError(f"{topic.name}: message type {topic.type} is not installed") from None
+        except (KeyError, ValueError, TypeError) as defect:
+            raise NodeError(f"{topic.name}: recorded QoS is unreadable: {defect!r}") from None
+        try:
+            self._publishers[topic.name] = self._node.create_publisher(kind, name, qos)
+        except NameValidationException as refusal:
+            raise NodeError(f"{name}: {str(refusal).splitlines()[0]}") from None
+        if topic.type_hash not in ("", self._type_hash(name)):
+            raise NodeError(f"{topic.name}: recorded with another version of {topic.type}")
+
+    def _type_hash(self, name: str) -> str:
+        """Hash of the installed message type, which only the graph tells."""
+        own = (self._node.get_name(), self._node.get_namespace())
+        return next(
+            str(info.topic_type_hash)
+            for info in self._node.get_publishers_info_by_topic(name)
+            if (info.node_name, info.node_namespace) == own
+        )

@@ -1,0 +1,60 @@
+"""Services that hold a replay, let it go step by step, and let it go on elsewhere."""
+
+from __future__ import annotations
+
+from typing import Protocol
+
+from builtin_interfaces.msg import Time
+from planetary_twin_msgs.srv import Seek, Step
+from rclpy.node import Node
+from std_srvs.srv import SetBool
+
+from .messages import set_stamp
+from .orders import answer
+from .playing import Player
+
+
+class Deck(Protocol):
+    """The replay, as far as its services are concerned."""
+
+    def playing(self) -> Player:
+        """The player; raises `ValueError` where there is none."""
+
+    def stamp(self, instant: float) -> int:
+        """The recorder's time [ns] of a recorded instant [s]."""
+
+
+class PlayingServices:
+    """`~/pause`, `~/step` and `~/seek` of a node."""
+
+    def __init__(self, node: Node, deck: Deck) -> None:
+        self._deck = deck
+        node.create_service(SetBool, "~/pause", self._pause)
+        node.create_service(Step, "~/step", self._step)
+        node.create_service(Seek, "~/seek", self._seek)
+
+    def _pause(self, request: SetBool.Request, response: SetBool.Response) -> SetBool.Response:
+        word = "paused" if request.data else "runs"
+        return answer(
+            response,
+            lambda: self._deck.playing().pause(request.data),
+            lambda instant: f"{word} from {instant:.9g} s",
+        )
+
+    def _step(self, request: Step.Request, response: Step.Response) -> Step.Response:
+        def told(instant: float) -> str:
+            response.simulated_time = instant
+            return self._set(response.stamp, instant)
+
+        return answer(response, lambda: self._deck.playing().step(request.duration), told)
+
+    def _seek(self, request: Seek.Request, response: Seek.Response) -> Seek.Response:
+        def told(instant: float) -> str:
+            response.time = instant
+            return self._set(response.stamp, instant)
+
+        return answer(response, lambda: self._deck.playing().seek(request.time), told)
+
+    def _set(self, stamp: Time, instant: float) -> str:
+        set_stamp(stamp, self._deck.stamp(instant))
+        return ""

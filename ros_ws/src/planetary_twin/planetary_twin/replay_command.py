@@ -1,0 +1,89 @@
+"""`planetary-twin replay`; options have the names of `ros2 bag play` where that has them."""
+
+from __future__ import annotations
+
+import contextlib
+import inspect
+import sys
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Annotated, Any
+
+import typer
+
+from .commands import interrupt_on_signals
+
+
+@dataclass(frozen=True)
+class Options:
+    """What the command takes: the node's parameters, and renamed topics."""
+
+    file: Annotated[Path, typer.Argument(help="Recording: an .mcap file or the folder of one.")]
+    rate_factor: Annotated[
+        float,
+        typer.Option(
+            "--rate-factor", "--rate", "-r", help="Recorded seconds per second; 0: no limit."
+        ),
+    ] = 1.0
+    start: Annotated[
+        float,
+        typer.Option("--start", "--start-offset", help="Recorded time to begin at [s].", min=0.0),
+    ] = 0.0
+    duration: Annotated[
+        float | None,
+        typer.Option(
+            "--duration",
+            "--playback-duration",
+            help="Recorded time to play [s]; without: to the end.",
+            min=1e-9,
+        ),
+    ] = None
+    loop: Annotated[
+        bool, typer.Option("--loop", "-l", help="Play again and again, until Ctrl-C.")
+    ] = False
+    start_paused: Annotated[
+        bool, typer.Option("--start-paused", "-p", help="Stand at the begin until told to go on.")
+    ] = False
+    clock: Annotated[
+        float, typer.Option(metavar="HZ", help="/clock per recorded second; 0: none.", min=0.0)
+    ] = 0.0
+    topics: Annotated[
+        list[str] | None, typer.Option(metavar="NAME", help="Recorded topic to play; repeatable.")
+    ] = None
+    remap: Annotated[
+        list[str] | None,
+        typer.Option("--remap", "-m", metavar="OLD:=NEW", help="Rename a topic; repeatable."),
+    ] = None
+    namespace: Annotated[
+        str, typer.Option(metavar="NS", help="Publish below it what was below the recorded one.")
+    ] = ""
+
+
+def replay(**given: Any) -> None:
+    """Publish a recording again, byte for byte and in its own time.
+
+    While it plays: services replay/pause, replay/step and replay/seek, parameter rate_factor.
+    """
+    interrupt_on_signals()
+    remappings = given.pop("remap") or []
+    for rule in remappings:
+        if ":=" not in rule:
+            print(f"planetary-twin replay: --remap {rule}: must be OLD:=NEW", file=sys.stderr)
+            raise typer.Exit(1)
+    parameters = given | {
+        "file": str(given["file"]),
+        "duration": given["duration"] or 0.0,
+        "topics": given["topics"] or [""],
+    }
+    code = 0
+    with contextlib.suppress(KeyboardInterrupt):
+        from .showing import replay_shown
+
+        code = replay_shown(parameters, remappings)
+    raise typer.Exit(code)
+
+
+# Typer reads the options off the signature.
+vars(replay)["__signature__"] = inspect.signature(Options, eval_str=True).replace(
+    return_annotation=None
+)

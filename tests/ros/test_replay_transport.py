@@ -1,0 +1,297 @@
+"""A replay is held, stepped, moved and changed in rate while it plays; its clock goes with it."""
+
+from __future__ import annotations
+
+import itertools
+import math
+import signal
+import subprocess
+import sys
+from collections.abc import Callable, Iterator
+from pathlib import Path
+
+import numpy as np
+import pytest
+from builtin_interfaces.msg import Time
+from planetary_twin.qos import to_words
+from planetary_twin_msgs.msg import GearboxState, OperatingPoint
+from planetary_twin_msgs.srv import Seek, Step
+from rclpy.qos import QoSProfile
+from rclpy.serialization import serialize_message
+from rosgraph_msgs.msg import Clock
+from std_srvs.srv import SetBool
+
+from planetary_twin_py.recording.bag import BagWriter
+from planetary_twin_py.recording.rosbag2 import Topic
+from planetary_twin_py.recording.schema import message_definition
+
+from .conftest import Start
+from .peer import LATCHED, TWIN, Peer
+from .recordings import read_all
+
+COMMAND = Path(sys.executable).with_name("planetary-twin")
+NODE = f"{TWIN}/replay"
+PERIOD = 10_000_000  # [ns] between two states
+BEGIN = 1_790_000_000_000_000_000  # log time of the first message
+STAMPED = 1_000_000_000_000  # its stamp: of another clock
+LENGTH = 2000  # states, in two files
+POINTS = 500  # states between two operating points
+Play = Callable[..., "subprocess.Popen[str]"]
+
+
+@pytest.fixture(scope="module")
+def split(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """A recording of 20 s in a folder of two files."""
+    place = tmp_path_factory.mktemp("split")
+    folder = place / "bag"
+    folder.mkdir()
+    for n in range(2):
+        steps = range(n * LENGTH // 2, (n + 1) * LENGTH // 2)
+        _write(place / f"part_{n}", steps).rename(folder / f"bag_{n}.mcap")
+    return folder
+
+
+def _write(place: Path, steps: range) -> Path:
+    bag = BagWriter(place)
+    states = bag.add_topic(_topic("gearbox_state", "GearboxState", QoSProfile(depth=10)))
+    latched = QoSProfile(depth=1, durability=LATCHED.durability)
+    points = bag.add_topic(_topic("operating_point", "OperatingPoint", latched))
+    state, point = GearboxState(planets=3), OperatingPoint()
+    for k in steps:
+        now = BEGIN + k * PERIOD
+        for channel, message in ((points, point), (states, state)):
+            message.sequence, message.simulated_time = k + 1, k * 0.01
+            message.header.stamp = Time(sec=1000 + k // 100, nanosec=k % 100 * PERIOD)
+            if channel == states or k % POINTS == 0:
+                bag.write(channel, serialize_message(message), now, now, k + 1)
+        if k % 50 == 49:
+            bag.flush()
+    bag.close()
+    return bag.file
+
+
+def _topic(name: str, kind: str, qos: QoSProfile) -> Topic:
+    kind = f"planetary_twin_msgs/msg/{kind}"
+    return Topic(f"{TWIN}/{name}", kind, "", message_definition(kind), [to_words(qos)])
+
+
+@pytest.fixture
+def play(domain: int, tmp_path: Path) -> Iterator[Play]:
+    """Start `planetary-twin replay` with arguments; what still runs at the end is killed."""
+    started: list[subprocess.Popen[str]] = []
+
+    def run(*arguments: str | Path) -> subprocess.Popen[str]:
+        command = [COMMAND, "replay", *map(str, arguments)]
+        pipe = subprocess.PIPE
+        started.append(subprocess.Popen(command, cwd=tmp_path, stdout=pipe, stderr=pipe, text=True))
+        return started[-1]
+
+    yield run
+    for process in started:
+        if process.poll() is None:
+            process.kill()
+        process.communicate()
+
+
+def pause(peer: Peer, paused: bool) -> str:
+    answer = peer.call(SetBool, f"{NODE}/pause", SetBool.Request(data=paused))
+    assert answer.success, answer.message
+    return answer.message
+
+
+def step(peer: Peer, duration: float) -> Step.Response:
+    return peer.call(Step, f"{NODE}/step", Step.Request(duration=duration))
+
+
+def seek(peer: Peer, time: float) -> Seek.Response:
+    return peer.call(Seek, f"{NODE}/seek", Seek.Request(time=time))
+
+
+def numbers(states: list[GearboxState]) -> list[int]:
+    return [state.sequence for state in states]
+
+
+def expect(peer: Peer, states: list[GearboxState], first: int, last: int) -> None:
+    """These and no others have come, and are forgotten."""
+    peer.until(lambda: len(states) > last - first, 60.0)
+    assert numbers(states) == list(range(first, last + 1))
+    states.clear()
+
+
+def test_a_paused_replay_plays_just_what_it_is_told_to(
+    peer: Peer, start: Start, split: Path
+) -> None:
+    states = peer.listen(GearboxState, f"{TWIN}/gearbox_state", 5000)
+    points = peer.listen(OperatingPoint, "/elsewhere", LATCHED)
+    clock = peer.listen(Clock, "/clock", 5000)
+    given = (f"file:={split}", "start_paused:=true", "clock:=100.0")
+    arguments = [word for value in given for word in ("-p", value)]
+    remap = f"{TWIN}/operating_point:=/elsewhere"
+    process = start("planetary_twin.replay", "--ros-args", *arguments, "-r", remap)
+    expect(peer, states, 1, 1)
+
+    reached = step(peer, 0.5)
+    assert reached.success and reached.simulated_time == pytest.approx(0.5)
+    assert reached.stamp == Time(sec=BEGIN // 10**9, nanosec=500_000_000)
+    expect(peer, states, 2, 51)
+    peer.until(lambda: len(clock) == 51)
+    told = [t.clock.sec * 10**9 + t.clock.nanosec for t in clock]
+    assert told == [STAMPED + k * PERIOD for k in range(51)]
+
+    # Forward, over the seam of the files, with what is latched there.
+    points.clear()
+    moved = seek(peer, 9.8)
+    assert moved.success and moved.time == 9.8
+    expect(peer, states, 981, 981)
+    assert [point.sequence for point in peer.until(lambda: points)] == [POINTS + 1]
+    late = peer.listen(OperatingPoint, "/elsewhere", LATCHED)
+    assert [point.sequence for point in peer.until(lambda: late)] == [POINTS + 1]
+    assert step(peer, 0.3).success
+    expect(peer, states, 982, 1011)
+    assert peer.until(lambda: len(points) > 1 and points)[-1].sequence == 2 * POINTS + 1
+
+    # Back.
+    points.clear()
+    assert seek(peer, 4.0).success
+    expect(peer, states, 401, 401)
+    assert [point.sequence for point in peer.until(lambda: points)] == [1]
+
+    for wrong in (-0.1, 20.0, math.nan):
+        refused = seek(peer, wrong)
+        assert not refused.success
+        assert refused.message == f"time = {wrong:g} s: must be within 0 and 19.99"
+    refused = step(peer, 10.5)
+    assert "duration = 10.5 s: must be above 0 and at most 10" in refused.message
+    assert not peer.set(NODE, rate_factor=0.001).successful
+    assert pause(peer, True) == "paused from 4 s"
+
+    # To the end, where it stands until it may go on.
+    assert seek(peer, 19.9).success
+    assert step(peer, 1.0).simulated_time == pytest.approx(19.99)
+    expect(peer, states, 1991, 2000)
+    assert process.poll() is None
+    pause(peer, False)
+    peer.until(lambda: process.poll() is not None)
+    output, errors = process.communicate()
+    assert process.returncode == 0, errors
+    assert "Traceback" not in output + errors
+    assert not states
+
+
+def test_a_running_replay_changes_its_rate_and_place_without_a_jump(
+    peer: Peer, play: Play, split: Path
+) -> None:
+    heard: list[tuple[float, float]] = []  # recorded and received [s]
+    clock = peer.listen(Clock, "/clock", 5000)
+    peer.node.create_subscription(
+        GearboxState,
+        "/other/gearbox_state",
+        lambda message, info: heard.append(
+            (message.simulated_time, info["received_timestamp"] * 1e-9)
+        ),
+        5000,
+    )
+    arguments = ("--namespace", "other", "--topics", f"{TWIN}/gearbox_state", "--clock", "50")
+    process = play(split, "--start-offset", "1", "--loop", *arguments)
+    peer.until(lambda: len(heard) > 50)
+    assert "the replay runs; pause it first" in step(peer, 0.1).message
+    rates = {1.0: _pace(heard)}
+    for rate in (4.0, 0.5):
+        assert peer.set(NODE, rate_factor=rate).successful
+        count = len(heard)
+        peer.until(lambda count=count: len(heard) > count + 100)
+        rates[rate] = _pace(heard[count + 20 :])
+    assert all(found == pytest.approx(rate, rel=0.1) for rate, found in rates.items()), rates
+    recorded = [time for time, _ in heard]
+    assert recorded == pytest.approx(1.0 + 0.01 * np.arange(len(recorded)))
+    told = [t.clock.sec * 10**9 + t.clock.nanosec for t in clock]
+    assert told == sorted(told)
+    assert np.diff(told) == pytest.approx(2 * PERIOD)
+
+    # A pause keeps the place, a seek changes it, also from one turn of the loop to the next.
+    held = float(pause(peer, True).split()[-2])
+    peer.until(lambda: heard[-1][0] >= held - 0.0101)
+    count = len(heard)
+    pause(peer, False)
+    peer.until(lambda: len(heard) > count)
+    assert heard[count][0] == pytest.approx(heard[count - 1][0] + 0.01)
+    assert seek(peer, 19.8).success
+    peer.until(lambda: any(b < a for (a, _), (b, _) in itertools.pairwise(heard)))
+    recorded = [time for time, _ in heard]
+    place = recorded.index(pytest.approx(19.8))
+    after = np.array(recorded[place:])
+    assert np.round(100 * after[:21]) == pytest.approx([*range(1980, 2000), 100])
+
+    # As fast as it goes, and back to a pace.
+    assert peer.set(NODE, rate_factor=0).successful
+    count = len(heard)
+    peer.until(lambda: len(heard) > count + 3000)
+    assert peer.set(NODE, rate_factor="1").successful
+    # Once what was on its way has come.
+    peer.until(lambda: _pace(heard[-50:]) == pytest.approx(1.0, rel=0.1))
+    process.send_signal(signal.SIGINT)
+    peer.until(lambda: process.poll() is not None)
+    output, errors = process.communicate()
+    assert process.returncode == 0, errors
+    assert "replayed" in output and "Traceback" not in errors
+
+
+def _pace(heard: list[tuple[float, float]]) -> float:
+    """Recorded seconds per second of the newest that were heard."""
+    recorded, received = np.array(heard).T
+    return float(np.polyfit(received, recorded, 1)[0])
+
+
+def test_a_recorded_clock_is_played_alone(peer: Peer, play: Play, tmp_path: Path) -> None:
+    bag = BagWriter(tmp_path / "bag")
+    kind = "rosgraph_msgs/msg/Clock"
+    channel = bag.add_topic(Topic("/clock", kind, "", message_definition(kind)))
+    for k in range(5):
+        now = BEGIN + k * PERIOD
+        bag.write(channel, serialize_message(Clock(clock=Time(sec=k))), now, now, k)
+    bag.close()
+    clock = peer.listen(Clock, "/clock")
+    process = play("bag", "--clock", "100")
+    peer.until(lambda: process.poll() is not None)
+    assert "clock = 100: bag holds /clock" in process.communicate()[0]
+    peer.until(lambda: len(clock) >= 5)
+    assert [message.clock.sec for message in clock] == [0, 1, 2, 3, 4]
+
+
+def test_what_cannot_be_renamed_or_chosen_ends_in_one_line(play: Play, split: Path) -> None:
+    _refused(play(split, "--topics", "/odd"), "topics: /odd: ", "holds /planetary_twin/gearbox_")
+    _refused(play(split, "--namespace", "9 lives"), "/9 lives/gearbox_state: ")
+    _refused(play(split, "--rate", "0.001"), "rate_factor = 0.001: must be within 0.01")
+    _refused(play(split, "--remap", "no rule"), "--remap no rule: must be OLD:=NEW")
+
+
+def _refused(process: subprocess.Popen[str], *reasons: str) -> None:
+    _, errors = process.communicate(timeout=60)
+    assert process.returncode == 1
+    assert len(errors.strip().splitlines()) == 1, errors
+    assert all(reason in errors for reason in reasons), errors
+
+
+def test_recorded_played_and_recorded_again_it_is_the_same(
+    peer: Peer, start: Start, play: Play, tmp_path: Path
+) -> None:
+    twin = subprocess.run(
+        [COMMAND, "run", "--duration", "1", "--record", "first"],
+        cwd=tmp_path,
+        capture_output=True,
+        check=False,
+    )
+    assert twin.returncode == 0, twin.stderr
+    first = tmp_path / "recordings/first"
+    logger = start("planetary_twin.logger", "--ros-args", "-p", "name:=second")
+    peer.until(lambda: (tmp_path / "recordings/second/second_0.mcap").exists())
+    player = play(first)
+    peer.until(lambda: player.poll() is not None, 60.0)
+    assert player.returncode == 0
+    logger.send_signal(signal.SIGINT)
+    peer.until(lambda: logger.poll() is not None)
+    once, again = read_all(first), read_all(tmp_path / "recordings/second")
+    assert len(once) >= 8
+    assert once.keys() == again.keys()
+    for name, topic in once.items():
+        assert again[name] == topic, name
