@@ -6,6 +6,7 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+from numbered import LATCHED, QOS
 from rosbags.typesys import Stores, get_types_from_msg, get_typestore
 from synthetic_recording import START_NS, definition
 
@@ -14,6 +15,7 @@ from planetary_twin_py.recording.bag import BagWriter
 from planetary_twin_py.recording.fields import joint_fields, state_fields, waveform_fields
 from planetary_twin_py.recording.origin import Makers, Origin, makers_here
 from planetary_twin_py.recording.rosbag2 import Topic
+from planetary_twin_py.recording.storage import Storage
 
 NAMESPACE = "/planetary_twin"
 KINDS = {
@@ -35,8 +37,14 @@ def as_it_is(topic: str, number: int, row: Row) -> Row | None:
 class TwinRecording:
     """A recording in the making."""
 
-    def __init__(self, folder: Path, alter: Alter = as_it_is, makers: Makers | None = None) -> None:
-        self._bag = BagWriter(folder)
+    def __init__(
+        self,
+        folder: Path,
+        alter: Alter = as_it_is,
+        makers: Makers | None = None,
+        storage: Storage | None = None,
+    ) -> None:
+        self._bag = BagWriter(folder, storage)
         self.file = self._bag.file
         self._alter = alter
         self._makers = makers or makers_here()
@@ -53,7 +61,9 @@ class TwinRecording:
             self._types.register({k: v for k, v in found.items() if k not in self._types.types})
         else:
             text, _ = self._types.generate_msgdef(kind)
-        return self._bag.add_topic(Topic(f"{NAMESPACE}/{topic}", kind, "RIHS01_", text))
+        latched = kind.endswith(("OperatingPoint", "String"))
+        qos = [LATCHED if latched else QOS]
+        return self._bag.add_topic(Topic(f"{NAMESPACE}/{topic}", kind, "RIHS01_", text, qos))
 
     def begin(self, twin: pt.Twin, stamp: int) -> None:
         """Let a run begin at ROS time `stamp` [ns]."""
@@ -111,10 +121,15 @@ class TwinRecording:
         self._bag.write(self._channels[topic], data, stamp, stamp, number)
 
 
-def record(folder: Path, alter: Alter = as_it_is, makers: Makers | None = None) -> Path:
+def record(
+    folder: Path,
+    alter: Alter = as_it_is,
+    makers: Makers | None = None,
+    storage: Storage | None = None,
+) -> Path:
     """Two runs with every kind of change: 31 intervals, then 10 after a reset; the file's path."""
     scene = pt.load_scene("paper")
-    recording = TwinRecording(folder, alter, makers)
+    recording = TwinRecording(folder, alter, makers, storage)
     twin = pt.Twin(scene, 10_000.0, 1e-3)
     recording.begin(twin, START_NS)
     for number in range(1, 31):

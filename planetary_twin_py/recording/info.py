@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections import Counter
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -14,7 +15,8 @@ from ..scene import TUNABLES
 from .bag import ACCOUNT_RECORD
 from .decode import Decoder
 from .records import files_of, records_of
-from .topics import POINT, STATE
+from .repeats import Seen, unrepeated
+from .topics import POINT, REAL_TIME, STATE
 
 REPORT = "/diagnostics"
 
@@ -66,7 +68,7 @@ class Info:
     simulated: float = 0.0
     """Simulated time that all gearbox states together cover [s]."""
     report: dict[str, str] = field(default_factory=dict)
-    """Figures of the last report in /diagnostics."""
+    """Figures of the simulation's last report in /diagnostics."""
     remarks: list[str] = field(default_factory=list)
 
     def figures(self) -> dict[str, Any]:
@@ -99,11 +101,13 @@ def read_info(path: Path) -> Info:
     """
     info = Info(files_of(path))
     points: dict[str, Any] = {}
+    lost: Counter[str] = Counter()
+    seen: Seen = set()
     for file in info.files:
         decoder = Decoder(_tells)
         schemas: dict[int, Schema] = {}
         names: dict[int, str] = {}
-        for record in records_of(file, info.remarks):
+        for record in unrepeated(records_of(file, info.remarks), seen):
             if isinstance(record, Schema):
                 schemas[record.id] = record
             elif isinstance(record, Channel):
@@ -112,9 +116,12 @@ def read_info(path: Path) -> Info:
             elif isinstance(record, Message):
                 info.topics[names[record.channel_id]].take(record.log_time)
             elif isinstance(record, Metadata) and record.name == ACCOUNT_RECORD:
-                _account(info, record.metadata)
+                lost[record.metadata["topic"]] += int(record.metadata["lost"])
             if found := decoder.read(record):
                 _learn(info, points, *found)
+    # A file may tell of a topic before the first chunk that has its channel.
+    for name in info.topics.keys() & lost.keys():
+        info.topics[name].lost = lost[name]
     return info
 
 
@@ -123,19 +130,14 @@ def _tells(topic: str) -> bool:
     return topic == REPORT or topic.endswith((f"/{STATE}", f"/{POINT}"))
 
 
-def _account(info: Info, account: Mapping[str, str]) -> None:
-    topic = info.topics.get(account["topic"])
-    if topic is not None:
-        topic.lost = (topic.lost or 0) + int(account["lost"])
-
-
 def _learn(info: Info, points: dict[str, Any], topic: str, message: Any) -> None:
     """What a message tells of the run."""
     if topic.endswith(f"/{STATE}"):
         info.simulated += message.interval
     elif topic == REPORT:
         for status in message.status:
-            info.report |= {item.key: item.value for item in status.values}
+            if status.name == REAL_TIME:
+                info.report |= {item.key: item.value for item in status.values}
     else:
         last = points.get(topic)
         values = {name: getattr(message, name) for name in TUNABLES}

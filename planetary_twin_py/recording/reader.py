@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 from .decode import Decoder
 from .namespaces import choose_namespace
 from .records import files_of, records_of
+from .repeats import Seen, unrepeated
 from .topics import POINT, STATE, WAVEFORM
 
 SCENE_ATTACHMENT = "scene.yaml"
@@ -90,8 +91,9 @@ def read_recording(path: str | Path, namespace: str | None = None) -> Recording:
     remarks: list[str] = []
     by_topic: dict[str, list[Any]] = {}
     scene_yaml = None
+    seen: Seen = set()
     for file in files_of(Path(path)):
-        for topic, message in _messages(file, remarks):
+        for topic, message in _messages(file, remarks, seen):
             if topic == SCENE_ATTACHMENT:
                 scene_yaml = scene_yaml or message.decode()
             else:
@@ -112,10 +114,10 @@ def read_recording(path: str | Path, namespace: str | None = None) -> Recording:
     )
 
 
-def _messages(file: Path, remarks: list[str]) -> Iterator[tuple[str, Any]]:
+def _messages(file: Path, remarks: list[str], seen: Seen) -> Iterator[tuple[str, Any]]:
     """Pairs of topic and decoded message, and the scene attachment as ("scene.yaml", bytes)."""
     decoder = Decoder(lambda topic: topic.rsplit("/", 1)[-1] in (STATE, WAVEFORM, POINT))
-    for record in records_of(file, remarks):
+    for record in unrepeated(records_of(file, remarks), seen):
         if isinstance(record, Attachment) and record.name == SCENE_ATTACHMENT:
             yield SCENE_ATTACHMENT, record.data
         elif found := decoder.read(record):

@@ -65,7 +65,10 @@ def records_of(file: Path, remarks: list[str]) -> Iterator[Any]:
 
 def _torn_errors() -> tuple[type[Exception], ...]:
     """What a record cut in the middle raises: at its end, in its fields, in its compressed data."""
-    errors: tuple[type[Exception], ...] = (McapError, struct.error, ValueError, EOFError)
+    # RuntimeError is what lz4 raises.
+    errors: tuple[type[Exception], ...] = (
+        McapError, struct.error, ValueError, EOFError, RuntimeError
+    )  # fmt: skip
     try:
         import zstandard
     except ImportError:

@@ -14,6 +14,7 @@ from ..twin import TICKS
 from .decode import Decoder
 from .origin import Origin, read_origin
 from .records import RecordingError, files_of, records_of
+from .repeats import Seen, unrepeated
 from .topics import ORIGIN, POINT, STATE
 
 
@@ -68,9 +69,10 @@ def messages_of(
 ) -> Iterator[tuple[str, Any]]:
     """Messages of these topics in file order, each with the name of its topic."""
     wanted = {f"{namespace}/{name}": name for name in names}
+    seen: Seen = set()
     for file in files_of(path):
         decoder = Decoder(wanted.__contains__)
-        for record in records_of(file, remarks):
+        for record in unrepeated(records_of(file, remarks), seen):
             if found := decoder.read(record):
                 yield wanted[found[0]], found[1]
 

@@ -14,6 +14,7 @@ from mcap.records import Channel, Message, Schema, Statistics
 from mcap.summary import Summary
 
 from .records import TORN, RecordingError, files_of, records_of
+from .repeats import Seen, unrepeated
 from .rosbag2 import Extent, Topic
 
 # Messages stand in a file in the order a recorder got to them: far less than this apart.
@@ -73,10 +74,11 @@ class Tape:
 
     def _read(self) -> Iterator[Cue]:
         """Every message, in file order."""
+        seen: Seen = set()
         for file in self._files:
             remarks: list[str] = []
             names: dict[int, str] = {}
-            for record in records_of(file, remarks):
+            for record in unrepeated(records_of(file, remarks), seen):
                 if isinstance(record, Channel):
                     names[record.id] = record.topic
                 elif isinstance(record, Message):

@@ -5,3 +5,4 @@ WAVEFORM = "mesh_waveform"
 JOINTS = "joint_states"
 POINT = "operating_point"
 ORIGIN = "run_origin"
+REAL_TIME = "simulation: real time"  # a report in /diagnostics

@@ -15,6 +15,7 @@ from pathlib import Path
 
 import pytest
 from planetary_twin_msgs.msg import OperatingPoint
+from small_disk import mounted
 
 from .peer import LATCHED, TWIN, Peer
 
@@ -86,6 +87,13 @@ def peer(domain: int) -> Iterator[Peer]:
     user = Peer()
     yield user
     user.close()
+
+
+@pytest.fixture
+def small_disk(tmp_path: Path) -> Iterator[Path]:
+    """A file system of one megabyte."""
+    with mounted(tmp_path / "disk") as place:
+        yield place
 
 
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:

@@ -4,17 +4,21 @@ from __future__ import annotations
 
 import signal
 import subprocess
+from collections import Counter
 from pathlib import Path
 
 import pytest
-from diagnostic_msgs.msg import DiagnosticArray
 from lifecycle_msgs.msg import Transition
 from lifecycle_msgs.srv import ChangeState
+from planetary_twin.recording_report import RECORDING
 from planetary_twin_msgs.msg import GearboxState, RecorderStatus
+
+from planetary_twin_py.recording.topics import REAL_TIME
 
 from .conftest import Start
 from .peer import TWIN, Peer
-from .recordings import counts, torn_states
+from .recordings import alone, counts, report_names, torn_states
+from .told import figures, listen_to_reports
 
 TOPICS = {
     "/diagnostics",
@@ -79,7 +83,7 @@ def test_recorded_and_lost_are_what_was_published(
     peer: Peer, start: Start, logger: subprocess.Popen[str], tmp_path: Path
 ) -> None:
     status = peer.listen(RecorderStatus, f"{TWIN}/logger/status")
-    reports = peer.listen(DiagnosticArray, "/diagnostics")
+    reports = listen_to_reports(peer)
     _record(peer, start)
     stop = ChangeState.Request(transition=Transition(label="deactivate"))
     assert peer.call(ChangeState, f"{TWIN}/simulation/change_state", stop).success
@@ -87,8 +91,8 @@ def test_recorded_and_lost_are_what_was_published(
     def published() -> dict[str, int]:
         if not reports:  # they come once a second
             return {}
-        values = {item.key: item.value for item in reports[-1].status[0].values}
-        if values["state"] != "stopped":
+        values = figures(reports[-1:])
+        if values.get("state") != "stopped":
             return {}
         prefix = "published."
         return {k[len(prefix) :]: int(v) for k, v in values.items() if k.startswith(prefix)}
@@ -96,7 +100,9 @@ def test_recorded_and_lost_are_what_was_published(
     def complete() -> bool:
         last = status[-1]
         totals = zip(last.topics, last.recorded, last.lost, strict=True)
-        return {name: recorded + lost for name, recorded, lost in totals} == published()
+        return alone({name: recorded + lost for name, recorded, lost in totals}) == alone(
+            published()
+        )
 
     peer.until(published)
     peer.until(complete)
@@ -105,7 +111,10 @@ def test_recorded_and_lost_are_what_was_published(
     logger.terminate()
     assert logger.wait(20) == 0
     recorded = counts(tmp_path / "recordings/bag")
-    assert {name: recorded[name] + lost[name] for name in recorded} == published()
+    assert alone({name: recorded[name] + lost[name] for name in recorded}) == alone(published())
+    senders = Counter(report_names(tmp_path / "recordings/bag"))
+    assert senders[REAL_TIME] == published()["/diagnostics"]
+    assert 0 < senders[RECORDING] < recorded["/diagnostics"]
 
 
 def test_an_existing_recording_is_refused_in_one_line(
