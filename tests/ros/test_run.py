@@ -68,7 +68,7 @@ def test_a_run_records_every_message_it_publishes(
     with (tmp_path / figures["file"]).open("rb") as stream:
         attached = {a.name: a.data.decode() for a in make_reader(stream).iter_attachments()}
     assert parse_scene(attached["scene.yaml"]) == load_scene("paper")
-    assert attached["robot_description.urdf"].endswith("</robot>")
+    assert attached["robot_description.urdf"].strip().endswith("</robot>")
     assert Path(tmp_path / figures["file"]).exists()
     assert working_in(tmp_path) == []
 
