@@ -5,10 +5,8 @@ from __future__ import annotations
 import contextlib
 import zlib
 from collections import Counter
-from collections.abc import Mapping
 from pathlib import Path
 
-from diagnostic_msgs.msg import DiagnosticArray
 from mcap.exceptions import McapError
 from mcap.records import Channel, Message
 from mcap.stream_reader import StreamReader
@@ -36,18 +34,3 @@ def torn_states(file: Path) -> list[GearboxState]:
             elif isinstance(record, Message) and channels[record.channel_id].endswith("_state"):
                 states.append(deserialize_message(record.data, GearboxState))
     return states
-
-
-def alone(counts: Mapping[str, int]) -> dict[str, int]:
-    """Counts of the topics to which no logger publishes beside the simulation."""
-    return {name: count for name, count in counts.items() if name != "/diagnostics"}
-
-
-def report_names(folder: Path) -> list[str]:
-    """Names of the reports in a finished bag's /diagnostics."""
-    with Reader(folder) as reader:
-        reports = [c for c in reader.connections if c.topic == "/diagnostics"]
-        return [
-            deserialize_message(data, DiagnosticArray).status[0].name
-            for _, _, data in reader.messages(reports)
-        ]

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import signal
 import subprocess
 import sys
 from collections.abc import Callable, Iterator
@@ -244,9 +245,12 @@ def test_recorded_and_lost_are_what_was_published_under_overload(
     peer: Peer, start: Start, tmp_path: Path, count: Count, reliability: str
 ) -> None:
     logger = Logger(peer, start, "name:=bag", f"topics:=['{TOPIC}']")
-    sender = count(0, 20_000, 100, 1, reliability)
+    sender = count(4000.0, 20_000, 100, 1, reliability)
     assert sender.stdin and sender.stdout
+    peer.until(logger.recorded)
+    logger.process.send_signal(signal.SIGSTOP)  # as a machine does that has too much to do
     assert sender.stdout.readline() == "sent\n"
+    logger.process.send_signal(signal.SIGCONT)
     told = len(logger.status)
     peer.until(lambda: len(logger.status) > told + 2 and logger.recorded())
     before = logger.recorded()

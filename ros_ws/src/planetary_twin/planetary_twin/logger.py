@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import sys
+from collections import deque
 
 from diagnostic_msgs.msg import DiagnosticArray
 from planetary_twin_msgs.msg import RecorderStatus
+from rclpy.serialization import serialize_message
 from rclpy.timer import Timer
 
 from .logger_parameters import declare_wishes
@@ -19,6 +21,7 @@ from .stamps import STEADY, Rising
 
 _DISCOVERY_PERIOD = 0.1  # [s]
 _STATUS_PERIOD = 1.0  # [s]
+_OWN = 100  # reports that may be on their way to this node itself
 
 
 class Logger(ManagedNode):
@@ -29,6 +32,7 @@ class Logger(ManagedNode):
         self._wishes = declare_wishes(self)
         self._recorder: Recorder | None = None
         self._ticking: list[Timer] = []
+        self._own: deque[bytes] = deque(maxlen=_OWN)
         self._status = RecorderStatus()
         self._now = Rising(self.get_clock())
         self._report = RecordingReport(self.get_namespace())
@@ -39,7 +43,7 @@ class Logger(ManagedNode):
     def configure(self) -> None:
         """Create the recording's folder and file."""
         self._check_topics()
-        recorder = Recorder(self, self._wishes, self._cannot_go_on)
+        recorder = Recorder(self, self._wishes, self._own, self._cannot_go_on)
         try:
             recorder.begin()
         except Refused as refusal:
@@ -106,7 +110,8 @@ class Logger(ManagedNode):
 
     def _diagnose(self, message: DiagnosticArray) -> None:
         set_stamp(message.header.stamp, self._now.now())
-        self._diagnostics.publish(message)
+        self._own.append(serialize_message(message))
+        self._diagnostics.publish(self._own[-1])
 
     def _publish_status(self) -> None:
         status, recorder = self._status, self._recorder

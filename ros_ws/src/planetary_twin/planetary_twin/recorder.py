@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Collection
 from pathlib import Path
 
 import yaml
@@ -36,12 +36,20 @@ class Refused(Exception):
 class Recorder:
     """One recording after another; `failed` hears why one cannot go on.
 
+    `own` are the newest messages that the node itself has published.
     Raises `Refused` where something cannot be done.
     """
 
-    def __init__(self, node: Node, wishes: Wishes, failed: Callable[[str], None]) -> None:
+    def __init__(
+        self,
+        node: Node,
+        wishes: Wishes,
+        own: Collection[bytes],
+        failed: Callable[[str], None],
+    ) -> None:
         self._node = node
         self._wishes = wishes
+        self._own = own
         self._failed = failed
         self._scene = _scene_text(wishes.scene)
         self._sink: BagWriter | Ring | None = None
@@ -159,7 +167,7 @@ class Recorder:
         if self._scene:
             sink.attach("scene.yaml", self._scene, "application/yaml")
         self._sink = sink
-        self._taps = Taps(self._node, self._wishes.topics, sink, self._fail)
+        self._taps = Taps(self._node, self._wishes.topics, self._own, sink, self._fail)
         self._begun = time.monotonic()
         if self.file:
             self._node.get_logger().info(f"recording into {self.file}")

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Collection, Sequence
 from typing import Any, Protocol
 
 from rclpy.event_handler import QoSMessageLostInfo, SubscriptionEventCallbacks
@@ -19,6 +19,8 @@ from .topics import describe, matching_qos, message_class, wanted_topics
 URDF_ATTACHMENT = "robot_description.urdf"
 _DESCRIPTION = "/robot_description"
 _STRING = "std_msgs/msg/String"
+_NOTHING: tuple[bytes, ...] = ()
+_BATCH = 200  # messages of one topic before it is another's turn
 _CDR_HEADER = 8  # bytes: encapsulation, then the length of the text with its closing zero
 
 
@@ -43,21 +45,40 @@ Failed = Callable[[OSError], None]
 class Tap:
     """One recorded topic: its subscription, its channel in the sink, its account."""
 
-    def __init__(self, sink: Sink, topic: Topic, latched: bool, failed: Failed) -> None:
+    def __init__(
+        self, sink: Sink, topic: Topic, latched: bool, own: Collection[bytes], failed: Failed
+    ) -> None:
         self.account = TopicAccount(latched)
         self.subscription: Subscription | None = None
         self._sink = sink
+        self._own = own
         self._failed = failed
         self._channel = sink.add_topic(topic, self.account)
         self._describes = topic.type == _STRING and topic.name.endswith(_DESCRIPTION)
 
     def publishers(self) -> int:
-        """Publishers matched now."""
-        return self.subscription.get_publisher_count() if self.subscription else 0
+        """Publishers matched now, this node's own left out."""
+        own = self._own is not _NOTHING
+        return self.subscription.get_publisher_count() - own if self.subscription else 0
 
     def receive(self, raw: bytes, info: dict[str, Any]) -> None:
-        """Write one message."""
-        if self.subscription is None:  # what was on its way when the tap was closed
+        """Write a message, and those that wait behind it.
+
+        The executor would bring them one by one, at ten times the cost of writing one.
+        """
+        subscription = self.subscription
+        if subscription is None:  # what was on its way when the tap was closed
+            return
+        self._write(raw, info)
+        with subscription.handle:
+            for _ in range(_BATCH):
+                waiting = subscription.handle.take_message(subscription.msg_type, True)
+                if waiting is None or self.subscription is None:
+                    return
+                self._write(*waiting)
+
+    def _write(self, raw: bytes, info: dict[str, Any]) -> None:
+        if raw in self._own:
             return
         number = info["publication_sequence_number"]
         received = info["received_timestamp"] or time.time_ns()
@@ -77,11 +98,23 @@ class Tap:
 
 
 class Taps:
-    """The taps of one recording; `failed` hears why the sink takes no more."""
+    """The taps of one recording; `failed` hears why the sink takes no more.
 
-    def __init__(self, node: Node, chosen: Sequence[str], sink: Sink, failed: Failed) -> None:
+    What the node itself has published, of late in `own`, is not recorded: so a recording of a
+    replay holds what was replayed.
+    """
+
+    def __init__(
+        self,
+        node: Node,
+        chosen: Sequence[str],
+        own: Collection[bytes],
+        sink: Sink,
+        failed: Failed,
+    ) -> None:
         self._node = node
         self._chosen = chosen
+        self._own = own
         self._sink = sink
         self._failed = failed
         self._taps: dict[str, Tap] = {}
@@ -115,7 +148,9 @@ class Taps:
 
     def _subscribe(self, name: str) -> None:
         tap = self._taps.get(name)
-        publishers = self._node.get_publishers_info_by_topic(name)
+        everybody = self._node.get_publishers_info_by_topic(name)
+        here = self._node.get_name(), self._node.get_namespace()
+        publishers = [p for p in everybody if (p.node_name, p.node_namespace) != here]
         if name in self._refused or not publishers or (tap and tap.subscription):
             return
         try:
@@ -128,7 +163,8 @@ class Taps:
         qos = matching_qos(publishers)
         if tap is None:
             latched = qos.durability == DurabilityPolicy.TRANSIENT_LOCAL
-            tap = self._taps[name] = Tap(self._sink, topic, latched, self._failed)
+            own = self._own if len(publishers) < len(everybody) else _NOTHING
+            tap = self._taps[name] = Tap(self._sink, topic, latched, own, self._failed)
         tap.subscription = self._listen(kind, name, tap, qos)
 
     def _listen(self, kind: type, name: str, tap: Tap, qos: QoSProfile) -> Subscription:

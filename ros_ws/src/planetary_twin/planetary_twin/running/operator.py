@@ -19,7 +19,6 @@ from ..reports import real_time_figures
 from .children import RunError
 
 _NODE = "simulation"
-_SHARED = "/diagnostics"  # where the logger reports, too
 _MACHINERY = ("/rosout", "/parameter_events")
 
 
@@ -106,14 +105,13 @@ class Operator(Client):
         return {n for n in names if n not in _MACHINERY and not n.endswith("/transition_event")}
 
     def published(self) -> dict[str, int]:
-        """Messages the simulation says it has published, by topic; of those it alone publishes."""
+        """Messages the simulation says it has published, by topic."""
         prefix = "published."
-        found = {
+        return {
             key.removeprefix(prefix): int(value)
             for key, value in self.figures.items()
             if key.startswith(prefix)
         }
-        return {name: count for name, count in found.items() if name != _SHARED}
 
     def _client(self, kind: type, service: str) -> Service:
         return self.node.create_client(kind, f"{_NODE}/{service}")
