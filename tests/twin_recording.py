@@ -11,6 +11,7 @@ from planetary_twin_py.recording.bag import BagWriter
 from planetary_twin_py.recording.compose import Composer, Row
 from planetary_twin_py.recording.definitions import topics_of
 from planetary_twin_py.recording.origin import Makers, Origin, makers_here
+from planetary_twin_py.recording.storage import Storage
 
 NAMESPACE = "/planetary_twin"
 Alter = Callable[[str, int, Row], Row | None]
@@ -40,8 +41,14 @@ class Altering(Composer):
 class TwinRecording:
     """A recording in the making."""
 
-    def __init__(self, folder: Path, alter: Alter = as_it_is, makers: Makers | None = None) -> None:
-        self._bag = BagWriter(folder)
+    def __init__(
+        self,
+        folder: Path,
+        alter: Alter = as_it_is,
+        makers: Makers | None = None,
+        storage: Storage | None = None,
+    ) -> None:
+        self._bag = BagWriter(folder, storage)
         self.file = self._bag.file
         self._composer = Altering(self._bag, alter)
         self._makers = makers or makers_here()
@@ -76,10 +83,15 @@ class TwinRecording:
         return self._origin + round(time * 1e9)
 
 
-def record(folder: Path, alter: Alter = as_it_is, makers: Makers | None = None) -> Path:
+def record(
+    folder: Path,
+    alter: Alter = as_it_is,
+    makers: Makers | None = None,
+    storage: Storage | None = None,
+) -> Path:
     """Two runs with every kind of change: 31 intervals, then 10 after a reset; the file's path."""
     scene = pt.load_scene("paper")
-    recording = TwinRecording(folder, alter, makers)
+    recording = TwinRecording(folder, alter, makers, storage)
     twin = pt.Twin(scene, 10_000.0, 1e-3)
     recording.begin(twin, START_NS)
     for number in range(1, 31):

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, field
 
 
@@ -25,9 +26,16 @@ class TopicAccount:
         """Messages published but not received."""
         return self.missed + (0 if self.latched else self.before)
 
-    def receive(self, number: int, publishers: int = 1) -> None:
-        """Count a message with its publisher's `number`; `publishers` are matched now."""
+    def receive(self, number: int, publishers: Callable[[], int] = lambda: 1) -> None:
+        """Count a message with its publisher's `number`.
+
+        `publishers` tells how many are matched now; it is asked only where that decides.
+        """
         self.recorded += 1
+        last = self._last
+        if len(last) == 1 and number - 1 == last[0]:
+            last[0] = number
+            return
         stream = self._stream(number, publishers)
         if stream is None:
             self._last.append(number)
@@ -36,11 +44,11 @@ class TopicAccount:
             self.missed += number - self._last[stream] - 1
             self._last[stream] = number
 
-    def _stream(self, number: int, publishers: int) -> int | None:
+    def _stream(self, number: int, publishers: Callable[[], int]) -> int | None:
         """Index of the sequence `number` continues, None where it begins a new one."""
         if number - 1 in self._last:
             return self._last.index(number - 1)
         earlier = [i for i, last in enumerate(self._last) if last < number]
-        if not earlier or len(self._last) < publishers:
+        if not earlier or len(self._last) < publishers():
             return None
         return max(earlier, key=lambda i: self._last[i])

@@ -1,101 +1,176 @@
-"""Writes a recording: a bag folder holding one MCAP file that rosbag2 reads as its own."""
+"""Writes a recording: a bag folder with one or several MCAP files, as rosbag2 lays it out."""
 
 from __future__ import annotations
 
 import os
 import reprlib
 import time
-from collections.abc import Mapping
+from collections import Counter
+from collections.abc import Callable, Mapping
 from pathlib import Path
 
-from mcap.writer import CompressionType, Writer
-
 from .account import TopicAccount
-from .rosbag2 import Extent, Topic, bag_metadata
+from .latched import Latched, Serialised
+from .mcap_file import McapFile
+from .rosbag2 import FileEntry, Topic, bag_metadata
+from .storage import Storage
 
 ACCOUNT_RECORD = "planetary_twin_account"
-_LIBRARY = "planetary_twin"
+CLOCKS_RECORD = "planetary_twin_clocks"
+_CLOCKS_PERIOD = 60.0  # [s]
 _LONGEST_NAME = 200  # bytes; file systems take 255, of which the file's own ending needs some
+Clocks = Callable[[], Mapping[str, str]]
 
 
 class BagWriter:
-    """One recording, from an empty folder to a finished file.
+    """One recording, from an empty folder to its last finished file.
+
+    Each file is enough for itself: it repeats what is attached, what is described, and the messages
+    of latched topics that hold when it begins. What `clocks` says is noted at both ends of each
+    file and once a minute.
 
     What `flush` has returned for survives a kill and a power cut; what came later may not.
     Raises `FileExistsError` where `folder` exists, and `OSError` where it cannot be written.
     """
 
-    def __init__(self, folder: Path) -> None:
+    def __init__(
+        self, folder: Path, storage: Storage | None = None, clocks: Clocks | None = None
+    ) -> None:
         folder.mkdir(parents=True)
         self.folder = folder
-        self.file = folder / f"{folder.name}_0.mcap"
-        self._stream = self.file.open("xb")
-        self._writer = Writer(self._stream, compression=CompressionType.ZSTD, enable_data_crcs=True)
-        self._writer.start(profile="ros2", library=_LIBRARY)
-        self._channels: dict[int, Topic] = {}
-        self._counts: dict[int, int] = {}
-        self._extent = Extent()
-        self.flush()
+        self._storage = storage or Storage()
+        self._clocks = clocks
+        self._topics: list[Topic] = []  # of channels 1, 2, 3, ...
+        self._accounts: dict[str, TopicAccount] = {}
+        self._told: Counter[tuple[str, str]] = Counter()  # of the accounts, in finished files
+        self._attached: dict[str, tuple[bytes, str]] = {}
+        self._described: dict[str, Mapping[str, str]] = {}
+        self._latched = Latched()
+        self._finished: list[McapFile] = []
+        self._file = self._next_file()
+
+    @property
+    def file(self) -> Path:
+        """The file being written, or the last one."""
+        return self._file.path
 
     @property
     def closed(self) -> bool:
-        """Whether the file is finished, or given up."""
-        return self._stream.closed
+        """Whether the recording is finished, or given up."""
+        return self._file.closed
 
     @property
     def size(self) -> int:
         """Bytes of the file so far; the chunk in progress comes on top."""
-        return self._stream.tell()
+        return self._file.size
 
     def attach(self, name: str, data: bytes, media_type: str) -> None:
-        """Add a file beside the messages, e.g. the scene."""
-        now = time.time_ns()
-        self._writer.add_attachment(now, now, name, media_type, data)
+        """Add a file beside the messages, e.g. the scene; the same one only once."""
+        if self._attached.get(name) != (data, media_type):
+            self._attached[name] = data, media_type
+            self._file.attach(name, data, media_type)
 
-    def add_topic(self, topic: Topic) -> int:
-        """Open a channel; the number returned is the one `write` takes."""
-        schema = self._writer.register_schema(topic.type, "ros2msg", topic.definition.encode())
-        channel = self._writer.register_channel(
-            topic.name,
-            "cdr",
-            schema,
-            {"offered_qos_profiles": topic.qos_yaml, "topic_type_hash": topic.type_hash},
-        )
-        self._channels[channel] = topic
-        self._counts[channel] = 0
+    def describe(self, name: str, values: Mapping[str, str]) -> None:
+        """Add a metadata record that holds for the whole recording."""
+        self._described[name] = values
+        self._file.note(name, values)
+
+    def note(self, name: str, values: Mapping[str, str]) -> None:
+        """Add a metadata record."""
+        self._file.note(name, values)
+
+    def add_topic(self, topic: Topic, account: TopicAccount | None = None) -> int:
+        """Open a channel; the number returned is the one `write` takes.
+
+        What `account` has counted meanwhile stands at the end of each file.
+        """
+        channel = self._file.add_topic(topic)
+        self._topics.append(topic)
+        self._latched.add_topic(channel, topic)
+        if account is not None:
+            self._accounts[topic.name] = account
         return channel
 
     def write(
         self, channel: int, data: bytes, log_time: int, publish_time: int, sequence: int
     ) -> None:
         """Append one serialised message, received at `log_time` and sent at `publish_time` [ns]."""
-        # MCAP keeps 32 bits of the sequence number.
-        self._writer.add_message(channel, log_time, data, publish_time, sequence & 0xFFFFFFFF)
-        self._counts[channel] += 1
-        self._extent.include(log_time)
+        if self._file.full(log_time):
+            self.split()
+        self._file.write(channel, data, log_time, publish_time, sequence)
+        if channel in self._latched:
+            self._latched.keep(Serialised(channel, data, log_time, publish_time, sequence))
 
     def flush(self) -> None:
         """Bring everything written so far onto the disk."""
-        self._writer.flush()  # type: ignore[no-untyped-call]
-        os.fsync(self._stream.fileno())
+        if time.monotonic() - self._clocks_noted >= _CLOCKS_PERIOD:
+            self._note_clocks()
+        self._file.flush()
 
-    def close(self, accounts: Mapping[str, TopicAccount] | None = None) -> None:
-        """Finish the file: indexes, the loss account by topic, and `metadata.yaml` beside it."""
-        topics = [(topic, self._counts[channel]) for channel, topic in self._channels.items()]
-        metadata = bag_metadata(self.file.name, topics, self._extent)
-        for name, account in (accounts or {}).items():
-            self._writer.add_metadata(ACCOUNT_RECORD, {"topic": name, **_figures(account)})
-        self._writer.add_metadata("rosbag2", {"serialized_metadata": metadata})
-        self._writer.finish()  # type: ignore[no-untyped-call]
-        self._stream.flush()
-        os.fsync(self._stream.fileno())
-        self._stream.close()
-        (self.folder / "metadata.yaml").write_text(metadata, encoding="utf-8")
+    def split(self) -> None:
+        """Finish the file and go on in the next."""
+        self._finish_file()
+        end = self._file.extent.end
+        self._file = self._next_file()
+        for message in self._latched:
+            # At the end of the file before, so that the files' spans do not overlap.
+            self._file.write(*message._replace(log_time=max(message.log_time, end)))
+
+    def close(self) -> None:
+        """Finish the file, and write `metadata.yaml` beside it."""
+        self._finish_file()
+        counts = sum((file.counts for file in self._finished), Counter[int]())
+        topics = [(topic, counts[number]) for number, topic in enumerate(self._topics, start=1)]
+        metadata = bag_metadata([_entry(file) for file in self._finished], topics)
+        with (self.folder / "metadata.yaml").open("w", encoding="utf-8") as stream:
+            stream.write(metadata)
+            stream.flush()
+            os.fsync(stream.fileno())
 
     def abandon(self) -> None:
         """Let go of a file that cannot be written any more, e.g. on a full disk."""
-        # Closing the buffered stream would try to write once more; the descriptor must not leak.
-        self._stream.raw.close()
+        self._file.abandon()
+
+    def _next_file(self) -> McapFile:
+        name = f"{self.folder.name}_{len(self._finished)}.mcap"
+        self._file = file = McapFile(self.folder / name, self._storage)
+        for attached, content in self._attached.items():
+            file.attach(attached, *content)
+        for described, values in self._described.items():
+            file.note(described, values)
+        self._note_clocks()
+        for topic in self._topics:
+            file.add_topic(topic)
+        file.flush()
+        _sync_folder(self.folder)
+        return file
+
+    def _finish_file(self) -> None:
+        """Write what a reader of this file alone wants to know, and close it."""
+        file = self._file
+        for name, account in self._accounts.items():
+            file.note(ACCOUNT_RECORD, {"topic": name, **self._untold(name, account)})
+        self._note_clocks()
+        topics = [
+            (topic, file.counts[number]) for number, topic in enumerate(self._topics, start=1)
+        ]
+        file.note("rosbag2", {"serialized_metadata": bag_metadata([_entry(file)], topics)})
+        file.finish()
+        self._finished.append(file)
+
+    def _untold(self, name: str, account: TopicAccount) -> dict[str, str]:
+        """What an account has counted since the file before."""
+        untold = {}
+        for figure in ("recorded", "lost", "missed", "before", "reported"):
+            total = getattr(account, figure)
+            untold[figure] = str(total - self._told[name, figure])
+            self._told[name, figure] = total
+        return untold
+
+    def _note_clocks(self) -> None:
+        self._clocks_noted = time.monotonic()
+        if self._clocks is not None:
+            self._file.note(CLOCKS_RECORD, self._clocks())
 
 
 def named_folder(directory: Path, name: str) -> Path:
@@ -122,6 +197,14 @@ def free_folder(directory: Path, stem: str) -> Path:
     return folder
 
 
-def _figures(account: TopicAccount) -> dict[str, str]:
-    names = ("recorded", "lost", "missed", "before", "reported")
-    return {name: str(getattr(account, name)) for name in names}
+def _entry(file: McapFile) -> FileEntry:
+    return FileEntry(file.path.name, file.extent, file.counts.total())
+
+
+def _sync_folder(folder: Path) -> None:
+    """Let the name of a new file survive a power cut, too."""
+    descriptor = os.open(folder, os.O_RDONLY)
+    try:
+        os.fsync(descriptor)
+    finally:
+        os.close(descriptor)

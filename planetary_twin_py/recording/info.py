@@ -17,9 +17,10 @@ from ..scene import TUNABLES
 from .bag import ACCOUNT_RECORD
 from .decode import Decoder
 from .index import UNSOUND, Index
-from .records import files_of, records_of
+from .records import files_of
+from .repeats import Repeats, unrepeated
 from .schedule import stamp_of
-from .topics import POINT, STATE
+from .topics import POINT, REAL_TIME, STATE
 
 REPORT = "/diagnostics"
 REPORTED = {"real_time_factor_mean", "overruns"}
@@ -75,7 +76,7 @@ class Info:
     simulated: float = 0.0
     """Simulated time that all gearbox states together cover [s]."""
     report: dict[str, str] = field(default_factory=dict)
-    """Figures of the last report in /diagnostics."""
+    """Figures of the simulation's last report in /diagnostics."""
     remarks: list[str] = field(default_factory=list)
 
     def figures(self) -> dict[str, Any]:
@@ -109,64 +110,103 @@ def read_info(path: Path) -> Info:
     Raises:
         RecordingError: there is none.
     """
-    info = Info(files_of(path))
-    points: dict[str, Any] = {}
-    for file in info.files:
-        more, more_points = deepcopy(info), dict(points)
+    told = _Told(Info(files_of(path)))
+    for file in told.info.files:
+        more = deepcopy(told)
         try:
-            _look_up(more, more_points, Index(file))
+            more.look_up(Index(file))
         except UNSOUND:  # torn before it had an index, or damaged
-            _read(info, points, file)
+            told.read(file)
         else:
-            info, points = more, more_points
-    return info
+            told = more
+    return told.info
 
 
-def _read(info: Info, points: dict[str, Any], file: Path) -> None:
-    """Learn from every record of a file."""
-    decoder = Decoder(_tells)
-    schemas: dict[int, Schema] = {}
-    names: dict[int, str] = {}
-    times: dict[str, list[int]] = {}
-    for record in records_of(file, info.remarks):
-        if isinstance(record, Schema):
-            schemas[record.id] = record
-        elif isinstance(record, Channel):
-            names[record.id] = record.topic
-            info.topics.setdefault(record.topic, TopicInfo(schemas[record.schema_id].name))
-        elif isinstance(record, Message):
-            times.setdefault(names[record.channel_id], []).append(record.log_time)
-        elif isinstance(record, Metadata) and record.name == ACCOUNT_RECORD:
-            _account(info, record.metadata)
-        if found := decoder.read(record):
-            _learn(info, points, *found)
-    for name, taken in times.items():
-        info.topics[name].take(taken)
+class _Told:
+    """What the files so far have told."""
 
+    def __init__(self, info: Info) -> None:
+        self.info = info
+        self._points: dict[str, dict[str, float]] = {}
+        self._repeats = Repeats()
 
-def _look_up(info: Info, points: dict[str, Any], index: Index) -> None:
-    """Learn the same from the index of a file, and from the few messages that are needed."""
-    decoder = Decoder(_tells)
-    for schema in index.schemas.values():
-        decoder.read(schema)
-    changes = []
-    for number, channel in index.channels.items():
-        decoder.read(channel)
-        times = index.times[number]
-        kind = index.schemas[channel.schema_id].name
-        info.topics.setdefault(channel.topic, TopicInfo(kind)).take(times)
-        messages = _Messages(index, number, decoder)
-        if channel.topic.endswith(f"/{STATE}"):
-            info.simulated += _simulated(messages)
-        elif channel.topic.endswith(f"/{POINT}"):
-            changes += [(times[k], channel.topic, messages[k]) for k in range(len(times))]
-        elif channel.topic == REPORT:
-            info.report |= _report(messages)
-    for _, topic, message in sorted(changes, key=lambda change: change[0]):
-        _learn(info, points, topic, message)
-    for record in index.metadata:
-        if record.name == ACCOUNT_RECORD:
-            _account(info, record.metadata)
+    def read(self, file: Path) -> None:
+        """Learn from every record of a file."""
+        decoder = Decoder(_tells)
+        schemas: dict[int, Schema] = {}
+        names: dict[int, str] = {}
+        times: dict[str, list[int]] = {}
+        accounts: list[Mapping[str, str]] = []
+        for record in unrepeated(file, self.info.remarks, self._repeats):
+            if isinstance(record, Schema):
+                schemas[record.id] = record
+            elif isinstance(record, Channel):
+                names[record.id] = record.topic
+                kind = schemas[record.schema_id].name
+                self.info.topics.setdefault(record.topic, TopicInfo(kind))
+            elif isinstance(record, Message):
+                times.setdefault(names[record.channel_id], []).append(record.log_time)
+            elif isinstance(record, Metadata) and record.name == ACCOUNT_RECORD:
+                accounts.append(record.metadata)
+            if found := decoder.read(record):
+                self._learn(*found)
+        for name, taken in times.items():
+            self.info.topics[name].take(taken)
+        self._settle(accounts)
+
+    def look_up(self, index: Index) -> None:
+        """Learn the same from the index of a file, and from the few messages that are needed."""
+        decoder = Decoder(_tells)
+        self._repeats.next_file()
+        for schema in index.schemas.values():
+            decoder.read(schema)
+        changes = []
+        for number, channel in index.channels.items():
+            decoder.read(channel)
+            new, times = self._new(index, number), index.times[number]
+            kind = index.schemas[channel.schema_id].name
+            self.info.topics.setdefault(channel.topic, TopicInfo(kind)).take(times[new])
+            messages = _Messages(index, number, decoder)
+            if channel.topic.endswith(f"/{STATE}"):
+                self.info.simulated += _simulated(messages)
+            elif channel.topic.endswith(f"/{POINT}"):
+                changes += [(times[k], channel.topic, messages[k]) for k in new]
+            elif channel.topic == REPORT:
+                self.info.report |= _report(messages)
+        for _, topic, message in sorted(changes, key=lambda change: change[0]):
+            self._learn(topic, message)
+        self._settle(
+            [record.metadata for record in index.metadata if record.name == ACCOUNT_RECORD]
+        )
+
+    def _new(self, index: Index, channel: int) -> NDArray[np.intp]:
+        """Numbers of a channel's messages that the files before did not have."""
+        count = len(index.times[channel])
+        self._repeats.repeated(index.channels[channel])
+        if not self._repeats.is_latched(channel):
+            return np.arange(count)
+        fresh = [k for k in range(count) if not self._repeats.repeated(index.message(channel, k))]
+        return np.array(fresh, dtype=np.intp)
+
+    def _settle(self, accounts: list[Mapping[str, str]]) -> None:
+        """Add the losses of a file; it may tell of a topic that it has no message of."""
+        for account in accounts:
+            if topic := self.info.topics.get(account["topic"]):
+                topic.lost = (topic.lost or 0) + int(account["lost"])
+
+    def _learn(self, topic: str, message: Any) -> None:
+        """Take what a message tells of the run."""
+        if topic.endswith(f"/{STATE}"):
+            self.info.simulated += message.interval
+        elif topic == REPORT:
+            self.info.report |= _figures(message)
+        else:
+            last = self._points.get(topic)
+            values = {name: getattr(message, name) for name in TUNABLES}
+            new = {k: v for k, v in values.items() if last is None or v != last[k]}
+            self._points[topic] = values
+            namespace = topic.removesuffix(f"/{POINT}")
+            self.info.changes.append(Changed(message.simulated_time, namespace, new))
 
 
 class _Messages(Sequence[Any]):
@@ -215,34 +255,18 @@ def _report(reports: Sequence[Any]) -> dict[str, str]:
     """The newest figures of each name that is asked for, as far back as there are others."""
     found: dict[str, str] = {}
     for number in reversed(range(len(reports))):
-        for status in reports[number].status:
-            found = {item.key: item.value for item in status.values} | found
+        found = _figures(reports[number]) | found
         if found.keys() >= REPORTED:
             break
     return found
 
 
+def _figures(report: Any) -> dict[str, str]:
+    """What the simulation's report of its real time says, if this is one."""
+    statuses = [status for status in report.status if status.name == REAL_TIME]
+    return {item.key: item.value for status in statuses for item in status.values}
+
+
 def _tells(topic: str) -> bool:
     """Whether messages of a topic are read, not only counted."""
     return topic == REPORT or topic.endswith((f"/{STATE}", f"/{POINT}"))
-
-
-def _account(info: Info, account: Mapping[str, str]) -> None:
-    topic = info.topics.get(account["topic"])
-    if topic is not None:
-        topic.lost = (topic.lost or 0) + int(account["lost"])
-
-
-def _learn(info: Info, points: dict[str, Any], topic: str, message: Any) -> None:
-    """What a message tells of the run."""
-    if topic.endswith(f"/{STATE}"):
-        info.simulated += message.interval
-    elif topic == REPORT:
-        for status in message.status:
-            info.report |= {item.key: item.value for item in status.values}
-    else:
-        last = points.get(topic)
-        values = {name: getattr(message, name) for name in TUNABLES}
-        new = {k: v for k, v in values.items() if last is None or v != last[k]}
-        points[topic] = values
-        info.changes.append(Changed(message.simulated_time, topic.removesuffix(f"/{POINT}"), new))

@@ -17,6 +17,7 @@ from .decode import Topics
 from .layout import Layouts
 from .namespaces import choose_namespace
 from .records import files_of, sections_of
+from .repeats import Repeats
 from .topics import POINT, STATE, WAVEFORM
 from .waveform import Blocks, Held, Ranges, Samples, Source, Stretch, Waveform, joined, stamps
 
@@ -142,14 +143,18 @@ class _Found:
         self.blocks: dict[str, Blocks] = {}
         self.scene_yaml: str | None = None
         self.remarks: list[str] = []
+        self._repeats = Repeats()
 
     def read(self, file: Path) -> None:
         """Take what a file holds."""
         topics = Topics(lambda topic: topic.rpartition("/")[2] in TOPICS)
         sources: dict[int, Source] = {}
+        self._repeats.next_file()
         for section in sections_of(file, self.remarks):
             messages: dict[int, list[bytes]] = {}
             for record in section.records:
+                if self._repeats.repeated(record):
+                    continue
                 if isinstance(record, Attachment) and record.name == SCENE_ATTACHMENT:
                     self.scene_yaml = self.scene_yaml or record.data.decode()
                 elif found := topics.of(record):

@@ -5,11 +5,14 @@ from __future__ import annotations
 from pathlib import Path
 from typing import NamedTuple
 
-from mcap.records import Attachment, Channel, Message
+from mcap.records import Attachment, Channel, Message, Metadata
 
 from .bag import BagWriter
-from .records import files_of, records_of
+from .records import files_of
+from .repeats import Repeats, unrepeated
 from .tape import Tape
+
+_OF_THE_FILE = "rosbag2"  # metadata that the new file has its own of
 
 
 class Recovered(NamedTuple):
@@ -33,13 +36,16 @@ def recover(path: Path, folder: Path) -> Recovered:
     channels = {name: bag.add_topic(topic) for name, topic in tape.topics.items()}
     messages = dict.fromkeys(channels, 0)
     remarks: list[str] = []
+    repeats = Repeats()
     for file in files_of(path):
         names: dict[int, str] = {}
-        for record in records_of(file, remarks):
+        for record in unrepeated(file, remarks, repeats):
             if isinstance(record, Channel):
                 names[record.id] = record.topic
             elif isinstance(record, Attachment):
                 bag.attach(record.name, record.data, record.media_type)
+            elif isinstance(record, Metadata) and record.name != _OF_THE_FILE:
+                bag.note(record.name, record.metadata)
             elif isinstance(record, Message):
                 name = names[record.channel_id]
                 times = record.log_time, record.publish_time

@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
-from typing import Any
+from typing import Any, NamedTuple
 
 import yaml
 
@@ -45,6 +45,11 @@ class Topic:
         )
 
 
+def is_latched(offered_qos: Sequence[Mapping[str, Any]]) -> bool:
+    """Whether a publisher hands its newest messages to late subscribers."""
+    return any(qos.get("durability") in _TRANSIENT_LOCAL for qos in offered_qos)
+
+
 @dataclass
 class Extent:
     """First and last log time [ns since the epoch] of a file's messages."""
@@ -58,18 +63,30 @@ class Extent:
         self.end = max(self.end, time)
 
 
-def bag_metadata(file_name: str, topics: Sequence[tuple[Topic, int]], extent: Extent) -> str:
-    """YAML text of `metadata.yaml` for a bag with one file, from its topics' message counts."""
-    total = sum(count for _, count in topics)
+class FileEntry(NamedTuple):
+    """A file of the bag: its name in the folder, and what it holds."""
+
+    name: str
+    extent: Extent
+    messages: int
+
+
+def bag_metadata(files: Sequence[FileEntry], topics: Sequence[tuple[Topic, int]]) -> str:
+    """YAML text of `metadata.yaml` for a bag, from its topics' message counts."""
+    whole = Extent()
+    for file in files:
+        if file.messages:
+            whole.include(file.extent.start)
+            whole.include(file.extent.end)
     information = {
         "version": VERSION,
         "storage_identifier": "mcap",
-        **_span(extent, total),
+        **_span(whole, sum(file.messages for file in files)),
         "topics_with_message_count": [_topic_entry(topic, count) for topic, count in topics],
         "compression_format": "",
         "compression_mode": "",
-        "relative_file_paths": [file_name],
-        "files": [{"path": file_name, **_span(extent, total)}],
+        "relative_file_paths": [file.name for file in files],
+        "files": [{"path": file.name, **_span(file.extent, file.messages)} for file in files],
         "custom_data": None,
         "ros_distro": os.environ.get("ROS_DISTRO", "jazzy"),
     }

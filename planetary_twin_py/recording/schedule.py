@@ -13,7 +13,8 @@ from ..scene import TUNABLES
 from ..twin import TICKS
 from .decode import Decoder
 from .origin import Origin, read_origin
-from .records import RecordingError, files_of, records_of
+from .records import RecordingError, files_of
+from .repeats import Repeats, unrepeated
 from .topics import ORIGIN, POINT, STATE
 
 
@@ -93,9 +94,10 @@ def messages_of(
 ) -> Iterator[tuple[str, Any]]:
     """Messages of these topics in file order, each with the name of its topic."""
     wanted = {f"{namespace}/{name}": name for name in names}
+    repeats = Repeats()
     for file in files_of(path):
         decoder = Decoder(wanted.__contains__)
-        for record in records_of(file, remarks):
+        for record in unrepeated(file, remarks, repeats):
             if found := decoder.read(record):
                 yield wanted[found[0]], found[1]
 

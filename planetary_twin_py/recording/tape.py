@@ -12,6 +12,7 @@ import yaml
 from mcap.records import Channel, Message, Schema
 
 from .records import RecordingError, files_of
+from .repeats import Repeats
 from .rosbag2 import Extent, Topic
 from .segment import DISORDER, open_segment
 
@@ -63,20 +64,25 @@ class Tape:
         Before them, at `begin`, come the messages a subscriber joining then would still get:
         the newest ones of latched topics.
         """
+        repeats = Repeats()
         for topic, message in self._latched(self.start + begin):
-            yield Cue(begin, topic, message.data)
-        for cue in _in_order(self._read(begin)):
+            if not repeats.known(topic, message):
+                yield Cue(begin, topic, message.data)
+        for cue in _in_order(self._read(begin, repeats)):
             if end is not None and cue.time > end:
                 return
             yield cue
 
-    def _read(self, begin: int) -> Iterator[Cue]:
-        """Messages from `begin` on, in file order."""
+    def _read(self, begin: int, repeats: Repeats) -> Iterator[Cue]:
+        """Messages from `begin` on, in file order, but those that `repeats` knows."""
         for segment in self._segments:
             if segment.contents.extent.end >= self.start + begin:
                 for topic, message in segment.messages(self.start + begin):
-                    if topic in self.topics:
-                        yield Cue(message.log_time - self.start, topic, message.data)
+                    if topic not in self.topics:
+                        continue
+                    if self.topics[topic].kept and repeats.known(topic, message):
+                        continue
+                    yield Cue(message.log_time - self.start, topic, message.data)
 
     def _latched(self, before: int) -> list[tuple[str, Message]]:
         """What is in force before a log time [ns], oldest first."""

@@ -6,3 +6,4 @@ JOINTS = "joint_states"
 POINT = "operating_point"
 ORIGIN = "run_origin"
 DESCRIPTION = "robot_description"
+REAL_TIME = "simulation: real time"  # a report in /diagnostics

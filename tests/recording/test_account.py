@@ -6,7 +6,7 @@ from planetary_twin_py.recording.account import TopicAccount
 def _account(numbers: list[int], publishers: int = 1, latched: bool = False) -> TopicAccount:
     account = TopicAccount(latched=latched)
     for number in numbers:
-        account.receive(number, publishers)
+        account.receive(number, lambda: publishers)
     return account
 
 

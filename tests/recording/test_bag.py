@@ -63,8 +63,8 @@ def test_a_definition_brings_every_type_it_refers_to() -> None:
 
 def test_an_independent_reader_finds_every_message(tmp_path: Path) -> None:
     bag = BagWriter(tmp_path / "bag")
-    _write(bag, bag.add_topic(_NUMBERS), range(100))
-    bag.close({"/numbers": TopicAccount(recorded=100)})
+    _write(bag, bag.add_topic(_NUMBERS, TopicAccount(recorded=100)), range(100))
+    bag.close()
     with Reader(tmp_path / "bag") as reader:
         messages = list(reader.messages())
         assert [connection.msgtype for connection in reader.connections] == [_NUMBERS.type]
@@ -74,8 +74,8 @@ def test_an_independent_reader_finds_every_message(tmp_path: Path) -> None:
 
 def test_the_file_holds_the_account_and_both_times(tmp_path: Path) -> None:
     bag = BagWriter(tmp_path / "bag")
-    _write(bag, bag.add_topic(_NUMBERS), range(3))
-    bag.close({"/numbers": TopicAccount(recorded=3, missed=2)})
+    _write(bag, bag.add_topic(_NUMBERS, TopicAccount(recorded=3, missed=2)), range(3))
+    bag.close()
     with bag.file.open("rb") as stream:
         reader = make_reader(stream)
         _, _, first = next(iter(reader.iter_messages()))

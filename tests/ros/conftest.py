@@ -17,6 +17,7 @@ from typing import IO, Any
 
 import pytest
 from planetary_twin_msgs.msg import OperatingPoint
+from small_disk import mounted
 
 from .peer import LATCHED, TWIN, Peer
 
@@ -112,6 +113,13 @@ def peer(domain: int) -> Iterator[Peer]:
     user = Peer()
     yield user
     user.close()
+
+
+@pytest.fixture
+def small_disk(tmp_path: Path) -> Iterator[Path]:
+    """A file system of one megabyte."""
+    with mounted(tmp_path / "disk") as place:
+        yield place
 
 
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:

@@ -7,7 +7,6 @@ import subprocess
 from pathlib import Path
 
 import pytest
-from diagnostic_msgs.msg import DiagnosticArray
 from lifecycle_msgs.msg import Transition
 from lifecycle_msgs.srv import ChangeState
 from planetary_twin_msgs.msg import GearboxState, RecorderStatus
@@ -15,6 +14,7 @@ from planetary_twin_msgs.msg import GearboxState, RecorderStatus
 from .conftest import Start
 from .peer import TWIN, Peer
 from .recordings import counts, torn_states
+from .told import figures, listen_to_reports
 
 TOPICS = {
     "/diagnostics",
@@ -79,7 +79,7 @@ def test_recorded_and_lost_are_what_was_published(
     peer: Peer, start: Start, logger: subprocess.Popen[str], tmp_path: Path
 ) -> None:
     status = peer.listen(RecorderStatus, f"{TWIN}/logger/status")
-    reports = peer.listen(DiagnosticArray, "/diagnostics")
+    reports = listen_to_reports(peer)
     _record(peer, start)
     stop = ChangeState.Request(transition=Transition(label="deactivate"))
     assert peer.call(ChangeState, f"{TWIN}/simulation/change_state", stop).success
@@ -87,8 +87,8 @@ def test_recorded_and_lost_are_what_was_published(
     def published() -> dict[str, int]:
         if not reports:  # they come once a second
             return {}
-        values = {item.key: item.value for item in reports[-1].status[0].values}
-        if values["state"] != "stopped":
+        values = figures(reports[-1:])
+        if values.get("state") != "stopped":
             return {}
         prefix = "published."
         return {k[len(prefix) :]: int(v) for k, v in values.items() if k.startswith(prefix)}

@@ -66,9 +66,9 @@ def test_a_run_records_every_message_it_publishes(
     assert figures["topics"][f"{TWIN}/operating_point"]["published"] == 7
     assert figures["duration_s"] >= 3.0
     with (tmp_path / figures["file"]).open("rb") as stream:
-        (attachment,) = make_reader(stream).iter_attachments()
-    assert attachment.name == "scene.yaml"
-    assert parse_scene(attachment.data.decode()) == load_scene("paper")
+        attached = {a.name: a.data.decode() for a in make_reader(stream).iter_attachments()}
+    assert parse_scene(attached["scene.yaml"]) == load_scene("paper")
+    assert attached["robot_description.urdf"].strip().endswith("</robot>")
     assert Path(tmp_path / figures["file"]).exists()
     assert working_in(tmp_path) == []
 

@@ -11,7 +11,6 @@ import time
 from pathlib import Path
 
 import pytest
-from diagnostic_msgs.msg import DiagnosticArray
 from planetary_twin.benchmark.figures import Slope
 from planetary_twin.benchmark.process import own_memory, resident_memory, waited_for_processor
 from planetary_twin_msgs.msg import GearboxState, MeshWaveform, RecorderStatus
@@ -20,7 +19,7 @@ from rosbags.rosbag2 import Reader
 
 from .conftest import Start
 from .peer import TWIN, Peer
-from .told import figures
+from .told import figures, listen_to_reports
 
 DURATION = float(os.environ.get("SOAK_DURATION", "60"))  # [s]
 SETTLING = 10.0  # [s] after which whatever is loaded or allocated once is so
@@ -69,7 +68,7 @@ def test_a_long_run_neither_grows_nor_loses_nor_falls_behind_by_itself(
     logger = start("planetary_twin.logger", "--ros-args", "-p", "name:=bag")
     process = start("planetary_twin.simulation", "--ros-args", "-p", "autostart:=false")
     status = peer.listen(RecorderStatus, f"{TWIN}/logger/status", 1)
-    reports = peer.listen(DiagnosticArray, "/diagnostics")
+    reports = listen_to_reports(peer)
     peer.change_state(NODE, "configure")
     topics = {f"{TWIN}/gearbox_state", f"{TWIN}/mesh_waveform", "/diagnostics"}
     peer.until(lambda: status and topics <= set(status[-1].topics), 60.0)

@@ -10,8 +10,23 @@ from planetary_twin_msgs.msg import MeshWaveform, OperatingPoint
 
 import planetary_twin_py as pt
 from planetary_twin_py.affordable import Setting
+from planetary_twin_py.recording.topics import REAL_TIME
+
+from .peer import Peer
 
 LONGEST = 20.0  # [s] simulated again at a time
+
+
+def listen_to_reports(peer: Peer) -> list[DiagnosticArray]:
+    """A list that fills with the simulation's reports; a logger sends its own beside them."""
+    reports: list[DiagnosticArray] = []
+
+    def hear(message: DiagnosticArray) -> None:
+        if message.status[0].name == REAL_TIME:
+            reports.append(message)
+
+    peer.node.create_subscription(DiagnosticArray, "/diagnostics", hear, 100)
+    return reports
 
 
 def figures(reports: list[DiagnosticArray]) -> dict[str, str]:

@@ -31,6 +31,7 @@ setup(
             "run = planetary_twin.commands:run",
             "replay = planetary_twin.replay_command:replay",
             "bench-live = planetary_twin.benchmark.command:bench_live",
+            "bench-recorder = planetary_twin.benchmark.recorder_command:bench_recorder",
             "monitor = planetary_twin.steering:monitor",
             "param = planetary_twin.steering:param",
             "op = planetary_twin.steering:op",

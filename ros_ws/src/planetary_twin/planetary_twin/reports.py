@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from diagnostic_msgs.msg import DiagnosticArray
 
-REAL_TIME = "simulation: real time"
+from planetary_twin_py.recording.topics import REAL_TIME
 
 
 def real_time_figures(message: DiagnosticArray, namespace: str) -> dict[str, str]:

@@ -1,0 +1,69 @@
+"""`planetary-twin bench-recorder`: how much the logger records without loss."""
+
+from __future__ import annotations
+
+import json
+import sys
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+if TYPE_CHECKING:
+    from rich.table import Table
+
+    from .recorder import Throughput
+
+
+def bench_recorder(
+    duration: Annotated[float, typer.Option(help="Of each rate [s].", min=1.0, max=600.0)] = 4.0,
+    directory: Annotated[
+        Path, typer.Option(help="On the disk to measure; what is written is deleted.")
+    ] = Path("."),
+    json_: Annotated[
+        str | None, typer.Option("--json", metavar="FILE", help="Write figures; - prints them.")
+    ] = None,
+) -> None:
+    """Find the highest rate that is recorded without loss, for small and large messages."""
+    from rich.console import Console
+
+    from .recorder import measure
+
+    console = Console(stderr=json_ == "-")
+    try:
+        with console.status("starting") as status:
+            found = measure(duration, directory, status.update)
+        console.print(_table(found))
+        if json_ is not None:
+            text = json.dumps([_plain(row) for row in found], indent=2) + "\n"
+            sys.stdout.write(text) if json_ == "-" else Path(json_).write_text(text, "utf-8")
+    except KeyboardInterrupt:
+        raise typer.Exit(130) from None
+    except (ValueError, OSError) as reason:
+        print(f"planetary-twin bench-recorder: {reason}", file=sys.stderr)
+        raise typer.Exit(1) from None
+
+
+def _table(found: list[Throughput]) -> Table:
+    from rich.table import Table
+
+    table = Table(box=None, pad_edge=False)
+    titles = (
+        "bytes", "messages/s", "MB/s", "of a core", "on disk p50", "max", "limited by",
+        "bare writer/s",
+    )  # fmt: skip
+    for title in titles:
+        table.add_column(title, justify="right")
+    for row in found:
+        best = row.best
+        table.add_row(
+            f"{row.size}", f"{best.rate:.0f}", f"{row.megabytes:.1f}", f"{best.cores:.0%}",
+            f"{best.latency.p50:.2f} s", f"{best.latency.max:.2f} s", row.limit,
+            f"{row.bare_rate:.0f}",
+        )  # fmt: skip
+    return table
+
+
+def _plain(row: Throughput) -> dict[str, Any]:
+    best = row.best._asdict() | {"latency": row.best.latency._asdict()}
+    return row._asdict() | {"best": best, "megabytes_per_s": row.megabytes}

@@ -1,0 +1,43 @@
+"""The recorder's benchmark counts what is in the file, from outside the process that writes it."""
+
+from __future__ import annotations
+
+import time
+from pathlib import Path
+
+import pytest
+from numbered import Numbered
+from planetary_twin.benchmark.recorder import Payload, bare_rate, run_trial
+from planetary_twin.benchmark.tail import Tail
+
+
+def test_a_tail_sees_what_is_flushed_and_nothing_else(tmp_path: Path) -> None:
+    numbered = Numbered(tmp_path / "bag")
+    with Tail(numbered.bag.file) as tail:
+        for count in (7, 5):
+            before = tail.messages
+            numbered.write(count)
+            numbered.bag.flush()
+            numbered.write(1)  # stays in the chunk in progress
+            deadline = time.monotonic() + 10.0
+            while tail.messages < numbered.written - 1:
+                assert time.monotonic() < deadline
+                time.sleep(0.01)
+            assert tail.messages == numbered.written - 1 > before
+
+
+def test_a_payload_has_its_size() -> None:
+    assert [len(Payload(size)[7]) for size in (100, 1000, 100_000)] == [100, 1000, 100_000]
+
+
+def test_a_rate_that_is_no_effort_is_sustained(domain: int, tmp_path: Path) -> None:
+    trial = run_trial(1000, 100.0, 1.0, tmp_path)
+    assert trial.lost == 0
+    assert trial.rate == pytest.approx(100.0, rel=0.1)
+    assert 0.0 < trial.latency.p50 <= trial.latency.max < 10.0
+    assert 0.0 < trial.cores < 1.0
+
+
+def test_the_bare_writer_is_timed(tmp_path: Path) -> None:
+    assert bare_rate(100_000, tmp_path / "bare.mcap") > 10.0
+    assert (tmp_path / "bare.mcap").stat().st_size > 50e6
