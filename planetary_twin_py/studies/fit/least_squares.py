@@ -1,0 +1,124 @@
+"""Where a misfit is least. Knows nothing of gearboxes: points in, residuals out, many at once."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .parameter import Parameter
+
+Array = NDArray[np.float64]
+Residuals = Callable[[Sequence[Array]], list[Array | None]]
+"""Residuals (m,) in units of their noise at each of some points (p,); None where there are none."""
+
+STEP = 5e-3
+"""Of a parameter, to differentiate: means over 0.3 s scatter by 3e-6 of themselves at tolerance
+1e-3, so slopes are known to 3e-4, and central differences leave curvature of a fifth of that."""
+FAR = 8.0  # times larger or smaller than the first one other starts may be
+STARTS = 6  # points for each parameter, of which the search begins at the best few
+SEARCHES = 2
+MOST_STEPS = 30
+CLOSE = 1e-6  # of its scale that the last step changes a parameter by, or of the sum of squares
+
+
+@dataclass(frozen=True)
+class Minimum:
+    """Values (p,), residuals (m,) and their slopes (m, p) where the sum of squares is least."""
+
+    values: Array
+    residuals: Array
+    slopes: Array
+
+    @property
+    def sum(self) -> float:
+        """Of squares."""
+        return float(self.residuals @ self.residuals)
+
+
+def search(residuals: Residuals, parameters: Sequence[Parameter], seed: int = 0) -> Minimum:
+    """The least sum of squares found from several starts.
+
+    Raises:
+        ArithmeticError: there are no residuals at any start.
+    """
+    starts = _starts(parameters, seed)
+    found = [(float(r @ r), place) for place, r in enumerate(residuals(starts)) if r is not None]
+    if not found:
+        raise ArithmeticError("the stretch can be simulated at no value of what is free")
+    best = [starts[place] for _, place in sorted(found)[:SEARCHES]]
+    minima = [minimise(residuals, parameters, start) for start in best]
+    return min(minima, key=lambda minimum: minimum.sum)
+
+
+def minimise(residuals: Residuals, parameters: Sequence[Parameter], start: Array) -> Minimum:
+    """The least sum of squares that a search from `start` (p,) ends at."""
+    from scipy.optimize import least_squares
+
+    scale = np.array([p.scale for p in parameters])
+    low, high = bounds_of(parameters)
+    width = len(_one(residuals, start))
+
+    def at(scaled: Array) -> Array:
+        found = residuals([scaled * scale])[0]
+        return np.full(width, math.inf) if found is None else found
+
+    def slopes(scaled: Array) -> Array:
+        return differentiate(residuals, parameters, scaled * scale) * scale
+
+    inside = np.clip(start, low, high)
+    done = least_squares(
+        at, inside / scale, slopes, bounds=(low / scale, high / scale),
+        xtol=CLOSE, ftol=CLOSE, gtol=None, max_nfev=MOST_STEPS,
+    )  # fmt: skip
+    return Minimum(done.x * scale, done.fun, done.jac / scale)
+
+
+def differentiate(residuals: Residuals, parameters: Sequence[Parameter], values: Array) -> Array:
+    """Slopes (m, p) at `values` (p,) from differences, one-sided at a bound, all at once.
+
+    Raises:
+        ArithmeticError: there are no residuals beside `values`.
+    """
+    low, high = bounds_of(parameters)
+    points, widths = [], []
+    for k, parameter in enumerate(parameters):
+        step = STEP * max(abs(values[k]), 0.1 * parameter.scale)
+        ends = np.clip([values[k] - step, values[k] + step], low[k], high[k])
+        widths.append(ends[1] - ends[0])
+        for end in ends:
+            point = values.copy()
+            point[k] = end
+            points.append(point)
+    found = residuals(points)
+    if any(r is None for r in found):
+        raise ArithmeticError("the stretch cannot be simulated beside the values found")
+    pairs = np.array(found).reshape(len(parameters), 2, -1)
+    return np.asarray((pairs[:, 1] - pairs[:, 0]).T / widths)
+
+
+def bounds_of(parameters: Sequence[Parameter]) -> tuple[Array, Array]:
+    """Lowest and highest values (p,)."""
+    return np.array([p.low for p in parameters]), np.array([p.high for p in parameters])
+
+
+def _starts(parameters: Sequence[Parameter], seed: int) -> list[Array]:
+    """The first one, and others of other magnitudes."""
+    from scipy.stats.qmc import LatinHypercube
+
+    first = np.array([p.start for p in parameters])
+    size = np.array([math.copysign(p.scale, p.start) for p in parameters])
+    shares = LatinHypercube(len(parameters), rng=seed).random(STARTS * len(parameters))
+    others = size * FAR ** (2.0 * shares - 1.0)
+    low, high = bounds_of(parameters)
+    return [first, *np.clip(others, low, high)]
+
+
+def _one(residuals: Residuals, point: Array) -> Array:
+    found = residuals([point])[0]
+    if found is None:
+        raise ArithmeticError("the stretch cannot be simulated at the start")
+    return found
