@@ -69,7 +69,7 @@ def conclude(
     return Estimate(
         values=minimum.values,
         intervals=tuple(found[k] for k in range(len(parameters))),
-        correlation=correlation(told.covariance),
+        correlation=correlation(told),
         untold=told.untold,
         at_bound=bound,
         excess=excess,

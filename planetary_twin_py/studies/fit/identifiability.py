@@ -81,8 +81,8 @@ def _towards(centre: float, bound: float, step: float) -> list[float]:
     return within + ([bound] if math.isfinite(bound) and bound != centre else [])
 
 
-def correlation(covariance: Array) -> Array:
+def correlation(told: Told) -> Array:
     """Of the estimates (p, p); NaN beside what is not told."""
-    deviation = np.sqrt(np.diag(covariance))
-    with np.errstate(invalid="ignore", divide="ignore"):
-        return np.asarray(covariance / np.outer(deviation, deviation))
+    deviation = np.sqrt(np.diag(told.covariance))
+    deviation[[told.lost(k) for k in range(len(deviation))]] = math.nan
+    return np.asarray(told.covariance / np.outer(deviation, deviation))

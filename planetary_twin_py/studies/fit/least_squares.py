@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from itertools import islice, pairwise
 
 import numpy as np
 from numpy.typing import NDArray
@@ -20,9 +21,10 @@ STEP = 5e-3
 1e-3, so slopes are known to 3e-4, and central differences leave curvature of a fifth of that."""
 FAR = 8.0  # times larger or smaller than the first one other starts may be
 STARTS = 6  # points for each parameter, of which the search begins at the best few
-SEARCHES = 2
+BETWEEN = 3  # points that show whether the way from a start to a minimum leads down
 MOST_STEPS = 30
-CLOSE = 1e-6  # of its scale that the last step changes a parameter by, or of the sum of squares
+CLOSE = 1e-5  # of its scale that the last step changes a parameter by
+FLAT = 1e-4  # of the sum of squares that it changes: noise alone makes it scatter by more
 
 
 @dataclass(frozen=True)
@@ -42,6 +44,9 @@ class Minimum:
 def search(residuals: Residuals, parameters: Sequence[Parameter], seed: int = 0) -> Minimum:
     """The least sum of squares found from several starts.
 
+    Of the starts, those from which the way to the minimum found leads over a hill may belong to
+    another one: the best of them begins a search of its own.
+
     Raises:
         ArithmeticError: there are no residuals at any start.
     """
@@ -49,9 +54,27 @@ def search(residuals: Residuals, parameters: Sequence[Parameter], seed: int = 0)
     found = [(float(r @ r), place) for place, r in enumerate(residuals(starts)) if r is not None]
     if not found:
         raise ArithmeticError("the stretch can be simulated at no value of what is free")
-    best = [starts[place] for _, place in sorted(found)[:SEARCHES]]
-    minima = [minimise(residuals, parameters, start) for start in best]
-    return min(minima, key=lambda minimum: minimum.sum)
+    ordered = [(height, starts[place]) for height, place in sorted(found)]
+    best = minimise(residuals, parameters, ordered[0][1])
+    ways = [_way(start, best.values) for _, start in ordered[1:]]
+    heights = iter([_sum(r) for r in residuals([point for way in ways for point in way])])
+    for height, start in ordered[1:]:
+        if not _leads_down([height, *islice(heights, BETWEEN), best.sum]):
+            other = minimise(residuals, parameters, start)
+            return min(best, other, key=lambda minimum: minimum.sum)
+    return best
+
+
+def _way(start: Array, end: Array) -> list[Array]:
+    return [start + share * (end - start) for share in np.arange(1, BETWEEN + 1) / (BETWEEN + 1)]
+
+
+def _sum(residuals: Array | None) -> float:
+    return math.inf if residuals is None else float(residuals @ residuals)
+
+
+def _leads_down(heights: Sequence[float]) -> bool:
+    return all(after <= before for before, after in pairwise(heights))
 
 
 def minimise(residuals: Residuals, parameters: Sequence[Parameter], start: Array) -> Minimum:
@@ -72,9 +95,9 @@ def minimise(residuals: Residuals, parameters: Sequence[Parameter], start: Array
     inside = np.clip(start, low, high)
     done = least_squares(
         at, inside / scale, slopes, bounds=(low / scale, high / scale),
-        xtol=CLOSE, ftol=CLOSE, gtol=None, max_nfev=MOST_STEPS,
+        xtol=CLOSE, ftol=FLAT, gtol=None, max_nfev=MOST_STEPS,
     )  # fmt: skip
-    return Minimum(done.x * scale, done.fun, done.jac / scale)
+    return Minimum(done.x * scale, done.fun, np.asarray(done.jac) / scale)
 
 
 def differentiate(residuals: Residuals, parameters: Sequence[Parameter], values: Array) -> Array:

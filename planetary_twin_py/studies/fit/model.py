@@ -53,7 +53,7 @@ def read_all(
 
 def _windows(stretch: Stretch, overrides: Mapping[str, float]) -> Iterator[Window]:
     """The intervals of a stretch, with parameters other than the recorded ones throughout."""
-    first = stretch.intervals[0]
+    first = (*stretch.before, *stretch.intervals)[0]
     held = {name: value for name, value in overrides.items() if name in TUNABLES}
     twin = Twin(stretch.scene.replace(**overrides), first.sample_rate, first.tolerance)
     begins = round(stretch.begins * TICKS)
@@ -73,10 +73,10 @@ def _windows(stretch: Stretch, overrides: Mapping[str, float]) -> Iterator[Windo
             stop = min(ticks, changes[0][0] if changes else ticks)
             window = twin.advance(min((stop - now) / TICKS, LONGEST_WINDOW))
 
-    for interval in stretch.intervals:
+    for interval in (*stretch.before, *stretch.intervals):
         reach(interval.begin - begins)
         twin.set_tolerance(interval.tolerance)
         twin.set_sample_rate(interval.sample_rate)
         window = reach(interval.end - begins)
-        assert window is not None
-        yield window
+        if window and interval.begin >= stretch.intervals[0].begin:
+            yield window

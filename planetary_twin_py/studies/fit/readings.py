@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
+from itertools import pairwise
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -122,9 +123,11 @@ def _harmonics(intervals: Sequence[Interval], stretch: Stretch) -> Readings:
     phase = _mesh_phase(intervals, stretch, time)
     dte = np.concatenate([interval.dte for interval in intervals])
     cycle = np.floor(phase).astype(np.int64)
-    starts = np.searchsorted(cycle, np.arange(cycle[0] + 1, cycle[-1] + 1)) if len(cycle) else []
+    if not len(cycle):
+        raise ValueError(f"observe = {HARMONICS}: there is no waveform in this stretch")
+    starts = np.searchsorted(cycle, np.arange(cycle[0] + 1, cycle[-1] + 1))
     rows, middles = [], []
-    for first, last in zip(starts, starts[1:], strict=False):
+    for first, last in pairwise(starts):
         if last - first <= 2 * ORDERS:
             raise ValueError(
                 f"observe = {HARMONICS}: {last - first} samples in a mesh cycle, must be more "
@@ -133,7 +136,7 @@ def _harmonics(intervals: Sequence[Interval], stretch: Stretch) -> Readings:
         rows.append(_amplitudes(phase[first:last], dte[first:last]))
         middles.append(0.5 * (time[first] + time[last - 1]))
     if len(rows) < 2:
-        raise ValueError(f"observe = {HARMONICS}: no waveform of two mesh cycles in this stretch")
+        raise ValueError(f"observe = {HARMONICS}: fewer than two whole mesh cycles in this stretch")
     values = np.array(rows)
     return Readings(
         HARMONICS, values, _kinds(values.shape[1]), _segments(np.array(middles), stretch)
@@ -147,14 +150,13 @@ def _mesh_phase(intervals: Sequence[Interval], stretch: Stretch, time: Array) ->
     first = intervals[0]
     phase = teeth * (first.fields[sun] - first.fields[carrier]) / (2.0 * math.pi) % 1.0
     at, phases = [first.end - first.length], [0.0]
-    for before, interval in zip([first, *intervals], intervals, strict=False):
-        if before is not interval and interval.end - interval.length > before.end + 1e-9:
+    for before, interval in zip([None, *intervals], intervals, strict=False):
+        if before and interval.end - interval.length > before.end + 1e-9:
             raise ValueError(f"observe = {HARMONICS}: intervals are missing before {interval.end}")
         rate = interval.fields["sun_speed"] - interval.fields["carrier_speed"]
         at.append(interval.end)
         phases.append(phases[-1] + teeth * rate / (2.0 * math.pi) * interval.length)
-    whole = np.interp(time, at, phases)
-    turned = whole - phases[1] + math.copysign(phase, 1.0)
+    turned = np.interp(time, at, phases) - phases[1] + phase
     return np.asarray(turned if phases[-1] >= 0.0 else -turned)
 
 

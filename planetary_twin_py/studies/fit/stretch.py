@@ -18,8 +18,9 @@ from ...scene import Scene
 from ...twin import TICKS, Twin
 
 LONGEST = 1.0  # [s] that is looked at unless more is asked for
-LEAD = 0.1  # [s] simulated before, for what is left of the start
-SETTLING = 2.0  # periods of the speed loop after a change, beside the ramp to a new speed
+HISTORY = 2.0  # [s] before it that are simulated as recorded; of more, only the last part
+LEAD = 0.1  # [s] simulated before it then, for what is left of the start
+SETTLING = 4.0  # periods of the speed loop after a change, beside the ramp to a new speed
 FEWEST = 5  # intervals that noise can be seen in
 
 
@@ -31,6 +32,8 @@ class Stretch:
     """At the operating point in force at `begins`."""
     begins: float
     """Simulated instant of the recorded run at which a simulation starts [s]; 0 is its start."""
+    before: tuple[Interval, ...]
+    """Recorded intervals from `begins` on that are simulated and not looked at."""
     intervals: tuple[Interval, ...]
     states: tuple[Any, ...]
     """The GearboxState of each interval."""
@@ -109,6 +112,7 @@ def read_stretch(
     return Stretch(
         scene=scene,
         begins=begins,
+        before=tuple(i for i in _between(run, begins, math.inf) if i.end <= intervals[0].begin),
         intervals=tuple(intervals),
         states=tuple(states[interval.stamp] for interval in intervals),
         changes=tuple(change for change in run.changes if begins <= change.time < last),
@@ -148,7 +152,9 @@ def _settling(run: Run, place: int) -> float:
 
 
 def _reference(run: Run, begin: float) -> Interval | None:
-    """The last interval long enough before `begin` at whose end the train runs steadily."""
+    """The last interval before `begin` at whose end the train runs steadily; None: none needed."""
+    if begin <= HISTORY:
+        return None
     until = begin - LEAD
     for place in reversed(range(len(run.changes))):
         if run.changes[place].time < until:
