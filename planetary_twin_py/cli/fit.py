@@ -19,9 +19,16 @@ if TYPE_CHECKING:
     from ..studies.fit.identify import Identified
 
 
-def fit(  # noqa: PLR0913: one option each
+def fit(
     file: Annotated[Path, typer.Argument(help="Recording: an .mcap file or the folder of one.")],
-    free: Annotated[str, typer.Option(metavar="NAMES", help="Fields to estimate, by commas.")],
+    free: Annotated[
+        str,
+        typer.Option(
+            metavar="NAMES",
+            help="Fields to estimate, by commas; NAME=VALUE begins the search elsewhere than "
+            "at the recorded value.",
+        ),
+    ],
     from_: Annotated[
         float | None, typer.Option("--from", metavar="S", help="Simulated second to begin at.")
     ] = None,
@@ -29,14 +36,10 @@ def fit(  # noqa: PLR0913: one option each
     observe: Annotated[
         str, typer.Option(metavar="NAMES", help="What was measured, by commas.")
     ] = "dte_rms,power_loss",
-    start: Annotated[
-        list[str] | None, typer.Option(metavar="NAME=VALUE", help="Where to begin the search.")
-    ] = None,
     noise: Annotated[
         list[str] | None,
         typer.Option(metavar="NAME=VALUE", help="Standard deviation of a reading, in SI."),
     ] = None,
-    confidence: Annotated[float, typer.Option(help="Of the intervals.")] = 0.95,
     namespace: Annotated[
         str | None, typer.Option(help="Which gearbox, if the recording holds several.")
     ] = None,
@@ -60,11 +63,10 @@ def fit(  # noqa: PLR0913: one option each
     console = Console(stderr=json_ == "-")
     try:
         search = Search(
-            free=_names(free),
-            observe=_names(observe),
-            start={_name(name): value for name, value in settings(start or []).items()},
+            free=tuple(name for name, _ in map(_pair, _parts(free))),
+            observe=tuple(map(_name, _parts(observe))),
+            start={name: value for name, value in map(_pair, _parts(free)) if value},
             noise=_numbers(noise or []),
-            confidence=confidence,
         )
         with console.status("simulating") as status:
             found = identify(
@@ -76,11 +78,11 @@ def fit(  # noqa: PLR0913: one option each
     except OSError as error:
         fail(f"{error.filename}: {error.strerror}")
     told = list(remarks(found))
-    _tell(console, found, confidence)
+    _tell(console, found)
     for line in told:
         remark(f"warning: {line}")
     if json_ is not None:
-        text = json.dumps(_figures(found, confidence) | {"remarks": told}, indent=2) + "\n"
+        text = json.dumps(_figures(found) | {"remarks": told}, indent=2) + "\n"
         sys.stdout.write(text) if json_ == "-" else Path(json_).write_text(text, "utf-8")
 
 
@@ -88,8 +90,13 @@ def _name(text: str) -> str:
     return text.strip().replace("-", "_")
 
 
-def _names(text: str) -> tuple[str, ...]:
-    return tuple(_name(part) for part in text.split(",") if part.strip())
+def _parts(text: str) -> list[str]:
+    return [part for part in text.split(",") if part.strip()]
+
+
+def _pair(text: str) -> tuple[str, str]:
+    name, _, value = text.partition("=")
+    return _name(name), value.strip()
 
 
 def _numbers(given: list[str]) -> dict[str, float]:
@@ -102,12 +109,18 @@ def _numbers(given: list[str]) -> dict[str, float]:
     return found
 
 
-def _tell(console: Console, found: Identified, confidence: float) -> None:
+def _tell(console: Console, found: Identified) -> None:
     from rich.table import Table
 
     stretch, estimate = found.stretch, found.estimate
     table = Table(title=f"{stretch.scene.name}, {stretch.start:g} to {stretch.end:g} s")
-    for heading in ("field", "estimate", f"{100.0 * confidence:g} % interval", "unit", "from"):
+    for heading in (
+        "field",
+        "estimate",
+        f"{100.0 * found.confidence:g} % interval",
+        "unit",
+        "from",
+    ):
         table.add_column(heading, justify="right")
     for k, parameter in enumerate(found.parameters):
         low, high, profiled = estimate.intervals[k]
@@ -119,7 +132,7 @@ def _tell(console: Console, found: Identified, confidence: float) -> None:
     console.print(f"{found.simulations} simulations in {found.wall_time:.1f} s", highlight=False)
 
 
-def _figures(found: Identified, confidence: float) -> dict[str, Any]:
+def _figures(found: Identified) -> dict[str, Any]:
     estimate = found.estimate
     parameters = {
         p.name: {
@@ -135,7 +148,7 @@ def _figures(found: Identified, confidence: float) -> dict[str, Any]:
     }
     return {
         "parameters": parameters,
-        "confidence": confidence,
+        "confidence": found.confidence,
         "correlation": [[_finite(value) for value in row] for row in estimate.correlation],
         "untold": [[found.parameters[k].name for k in group] for group in estimate.untold],
         "excess": estimate.excess,

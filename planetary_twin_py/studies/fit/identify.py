@@ -50,6 +50,8 @@ class Identified:
     contact_fraction: float
     """Of the mesh where it is smallest, in the simulation at the estimate."""
     yardstick: Yardstick
+    confidence: float
+    """Of the intervals."""
     simulations: int
     wall_time: float
     """[s]"""
@@ -110,6 +112,7 @@ def identify(
         stretch=stretch,
         contact_fraction=_known(runs, minimum.values).contact_fraction,
         yardstick=yardstick,
+        confidence=search.confidence,
         simulations=runs.count,
         wall_time=time.perf_counter() - began,
     )

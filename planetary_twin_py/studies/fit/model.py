@@ -14,6 +14,8 @@ from ...window import Window
 from .readings import Array, Interval, Readings, read, simulated
 from .stretch import Stretch
 
+UNSEEN = 1.0  # [Hz] sample rate of what nobody looks at
+
 
 @dataclass(frozen=True)
 class Outcome:
@@ -52,13 +54,23 @@ def read_all(
 
 
 def _windows(stretch: Stretch, overrides: Mapping[str, float]) -> Iterator[Window]:
-    """The intervals of a stretch, with parameters other than the recorded ones throughout."""
+    """The intervals of a stretch, with parameters other than the recorded ones.
+
+    What came before the operating point of the stretch is simulated as recorded: how it still moves
+    at the start follows from the change.
+    """
     first = (*stretch.before, *stretch.intervals)[0]
     held = {name: value for name, value in overrides.items() if name in TUNABLES}
-    twin = Twin(stretch.scene.replace(**overrides), first.sample_rate, first.tolerance)
+    at_once = stretch.held_from == stretch.begins
+    fixed = {name: value for name, value in overrides.items() if at_once or name not in held}
+    twin = Twin(stretch.scene.replace(**fixed), UNSEEN, first.tolerance)
     begins = round(stretch.begins * TICKS)
     changes = deque(
-        ((round(change.time * TICKS) - begins), change.values | held) for change in stretch.changes
+        (
+            round(change.time * TICKS) - begins,
+            change.values | (held if change.time >= stretch.held_from else {}),
+        )
+        for change in stretch.changes
     )
 
     def reach(ticks: int) -> Window | None:
@@ -73,10 +85,13 @@ def _windows(stretch: Stretch, overrides: Mapping[str, float]) -> Iterator[Windo
             stop = min(ticks, changes[0][0] if changes else ticks)
             window = twin.advance(min((stop - now) / TICKS, LONGEST_WINDOW))
 
-    for interval in (*stretch.before, *stretch.intervals):
+    for interval in stretch.before:
+        twin.set_tolerance(interval.tolerance)
+        reach(interval.end - begins)
+    for interval in stretch.intervals:
         reach(interval.begin - begins)
         twin.set_tolerance(interval.tolerance)
         twin.set_sample_rate(interval.sample_rate)
         window = reach(interval.end - begins)
-        if window and interval.begin >= stretch.intervals[0].begin:
-            yield window
+        assert window is not None  # an interval has a length
+        yield window

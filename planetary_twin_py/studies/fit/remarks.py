@@ -30,8 +30,8 @@ def remarks(found: Identified) -> Iterator[str]:
             yield f"{parameter.name}: at the bound of its range, {estimate.values[k]:.3g}"
     if estimate.excess > 1.0:
         yield (
-            f"the model misses the recording by more than its noise (sum of squares {estimate.excess:.3g} "
-            "times what noise leaves): intervals are widened by it, and may still be too narrow"
+            "the model misses the recording by more than its noise: the sum of squares is "
+            f"{estimate.excess:.3g} times what noise leaves; intervals are widened for it"
         )
     yield from found.stretch.remarks
 

@@ -55,6 +55,12 @@ class Stretch:
         return self.intervals[-1].end / TICKS
 
     @property
+    def held_from(self) -> float:
+        """From when the operating point at the start is in force, as far as is simulated [s]."""
+        times = (c.time for c in self.changes if self.begins < c.time <= self.start)
+        return max(times, default=self.begins)
+
+    @property
     def tolerance(self) -> float:
         """The loosest in force."""
         return max(interval.tolerance for interval in self.intervals)
