@@ -1,4 +1,4 @@
-"""Estimates and intervals from residuals alone, where the truth is known: a decaying exponential."""
+"""Estimates and intervals from residuals alone, with a known truth: a decaying exponential."""
 
 import numpy as np
 import pytest
