@@ -7,10 +7,9 @@ from dataclasses import dataclass
 
 from .identifiability import correlation, split, unseen
 from .intervals import Interval, intervals
-from .least_squares import Array, Minimum, Residuals
+from .least_squares import Array, Minimum, Residuals, explained
 from .parameter import Parameter
 
-MISFIT = 1e-3  # chance below which noise alone does not explain what is left
 AT_BOUND = 1e-3  # of the scale
 
 
@@ -51,11 +50,10 @@ def conclude(
         freedom: degrees of freedom to which the noise is known.
         confidence: of the intervals, within 0 and 1.
     """
-    from scipy.stats import chi2, t
+    from scipy.stats import t
 
     left = len(minimum.residuals) - len(parameters)
-    missed = left > 0 and chi2.sf(minimum.sum, left) < MISFIT
-    excess = minimum.sum / left if missed else 1.0
+    excess = 1.0 if explained(minimum) else minimum.sum / max(left, 1)
     rise = float(t.ppf(0.5 + 0.5 * confidence, freedom)) ** 2 * excess
     told = split(minimum, parameters, rise**0.5)
     found = intervals(residuals, parameters, minimum, told, rise)
@@ -63,7 +61,7 @@ def conclude(
         if told.lost(k):
             found[k] = Interval(*unseen(residuals, parameters, minimum, k, rise), True)
     bound = tuple(
-        min(value - p.low, p.high - value) < AT_BOUND * p.scale
+        bool(min(value - p.low, p.high - value) < AT_BOUND * p.scale)
         for value, p in zip(minimum.values, parameters, strict=True)
     )
     return Estimate(

@@ -13,7 +13,7 @@ import numpy as np
 
 from ..local import Threads
 from .estimate import Estimate, conclude
-from .least_squares import minimise
+from .least_squares import explained, minimise
 from .least_squares import search as find_least
 from .misfit import Yardstick, measure_noise
 from .model import Model, Outcome, read_all
@@ -103,6 +103,10 @@ def identify(
         if yardstick.near(before, SETTLED):
             break
         minimum = minimise(runs.apart(yardstick), parameters, minimum.values)
+        if not explained(minimum):
+            minimum = min(
+                minimum, find_least(runs.apart(yardstick), parameters), key=lambda m: m.sum
+            )
     found = conclude(
         runs.apart(yardstick), parameters, minimum, yardstick.freedom, search.confidence
     )

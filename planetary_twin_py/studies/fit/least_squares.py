@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from itertools import islice, pairwise
 
 import numpy as np
 from numpy.typing import NDArray
@@ -20,11 +19,12 @@ STEP = 5e-3
 """Of a parameter, to differentiate: means over 0.3 s scatter by 3e-6 of themselves at tolerance
 1e-3, so slopes are known to 3e-4, and central differences leave curvature of a fifth of that."""
 FAR = 8.0  # times larger or smaller than the first one other starts may be
-STARTS = 6  # points for each parameter, of which the search begins at the best few
-BETWEEN = 3  # points that show whether the way from a start to a minimum leads down
+STARTS = 6  # points for each parameter, of which the search begins at the best
+SEARCHES = 4
+MISFIT = 1e-3  # chance below which noise alone does not explain what is left
 MOST_STEPS = 30
 CLOSE = 1e-5  # of its scale that the last step changes a parameter by
-FLAT = 1e-4  # of the sum of squares that it changes: noise alone makes it scatter by more
+FLAT = 1e-6  # of the sum of squares that it changes: far less than what noise makes it scatter by
 
 
 @dataclass(frozen=True)
@@ -42,39 +42,50 @@ class Minimum:
 
 
 def search(residuals: Residuals, parameters: Sequence[Parameter], seed: int = 0) -> Minimum:
-    """The least sum of squares found from several starts.
+    """The least sum of squares found from several starts, the first of them the lowest.
 
-    Of the starts, those from which the way to the minimum found leads over a hill may belong to
-    another one: the best of them begins a search of its own.
+    As long as noise alone does not explain what is left, as on a plateau where nothing changes any
+    more, the start farthest from those tried before is the next.
 
     Raises:
         ArithmeticError: there are no residuals at any start.
     """
     starts = _starts(parameters, seed)
-    found = [(float(r @ r), place) for place, r in enumerate(residuals(starts)) if r is not None]
-    if not found:
+    heights = [_sum(there) for there in residuals(starts)]
+    sound = [start for start, height in zip(starts, heights, strict=True) if height < math.inf]
+    if not sound:
         raise ArithmeticError("the stretch can be simulated at no value of what is free")
-    ordered = [(height, starts[place]) for height, place in sorted(found)]
-    best = minimise(residuals, parameters, ordered[0][1])
-    ways = [_way(start, best.values) for _, start in ordered[1:]]
-    heights = iter([_sum(r) for r in residuals([point for way in ways for point in way])])
-    for height, start in ordered[1:]:
-        if not _leads_down([height, *islice(heights, BETWEEN), best.sum]):
-            other = minimise(residuals, parameters, start)
-            return min(best, other, key=lambda minimum: minimum.sum)
+    tried = [starts[int(np.argmin(heights))]]
+    best = minimise(residuals, parameters, tried[0])
+    while not explained(best) and len(tried) < min(SEARCHES, len(sound)):
+        tried.append(_farthest(sound, tried, parameters))
+        other = minimise(residuals, parameters, tried[-1])
+        best = min(best, other, key=lambda minimum: minimum.sum)
     return best
 
 
-def _way(start: Array, end: Array) -> list[Array]:
-    return [start + share * (end - start) for share in np.arange(1, BETWEEN + 1) / (BETWEEN + 1)]
+def explained(minimum: Minimum) -> bool:
+    """Whether noise alone may leave what is left at a minimum."""
+    from scipy.stats import chi2
+
+    left = len(minimum.residuals) - len(minimum.values)
+    return bool(chi2.sf(minimum.sum, max(left, 1)) >= MISFIT)
 
 
 def _sum(residuals: Array | None) -> float:
     return math.inf if residuals is None else float(residuals @ residuals)
 
 
-def _leads_down(heights: Sequence[float]) -> bool:
-    return all(after <= before for before, after in pairwise(heights))
+def _farthest(
+    starts: Sequence[Array], tried: Sequence[Array], parameters: Sequence[Parameter]
+) -> Array:
+    scale = np.array([p.scale for p in parameters])
+
+    def distance(start: Array) -> float:
+        ways = [np.arcsinh(start / scale) - np.arcsinh(other / scale) for other in tried]
+        return min(float(way @ way) for way in ways)
+
+    return max(starts, key=distance)
 
 
 def minimise(residuals: Residuals, parameters: Sequence[Parameter], start: Array) -> Minimum:
