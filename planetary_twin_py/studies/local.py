@@ -6,10 +6,10 @@ import os
 from collections.abc import Callable, Iterable, Iterator
 from concurrent.futures import FIRST_COMPLETED, Future, ThreadPoolExecutor, wait
 from itertools import islice
+from typing import TypeVar
 
-from .plan import Point
-from .work import Found
-
+Task = TypeVar("Task")
+Answer = TypeVar("Answer")
 AHEAD = 2  # points for each worker that are under way or wait for their turn
 
 
@@ -26,12 +26,12 @@ class Threads:
             raise ValueError(f"workers = {count!r}: must be at least 1")
 
     def do(
-        self, work: Callable[[Point], Found], points: Iterable[Point]
-    ) -> Iterator[tuple[Point, Found]]:
+        self, work: Callable[[Task], Answer], points: Iterable[Task]
+    ) -> Iterator[tuple[Task, Answer]]:
         """Every point with what was found there, as they are done."""
         waiting = iter(points)
         pool = ThreadPoolExecutor(self.count, "point")
-        under_way: dict[Future[Found], Point] = {}
+        under_way: dict[Future[Answer], Task] = {}
         try:
             while True:
                 for point in islice(waiting, AHEAD * self.count - len(under_way)):

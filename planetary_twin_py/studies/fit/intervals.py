@@ -1,0 +1,141 @@
+"""How far the truth may lie from an estimate: from the curvature, or where that misleads from the
+profile of the sum of squares."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from typing import NamedTuple
+
+import numpy as np
+
+from .identifiability import Told
+from .least_squares import Array, Minimum, Residuals, bounds_of, minimise
+from .parameter import Parameter
+
+DOUBTFUL = 0.3  # of the expected rise by which the sum of squares may miss it
+FINE = 0.02  # of the half-width to which the end of a profile is found
+FARTHEST = 2.0**12  # half-widths at which the search for an end gives up
+
+
+class Interval(NamedTuple):
+    """Where the truth lies with the given confidence."""
+
+    low: float
+    high: float
+    profiled: bool
+    """Whether it comes from the profile of the sum of squares, not from the curvature."""
+
+
+def intervals(
+    residuals: Residuals,
+    parameters: Sequence[Parameter],
+    minimum: Minimum,
+    told: Told,
+    rise: float,
+) -> dict[int, Interval]:
+    """An interval for each parameter that is told, within which the least sum rises by `rise`.
+
+    The covariance says where that is if all is linear; where an end lies beyond a bound or the rise
+    is another there, it is found with all other parameters estimated anew.
+    """
+    covariance = told.covariance
+    places = [k for k in range(len(parameters)) if not told.lost(k)]
+    doubtful = _doubtful(residuals, parameters, minimum, covariance, places, rise)
+    found = {}
+    for k in places:
+        parameter = parameters[k]
+        half = math.sqrt(rise * covariance[k, k])
+        ends = []
+        for side, sign in enumerate((-1.0, 1.0)):
+            if doubtful[k][side]:
+                profile = _Profile(residuals, parameters, minimum, covariance, k)
+                ends.append(profile.end(sign, half, rise))
+            else:
+                ends.append(float(minimum.values[k] + sign * half))
+        low, high = max(ends[0], parameter.low), min(ends[1], parameter.high)
+        found[k] = Interval(low, high, any(doubtful[k]))
+    return found
+
+
+def _doubtful(
+    residuals: Residuals,
+    parameters: Sequence[Parameter],
+    minimum: Minimum,
+    covariance: Array,
+    places: Sequence[int],
+    rise: float,
+) -> dict[int, list[bool]]:
+    """Whether either end of each interval is not where the curvature has it."""
+    low, high = bounds_of(parameters)
+    points = [
+        minimum.values + sign * math.sqrt(rise / covariance[k, k]) * covariance[:, k]
+        for k in places
+        for sign in (-1.0, 1.0)
+    ]
+    inside = [bool(np.all((point >= low) & (point <= high))) for point in points]
+    found = iter(residuals([point for point, sound in zip(points, inside, strict=True) if sound]))
+    doubts = []
+    for sound in inside:
+        there = next(found) if sound else None
+        risen = math.inf if there is None else float(there @ there) - minimum.sum
+        doubts.append(not abs(risen - rise) <= DOUBTFUL * rise)
+    return {k: doubts[2 * n : 2 * n + 2] for n, k in enumerate(places)}
+
+
+class _Profile:
+    """The least sum of squares as a function of one parameter."""
+
+    def __init__(
+        self,
+        residuals: Residuals,
+        parameters: Sequence[Parameter],
+        minimum: Minimum,
+        covariance: Array,
+        place: int,
+    ) -> None:
+        self._all, self._minimum, self._place = residuals, minimum, place
+        self._others = [k for k in range(len(parameters)) if k != place]
+        self._parameters = parameters
+        self._ridge = covariance[:, place] / covariance[place, place]
+
+    def end(self, sign: float, half: float, rise: float) -> float:
+        """Where it has risen by `rise` on one side, or the bound; infinite if there is neither."""
+        from scipy.optimize import brentq
+
+        centre = float(self._minimum.values[self._place])
+        parameter = self._parameters[self._place]
+        room = parameter.high - centre if sign > 0.0 else centre - parameter.low
+
+        def beyond(away: float) -> float:
+            return self._rise(sign * away) - rise
+
+        inner, outer = 0.0, min(half, room)
+        while outer > 0.0 and beyond(outer) < 0.0:
+            if outer == room:
+                return parameter.high if sign > 0.0 else parameter.low
+            if outer > FARTHEST * half:
+                return sign * math.inf
+            inner, outer = outer, min(2.0 * outer, room)
+        if outer == 0.0:
+            return centre
+        return centre + sign * float(brentq(beyond, inner, outer, xtol=FINE * half))
+
+    def _rise(self, away: float) -> float:
+        """Of the least sum of squares with the parameter held `away` from its estimate."""
+        start = self._minimum.values + away * self._ridge
+        held = float(self._minimum.values[self._place] + away)
+        if not self._others:
+            found = self._all([np.array([held])])[0]
+            return math.inf if found is None else float(found @ found) - self._minimum.sum
+        others = [self._parameters[k] for k in self._others]
+
+        def residuals(points: Sequence[Array]) -> list[Array | None]:
+            return self._all([np.insert(point, self._place, held) for point in points])
+
+        low, high = bounds_of(others)
+        try:
+            least = minimise(residuals, others, np.clip(start[self._others], low, high))
+        except ArithmeticError:
+            return math.inf
+        return least.sum - self._minimum.sum

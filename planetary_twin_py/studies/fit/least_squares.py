@@ -1,0 +1,158 @@
+"""Where a misfit is least. Knows nothing of gearboxes: points in, residuals out, many at once."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .parameter import Parameter
+
+Array = NDArray[np.float64]
+Residuals = Callable[[Sequence[Array]], list[Array | None]]
+"""Residuals (m,) in units of their noise at each of some points (p,); None where there are none."""
+
+STEP = 5e-3
+"""Of a parameter, to differentiate: means over 0.3 s scatter by 3e-6 of themselves at tolerance
+1e-3, so slopes are known to 3e-4, and central differences leave curvature of a fifth of that."""
+FAR = 8.0  # times larger or smaller than the first one other starts may be
+STARTS = 6  # points for each parameter, of which the search begins at the best
+SEARCHES = 4
+MISFIT = 1e-3  # chance below which noise alone does not explain what is left
+MOST_STEPS = 30
+CLOSE = 1e-5  # of its scale that the last step changes a parameter by
+FLAT = 1e-6  # of the sum of squares that it changes: far less than what noise makes it scatter by
+
+
+@dataclass(frozen=True)
+class Minimum:
+    """Values (p,), residuals (m,) and their slopes (m, p) where the sum of squares is least."""
+
+    values: Array
+    residuals: Array
+    slopes: Array
+
+    @property
+    def sum(self) -> float:
+        """Of squares."""
+        return float(self.residuals @ self.residuals)
+
+
+def search(residuals: Residuals, parameters: Sequence[Parameter], seed: int = 0) -> Minimum:
+    """The least sum of squares found from several starts, the first of them the lowest.
+
+    As long as noise alone does not explain what is left, as on a plateau where nothing changes any
+    more, the start farthest from those tried before is the next.
+
+    Raises:
+        ArithmeticError: there are no residuals at any start.
+    """
+    starts = _starts(parameters, seed)
+    heights = [_sum(there) for there in residuals(starts)]
+    sound = [start for start, height in zip(starts, heights, strict=True) if height < math.inf]
+    if not sound:
+        raise ArithmeticError("the stretch can be simulated at no value of what is free")
+    tried = [starts[int(np.argmin(heights))]]
+    best = minimise(residuals, parameters, tried[0])
+    while not explained(best) and len(tried) < min(SEARCHES, len(sound)):
+        tried.append(_farthest(sound, tried, parameters))
+        other = minimise(residuals, parameters, tried[-1])
+        best = min(best, other, key=lambda minimum: minimum.sum)
+    return best
+
+
+def explained(minimum: Minimum) -> bool:
+    """Whether noise alone may leave what is left at a minimum."""
+    from scipy.stats import chi2
+
+    left = len(minimum.residuals) - len(minimum.values)
+    return bool(chi2.sf(minimum.sum, max(left, 1)) >= MISFIT)
+
+
+def _sum(residuals: Array | None) -> float:
+    return math.inf if residuals is None else float(residuals @ residuals)
+
+
+def _farthest(
+    starts: Sequence[Array], tried: Sequence[Array], parameters: Sequence[Parameter]
+) -> Array:
+    scale = np.array([p.scale for p in parameters])
+
+    def distance(start: Array) -> float:
+        ways = [np.arcsinh(start / scale) - np.arcsinh(other / scale) for other in tried]
+        return min(float(way @ way) for way in ways)
+
+    return max(starts, key=distance)
+
+
+def minimise(residuals: Residuals, parameters: Sequence[Parameter], start: Array) -> Minimum:
+    """The least sum of squares that a search from `start` (p,) ends at."""
+    from scipy.optimize import least_squares
+
+    scale = np.array([p.scale for p in parameters])
+    low, high = bounds_of(parameters)
+    width = len(_one(residuals, start))
+
+    def at(scaled: Array) -> Array:
+        found = residuals([scaled * scale])[0]
+        return np.full(width, math.inf) if found is None else found
+
+    def slopes(scaled: Array) -> Array:
+        return differentiate(residuals, parameters, scaled * scale) * scale
+
+    inside = np.clip(start, low, high)
+    done = least_squares(
+        at, inside / scale, slopes, bounds=(low / scale, high / scale),
+        xtol=CLOSE, ftol=FLAT, gtol=None, max_nfev=MOST_STEPS,
+    )  # fmt: skip
+    return Minimum(done.x * scale, done.fun, np.asarray(done.jac) / scale)
+
+
+def differentiate(residuals: Residuals, parameters: Sequence[Parameter], values: Array) -> Array:
+    """Slopes (m, p) at `values` (p,) from differences, one-sided at a bound, all at once.
+
+    Raises:
+        ArithmeticError: there are no residuals beside `values`.
+    """
+    low, high = bounds_of(parameters)
+    points, widths = [], []
+    for k, parameter in enumerate(parameters):
+        step = STEP * max(abs(values[k]), 0.1 * parameter.scale)
+        ends = np.clip([values[k] - step, values[k] + step], low[k], high[k])
+        widths.append(ends[1] - ends[0])
+        for end in ends:
+            point = values.copy()
+            point[k] = end
+            points.append(point)
+    found = residuals(points)
+    if any(r is None for r in found):
+        raise ArithmeticError("the stretch cannot be simulated beside the values found")
+    pairs = np.array(found).reshape(len(parameters), 2, -1)
+    return np.asarray((pairs[:, 1] - pairs[:, 0]).T / widths)
+
+
+def bounds_of(parameters: Sequence[Parameter]) -> tuple[Array, Array]:
+    """Lowest and highest values (p,)."""
+    return np.array([p.low for p in parameters]), np.array([p.high for p in parameters])
+
+
+def _starts(parameters: Sequence[Parameter], seed: int) -> list[Array]:
+    """The first one, and others of other magnitudes."""
+    from scipy.stats.qmc import LatinHypercube
+
+    first = np.array([p.start for p in parameters])
+    size = np.array([math.copysign(p.scale, p.start) for p in parameters])
+    shares = LatinHypercube(len(parameters), rng=seed).random(STARTS * len(parameters))
+    others = size * FAR ** (2.0 * shares - 1.0)
+    low, high = bounds_of(parameters)
+    return [first, *np.clip(others, low, high)]
+
+
+def _one(residuals: Residuals, point: Array) -> Array:
+    found = residuals([point])[0]
+    if found is None:
+        raise ArithmeticError("the stretch cannot be simulated at the start")
+    return found

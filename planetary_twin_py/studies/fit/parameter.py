@@ -1,0 +1,69 @@
+"""What is free: a quantity of the scene, its range, and where the search begins."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from typing import Any, NamedTuple
+
+from ...scene import Scene
+from ...scene.quantity import bounds, unit_of
+from ..axes import look_up, read_value
+
+SHARE_OF_RANGE = 1e-3  # that is the scale of a parameter whose search begins at 0
+
+
+class Parameter(NamedTuple):
+    """A quantity to estimate, in SI."""
+
+    name: str
+    unit: str
+    low: float
+    high: float
+    start: float
+
+    @property
+    def scale(self) -> float:
+        """Magnitude in which changes of it are counted."""
+        width = self.high - self.low
+        return abs(self.start) or (SHARE_OF_RANGE * width if math.isfinite(width) else 1.0)
+
+
+def read_parameters(
+    scene: Scene, names: Sequence[str], starts: Mapping[str, Any]
+) -> tuple[Parameter, ...]:
+    """The parameters `names` of `scene`; the search begins at the scene's value, or in `starts`.
+
+    Raises:
+        ValueError: no name, one twice, one that is no continuous quantity or not in use, or a
+            start that is out of range or of none of them.
+    """
+    if not names:
+        raise ValueError("nothing is free: name at least one field, e.g. backlash")
+    for name in (*names, *starts):
+        if list(names).count(name) != 1:
+            raise ValueError(f"{name}: " + ("given twice" if name in names else "is not free"))
+    return tuple(_parameter(scene, name, starts.get(name)) for name in names)
+
+
+def _parameter(scene: Scene, name: str, start: Any) -> Parameter:
+    try:
+        info, value = look_up(scene, name)
+    except (AttributeError, KeyError):
+        raise ValueError(f"{name}: no such field") from None
+    if unit_of(info) is None or not isinstance(value, float):
+        raise ValueError(f"{name} = {value!r}: only a continuous quantity can be estimated")
+    if reason := _not_in_use(scene, name):
+        raise ValueError(f"{name}: cannot be estimated: {reason}")
+    tunable = scene.tunables.get(name)
+    low, high = (tunable.minimum, tunable.maximum) if tunable else bounds(info)
+    begin = value if start is None else read_value(scene, name, start)
+    return Parameter(name, unit_of(info) or "", low, high, begin)
+
+
+def _not_in_use(scene: Scene, name: str) -> str | None:
+    if name == "lambda_ratio" and scene.lubrication.lambda_ratio != "prescribed":
+        return "the scene computes it (lubrication.lambda_ratio = computed)"
+    if name == "second_input_speed" and scene.drive.second_input is None:
+        return "the scene has no second input"
+    return None

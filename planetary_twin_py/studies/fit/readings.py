@@ -1,0 +1,172 @@
+"""What a test rig would read off a gearbox, from a recording of it and from a simulation alike."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from itertools import pairwise
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ...recording.fields import MEMBERS, POWER_FLOW, state_fields
+from ...window import Window
+from ..measures import MESH, SIDES
+from .stretch import Stretch
+
+Array = NDArray[np.float64]
+
+HARMONICS = "dte_waveform"
+ORDERS = 6  # of the meshing frequency, whose amplitudes tell the shape of a waveform
+USUAL = ("dte_rms", "power_loss")
+"""What most rigs have: transmission error from two encoders, whose zero is not known, and loss."""
+OBSERVABLES = (*POWER_FLOW, *(name for name in MESH if name not in POWER_FLOW), HARMONICS)
+
+
+@dataclass(frozen=True)
+class Readings:
+    """One observable over a stretch.
+
+    `values` (readings, channels): a row for each interval, or mesh cycle; a column for each mesh.
+    `kinds` (channels,): channels of one number have the same noise. `segment` (readings,): counts
+    the operating points, up to that of the row.
+    """
+
+    name: str
+    values: Array
+    kinds: NDArray[np.int64]
+    segment: NDArray[np.int64]
+
+
+class Interval(NamedTuple):
+    """What was published of an interval, or would have been."""
+
+    end: float  # simulated [s]
+    length: float  # [s]
+    fields: dict[str, Any]  # of GearboxState
+    time: Array  # of samples, simulated [s]
+    dte: Array  # (samples, meshes) [m]
+
+
+def check_observables(names: Sequence[str]) -> None:
+    """Raise `ValueError` for no name, an unknown one, or one given twice."""
+    if not names:
+        raise ValueError("nothing is observed: name at least one observable, e.g. dte_rms")
+    for name in names:
+        if name not in OBSERVABLES:
+            raise ValueError(f"observe = {name}: must be one of {', '.join(OBSERVABLES)}")
+        if list(names).count(name) > 1:
+            raise ValueError(f"observe = {name}: given twice")
+
+
+def recorded(stretch: Stretch) -> list[Interval]:
+    """The intervals of a stretch as they are recorded."""
+    meshes = 2 * int(stretch.states[0].planets)
+    blocks = stretch.blocks
+    time = _joined([b.start_time + np.arange(b.samples) * b.sample_period for b in blocks])
+    dte = np.concatenate(
+        [np.empty((0, meshes)), *(b.dte.reshape(meshes, -1).T.astype(float) for b in blocks)]
+    )
+    ends = [state.simulated_time for state in stretch.states]
+    cuts = np.searchsorted(time, np.array(ends) + 1e-9)
+    cuts = np.concatenate([[0], cuts])
+    return [
+        Interval(state.simulated_time, state.interval, vars(state), time[a:b], dte[a:b])
+        for state, a, b in zip(stretch.states, cuts, cuts[1:], strict=False)
+    ]
+
+
+def simulated(window: Window, begins: float) -> Interval:
+    """What a window, of a twin that starts at `begins` [s], would have been published as."""
+    names = [f"{side}_{name}" for side in SIDES for name in MESH]
+    wave = window.waveform
+    length = window.end - window.start
+    fields = state_fields(window, names)
+    return Interval(begins + window.end, length, fields, begins + wave.time, wave.dte)
+
+
+def read(name: str, intervals: Sequence[Interval], stretch: Stretch) -> Readings:
+    """The observable `name` over these intervals."""
+    if name == HARMONICS:
+        return _harmonics(intervals, stretch)
+    rows = np.array([_row(name, interval) for interval in intervals])
+    ends = np.array([interval.end for interval in intervals])
+    return Readings(name, rows, _kinds(rows.shape[1]), _segments(ends, stretch))
+
+
+def _row(name: str, interval: Interval) -> Array:
+    if name in POWER_FLOW:
+        return np.array([interval.fields[name]], dtype=float)
+    planets = int(interval.fields["planets"])
+    return np.concatenate([interval.fields[f"{side}_{name}"][:planets] for side in SIDES])
+
+
+def _kinds(channels: int) -> NDArray[np.int64]:
+    """The first half are sun meshes, the second ring meshes; one channel is of the whole train."""
+    return np.arange(channels) * 2 // channels
+
+
+def _segments(time: Array, stretch: Stretch) -> NDArray[np.int64]:
+    """How many changes lie before the ends or middles `time` [s]."""
+    return np.searchsorted(np.array(stretch.segments), time - 1e-12)
+
+
+def _harmonics(intervals: Sequence[Interval], stretch: Stretch) -> Readings:
+    """Amplitudes of the DTE at multiples of the meshing frequency, mesh cycle by mesh cycle.
+
+    Cycles are told by the gears' angles, so neither the speed nor when a run began matters. Their
+    mean is left out: it holds the zero of the encoders.
+    """
+    time = _joined([interval.time for interval in intervals])
+    phase = _mesh_phase(intervals, stretch, time)
+    dte = np.concatenate([interval.dte for interval in intervals])
+    cycle = np.floor(phase).astype(np.int64)
+    if not len(cycle):
+        raise ValueError(f"observe = {HARMONICS}: there is no waveform in this stretch")
+    starts = np.searchsorted(cycle, np.arange(cycle[0] + 1, cycle[-1] + 1))
+    rows, middles = [], []
+    for first, last in pairwise(starts):
+        if last - first <= 2 * ORDERS:
+            raise ValueError(
+                f"observe = {HARMONICS}: {last - first} samples in a mesh cycle, must be more "
+                f"than {2 * ORDERS}"
+            )
+        rows.append(_amplitudes(phase[first:last], dte[first:last]))
+        middles.append(0.5 * (time[first] + time[last - 1]))
+    if len(rows) < 2:
+        raise ValueError(f"observe = {HARMONICS}: fewer than two whole mesh cycles in this stretch")
+    values = np.array(rows)
+    return Readings(
+        HARMONICS, values, _kinds(values.shape[1]), _segments(np.array(middles), stretch)
+    )
+
+
+def _mesh_phase(intervals: Sequence[Interval], stretch: Stretch, time: Array) -> Array:
+    """Mesh cycles since an instant of the first interval at which one began, at `time` [s]."""
+    sun, _, carrier = (f"{member}_angle" for member in MEMBERS)
+    teeth = stretch.scene.gearset.teeth.sun
+    first = intervals[0]
+    phase = teeth * (first.fields[sun] - first.fields[carrier]) / (2.0 * math.pi) % 1.0
+    at, phases = [first.end - first.length], [0.0]
+    for before, interval in zip([None, *intervals], intervals, strict=False):
+        if before and interval.end - interval.length > before.end + 1e-9:
+            raise ValueError(f"observe = {HARMONICS}: intervals are missing before {interval.end}")
+        rate = interval.fields["sun_speed"] - interval.fields["carrier_speed"]
+        at.append(interval.end)
+        phases.append(phases[-1] + teeth * rate / (2.0 * math.pi) * interval.length)
+    turned = np.interp(time, at, phases) - phases[1] + phase
+    return np.asarray(turned if phases[-1] >= 0.0 else -turned)
+
+
+def _amplitudes(phase: Array, dte: Array) -> Array:
+    """Cosine and sine amplitudes of `dte` (samples, meshes) over one cycle; meshes vary slowest."""
+    angle = 2.0 * math.pi * phase[:, None] * np.arange(1, ORDERS + 1)
+    waves = np.concatenate([np.ones((len(phase), 1)), np.cos(angle), np.sin(angle)], axis=1)
+    found: Array = np.linalg.lstsq(waves, dte, rcond=None)[0][1:]
+    return found.T.ravel()
+
+
+def _joined(parts: Iterable[Array]) -> Array:
+    return np.concatenate([np.empty(0), *parts])

@@ -1,0 +1,59 @@
+"""`planetary-twin fit` as it is typed."""
+
+import json
+
+import pytest
+from studies.fit.rig import PAPER, record
+from synthetic_recording import write_recording
+from typer.testing import CliRunner
+
+from planetary_twin_py.cli import build_app
+
+
+def run(*arguments):
+    return CliRunner().invoke(build_app(), ["fit", *map(str, arguments)])
+
+
+@pytest.fixture(scope="module")
+def bag(tmp_path_factory):
+    return record(tmp_path_factory.mktemp("rig") / "bag", PAPER, 0.1, share=0.01)
+
+
+def test_figures_and_a_warning_of_what_is_not_told_with_exit_code_0(bag, tmp_path):
+    out = tmp_path / "fit.json"
+    free = "backlash=4e-7,input-torque=50"
+    done = run(bag, "--free", free, "--from", 0.02, "--to", 0.09, "--json", out)
+    assert done.exit_code == 0, done.output
+    assert "warning: backlash: not told by this stretch: teeth never part" in done.output
+    figures = json.loads(out.read_text())
+    torque, backlash = (figures["parameters"][name] for name in ("input_torque", "backlash"))
+    assert torque["told"] and torque["low"] < torque["estimate"] < torque["high"]
+    assert torque["estimate"] == pytest.approx(63.0, rel=0.01) and torque["unit"] == "N m"
+    assert not backlash["told"] and backlash["estimate"] is None and backlash["low"] == 0.0
+    assert figures["untold"] == [["backlash"]] and len(figures["remarks"]) == 1
+    assert (figures["from_s"], figures["to_s"]) == (0.02, 0.09)
+    assert figures["simulations"] > 5 and figures["confidence"] == 0.95
+
+
+@pytest.mark.parametrize(
+    ("arguments", "told"),
+    [
+        (["--free", "nosuch"], "nosuch: no such field"),
+        (["--free", "backlash", "--from", "7"], "0 intervals from --from to --to"),
+        (["--free", "backlash", "--observe", "odd"], "observe = odd: must be one of"),
+        (["--free", "backlash", "--noise", "dte_rms=x"], "--noise dte_rms = 'x'"),
+        (["--free", "backlash=1 kg"], "backlash"),
+        (["--free", ","], "nothing is free"),
+    ],
+)
+def test_what_cannot_be_ends_in_one_line(bag, arguments, told):
+    done = run(bag, *arguments)
+    assert done.exit_code == 2, done.output
+    assert done.output.count("\n") == 1 and told in done.output
+
+
+def test_a_recording_without_its_scene_is_refused(tmp_path):
+    file = write_recording(tmp_path / "one.mcap", 0.1)
+    done = run(file, "--free", "backlash")
+    assert done.exit_code == 2 and "holds no run from its start" in done.output
+    assert run(tmp_path / "missing", "--free", "backlash").exit_code == 2
