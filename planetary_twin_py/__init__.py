@@ -14,6 +14,7 @@ if TYPE_CHECKING:
     from .batch import Outcome, simulate_many
     from .modal.modes import NaturalModes
     from .modal.natural import natural_modes
+    from .plots.study import plot_study
     from .result import Energy, Result, Stats
     from .scene import (
         TUNABLES,
@@ -34,6 +35,7 @@ _HOME = {
     "batch": ("Outcome", "simulate_many"),
     "modal.modes": ("NaturalModes",),
     "modal.natural": ("natural_modes",),
+    "plots.study": ("plot_study",),
     "result": ("Energy", "Result", "Stats"),
     "scene": (
         "TUNABLES", "OperatingPoint", "Scene", "SceneError", "Tunable", "load_scene",
@@ -65,6 +67,7 @@ __all__ = [
     "natural_modes",
     "packaged_scenes",
     "parse_scene",
+    "plot_study",
     "rpm",
     "simulate",
     "simulate_many",

@@ -1,0 +1,57 @@
+"""A measure over two fields as filled contours."""
+
+from __future__ import annotations
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.ticker import MaxNLocator
+
+from .quantity import Column
+from .style import GREY
+
+COLOURS = "viridis"
+LEVELS = 12
+
+
+def draw_map(
+    axes: Axes,
+    fields: tuple[Column, Column, Column],
+    rows: np.ndarray,
+    limits: tuple[float, float],
+) -> None:
+    """The third column over the first and the second, at `rows` (bool).
+
+    A point that lacks in a grid leaves a hole; scattered points are joined to triangles. `limits`
+    of the colours are those of all maps of one measure. Dots are the points that were run.
+    """
+    x, y, z = (column.values[rows] for column in fields)
+    levels = MaxNLocator(LEVELS).tick_values(*limits)
+    grid = _grid(x, y, z)
+    colours = {"levels": levels, "cmap": COLOURS}
+    thin = {"levels": levels, "colors": "white", "linewidths": 0.5}
+    if grid is not None:
+        filled = axes.contourf(*grid, **colours)
+        lines = axes.contour(*grid, **thin)
+    else:
+        filled = axes.tricontourf(x, y, z, **colours)
+        lines = axes.tricontour(x, y, z, **thin)
+    axes.clabel(lines, fontsize=7.5)
+    axes.plot(x, y, ".", color=GREY, markersize=2.0, label="")
+    axes.figure.colorbar(filled, ax=axes, label=fields[2].label)
+    for axis, column, scale in (("x", fields[0], axes.set_xscale), ("y", fields[1], axes.set_yscale)):
+        if column.is_logarithmic:
+            scale("log")
+        axes.set(**{f"{axis}label": column.label})
+
+
+def _grid(
+    x: np.ndarray, y: np.ndarray, z: np.ndarray
+) -> tuple[np.ndarray, np.ndarray, np.ndarray] | None:
+    """Axes and values (y, x) with NaN where a point lacks; None where the points are scattered."""
+    across, column = np.unique(x, return_inverse=True)
+    up, row = np.unique(y, return_inverse=True)
+    if len(across) * len(up) > 2 * len(z):
+        return None
+    values = np.full((len(up), len(across)), np.nan)
+    values[row, column] = z
+    return across, up, np.ma.masked_invalid(values)
