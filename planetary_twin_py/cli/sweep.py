@@ -24,7 +24,9 @@ CONTEXT = {"allow_extra_args": True, "ignore_unknown_options": True}
 def sweep(
     context: typer.Context,
     scene: Annotated[str, typer.Argument(help="Packaged scene, or path of a YAML file.")],
-    out: Annotated[Path, typer.Option(help="Table (.parquet with units, .csv) or picture (.png, .svg, .pdf).")],
+    out: Annotated[
+        Path, typer.Option(help="Table (.parquet with units, .csv) or picture (.png, .svg, .pdf).")
+    ],
     samples: Annotated[
         int | None, typer.Option(help="Draw this many points (Latin hypercube), no grid.")
     ] = None,

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.ticker import MaxNLocator
@@ -27,21 +29,19 @@ def draw_map(
     x, y, z = (column.values[rows] for column in fields)
     levels = MaxNLocator(LEVELS).tick_values(*limits)
     grid = _grid(x, y, z)
-    colours = {"levels": levels, "cmap": COLOURS}
-    thin = {"levels": levels, "colors": "white", "linewidths": 0.5}
-    if grid is not None:
-        filled = axes.contourf(*grid, **colours)
-        lines = axes.contour(*grid, **thin)
-    else:
-        filled = axes.tricontourf(x, y, z, **colours)
-        lines = axes.tricontour(x, y, z, **thin)
+    places: Any = grid or (x, y, z)
+    fill: Any = axes.contourf if grid else axes.tricontourf
+    draw: Any = axes.contour if grid else axes.tricontour
+    filled = fill(*places, levels=levels, cmap=COLOURS)
+    lines = draw(*places, levels=levels, colors="white", linewidths=0.5)
     axes.clabel(lines, fontsize=7.5)
-    axes.plot(x, y, ".", color=GREY, markersize=2.0, label="")
+    axes.plot(x, y, ".", color=GREY, markersize=2.0, clip_on=False)
     axes.figure.colorbar(filled, ax=axes, label=fields[2].label)
-    for axis, column, scale in (("x", fields[0], axes.set_xscale), ("y", fields[1], axes.set_yscale)):
-        if column.is_logarithmic:
-            scale("log")
-        axes.set(**{f"{axis}label": column.label})
+    axes.set(xlabel=fields[0].label, ylabel=fields[1].label)
+    if fields[0].is_logarithmic:
+        axes.set_xscale("log")
+    if fields[1].is_logarithmic:
+        axes.set_yscale("log")
 
 
 def _grid(

@@ -4,10 +4,12 @@ from __future__ import annotations
 
 import numpy as np
 from matplotlib.figure import Figure
+from matplotlib.ticker import FuncFormatter
 
 from .quantity import SIDES, Column, find
 from .style import BLUE, GREEN, ORANGE, panels
 
+PLAIN = FuncFormatter(lambda value, _: f"{value:g}")
 PARTS = (("boundary", ORANGE, "--"), ("viscous", GREEN, "--"))
 
 
@@ -34,9 +36,12 @@ def stribeck_diagram(known: dict[str, Column]) -> Figure:
             axes.plot(ratio[order], friction[order], dash, color=colour, label=part)
         axes.plot(ratio[order], total[order], color=BLUE, label="total", zorder=1.9)
         axes.set_xscale("log")
-        axes.set_ylim(bottom=0.0)
+        axes.xaxis.set_major_formatter(PLAIN)
         axes.set_title(f"{words} meshes")
         axes.set_xlabel("Lambda ratio [-]")
         axes.set_ylabel("Friction coefficient [-]")
+    top = max(axes.get_ylim()[1] for axes in panes)
+    for axes in panes:
+        axes.set_ylim(0.0, top)
     figure.legend(*panes[0].get_legend_handles_labels(), loc="outside lower center", ncols=3)
     return figure

@@ -1,4 +1,4 @@
-"""Bifurcation: what a gearbox settles to at one speed after the other, speeding up and slowing down.
+"""Bifurcation: what a gearbox settles to at one speed after the other, both up and down.
 
 Each speed begins with the motion of the one before, so that where two motions are possible the way
 up keeps one and the way down the other. Every settled motion is seen in its Poincare section.

@@ -44,7 +44,8 @@ class Section:
         # Sun and carrier: where they are among the bodies, and what they turn per turn of a motor.
         self._places = names.place[[names.names.index("sun"), names.names.index("carrier")]]
         self._ratio = self._run.train.ratio[self._places]
-        self._phase = phase
+        self._teeth, self._phase = scene.gearset.teeth.sun, phase
+        self._pace()
         self._time = Fraction(0)
 
     @property
@@ -57,6 +58,7 @@ class Section:
         self._point = self._scene.replace(
             **{**self._point.model_dump(), "input_speed": speed}
         ).operating_point
+        self._pace()
         self._run.change(self._point, self._tolerance, self._time)
         self._go(duration)
 
@@ -70,8 +72,8 @@ class Section:
         cycle, rate = self._passed(samples)
         passage = math.floor(cycle + GUARD) + 1.0
         while (left := passage - cycle) > EXACT:
-            near = left <= 2.0 * GUARD
-            samples = self._go(SHORT * left / rate if near else (left - GUARD) / self.mesh_frequency)
+            far = left > 2.0 * GUARD
+            samples = self._go((left - GUARD) / self._frequency if far else SHORT * left / rate)
             cycle, rate = self._passed(samples)
         if left < -MISSED:
             raise ArithmeticError(
@@ -79,24 +81,21 @@ class Section:
             )
         return np.array(samples.mesh[0, DTE, self._meshes])
 
-    @property
-    def mesh_frequency(self) -> float:
-        """Rate at which teeth pass a mesh at the speed that is set [Hz]."""
-        return abs(self._set_rate())
-
-    def _set_rate(self) -> float:
-        """Mesh cycles per second of the set-points, signed as the sun turns against the carrier."""
+    def _pace(self) -> None:
+        """Rate at which teeth pass a mesh at the speed that is set [Hz], and which way is ahead."""
         speeds = np.array([self._point.input_speed, self._point.second_input_speed])
         sun, carrier = self._ratio @ speeds[: self._ratio.shape[1]]
-        return float(self._scene.gearset.teeth.sun * (sun - carrier) / (2.0 * math.pi))
+        rate = self._teeth * (sun - carrier) / (2.0 * math.pi)
+        self._frequency, self._ahead = float(abs(rate)), math.copysign(1.0, rate)
 
     def _passed(self, samples: Samples) -> tuple[float, float]:
         """Mesh cycles passed since phase 0, and their rate [Hz], both positive ahead."""
-        teeth, ahead = self._scene.gearset.teeth.sun, math.copysign(1.0, self._set_rate())
-        sun, carrier = self._ratio @ samples.turns[0] + self._of(samples.angle) / (2.0 * math.pi)
-        fast, slow = self._of(samples.speed)
-        cycles = ahead * (teeth * (sun - carrier) - self._phase)
-        return cycles, ahead * teeth * (fast - slow) / (2.0 * math.pi)
+        turned = self._ratio @ samples.turns[0] + self._of(samples.angle) / (2.0 * math.pi)
+        cycles, rate = (
+            self._ahead * self._teeth * (sun - carrier)
+            for sun, carrier in (turned, self._of(samples.speed) / (2.0 * math.pi))
+        )
+        return float(cycles - self._ahead * self._phase), float(rate)
 
     def _of(self, bodies: np.ndarray) -> np.ndarray:
         """Sun and carrier of samples (1, bodies); a held member stands at zero."""

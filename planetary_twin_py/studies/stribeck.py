@@ -1,4 +1,4 @@
-"""Stribeck curve of a gearbox: one mesh cycle at each of many speeds, film and lambda ratio computed.
+"""Stribeck curve of a gearbox: one mesh cycle at each of many speeds, lambda ratio computed.
 
 Without vibration: what is looked for is the friction of a load that stays as it is.
 """
