@@ -94,11 +94,17 @@ def _known(name: str) -> Quantity | None:
     if name in plain:
         return plain[name]
     for side, words in SIDES.items():
+        if not name.startswith(f"{side}_"):
+            continue
         measure = name.removeprefix(f"{side}_")
-        if measure != name and measure in MESH:
+        if measure in MESH:
             quantity = MESH[measure]
             title = "Power loss" if measure == "power_loss" else quantity.title
             return quantity._replace(title=f"{title}, {words}")
+        number, _, waveform = measure.partition("_")
+        if waveform in WAVEFORM:
+            quantity = WAVEFORM[waveform]
+            return quantity._replace(title=f"{quantity.title} of {words} mesh {number}")
     return None
 
 
@@ -106,9 +112,6 @@ def _by_unit(name: str, unit: str, values: np.ndarray) -> Quantity:
     """Of any other field of a scene, by its name."""
     words = name.rpartition(".")[2].replace("_", " ")
     title = words[:1].upper() + words[1:]
-    if name.endswith("_dte"):
-        title, unit, factor = WAVEFORM["dte"]
-        return Quantity(f"{title} of {words.removesuffix(' dte')}", unit, factor)
     if unit == "m" and values.dtype.kind == "f" and len(values):
         largest = np.nanmax(np.abs(values), initial=0.0)
         for limit, shown, factor in LENGTHS:

@@ -42,7 +42,7 @@ def test_parts_of_friction_add_up_and_the_film_takes_over_from_the_asperities(cu
 def test_every_section_is_a_dot_in_rpm_and_micrometres(diagram):
     (axes,) = pt.plot_study(diagram).axes
     assert axes.get_xlabel() == "Speed [rpm]"
-    assert axes.get_ylabel() == "DTE of sun planet 1 [µm]"
+    assert axes.get_ylabel() == "DTE of sun-planet mesh 1 [µm]"
     for line, way in zip(axes.get_lines(), ("up", "down"), strict=True):
         rows = diagram.filter(pa.compute.equal(diagram["direction"], way))
         assert line.get_xdata() == pytest.approx(rows["input_speed"].to_numpy() * 30.0 / np.pi)
@@ -53,7 +53,7 @@ def test_meshes_can_be_chosen(diagram):
     meshes = ["planet_ring_2_dte", "sun_planet_1_dte"]
     figure = pt.plot_study(diagram, measures=meshes)
     labels = [axes.get_ylabel() for axes in figure.axes]
-    assert labels == ["DTE of planet ring 2 [µm]", "DTE of sun planet 1 [µm]"]
+    assert labels == ["DTE of planet-ring mesh 2 [µm]", "DTE of sun-planet mesh 1 [µm]"]
 
 
 @pytest.mark.parametrize("suffix", ["png", "svg", "pdf"])

@@ -73,7 +73,9 @@ def test_two_fields_of_many_values_are_a_map_with_a_hole_where_a_point_failed():
     assert len(x) == len(MANY) * 7 - 1
     filled = axes.collections[0]
     low, high = filled.get_clim()
-    values = [100.0 * efficiency(s, t) for s in fields["input_speed"] for t in fields["input_torque"]]
+    values = [
+        100.0 * efficiency(s, t) for s in fields["input_speed"] for t in fields["input_torque"]
+    ]
     assert low <= min(values) and max(values) <= high
     assert figure.get_supxlabel() == "1 of 56 points failed and are left out"
 

@@ -94,7 +94,10 @@ def test_a_way_that_fails_ends_there_and_says_why(monkeypatch):
     told = []
     table = bifurcation(PAPER, [300.0, 310.0, 330.0], Holding(0.01, cycles=2), told.append)
     failed = [row for row in table.to_pylist() if row["failure"]]
-    assert [(row["direction"], row["input_speed"]) for row in failed] == [(UP, 330.0), (DOWN, 330.0)]
+    assert [(row["direction"], row["input_speed"]) for row in failed] == [
+        (UP, 330.0),
+        (DOWN, 330.0),
+    ]
     assert all(row[DTE] is None for row in failed) and len(table) == 4 + 2
     assert "input_speed = 330: broken" in told
 
