@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 
 TABLES = (".parquet", ".csv")
 PICTURES = (".png", ".svg", ".pdf")
-PRINTED = 200  # dots per inch
+PRINTED = 150  # dots per inch
 
 
 def check_suffix(out: Path, admitted: Sequence[str]) -> None:

@@ -84,7 +84,7 @@ def write_page(
             settled=SETTLED,
             tolerance=TOLERANCE,
             summary=_table(("", "what", "verdict"), [_summary(entry) for entry in entries]),
-            entries="\n\n".join(_entry(entry, folder.name) for entry in entries),
+            entries="\n\n".join(_entry(entry, folder.name, suffix) for entry in entries),
             equations=_table(
                 ("equation", "law", "file", "default", "printed form", "choice"),
                 [_equation(equation) for equation in EQUATIONS],

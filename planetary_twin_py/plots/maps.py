@@ -9,7 +9,7 @@ from matplotlib.axes import Axes
 from matplotlib.ticker import MaxNLocator
 
 from .quantity import Column
-from .style import GREY
+from .style import GREY, logarithmic
 
 COLOURS = "viridis"
 LEVELS = 12
@@ -39,9 +39,9 @@ def draw_map(
     axes.figure.colorbar(filled, ax=axes, label=fields[2].label)
     axes.set(xlabel=fields[0].label, ylabel=fields[1].label)
     if fields[0].is_logarithmic:
-        axes.set_xscale("log")
+        logarithmic(axes, "x")
     if fields[1].is_logarithmic:
-        axes.set_yscale("log")
+        logarithmic(axes, "y")
 
 
 def _grid(

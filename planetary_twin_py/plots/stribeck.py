@@ -4,12 +4,10 @@ from __future__ import annotations
 
 import numpy as np
 from matplotlib.figure import Figure
-from matplotlib.ticker import FuncFormatter
 
 from .quantity import SIDES, Column, find
-from .style import BLUE, GREEN, ORANGE, panels
+from .style import BLUE, GREEN, ORANGE, logarithmic, panels
 
-PLAIN = FuncFormatter(lambda value, _: f"{value:g}")
 PARTS = (("boundary", ORANGE, "--"), ("viscous", GREEN, "--"))
 
 
@@ -35,8 +33,7 @@ def stribeck_diagram(known: dict[str, Column]) -> Figure:
             total += friction
             axes.plot(ratio[order], friction[order], dash, color=colour, label=part)
         axes.plot(ratio[order], total[order], color=BLUE, label="total", zorder=1.9)
-        axes.set_xscale("log")
-        axes.xaxis.set_major_formatter(PLAIN)
+        logarithmic(axes, "x")
         axes.set_title(f"{words} meshes")
         axes.set_xlabel("Lambda ratio [-]")
         axes.set_ylabel("Friction coefficient [-]")

@@ -16,7 +16,7 @@ from .bifurcation import bifurcation_diagram
 from .maps import draw_map
 from .quantity import Column, columns, find
 from .stribeck import stribeck_diagram
-from .style import CYCLE, applied, panels, remark
+from .style import CYCLE, applied, logarithmic, panels, remark
 
 if TYPE_CHECKING:
     import pyarrow as pa
@@ -186,7 +186,7 @@ def _curves(axes: Axes, choice: Choice, measure: Column, rows: np.ndarray) -> No
             markersize=3.0 if x.is_number else None,
         )
     if x.is_logarithmic:
-        axes.set_xscale("log")
+        logarithmic(axes, "x")
     axes.set_xlabel(x.label)
     axes.set_ylabel(measure.label)
     axes.margins(x=0.03)

@@ -5,12 +5,13 @@ from __future__ import annotations
 from collections.abc import Sequence
 from contextlib import AbstractContextManager
 from pathlib import PurePath
-from typing import Any
+from typing import Any, Literal
 
 import matplotlib
 from cycler import cycler
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from matplotlib.ticker import FuncFormatter
 
 # Okabe and Ito 2008.
 BLUE, ORANGE, GREEN, PINK = "#0072B2", "#D55E00", "#009E73", "#CC79A7"
@@ -74,6 +75,13 @@ def drawing(axes: Axes) -> Axes:
     axes.set_aspect("equal")
     axes.set_axis_off()
     return axes
+
+
+def logarithmic(axes: Axes, name: Literal["x", "y"]) -> None:
+    """Equal ratios at equal distances along one axis, numbers without exponents."""
+    axes.set(**{f"{name}scale": "log"})
+    axis = axes.xaxis if name == "x" else axes.yaxis
+    axis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
 
 
 def save(figure: Figure, path: str, dots_per_inch: int = DOTS_PER_INCH) -> None:

@@ -1,5 +1,7 @@
 """What is drawn is what the table holds, in the engineer's units."""
 
+import itertools
+
 import numpy as np
 import pytest
 from plots.tables import study
@@ -69,13 +71,11 @@ def test_two_fields_of_many_values_are_a_map_with_a_hole_where_a_point_failed():
     assert axes.get_xlabel() == "Speed set-point [rpm]"
     assert axes.get_ylabel() == "Input torque [N m]"
     assert bar.get_ylabel() == "Efficiency [%]"
-    ((x, y),) = drawn(axes).values()
+    ((x, _),) = drawn(axes).values()
     assert len(x) == len(MANY) * 7 - 1
     filled = axes.collections[0]
     low, high = filled.get_clim()
-    values = [
-        100.0 * efficiency(s, t) for s in fields["input_speed"] for t in fields["input_torque"]
-    ]
+    values = [100.0 * efficiency(s, t) for s, t in itertools.product(*fields.values())]
     assert low <= min(values) and max(values) <= high
     assert figure.get_supxlabel() == "1 of 56 points failed and are left out"
 
@@ -98,7 +98,7 @@ def test_scattered_points_are_a_map_too():
     torques = np.random.default_rng(1).uniform(5.0, 60.0, len(MANY))
     table = table.add_column(2, table.schema.field(1).with_name("input_torque"), [torques])
     axes = pt.plot_study(table).axes
-    ((x, y),) = drawn(axes[0]).values()
+    ((_, y),) = drawn(axes[0]).values()
     assert len(axes) == 2 and y == pytest.approx(torques)
 
 

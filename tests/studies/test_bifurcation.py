@@ -1,4 +1,4 @@
-"""Ways up and down: one motion where one is possible, two where the flanks part or stay together."""
+"""Ways up and down: one motion where one is possible, two where flanks may part or stay."""
 
 import json
 import math
@@ -67,8 +67,6 @@ def test_where_two_motions_are_possible_each_way_keeps_its_own():
     quiet, loud = seen(table, UP, TWICE), seen(table, DOWN, TWICE)
     assert np.ptp(quiet) < 0.01 * np.ptp(loud)
     alone, slowed = independent(None, 0.2), independent(BEYOND, 0.6)
-    print(np.ptp(quiet), np.ptp(loud), quiet.mean(), loud.mean())
-    print(np.ptp(alone), np.ptp(slowed), alone.mean(), slowed.mean())
     assert alone.mean() == pytest.approx(quiet.mean(), rel=2e-3)
     assert np.ptp(alone) < 0.01 * np.ptp(loud)
     assert np.ptp(slowed) > 0.5 * np.ptp(loud)
@@ -94,10 +92,8 @@ def test_a_way_that_fails_ends_there_and_says_why(monkeypatch):
     told = []
     table = bifurcation(PAPER, [300.0, 310.0, 330.0], Holding(0.01, cycles=2), told.append)
     failed = [row for row in table.to_pylist() if row["failure"]]
-    assert [(row["direction"], row["input_speed"]) for row in failed] == [
-        (UP, 330.0),
-        (DOWN, 330.0),
-    ]
+    where = [(row["direction"], row["input_speed"]) for row in failed]
+    assert where == [(UP, 330.0), (DOWN, 330.0)]
     assert all(row[DTE] is None for row in failed) and len(table) == 4 + 2
     assert "input_speed = 330: broken" in told
 

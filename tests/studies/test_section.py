@@ -1,4 +1,4 @@
-"""The section shows a mesh at one phase: one point where motion repeats, the closed form if linear."""
+"""The section shows meshes at one phase: a point if motion repeats, the closed form if linear."""
 
 import math
 
