@@ -91,6 +91,7 @@ def _known(name: str) -> Quantity | None:
     """Of a figure or a set-point that has a name of its own."""
     plain = {key: each for key, (each, _) in TRAIN.items() if key not in ("speed", "power")}
     plain |= OPERATING_POINT
+    plain["power_loss"] = Quantity("Power loss", "W")  # of bearings and churning, too
     if name in plain:
         return plain[name]
     for side, words in SIDES.items():

@@ -144,7 +144,8 @@ def _draw(choice: Choice) -> Figure:
     places = [(measure, part) for measure in choice.measures for part in parts]
     if len(places) > MOST_PANELS:
         raise ValueError(f"{len(places)} panels: must be at most {MOST_PANELS}; choose less")
-    across = min(len(places), 2 if choice.is_map else 3)
+    most = 2 if choice.is_map else 3
+    across = min(len(places) if len(parts) == 1 else len(parts), most)
     figure, panes = panels(len(places), 3.6 if len(places) == 1 else 2.9, across)
     limits = {m.name: (np.nanmin(m.values), np.nanmax(m.values)) for m in choice.measures}
     for axes, (measure, part) in zip(panes, places, strict=True):
@@ -156,6 +157,8 @@ def _draw(choice: Choice) -> Figure:
             draw_map(axes, (choice.x, choice.by, measure), rows, limits[measure.name])
         else:
             _curves(axes, choice, measure, rows)
+    if choice.panel is not None and not choice.is_map:
+        _share_limits(panes, len(parts))
     lines = {str(line.get_label()): line for axes in panes for line in axes.get_lines()}
     if choice.by is not None and not choice.is_map:
         figure.legend(
@@ -164,6 +167,15 @@ def _draw(choice: Choice) -> Figure:
             loc="outside right upper",
         )
     return figure
+
+
+def _share_limits(panes: list[Axes], count: int) -> None:
+    """Let every `count` panels, which are of one measure, be read against each other."""
+    for first in range(0, len(panes), count):
+        own = panes[first : first + count]
+        lows, highs = zip(*(axes.get_ylim() for axes in own), strict=True)
+        for axes in own:
+            axes.set_ylim(min(lows), max(highs))
 
 
 def _curves(axes: Axes, choice: Choice, measure: Column, rows: np.ndarray) -> None:

@@ -60,6 +60,7 @@ def test_a_third_field_is_a_panel_for_each_of_its_values():
     fields = {"input_speed": SPEEDS, "input_torque": TORQUES, "backlash": (2e-7, 3e-7)}
     axes = pt.plot_study(study(fields, {"efficiency": lambda s, t, b: 1e6 * b})).axes
     assert [pane.get_title(loc="left") for pane in axes] == ["Backlash 0.2 µm", "Backlash 0.3 µm"]
+    assert axes[0].get_ylim() == axes[1].get_ylim()
     for curve in drawn(axes[1]).values():
         assert curve[1] == pytest.approx([30.0] * 3)
 
