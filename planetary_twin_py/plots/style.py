@@ -20,6 +20,7 @@ CYCLE = (BLUE, ORANGE, GREEN, PINK, AMBER, SKY)
 
 WIDTH = 8.0  # [in]
 DOTS_PER_INCH = 100
+FINE = 300  # dots per inch of what is no line in a vector drawing
 FORMATS = (".png", ".svg", ".pdf")
 # What a format would write of the moment at which the file is made.
 _MOMENT: dict[str, dict[str, Any]] = {
@@ -94,8 +95,9 @@ def save(figure: Figure, path: str, dots_per_inch: int = DOTS_PER_INCH) -> None:
     suffix = PurePath(path).suffix
     if suffix not in FORMATS:
         raise ValueError(f"must end in {', '.join(FORMATS)}")
+    dots = dots_per_inch if suffix == ".png" else FINE
     with applied():
-        figure.savefig(path, metadata=_MOMENT[suffix], dpi=dots_per_inch)
+        figure.savefig(path, metadata=_MOMENT[suffix], dpi=dots)
 
 
 def remark(figure: Figure, text: str) -> None:
