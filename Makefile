@@ -17,7 +17,7 @@ ifneq ($(AMENT_PREFIX_PATH)$(_ROS_WHEELS_BOOTSTRAP_COMPLETE),)
 unexport LD_LIBRARY_PATH _ROS_WHEELS_BOOTSTRAP_COMPLETE
 endif
 
-.PHONY: setup run test suite test-fast soak bench view picture lint lock clean
+.PHONY: setup run test suite test-fast soak bench view picture studies lint lock clean
 
 setup: $(STAMPS)/interfaces $(STAMPS)/kernels $(STAMPS)/nodes
 
@@ -51,6 +51,17 @@ picture: setup
 	rm -rf recordings/picture
 	$(BIN)/planetary-twin run --record picture
 	$(BIN)/planetary-twin view recordings/picture --screenshot docs/recording.png --at 8.005
+
+# The pictures of docs/studies.md.
+studies: setup
+	$(BIN)/planetary-twin sweep paper --dynamics quasi_static --lubrication.lambda_ratio computed \
+		--lubrication.boundary load_sharing --input-speed 500rpm:10000rpm:20 \
+		--input-torque 5:100:20 --duration 0.1 --settling 0 --out docs/efficiency-map.png
+	$(BIN)/planetary-twin stribeck paper --set lubrication.boundary=load_sharing \
+		--out docs/stribeck.png
+	$(BIN)/planetary-twin bifurcation paper --input-speed 9500rpm:12500rpm:121 \
+		--set input_torque=10 --set backlash=20um --set mesh.damping.loss_factor=0.006 \
+		--set drive.speed_limit=14000rpm --cycles 40 --tolerance 1e-3 --out docs/bifurcation.png
 
 lock: setup
 	$(BIN)/uv pip compile --quiet --universal --python-version 3.11 --generate-hashes --all-extras \

@@ -31,6 +31,7 @@ if TYPE_CHECKING:
     from .batch import Outcome, simulate_many
     from .modal.modes import NaturalModes
     from .modal.natural import natural_modes
+    from .plots.study import plot_study
     from .result import Energy, Result, Stats
     from .scene import (
         TUNABLES,
@@ -59,6 +60,7 @@ _HOME = {
     "batch": ("Outcome", "simulate_many"),
     "modal.modes": ("NaturalModes",),
     "modal.natural": ("natural_modes",),
+    "plots.study": ("plot_study",),
     "result": ("Energy", "Result", "Stats"),
     "scene": (
         "TUNABLES", "OperatingPoint", "Scene", "SceneError", "Tunable", "load_scene",
@@ -102,6 +104,7 @@ __all__ = [
     "parse_scene",
     "power_density",
     "resample_by_angle",
+    "plot_study",
     "rpm",
     "simulate",
     "simulate_many",

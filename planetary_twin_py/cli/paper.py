@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from ._fail import fail, need
+from ._study import PICTURES
 
 if TYPE_CHECKING:
     from rich.table import Table
@@ -21,6 +22,7 @@ def paper(
     out: Annotated[
         Path, typer.Option(help="The page; its pictures go into a folder of its name.")
     ] = Path("docs/paper.md"),
+    pictures: Annotated[str, typer.Option(help="Their format: png, svg or pdf.")] = "png",
     json_: Annotated[
         str | None, typer.Option("--json", metavar="FILE", help="Write figures; - prints them.")
     ] = None,
@@ -29,6 +31,8 @@ def paper(
     """Recompute every table and figure of the paper, and write them beside what it states."""
     if out.suffix != ".md":
         fail(f"--out = {str(out)!r}: must end in .md")
+    if f".{pictures}" not in PICTURES:
+        fail(f"--pictures = {pictures!r}: must be png, svg or pdf")
     need("plots", "matplotlib")
     from rich.console import Console
     from rich.progress import Progress
@@ -52,7 +56,7 @@ def paper(
         task = progress.add_task("tables and figures", total=len(BUILDERS))
         found = entries(evidence, lambda _: progress.advance(task))
         try:
-            write_page(found, evidence, out)
+            write_page(found, evidence, out, f".{pictures}")
         except OSError as error:
             fail(f"--out = {str(out)!r}: {error.strerror}")
     console.print(_table(found))

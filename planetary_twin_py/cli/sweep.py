@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from ._fail import fail, need, remark
+from ._study import PICTURES, TABLES, check_suffix, progress, put
 
 if TYPE_CHECKING:
     from ..studies.plan import Study
@@ -23,7 +24,9 @@ CONTEXT = {"allow_extra_args": True, "ignore_unknown_options": True}
 def sweep(
     context: typer.Context,
     scene: Annotated[str, typer.Argument(help="Packaged scene, or path of a YAML file.")],
-    out: Annotated[Path, typer.Option(help="Table to write: .parquet (with units) or .csv.")],
+    out: Annotated[
+        Path, typer.Option(help="Table (.parquet with units, .csv) or picture (.png, .svg, .pdf).")
+    ],
     samples: Annotated[
         int | None, typer.Option(help="Draw this many points (Latin hypercube), no grid.")
     ] = None,
@@ -49,16 +52,13 @@ def sweep(
     Example: planetary-twin sweep paper --backlash 2e-7:3.5e-7:4 --lambda-ratio 1:2:5
     --input-speed 1000rpm,2000rpm --out study.parquet
     """
-    need("studies", "pyarrow")
+    check_suffix(out, TABLES + PICTURES)
     from ..scene import load_scene
     from ..studies.axes import read_axis
     from ..studies.plan import Settings, grid, latin_hypercube
     from ..studies.sweep import sweep as run
-    from ..studies.table import FORMATS, write
 
     try:
-        if out.suffix not in FORMATS:
-            fail(f"--out = {str(out)!r}: must end in {' or '.join(FORMATS)}")
         loaded = load_scene(scene)
         axes = [read_axis(loaded, field, text) for field, text in _fields(context.args)]
         settings = Settings(duration, settling, tolerance=tolerance)
@@ -70,7 +70,7 @@ def sweep(
         journal = out.with_name(f"{out.name}.journal")
         with _crew(scheduler) as crew, _progress(study) as hear:
             table = run(study, crew, journal, hear)
-        write(table, out)
+        put(table, out)
         journal.unlink()
     except (ValueError, OSError) as error:
         fail(error)
@@ -111,15 +111,10 @@ def _crew(scheduler: str | None) -> Iterator[Crew]:
 
 @contextmanager
 def _progress(study: Study) -> Iterator[Hearer]:
-    from rich.console import Console
-    from rich.progress import MofNCompleteColumn, Progress, TimeRemainingColumn
-
-    columns = (*Progress.get_default_columns()[:2], MofNCompleteColumn(), TimeRemainingColumn())
-    with Progress(*columns, console=Console(stderr=True)) as bar:
-        task = bar.add_task("points", total=len(study.points))
+    with progress("points", len(study.points)) as advance:
 
         def hear(done: int, failure: Failure | None) -> None:
-            bar.advance(task, done)
+            advance(done)
             if failure is not None:
                 remark(failure.reason)
 

@@ -57,14 +57,21 @@ $left_out
 """)
 
 
-def write_page(entries: Sequence[Entry], evidence: Evidence, out: Path) -> None:
-    """Write the page to `out`, its pictures into a folder of the same name beside it."""
+def write_page(
+    entries: Sequence[Entry], evidence: Evidence, out: Path, suffix: str = ".png"
+) -> None:
+    """Write the page to `out`, its pictures into a folder of the same name beside it.
+
+    Raises:
+        OSError: they cannot be written.
+        ValueError: no picture ends in `suffix`.
+    """
     folder = out.with_suffix("")
     folder.mkdir(parents=True, exist_ok=True)
     with applied():
         for entry in entries:
             if entry.picture is not None:
-                save(entry.picture, str(folder / f"{entry.slug}.png"))
+                save(entry.picture, str(folder / f"{entry.slug}{suffix}"))
     grid = evidence.study.grid
     out.write_text(
         _PAGE.substitute(
@@ -77,7 +84,7 @@ def write_page(entries: Sequence[Entry], evidence: Evidence, out: Path) -> None:
             settled=SETTLED,
             tolerance=TOLERANCE,
             summary=_table(("", "what", "verdict"), [_summary(entry) for entry in entries]),
-            entries="\n\n".join(_entry(entry, folder.name) for entry in entries),
+            entries="\n\n".join(_entry(entry, folder.name, suffix) for entry in entries),
             equations=_table(
                 ("equation", "law", "file", "default", "printed form", "choice"),
                 [_equation(equation) for equation in EQUATIONS],
@@ -109,7 +116,7 @@ def _summary(entry: Entry) -> tuple[str, str, str]:
     return f"[{entry.number}](#{anchor})", entry.title, _verdict(entry)
 
 
-def _entry(entry: Entry, folder: str) -> str:
+def _entry(entry: Entry, folder: str, suffix: str) -> str:
     parts = [
         f"### {entry.number}: {entry.title}",
         _table(
@@ -119,7 +126,7 @@ def _entry(entry: Entry, folder: str) -> str:
         entry.remarks,
     ]
     if entry.picture is not None:
-        parts.append(f"![{entry.number}: {entry.title}]({folder}/{entry.slug}.png)")
+        parts.append(f"![{entry.number}: {entry.title}]({folder}/{entry.slug}{suffix})")
     return "\n\n".join(part for part in parts if part)
 
 

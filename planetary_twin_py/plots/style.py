@@ -4,12 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from contextlib import AbstractContextManager
-from typing import Any
+from pathlib import PurePath
+from typing import Any, Literal
 
 import matplotlib
 from cycler import cycler
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from matplotlib.ticker import FuncFormatter
 
 # Okabe and Ito 2008.
 BLUE, ORANGE, GREEN, PINK = "#0072B2", "#D55E00", "#009E73", "#CC79A7"
@@ -18,6 +20,14 @@ CYCLE = (BLUE, ORANGE, GREEN, PINK, AMBER, SKY)
 
 WIDTH = 8.0  # [in]
 DOTS_PER_INCH = 100
+FINE = 300  # dots per inch of what is no line in a vector drawing
+FORMATS = (".png", ".svg", ".pdf")
+# What a format would write of the moment at which the file is made.
+_MOMENT: dict[str, dict[str, Any]] = {
+    ".png": {"Software": None},
+    ".svg": {"Date": None},
+    ".pdf": {"CreationDate": None},
+}
 
 _STYLE: Any = {
     "font.size": 9.5,
@@ -33,6 +43,8 @@ _STYLE: Any = {
     "legend.fontsize": 8.5,
     "xtick.direction": "out",
     "savefig.dpi": DOTS_PER_INCH,
+    "pdf.fonttype": 42,  # text stays text
+    "svg.hashsalt": "planetary_twin",  # names in the file are the same every time
 }
 
 
@@ -66,6 +78,28 @@ def drawing(axes: Axes) -> Axes:
     return axes
 
 
-def save(figure: Figure, path: str) -> None:
-    """Write a PNG that depends on nothing but its content."""
-    figure.savefig(path, metadata={"Software": None})
+def logarithmic(axes: Axes, name: Literal["x", "y"]) -> None:
+    """Equal ratios at equal distances along one axis, numbers without exponents."""
+    axes.set(**{f"{name}scale": "log"})
+    axis = axes.xaxis if name == "x" else axes.yaxis
+    axis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
+
+
+def save(figure: Figure, path: str, dots_per_inch: int = DOTS_PER_INCH) -> None:
+    """Write a picture in the format of the suffix, which depends on nothing but its content.
+
+    Raises:
+        ValueError: the suffix is none of FORMATS.
+        OSError: it cannot be written.
+    """
+    suffix = PurePath(path).suffix
+    if suffix not in FORMATS:
+        raise ValueError(f"must end in {', '.join(FORMATS)}")
+    dots = dots_per_inch if suffix == ".png" else FINE
+    with applied():
+        figure.savefig(path, metadata=_MOMENT[suffix], dpi=dots)
+
+
+def remark(figure: Figure, text: str) -> None:
+    """A line below the picture."""
+    figure.supxlabel(text, x=0.99, ha="right", fontsize=8.0, color=GREY)

@@ -21,24 +21,22 @@ from .measures import MEASURES
 from .plan import Study
 from .work import Failure, Found
 
-FORMATS = (".parquet", ".csv")
-
 
 def tabulate(study: Study, found: Mapping[int, Found]) -> pa.Table:
     """The table of `study` from what was found at each place; `failure` says why figures lack."""
     rows = [found[point.place] for point in study.points]
     columns: list[tuple[pa.Field, Any]] = [
-        _column("point", [point.place for point in study.points], "", "place in the study", "i8")
+        column("point", [point.place for point in study.points], "", "place in the study", "i8")
     ]
     for field in study.fields:
         info, _ = look_up(study.scene, field)
         values = [point.changes[field] for point in study.points]
-        columns.append(_column(field, values, unit_of(info) or "", info.description or ""))
+        columns.append(column(field, values, unit_of(info) or "", info.description or ""))
     for name, measure in MEASURES.items():
         figures = [None if isinstance(row, Failure) else row[name] for row in rows]
-        columns.append(_column(name, figures, measure.unit, measure.description, "f8"))
+        columns.append(column(name, figures, measure.unit, measure.description, "f8"))
     reasons = [row.reason if isinstance(row, Failure) else None for row in rows]
-    columns.append(_column("failure", reasons, "", "why there are no figures", "str"))
+    columns.append(column("failure", reasons, "", "why there are no figures", "str"))
     about = {
         "scene": json.dumps(study.scene.model_dump(mode="json")),
         "settings": json.dumps(asdict(study.settings)),
@@ -72,9 +70,10 @@ def _heading(field: pa.Field) -> str:
 _TYPES = {"i8": pa.int64(), "f8": pa.float64(), "str": pa.string()}
 
 
-def _column(
-    name: str, values: list[Any], unit: str, description: str, kind: str | None = None
+def column(
+    name: str, values: Any, unit: str, description: str, kind: str | None = None
 ) -> tuple[pa.Field, pa.Array]:
+    """A column that carries its unit and meaning; `kind`: i8, f8 or str where values may lack."""
     array = pa.array(values, _TYPES[kind] if kind else None)
     about = {"unit": unit, "description": description}
     return pa.field(name, array.type, metadata=about), array

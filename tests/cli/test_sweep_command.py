@@ -38,7 +38,7 @@ def test_points_are_drawn_where_samples_are_asked_for(tmp_path):
 @pytest.mark.parametrize(
     ("arguments", "told"),
     [
-        (["paper", "--out", "x.txt"], "--out = 'x.txt': must end in .parquet or .csv"),
+        (["paper", "--out", "x.txt"], "--out = 'x.txt': must end in .parquet, .csv, .png"),
         (["paper", "--out", "x.csv"], "no field varies"),
         (["paper", "--nosuch", "1", "--out", "x.csv"], "nosuch: no such field"),
         (["paper", "--backlash", "--out", "x.csv"], "--backlash: has no values"),

@@ -118,6 +118,11 @@ def test_page_and_figures_are_the_same_on_a_second_run_with_more_processes(
 ):
     again = run_studies(("paper",), GRID, 2)["paper"]
     assert again.outcomes == evidence.study.outcomes
+    (tmp_path / "vector").mkdir()
+    write_page(list(found.values()), evidence, tmp_path / "vector" / "paper.md", ".svg")
+    page = (tmp_path / "vector" / "paper.md").read_text("utf-8")
+    drawings = list((tmp_path / "vector" / "paper").glob("figure_*.svg"))
+    assert len(drawings) == 14 and all(f"(paper/{svg.name})" in page for svg in drawings)
     for folder in ("first", "second"):
         (tmp_path / folder).mkdir()
         write_page(entries(evidence), evidence, tmp_path / folder / "paper.md")

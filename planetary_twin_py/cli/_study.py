@@ -1,0 +1,63 @@
+"""What the commands that run studies share: a table or its picture as the outcome, and a bar."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from ._fail import fail, need
+
+if TYPE_CHECKING:
+    import pyarrow as pa
+
+TABLES = (".parquet", ".csv")
+PICTURES = (".png", ".svg", ".pdf")
+PRINTED = 150  # dots per inch
+
+
+def check_suffix(out: Path, admitted: Sequence[str]) -> None:
+    """End the command where `out` is none of these, or what writes it is not installed."""
+    if out.suffix not in admitted:
+        fail(f"--out = {str(out)!r}: must end in {', '.join(admitted)}")
+    need("studies", "pyarrow")
+    if out.suffix in PICTURES:
+        need("plots", "matplotlib")
+
+
+def put(
+    table: pa.Table,
+    out: Path,
+    x: str | None = None,
+    measures: Sequence[str] = (),
+    by: str | None = None,
+    kind: str | None = None,
+) -> None:
+    """Write `table`, or draw it (see `plot_study`), by the suffix of `out`.
+
+    Raises:
+        OSError: it cannot be written.
+        ValueError: it cannot be drawn.
+    """
+    if out.suffix in PICTURES:
+        from ..plots.study import plot_study
+        from ..plots.style import save
+
+        save(plot_study(table, x, measures, by, kind), str(out), PRINTED)
+    else:
+        from ..studies.table import write
+
+        write(table, out)
+
+
+@contextmanager
+def progress(what: str, total: int) -> Iterator[Callable[[int], None]]:
+    """A bar with the time that is left, on stderr; call it with how many more are done."""
+    from rich.console import Console
+    from rich.progress import MofNCompleteColumn, Progress, TimeRemainingColumn
+
+    columns = (*Progress.get_default_columns()[:2], MofNCompleteColumn(), TimeRemainingColumn())
+    with Progress(*columns, console=Console(stderr=True)) as bar:
+        task = bar.add_task(what, total=total)
+        yield lambda done: bar.advance(task, done)

@@ -1,0 +1,54 @@
+"""`planetary-twin stribeck`: friction of the meshes against their lambda ratio."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from ._fail import fail, remark
+from ._settings import settings
+from ._study import PICTURES, TABLES, check_suffix, progress, put
+
+
+def stribeck(
+    scene: Annotated[str, typer.Argument(help="Packaged scene, or path of a YAML file.")],
+    out: Annotated[Path, typer.Option(help="Table (.parquet, .csv) or picture (.png, .svg, .pdf)")],
+    input_speed: Annotated[
+        str, typer.Option(metavar="VALUES", help="Speeds, as for sweep.")
+    ] = "1rpm:10000rpm:41:log",
+    set_: Annotated[
+        list[str] | None, typer.Option("--set", metavar="NAME=VALUE", help="Change a field.")
+    ] = None,
+) -> None:
+    """Stribeck curves of the sun and ring meshes of SCENE: boundary, viscous and total friction.
+
+    Each speed is one mesh cycle under the scene's load without vibration, with the lambda ratio
+    computed whatever the scene prescribes.
+
+    Example: planetary-twin stribeck paper --set lubrication.boundary=load_sharing --out curve.png
+    """
+    check_suffix(out, TABLES + PICTURES)
+    from ..scene import load_scene
+    from ..studies.axes import Axis, read_axis
+    from ..studies.local import Threads
+    from ..studies.stribeck import stribeck as run
+    from ..studies.work import Failure
+
+    try:
+        loaded = load_scene(scene).replace(**settings(set_ or []))
+        axis = read_axis(loaded, "input_speed", input_speed)
+        count = len(axis.values) if isinstance(axis, Axis) else 0
+        with progress("speeds", count) as advance:
+
+            def hear(done: int, failure: Failure | None) -> None:
+                advance(done)
+                if failure:
+                    remark(failure.reason)
+
+            table = run(loaded, axis, Threads(), hear)
+        put(table, out, kind="stribeck")
+    except (ValueError, OSError) as error:
+        fail(error)
+    typer.echo(f"{out}: {count} speeds")

@@ -1,0 +1,45 @@
+"""Bifurcation diagram: every section of every settled motion, against speed."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from matplotlib.figure import Figure
+
+from ..studies.bifurcation import DOWN, UP
+from .quantity import Column
+from .style import BLUE, ORANGE, panels
+
+# Speeding up is drawn first and larger, so that it shows around what slowing down has in common.
+WAYS = ((UP, "speeding up", BLUE, 2.6), (DOWN, "slowing down", ORANGE, 1.1))
+
+
+def bifurcation_diagram(known: dict[str, Column], meshes: Sequence[str] = ()) -> Figure:
+    """A dot for each mesh cycle that was looked at; a panel for each of `meshes` (columns).
+
+    None: the first mesh.
+    """
+    first = next(name for name in known if name.endswith("_dte"))
+    shown = tuple(meshes) or (first,)
+    figure, panes = panels(len(shown), 4.2 if len(shown) == 1 else 2.9, 1)
+    speed, direction = known["input_speed"], known["direction"].values
+    for axes, name in zip(panes, shown, strict=True):
+        for way, label, colour, size in WAYS:
+            own = direction == way
+            axes.plot(
+                speed.values[own],
+                known[name].values[own],
+                "o",
+                color=colour,
+                markersize=size,
+                markeredgewidth=0.0,
+                label=label,
+                rasterized=True,  # tens of thousands of dots
+            )
+        axes.set_xlabel("Speed [rpm]")
+        axes.set_ylabel(known[name].label)
+        axes.margins(x=0.01)
+    figure.legend(
+        *panes[0].get_legend_handles_labels(), loc="outside upper right", ncols=2, markerscale=2.5
+    )
+    return figure

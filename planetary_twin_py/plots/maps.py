@@ -1,0 +1,57 @@
+"""A measure over two fields as filled contours."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.ticker import MaxNLocator
+
+from .quantity import Column
+from .style import GREY, logarithmic
+
+COLOURS = "viridis"
+LEVELS = 12
+
+
+def draw_map(
+    axes: Axes,
+    fields: tuple[Column, Column, Column],
+    rows: np.ndarray,
+    limits: tuple[float, float],
+) -> None:
+    """The third column over the first and the second, at `rows` (bool).
+
+    A point that lacks in a grid leaves a hole; scattered points are joined to triangles. `limits`
+    of the colours are those of all maps of one measure. Dots are the points that were run.
+    """
+    x, y, z = (column.values[rows] for column in fields)
+    levels = MaxNLocator(LEVELS).tick_values(*limits)
+    grid = _grid(x, y, z)
+    places: Any = grid or (x, y, z)
+    fill: Any = axes.contourf if grid else axes.tricontourf
+    draw: Any = axes.contour if grid else axes.tricontour
+    filled = fill(*places, levels=levels, cmap=COLOURS)
+    lines = draw(*places, levels=levels, colors="white", linewidths=0.5)
+    axes.clabel(lines, fontsize=7.5)
+    axes.plot(x, y, ".", color=GREY, markersize=2.0, clip_on=False)
+    axes.figure.colorbar(filled, ax=axes, label=fields[2].label)
+    axes.set(xlabel=fields[0].label, ylabel=fields[1].label)
+    if fields[0].is_logarithmic:
+        logarithmic(axes, "x")
+    if fields[1].is_logarithmic:
+        logarithmic(axes, "y")
+
+
+def _grid(
+    x: np.ndarray, y: np.ndarray, z: np.ndarray
+) -> tuple[np.ndarray, np.ndarray, np.ndarray] | None:
+    """Axes and values (y, x) with NaN where a point lacks; None where the points are scattered."""
+    across, column = np.unique(x, return_inverse=True)
+    up, row = np.unique(y, return_inverse=True)
+    if len(across) * len(up) > 2 * len(z):
+        return None
+    values = np.full((len(up), len(across)), np.nan)
+    values[row, column] = z
+    return across, up, np.ma.masked_invalid(values)

@@ -1,0 +1,209 @@
+"""A study as the figure a reader expects of it: curves, small multiples of them, or a map."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, NamedTuple
+
+import matplotlib
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from ..studies.bifurcation import STUDY as BIFURCATION
+from ..studies.measures import MEASURES
+from .bifurcation import bifurcation_diagram
+from .maps import draw_map
+from .quantity import Column, columns, find
+from .stribeck import stribeck_diagram
+from .style import CYCLE, applied, logarithmic, panels, remark
+
+if TYPE_CHECKING:
+    import pyarrow as pa
+
+KINDS = ("curves", "map", "stribeck")
+MANY = 6  # values of each of two fields that fill a map
+MOST_PANELS = 12
+MOST_LINES = 12
+SHADES = "viridis"
+
+
+class Choice(NamedTuple):
+    """What goes where."""
+
+    x: Column
+    measures: tuple[Column, ...]
+    by: Column | None
+    panel: Column | None  # small multiples over its values
+    is_map: bool
+
+
+def plot_study(
+    table: pa.Table,
+    x: str | None = None,
+    measures: Sequence[str] = (),
+    by: str | None = None,
+    kind: str | None = None,
+) -> Figure:
+    """Draw a study's table; what is not said is chosen by how many of its fields vary.
+
+    One field: curves over it. Two: a curve for each value of the second, or a map where both have
+    many. Three: a panel for each value of the third.
+    Points that failed are left out, and the figure says how many.
+
+    Args:
+        table: of a sweep or a bifurcation.
+        x: column on the horizontal axis.
+        measures: columns to draw, each in panels of its own; none: the first there is.
+        by: field whose values are told apart by colour, on a map its vertical axis.
+        kind: "curves", "map" or "stribeck".
+
+    Raises:
+        ValueError: there is no such column or nothing to draw.
+    """
+    known, (whole, failed) = columns(table), _without_failures(table)
+    if kind is not None and kind not in KINDS:
+        raise ValueError(f"kind = {kind!r}: must be one of {', '.join(KINDS)}")
+    for name, role in [(x, "x"), (by, "by"), *((name, "y") for name in measures)]:
+        if name is not None:
+            find(known, name, role)
+    if not len(whole):
+        raise ValueError("the table has no point that did not fail")
+    known = columns(whole)
+    with applied():
+        if (table.schema.metadata or {}).get(b"study") == BIFURCATION.encode():
+            figure = bifurcation_diagram(known, measures)
+        elif kind == "stribeck":
+            figure = stribeck_diagram(known)
+        else:
+            varying = [name for name in fields(table) if len(known[name].distinct) > 1]
+            figure = _draw(_choose(known, varying, (x, tuple(measures), by), kind))
+        if failed:
+            remark(figure, f"{failed} of {len(table)} points failed and are left out")
+    return figure
+
+
+def fields(table: pa.Table) -> list[str]:
+    """The columns that a sweep has set."""
+    own = ("point", "failure", *MEASURES)
+    return [name for name in table.column_names if name not in own]
+
+
+def failures(table: pa.Table) -> int:
+    """Number of rows without figures."""
+    return len(table) - table["failure"].null_count if "failure" in table.column_names else 0
+
+
+def _without_failures(table: pa.Table) -> tuple[pa.Table, int]:
+    import pyarrow.compute as compute
+
+    failed = failures(table)
+    return (table.filter(compute.is_null(table["failure"])) if failed else table), failed
+
+
+def _choose(
+    known: dict[str, Column],
+    varying: list[str],
+    given: tuple[str | None, tuple[str, ...], str | None],
+    kind: str | None,
+) -> Choice:
+    x, measures, by = given
+    free = [name for name in varying if name not in (x, by, *measures)]
+    x = x or _taken(free, "x: no field of the table varies, name a column")
+    chosen = tuple(known[name] for name in measures or (_first_measure(known),))
+    if by is None and free:
+        by = free.pop(0)
+    panel = free.pop(0) if free else None
+    if free:
+        raise ValueError(f"{', '.join(free)}: more than three fields vary; fix all but three")
+    second = known[by] if by else None
+    is_map = kind == "map" or (kind is None and _fill_a_map(known[x], second))
+    if is_map and (second is None or not (known[x].is_number and second.is_number)):
+        raise ValueError("a map needs two fields that are numbers and vary")
+    return Choice(known[x], chosen, second, known[panel] if panel else None, is_map)
+
+
+def _taken(free: list[str], lack: str) -> str:
+    if not free:
+        raise ValueError(lack)
+    return free.pop(0)
+
+
+def _first_measure(known: dict[str, Column]) -> str:
+    return next(name for name in known if name in MEASURES)
+
+
+def _fill_a_map(x: Column, by: Column | None) -> bool:
+    if by is None or not (x.is_number and by.is_number):
+        return False
+    return min(len(x.distinct), len(by.distinct)) >= MANY
+
+
+def _draw(choice: Choice) -> Figure:
+    parts = [None] if choice.panel is None else list(choice.panel.distinct)
+    places = [(measure, part) for measure in choice.measures for part in parts]
+    if len(places) > MOST_PANELS:
+        raise ValueError(f"{len(places)} panels: must be at most {MOST_PANELS}; choose less")
+    most = 2 if choice.is_map else 3
+    across = min(len(places) if len(parts) == 1 else len(parts), most)
+    figure, panes = panels(len(places), 3.6 if len(places) == 1 else 2.9, across)
+    limits = {m.name: (np.nanmin(m.values), np.nanmax(m.values)) for m in choice.measures}
+    for axes, (measure, part) in zip(panes, places, strict=True):
+        rows = np.full(len(choice.x.values), True)
+        if choice.panel is not None:
+            rows = choice.panel.values == part
+            axes.set_title(f"{choice.panel.quantity.title} {choice.panel.told(part)}")
+        if choice.is_map and choice.by is not None:
+            draw_map(axes, (choice.x, choice.by, measure), rows, limits[measure.name])
+        else:
+            _curves(axes, choice, measure, rows)
+    if choice.panel is not None and not choice.is_map:
+        _share_limits(panes, len(parts))
+    lines = {str(line.get_label()): line for axes in panes for line in axes.get_lines()}
+    if choice.by is not None and not choice.is_map:
+        figure.legend(
+            handles=list(lines.values()),
+            title=choice.by.label,
+            loc="outside right upper",
+        )
+    return figure
+
+
+def _share_limits(panes: list[Axes], count: int) -> None:
+    """Let every `count` panels, which are of one measure, be read against each other."""
+    for first in range(0, len(panes), count):
+        own = panes[first : first + count]
+        lows, highs = zip(*(axes.get_ylim() for axes in own), strict=True)
+        for axes in own:
+            axes.set_ylim(min(lows), max(highs))
+
+
+def _curves(axes: Axes, choice: Choice, measure: Column, rows: np.ndarray) -> None:
+    x, by = choice.x, choice.by
+    groups = [None] if by is None else list(by.distinct)
+    if len(groups) > MOST_LINES:
+        raise ValueError(
+            f"{by.name if by else ''}: {len(groups)} curves: must be at most {MOST_LINES}; "
+            "choose another field with by, or a map"
+        )
+    for n, value in enumerate(groups):
+        own = rows if by is None else rows & (by.values == value)
+        order = np.argsort(x.values[own], kind="stable") if x.is_number else slice(None)
+        axes.plot(
+            x.values[own][order],
+            measure.values[own][order],
+            "o-" if x.is_number else "o",
+            color=CYCLE[n] if len(groups) <= len(CYCLE) else _shade(n, len(groups)),
+            label="" if by is None else by.told(value).removesuffix(f" {by.quantity.unit}"),
+            markersize=3.0 if x.is_number else None,
+        )
+    if x.is_logarithmic:
+        logarithmic(axes, "x")
+    axes.set_xlabel(x.label)
+    axes.set_ylabel(measure.label)
+    axes.margins(x=0.03)
+
+
+def _shade(n: int, count: int) -> tuple[float, float, float, float]:
+    red, green, blue, alpha = matplotlib.colormaps[SHADES](0.9 * n / (count - 1))
+    return red, green, blue, alpha

@@ -1,0 +1,86 @@
+"""`plot`, `stribeck` and `bifurcation` as they are typed."""
+
+import pyarrow.parquet
+import pytest
+from typer.testing import CliRunner
+
+from planetary_twin_py.cli import build_app
+
+PNG, SVG, PDF = b"\x89PNG", b"<?xml", b"%PDF"
+
+
+def run(*arguments):
+    return CliRunner().invoke(build_app(), [*map(str, arguments)])
+
+
+def last_line(done):
+    return done.output.strip().splitlines()[-1]
+
+
+@pytest.fixture(scope="module")
+def study(tmp_path_factory):
+    """A sweep of which one point fails."""
+    out = tmp_path_factory.mktemp("study") / "study.parquet"
+    quick = ["--duration", "0.02", "--settling", "0", "--tolerance", "1e-3"]
+    fields = ["--gearset.addendum", "0.3,0.9,1.0", "--input-torque", "20,60"]
+    done = run("sweep", "paper", *fields, "--out", out, *quick)
+    assert done.exit_code == 0, done.output
+    return out
+
+
+@pytest.mark.parametrize(("name", "begin"), [("a.png", PNG), ("a.svg", SVG), ("a.pdf", PDF)])
+def test_a_table_becomes_a_picture_and_what_is_left_out_is_told(study, tmp_path, name, begin):
+    picture = tmp_path / name
+    done = run("plot", study, "--y", "efficiency,power_loss", "--out", picture)
+    assert done.exit_code == 0, done.output
+    assert "2 of 6 points failed and are left out" in done.stderr
+    assert picture.read_bytes().startswith(begin)
+
+
+def test_a_sweep_can_be_drawn_at_once(tmp_path):
+    picture = tmp_path / "sweep.svg"
+    quick = ["--duration", "0.02", "--settling", "0", "--tolerance", "1e-3"]
+    done = run("sweep", "paper", "--input-torque", "20,60", "--out", picture, *quick)
+    assert done.exit_code == 0, done.output
+    assert list(tmp_path.iterdir()) == [picture] and picture.read_bytes().startswith(SVG)
+
+
+def test_a_stribeck_curve_is_one_command(tmp_path):
+    picture, table = tmp_path / "curve.png", tmp_path / "curve.parquet"
+    for out in (picture, table):
+        done = run("stribeck", "paper", "--input-speed", "100rpm:3000rpm:3:log", "--out", out)
+        assert done.exit_code == 0, done.output
+    assert picture.read_bytes().startswith(PNG)
+    assert len(pyarrow.parquet.read_table(table)) == 3
+
+
+def test_a_bifurcation_is_kept_as_a_table_and_drawn_from_it(tmp_path):
+    table, picture = tmp_path / "way.parquet", tmp_path / "way.png"
+    quick = ["--settling", 0.01, "--cycles", 4, "--tolerance", "1e-3", "--set", "input_torque=30"]
+    done = run("bifurcation", "paper", "--input-speed", "3000rpm:3100rpm:3", *quick, "--out", table)
+    assert done.exit_code == 0, done.output
+    assert len(pyarrow.parquet.read_table(table)) == 2 * 3 * 4
+    assert run("plot", table, "--out", picture).exit_code == 0
+    assert picture.read_bytes().startswith(PNG)
+
+
+@pytest.mark.parametrize(
+    ("arguments", "told"),
+    [
+        (["plot", "STUDY", "--out", "a.doc"], "--out = 'a.doc': must end in .png, .svg, .pdf"),
+        (["plot", "STUDY", "--out", "/nowhere/a.png"], "/nowhere/a.png"),
+        (["plot", "STUDY", "--y", "eficiency", "--out", "a.png"], "y = 'eficiency'"),
+        (["plot", "nosuch.parquet", "--out", "a.png"], "nosuch.parquet"),
+        (["plot", __file__, "--out", "a.png"], "test_plot_command.py"),
+        (["stribeck", "paper", "--input-speed", "1:2", "--out", "a.png"], "without a count"),
+        (["bifurcation", "paper", "--input-speed", "1:2", "--out", "a.png"], "FROM:TO:COUNT"),
+        (["bifurcation", "paper", "--phase", "1", "--out", "a.png"], "phase = 1.0"),
+        (["bifurcation", "nosuch", "--out", "a.png"], "scene = 'nosuch'"),
+        (["paper", "--pictures", "doc", "--out", "a.md"], "--pictures = 'doc'"),
+    ],
+)
+def test_what_cannot_be_ends_in_one_line(arguments, told, study, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    done = run(*(study if argument == "STUDY" else argument for argument in arguments))
+    assert done.exit_code == 2
+    assert told in last_line(done)

@@ -1,0 +1,134 @@
+"""What is drawn is what the table holds, in the engineer's units."""
+
+import itertools
+
+import numpy as np
+import pytest
+from plots.tables import study
+
+import planetary_twin_py as pt
+
+SPEEDS = tuple(pt.rpm(speed) for speed in (1000.0, 2000.0, 3000.0))
+TORQUES = (10.0, 20.0)
+MANY = tuple(pt.rpm(speed) for speed in range(1000, 9000, 1000))
+
+
+def efficiency(speed, torque=20.0, *_):
+    return 0.98 + 1e-5 * speed + 1e-4 * torque
+
+
+def drawn(axes):
+    """Values of each curve."""
+    return {line.get_label(): np.array(line.get_data()) for line in axes.get_lines()}
+
+
+def test_one_field_is_a_curve_of_the_first_measure_in_rpm_and_per_cent():
+    table = study({"input_speed": SPEEDS}, {"efficiency": efficiency, "power_loss": efficiency})
+    (axes,) = pt.plot_study(table).axes
+    ((x, y),) = drawn(axes).values()
+    assert x == pytest.approx([1000.0, 2000.0, 3000.0])
+    assert y == pytest.approx([100.0 * efficiency(speed) for speed in SPEEDS])
+    assert axes.get_xlabel() == "Speed set-point [rpm]" and axes.get_ylabel() == "Efficiency [%]"
+
+
+def test_a_second_field_is_a_curve_for_each_of_its_values():
+    table = study({"input_speed": SPEEDS, "input_torque": TORQUES}, {"efficiency": efficiency})
+    figure = pt.plot_study(table)
+    curves = drawn(figure.axes[0])
+    assert list(curves) == ["10", "20"]
+    for torque in TORQUES:
+        expected = [100.0 * efficiency(speed, torque) for speed in SPEEDS]
+        assert curves[f"{torque:g}"][1] == pytest.approx(expected)
+    (legend,) = figure.legends
+    assert legend.get_title().get_text() == "Input torque [N m]"
+
+
+def test_what_is_asked_for_is_drawn_instead():
+    fields = {"input_speed": SPEEDS, "input_torque": TORQUES}
+    rms = {"efficiency": efficiency, "sun_planet_dte_rms": lambda speed, torque: 1e-7 * torque}
+    measures = ["sun_planet_dte_rms", "efficiency"]
+    figure = pt.plot_study(study(fields, rms), x="input_torque", measures=measures)
+    first, second = figure.axes
+    assert first.get_ylabel().startswith("DTE, rms") and first.get_ylabel().endswith("[µm]")
+    assert second.get_ylabel() == "Efficiency [%]"
+    curves = drawn(first)
+    assert list(curves) == ["1000", "2000", "3000"]
+    assert curves["1000"] == pytest.approx(np.array([[10.0, 20.0], [1.0, 2.0]]))
+
+
+def test_a_third_field_is_a_panel_for_each_of_its_values():
+    fields = {"input_speed": SPEEDS, "input_torque": TORQUES, "backlash": (2e-7, 3e-7)}
+    axes = pt.plot_study(study(fields, {"efficiency": lambda s, t, b: 1e6 * b})).axes
+    assert [pane.get_title(loc="left") for pane in axes] == ["Backlash 0.2 µm", "Backlash 0.3 µm"]
+    assert axes[0].get_ylim() == axes[1].get_ylim()
+    for curve in drawn(axes[1]).values():
+        assert curve[1] == pytest.approx([30.0] * 3)
+
+
+def test_two_fields_of_many_values_are_a_map_with_a_hole_where_a_point_failed():
+    fields = {"input_speed": MANY, "input_torque": tuple(np.linspace(5.0, 60.0, 7))}
+    figure = pt.plot_study(study(fields, {"efficiency": efficiency}, failed=(24,)))
+    axes, bar = figure.axes
+    assert axes.get_xlabel() == "Speed set-point [rpm]"
+    assert axes.get_ylabel() == "Input torque [N m]"
+    assert bar.get_ylabel() == "Efficiency [%]"
+    ((x, _),) = drawn(axes).values()
+    assert len(x) == len(MANY) * 7 - 1
+    filled = axes.collections[0]
+    low, high = filled.get_clim()
+    values = [100.0 * efficiency(s, t) for s, t in itertools.product(*fields.values())]
+    assert low <= min(values) and max(values) <= high
+    assert figure.get_supxlabel() == "1 of 56 points failed and are left out"
+
+    def is_filled(speed, torque):
+        place = 30.0 / np.pi * MANY[speed], fields["input_torque"][torque]
+        return any(path.contains_point(place) for path in filled.get_paths() if len(path))
+
+    assert divmod(24, 7) == (3, 3)
+    assert not is_filled(3, 3) and is_filled(2, 2) and is_filled(5, 4)
+
+
+def test_curves_can_be_asked_for_where_a_map_would_be_drawn():
+    fields = {"input_speed": MANY, "input_torque": tuple(np.linspace(5.0, 60.0, 7))}
+    figure = pt.plot_study(study(fields, {"efficiency": efficiency}), kind="curves")
+    assert len(drawn(figure.axes[0])) == 7
+
+
+def test_scattered_points_are_a_map_too():
+    table = study({"input_speed": MANY}, {"efficiency": efficiency})
+    torques = np.random.default_rng(1).uniform(5.0, 60.0, len(MANY))
+    table = table.add_column(2, table.schema.field(1).with_name("input_torque"), [torques])
+    axes = pt.plot_study(table).axes
+    ((_, y),) = drawn(axes[0]).values()
+    assert len(axes) == 2 and y == pytest.approx(torques)
+
+
+def test_values_in_equal_ratios_have_a_logarithmic_axis():
+    viscosities = tuple(np.geomspace(0.01, 1.0, 5))
+    table = study({"lubrication.viscosity": viscosities}, {"efficiency": lambda v: 0.9})
+    (axes,) = pt.plot_study(table).axes
+    assert axes.get_xscale() == "log" and axes.get_xlabel() == "Viscosity [-]"
+
+
+@pytest.mark.parametrize(
+    ("given", "told"),
+    [
+        ({"measures": ["efficency"]}, "y = 'efficency': .*efficiency"),
+        ({"x": "input_sped"}, "x = 'input_sped': .*input_speed"),
+        ({"by": "nothing"}, "by = 'nothing'"),
+        ({"kind": "pie"}, "kind = 'pie': must be one of curves, map, stribeck"),
+        ({"kind": "map"}, "a map needs two fields"),
+        ({"kind": "stribeck"}, "sun_planet_lambda_ratio"),
+    ],
+)
+def test_what_cannot_be_drawn_is_refused_in_one_line(given, told):
+    table = study({"input_speed": SPEEDS}, {"efficiency": efficiency})
+    with pytest.raises(ValueError, match=told) as refusal:
+        pt.plot_study(table, **given)
+    assert "\n" not in str(refusal.value)
+
+
+def test_a_table_of_failures_is_refused():
+    table = study({"input_speed": SPEEDS}, {"efficiency": efficiency}, failed=(0, 1, 2))
+    with pytest.raises(ValueError, match="no point that did not fail"):
+        pt.plot_study(table)

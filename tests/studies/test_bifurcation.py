@@ -1,0 +1,116 @@
+"""Ways up and down: one motion where one is possible, two where flanks may part or stay."""
+
+import json
+import math
+
+import numpy as np
+import pytest
+
+import planetary_twin_py as pt
+from planetary_twin_py.studies.bifurcation import DOWN, UP, Holding, bifurcation
+from planetary_twin_py.studies.section import Section
+
+PAPER = pt.load_scene("paper")
+# Lightly loaded and damped, with play: near the first natural frequency the flanks may part.
+LOOSE = PAPER.replace(
+    **{
+        "input_torque": 10.0,
+        "backlash": 2e-5,
+        "mesh.damping.loss_factor": 0.006,
+        "drive.speed_limit": pt.rpm(13_000),
+    }
+)
+TWICE = pt.rpm(10_280)  # at which two motions are possible
+DTE = "sun_planet_1_dte"
+
+
+def seen(table, direction, speed):
+    """DTE of the first mesh at one speed of one way [m]."""
+    rows = zip(table["direction"], table["input_speed"], table[DTE], strict=True)
+    found = [
+        dte.as_py()
+        for way, at, dte in rows
+        if way.as_py() == direction and math.isclose(at.as_py(), speed)
+    ]
+    return np.array(found)
+
+
+def test_where_one_motion_is_possible_both_ways_find_it():
+    speeds = [pt.rpm(speed) for speed in (4000, 4050, 4100)]
+    heard = []
+    table = bifurcation(PAPER, speeds, Holding(0.3, cycles=10), heard.append)
+    assert heard == [None] * 6 and len(table) == 6 * 10
+    swing = np.ptp(pt.simulate(PAPER.replace(input_speed=speeds[1]), 0.05).dte[:, 0])
+    for speed in speeds:
+        up, down = seen(table, UP, speed), seen(table, DOWN, speed)
+        assert np.ptp(np.append(up, down)) < 5e-3 * swing
+
+
+def independent(start_speed, settling):
+    """Sections of a run of its own at TWICE, begun at another speed: by interpolation [m]."""
+    scene = LOOSE.replace(
+        input_speed=TWICE,
+        **{"drive.speed_control.start_speed": start_speed},
+    )
+    run = pt.simulate(scene, settling + 0.02, 200_000.0, tolerance=1e-4)
+    late = run.time > settling
+    cycles = scene.gearset.teeth.sun * run.angle[late, 0] / (2.0 * math.pi)
+    whole = np.arange(math.ceil(cycles[0]), math.floor(cycles[-1]))
+    return np.interp(whole, cycles, run.dte[late, 0])
+
+
+@pytest.mark.slow
+def test_where_two_motions_are_possible_each_way_keeps_its_own():
+    """Both repeat with the meshing; their sections lie 1.2 um apart."""
+    speeds = [pt.rpm(speed) for speed in (10_000, 10_070, 10_140, 10_210, 10_280, 10_380, 10_480)]
+    table = bifurcation(LOOSE, speeds, Holding(0.2, cycles=60))
+    together, parting = seen(table, UP, TWICE), seen(table, DOWN, TWICE)
+    assert together.mean() - parting.mean() > 1e-6
+    smeared = 5e-8  # by shafts that still ring
+    assert max(np.ptp(together), np.ptp(parting)) < smeared
+    assert independent(pt.rpm(10_100), 0.6) == pytest.approx(together.mean(), abs=smeared)
+    assert independent(None, 0.4) == pytest.approx(parting.mean(), abs=smeared)
+
+
+def test_the_table_says_units_and_what_it_follows_from():
+    table = bifurcation(PAPER, pt.rpm(3000) * np.array([1.0, 1.1]), Holding(0.01, cycles=2))
+    assert table.schema.field(DTE).metadata[b"unit"] == b"m"
+    assert table.schema.metadata[b"study"] == b"bifurcation"
+    assert json.loads(table.schema.metadata[b"settings"])["cycles"] == 2
+    assert pt.parse_scene(table.schema.metadata[b"scene"].decode()) == PAPER
+
+
+def test_a_way_that_fails_ends_there_and_says_why(monkeypatch):
+    real = Section.hold
+
+    def hold(self, speed, duration):
+        if speed > 320.0:
+            raise ArithmeticError("broken")
+        real(self, speed, duration)
+
+    monkeypatch.setattr(Section, "hold", hold)
+    told = []
+    table = bifurcation(PAPER, [300.0, 310.0, 330.0], Holding(0.01, cycles=2), told.append)
+    failed = [row for row in table.to_pylist() if row["failure"]]
+    where = [(row["direction"], row["input_speed"]) for row in failed]
+    assert where == [(UP, 330.0), (DOWN, 330.0)]
+    assert all(row[DTE] is None for row in failed) and len(table) == 4 + 2
+    assert "input_speed = 330: broken" in told
+
+
+@pytest.mark.parametrize(
+    ("scene", "speeds", "holding", "told"),
+    [
+        (PAPER, [100.0], Holding(), "input_speed = 100 rad/s: must be at least two"),
+        (PAPER, [-100.0, 100.0], Holding(), "all above or all below 0"),
+        (PAPER, [100.0, 2000.0], Holding(), "input_speed = 2000.0: must be a number within"),
+        (PAPER, [100.0, 200.0], Holding(settling=0.0), "settling = 0.0 s"),
+        (PAPER, [100.0, 200.0], Holding(cycles=0), "cycles = 0"),
+        (PAPER, [100.0, 200.0], Holding(phase=1.0), "phase = 1.0"),
+        (PAPER, [100.0, 200.0], Holding(tolerance=1.0), "tolerance = 1.0"),
+    ],
+)
+def test_what_cannot_be_is_refused_in_one_line(scene, speeds, holding, told):
+    with pytest.raises(ValueError, match=told) as refusal:
+        bifurcation(scene, speeds, holding)
+    assert "\n" not in str(refusal.value)
