@@ -8,7 +8,7 @@ from typing import Any
 
 import rclpy
 from lifecycle_msgs.msg import Transition
-from lifecycle_msgs.srv import ChangeState
+from lifecycle_msgs.srv import ChangeState, GetState
 from rcl_interfaces.msg import Parameter as ParameterMsg
 from rcl_interfaces.msg import ParameterType, ParameterValue
 from rcl_interfaces.srv import GetParameters, SetParameters, SetParametersAtomically
@@ -19,6 +19,12 @@ from rclpy.signals import SignalHandlerOptions
 TWIN = "/planetary_twin"
 LATCHED = QoSProfile(depth=100, durability=DurabilityPolicy.TRANSIENT_LOCAL)
 
+_GOALS = {
+    "configure": "inactive",
+    "activate": "active",
+    "deactivate": "inactive",
+    "cleanup": "unconfigured",
+}
 TRANSITION = 30.0  # [s] that configuring a node may take where others keep the machine busy
 
 
@@ -82,8 +88,17 @@ class Peer:
     def change_state(self, node: str, transition: str) -> None:
         """Take a lifecycle node through a transition."""
         request = ChangeState.Request(transition=Transition(label=transition))
-        service = f"{node}/change_state"
-        self.until(lambda: self.call(ChangeState, service, request, TRANSITION).success, 120.0)
+
+        def there() -> bool:
+            answer = self.call(ChangeState, f"{node}/change_state", request, TRANSITION)
+            return answer.success or self.state(node) == _GOALS[transition]  # an answer got lost
+
+        self.until(there, 120.0)
+
+    def state(self, node: str) -> str:
+        """The state a lifecycle node is in."""
+        answer = self.call(GetState, f"{node}/get_state", GetState.Request())
+        return str(answer.current_state.label)
 
     def get(self, node: str, name: str) -> float:
         """A parameter that must be a DOUBLE."""
