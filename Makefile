@@ -17,7 +17,7 @@ ifneq ($(AMENT_PREFIX_PATH)$(_ROS_WHEELS_BOOTSTRAP_COMPLETE),)
 unexport LD_LIBRARY_PATH _ROS_WHEELS_BOOTSTRAP_COMPLETE
 endif
 
-.PHONY: setup run test suite test-fast soak bench view picture studies lint lock clean
+.PHONY: setup run test suite test-fast soak bench view picture sample studies lint lock clean
 
 setup: $(STAMPS)/interfaces $(STAMPS)/kernels $(STAMPS)/nodes
 
@@ -46,11 +46,16 @@ bench: setup
 view: setup
 	@$(BIN)/planetary-twin view $(or $(FILE),$(error FILE is missing: make view FILE=recordings/NAME)) $(ARGS)
 
-# The picture of the README, from a recording made for it.
+# The pictures of the README: a recording made for it, and the last measurement.
 picture: setup
 	rm -rf recordings/picture
 	$(BIN)/planetary-twin run --record picture
-	$(BIN)/planetary-twin view recordings/picture --screenshot docs/recording.png --at 8.005
+	$(BIN)/planetary-twin view recordings/picture --screenshot docs/recording.png --at 5.3
+	$(BIN)/python benchmarks/glance.py docs/speed-against-error.png
+
+# The recording that is kept in git, for trying things on.
+sample: setup
+	tools/make_sample $(VENV)
 
 # The pictures of docs/studies.md.
 studies: setup

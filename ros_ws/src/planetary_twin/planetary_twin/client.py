@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import contextlib
 import threading
 import time
 from collections.abc import Callable
@@ -12,8 +11,10 @@ from typing import Any, Self
 import rclpy
 from rclpy.client import Client as Service
 from rclpy.executors import ExternalShutdownException, SingleThreadedExecutor
+from rclpy.impl.implementation_singleton import rclpy_implementation
 from rclpy.signals import SignalHandlerOptions
 
+RCLError = rclpy_implementation.RCLError
 PATIENCE = 2.0  # [s] the answer to a first call after discovery may get lost: ask again
 _POLL = 0.02  # [s]
 
@@ -67,5 +68,10 @@ class Client:
         return None
 
     def _spin(self) -> None:
-        with contextlib.suppress(ExternalShutdownException):
+        try:
             self._executor.spin()
+        except ExternalShutdownException:
+            pass
+        except RCLError:
+            if self._context.ok():  # else the shutdown fell between two waits
+                raise
