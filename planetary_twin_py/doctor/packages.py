@@ -16,6 +16,7 @@ PACKAGE = "planetary_twin_py"
 EXTRAS = {
     "recording": "read, verify and recover recordings",
     "view": "look at recordings",
+    "analysis": "export tables",
     "plots": "draw",
     "studies": "sweep",
     "bench": "compare with other solvers",
