@@ -72,8 +72,9 @@ def test_what_is_too_much_is_given_up_in_order_told_and_simulated_again(
     assert int(told["tolerance_changes"]) >= 1 and int(told["sample_rate_changes"]) >= 1
     assert told["waveform"] == "thinned"
     assert int(told["overruns"]) > 0
-    assert reports[0].status[0].level in (DiagnosticStatus.WARN, DiagnosticStatus.ERROR)
-    assert "behind: real time x " in reports[0].status[0].message
+    # The first report may come before the first interval is over.
+    late = [s for report in reports for s in report.status if "behind: real time x " in s.message]
+    assert late and {s.level for s in late} <= {DiagnosticStatus.WARN, DiagnosticStatus.ERROR}
     assert log.count("waveform at") == len(settings) - 1
     assert 1 <= log.count("behind: ") <= len(reports)
 

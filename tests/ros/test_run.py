@@ -18,7 +18,7 @@ from planetary_twin_py.scene import load_scene, parse_scene
 
 from .peer import TWIN
 from .processes import working_in
-from .recordings import counts
+from .recordings import counts, torn_states
 
 COMMAND = (
     "-c", "import typer; from planetary_twin.commands import run; app = typer.Typer(); "
@@ -83,7 +83,7 @@ def test_ctrl_c_leaves_a_readable_recording_and_the_table(
     assert process.returncode == 0, errors
     assert "Traceback" not in errors
     assert "published" in output
-    assert counts(tmp_path / "recordings/bag")[f"{TWIN}/gearbox_state"] > 0
+    assert counts(bag)[f"{TWIN}/gearbox_state"] > 0
     assert working_in(tmp_path) == []
 
 
@@ -124,13 +124,18 @@ def test_kill_minus_nine_of_the_run_takes_its_nodes_along(
 ) -> None:
     process = run("--duration", "600", "--record", "bag")
     _line(process, "rpm")
+    bag = tmp_path / "recordings/bag"
+    deadline = time.monotonic() + 60.0
+    while not torn_states(bag / "bag_0.mcap"):  # until the first flush
+        assert time.monotonic() < deadline
+        time.sleep(0.1)
     process.kill()
     process.communicate(timeout=60)
     deadline = time.monotonic() + 20.0
     while working_in(tmp_path):
         assert time.monotonic() < deadline
         time.sleep(0.05)
-    assert counts(tmp_path / "recordings/bag")[f"{TWIN}/gearbox_state"] > 0
+    assert counts(bag)[f"{TWIN}/gearbox_state"] > 0
 
 
 @pytest.mark.parametrize(
