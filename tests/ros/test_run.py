@@ -83,7 +83,7 @@ def test_ctrl_c_leaves_a_readable_recording_and_the_table(
     assert process.returncode == 0, errors
     assert "Traceback" not in errors
     assert "published" in output
-    assert counts(bag)[f"{TWIN}/gearbox_state"] > 0
+    assert counts(tmp_path / "recordings/bag")[f"{TWIN}/gearbox_state"] > 0
     assert working_in(tmp_path) == []
 
 
