@@ -38,9 +38,7 @@ DYNAMICS = Box(
 )
 MODAL = Box("modal/", "natural modes", 680, 196, 164, MODEL)
 STATIC = Box("quasi_static/", "rigid motion, equilibrium", 16, 286, 190, RUN)
-MARCH = Box(
-    "integrators/", "one step: collocation, rosenbrock; march: events", 220, 286, 420, RUN
-)
+MARCH = Box("integrators/", "one step: collocation, rosenbrock; march: events", 220, 286, 420, RUN)
 TWIN = Box("twin.py", "stepped live", 220, 376, 200, RUN)
 WHOLE = Box("simulation.py  batch.py", "a whole run; many", 440, 376, 200, RUN)
 NODES = Box("ros_ws/src/planetary_twin", "paces, publishes, records, replays", 16, 476, 260, ROS)

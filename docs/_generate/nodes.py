@@ -2,8 +2,6 @@
 
 import os
 from collections.abc import Iterator
-from pathlib import Path
-from tempfile import TemporaryDirectory
 
 # The nodes are asked in this process: nobody else is to hear of them.
 os.environ["ROS_AUTOMATIC_DISCOVERY_RANGE"] = "OFF"
@@ -22,11 +20,15 @@ _TYPES = {
     if name.startswith("PARAMETER_")
 }
 _OF_ROS = {"use_sim_time", "start_type_description_service"}
+_COLUMNS = (
+    "\n| parameter | type | default | range | changes | meaning |\n|---|---|---|---|---|---|\n"
+)
 _HEAD = """# Nodes
 
 Made from the nodes, with the scene `paper`. Names are below the namespace `/planetary_twin` unless
 they begin with a slash. What topics and services are for, and how they act together, is told in
-[topics and services](topics-and-services.md). The parameter and life cycle services that every node has are left out.
+[topics and services](topics-and-services.md). The parameter and life
+cycle services that every node has are left out.
 """
 
 
@@ -53,33 +55,7 @@ def _section(name: str, kind: type[Node]) -> str:
 
 
 def _table(title: str, second: str, rows: Iterator[tuple[str, str]]) -> str:
-    lines = [f"| `{name}` | {kind} |\n" for name, kind in sorted(rows)]
-    return f"\n| {title} | {second} |\n|---|---|\n" + "".join(lines) if lines else ""
-
-
-def _topics(node: Node) -> Iterator[tuple[str, str]]:
-    for publisher in node.publishers:
-        if not publisher.topic_name.endswith(("/transition_event", "rosout", "parameter_events")):
-            yield _short(publisher.topic_name), _type(publisher.msg_type)
-
-
-def _services(node: Node) -> Iterator[tuple[str, str]]:
-    for service in node.services:
-        kind = _type(service.srv_type)
-        if not kind.startswith(("rcl_interfaces/", "lifecycle_msgs/", "type_description_")):
-            yield _short(service.service_name), kind
-
-
-def _short(name: str) -> str:
-    return name.removeprefix("/planetary_twin/")
-
-
-def _type(kind: type) -> str:
-    return f"{kind.__module__.split('.')[0]}/{kind.__name__}"
-
-
-def _parameters(node: Node) -> str:
-    lines = ["\n| parameter | type | default | range | changes | meaning |\n|---|---|---|---|---|---|\n"]
+    lines = [_COLUMNS]
     for name, parameter in sorted(node.get_parameters_by_prefix("").items()):
         if not name.startswith(("qos_overrides", "gearset.")) and name not in _OF_ROS:
             lines.append(_parameter(node.describe_parameter(name), parameter.value))

@@ -122,7 +122,8 @@ def check_yaml(block):
     """A scene, or a part of one, is a scene; parameters of nodes are YAML at least."""
     told = yaml.safe_load(block.text)
     if set(told) <= {"base", *pt.Scene.model_fields}:
-        pt.parse_scene(block.text if {"base", "gearset"} & set(told) else "base: paper\n" + block.text)
+        whole = "base" in told or "gearset" in told
+        pt.parse_scene(block.text if whole else "base: paper\n" + block.text)
 
 
 def end(process):
