@@ -20,9 +20,7 @@ _TYPES = {
     if name.startswith("PARAMETER_")
 }
 _OF_ROS = {"use_sim_time", "start_type_description_service"}
-_COLUMNS = (
-    "\n| parameter | type | default | range | changes | meaning |\n|---|---|---|---|---|---|\n"
-)
+_TITLES = "parameter", "type", "default", "range", "changes", "meaning"
 _HEAD = """# Nodes
 
 Made from the nodes, with the scene `paper`. Names are below the namespace `/planetary_twin` unless
@@ -55,7 +53,33 @@ def _section(name: str, kind: type[Node]) -> str:
 
 
 def _table(title: str, second: str, rows: Iterator[tuple[str, str]]) -> str:
-    lines = [_COLUMNS]
+    lines = [f"| `{name}` | {kind} |\n" for name, kind in sorted(rows)]
+    return f"\n| {title} | {second} |\n|---|---|\n" + "".join(lines) if lines else ""
+
+
+def _topics(node: Node) -> Iterator[tuple[str, str]]:
+    for publisher in node.publishers:
+        if not publisher.topic_name.endswith(("/transition_event", "rosout", "parameter_events")):
+            yield _short(publisher.topic_name), _type(publisher.msg_type)
+
+
+def _services(node: Node) -> Iterator[tuple[str, str]]:
+    for service in node.services:
+        kind = _type(service.srv_type)
+        if not kind.startswith(("rcl_interfaces/", "lifecycle_msgs/", "type_description_")):
+            yield _short(service.service_name), kind
+
+
+def _short(name: str) -> str:
+    return name.removeprefix("/planetary_twin/")
+
+
+def _type(kind: type) -> str:
+    return f"{kind.__module__.split('.')[0]}/{kind.__name__}"
+
+
+def _parameters(node: Node) -> str:
+    lines = [f"\n| {' | '.join(_TITLES)} |\n", "|---" * len(_TITLES), "|\n"]
     for name, parameter in sorted(node.get_parameters_by_prefix("").items()):
         if not name.startswith(("qos_overrides", "gearset.")) and name not in _OF_ROS:
             lines.append(_parameter(node.describe_parameter(name), parameter.value))
