@@ -17,7 +17,7 @@ ifneq ($(AMENT_PREFIX_PATH)$(_ROS_WHEELS_BOOTSTRAP_COMPLETE),)
 unexport LD_LIBRARY_PATH _ROS_WHEELS_BOOTSTRAP_COMPLETE
 endif
 
-.PHONY: setup run test suite test-fast soak bench view picture sample studies lint lock clean
+.PHONY: setup run test suite test-fast soak bench view picture sample studies docs lint lock clean
 
 setup: $(STAMPS)/interfaces $(STAMPS)/kernels $(STAMPS)/nodes
 
@@ -68,12 +68,16 @@ studies: setup
 		--set input_torque=10 --set backlash=20um --set mesh.damping.loss_factor=0.006 \
 		--set drive.speed_limit=14000rpm --cycles 40 --tolerance 1e-3 --out docs/bifurcation.png
 
+# The site; a warning, so a broken link too, is an error.
+docs: setup
+	$(BIN)/sphinx-build --quiet --fail-on-warning --keep-going docs docs/_build/site
+
 lock: setup
 	$(BIN)/uv pip compile --quiet --universal --python-version 3.11 --generate-hashes --all-extras \
 		--no-header --no-annotate --upgrade pyproject.toml --output-file requirements.lock
 
 clean:
-	rm -rf $(VENV) build *.egg-info ros_ws/build ros_ws/install ros_ws/log
+	rm -rf $(VENV) build *.egg-info ros_ws/build ros_ws/install ros_ws/log docs/_build
 
 $(STAMPS)/dependencies: requirements.lock
 	$(eval FOUND := $(shell PYTHON='$(PYTHON)' tools/check_machine 2>&1))

@@ -1,0 +1,70 @@
+"""The fenced blocks of a page of the documentation, and what is said to be done with them.
+
+The first word of an info string is the language, the others say how a block is tried:
+`file=NAME` writes it there, `background` starts its commands and ends them after the page,
+`not-run=REASON` leaves it, for one of `REASONS`.
+"""
+
+import shlex
+from dataclasses import dataclass
+from pathlib import Path
+
+from markdown_it import MarkdownIt
+
+ROOT = Path(__file__).parents[2]
+LANGUAGES = {"python", "console", "yaml", "diff", "text"}
+REASONS = {
+    "ros2": "needs the command ros2, which is not to be had from a package index",
+    "desktop": "needs a program with windows: RViz, PlotJuggler, Foxglove, Rerun, a browser",
+    "set-up": "sets up, builds or tests the project itself, which tests/setup and CI do",
+    "cluster": "needs machines of a cluster",
+    "minutes": "takes minutes",
+    "machine": "measures the machine, which takes it for itself",
+}
+
+
+@dataclass(frozen=True)
+class Block:
+    """A fenced block: where it stands, what it is, what it holds."""
+
+    page: Path
+    line: int
+    language: str
+    words: tuple[str, ...]
+    text: str
+
+    def __str__(self) -> str:
+        return f"{self.page.relative_to(ROOT)}:{self.line}"
+
+    def word(self, name: str) -> str | None:
+        """What `name=...` in the info string says."""
+        values = dict(word.split("=", 1) for word in self.words if "=" in word)
+        return values.get(name)
+
+    @property
+    def commands(self) -> list[str]:
+        """Lines after a prompt, with the lines they go on in; the others are output."""
+        lines = self.text.replace("\\\n", " ").splitlines()
+        return [line[2:] for line in lines if line.startswith("$ ")]
+
+
+def pages() -> list[Path]:
+    """Every page that is written by hand."""
+    folder = ROOT / "docs"
+    parts = (folder, folder / "howto")
+    return [ROOT / "README.md", *(page for part in parts for page in sorted(part.glob("*.md")))]
+
+
+def blocks(page: Path) -> list[Block]:
+    """The fenced blocks of a page, in order, without the directives of the site."""
+    tokens = MarkdownIt().parse(page.read_text())
+    return [
+        Block(page, token.map[0] + 1, *_said(token.info), token.content)
+        for token in tokens
+        if token.type == "fence" and not token.info.startswith("{")
+    ]
+
+
+def _said(info: str) -> tuple[str, tuple[str, ...]]:
+    language, *words = shlex.split(info) or [""]
+    return language, tuple(words)

@@ -1,0 +1,138 @@
+"""Every block of the documentation does what a reader would have it do.
+
+A page is read from top to bottom in a folder of its own, with a small recording as
+`recordings/NAME`: Python in one namespace, commands in a shell, files written as they are named.
+"""
+
+import os
+import shutil
+import signal
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+import yaml
+from docs.blocks import LANGUAGES, REASONS, ROOT, Block, blocks, pages
+
+import planetary_twin_py as pt
+
+PAGES = pages()
+RECORDED = 2.0  # [s] of recordings/NAME
+PATIENCE = 120.0  # [s] for a command
+ENDS = 30.0  # [s] for what ran in the background
+
+pytestmark = pytest.mark.slow
+
+
+def name(page):
+    return str(page.relative_to(ROOT))
+
+
+def changes_code(page):
+    return any(block.language == "diff" for block in blocks(page))
+
+
+@pytest.fixture(scope="session")
+def environment():
+    """That of a reader who has activated .venv, on a machine without a display."""
+    outside = {key: value for key, value in os.environ.items() if key != "DISPLAY"}
+    path = f"{Path(sys.executable).parent}:{os.environ['PATH']}"
+    return outside | {"PATH": path, "MPLBACKEND": "Agg", "COLUMNS": "100"}
+
+
+@pytest.fixture(scope="session")
+def recording(tmp_path_factory, environment):
+    folder = tmp_path_factory.mktemp("recorded")
+    command = f"planetary-twin simulate paper --duration {RECORDED} --out NAME"
+    subprocess.run(command, shell=True, cwd=folder, env=environment, check=True, timeout=PATIENCE)
+    return folder / "NAME"
+
+
+@pytest.mark.parametrize("page", PAGES, ids=name)
+def test_every_block_says_what_it_is_and_why_it_is_not_run(page):
+    for block in blocks(page):
+        reason = block.word("not-run")
+        assert reason is None or reason in REASONS, f"{block}: {reason}"
+        if page.name == "README.md":  # its plain blocks are as GitHub shows them
+            continue
+        assert block.language in LANGUAGES, f"{block}: {block.language!r}"
+        assert block.language != "console" or block.commands, f"{block}: no line begins with '$ '"
+
+
+@pytest.mark.parametrize("page", [page for page in PAGES if not changes_code(page)], ids=name)
+def test_page(page, tmp_path, recording, environment, monkeypatch):
+    shutil.copytree(recording, tmp_path / "recordings" / "NAME")
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setenv("MPLBACKEND", "Agg")
+    behind, namespace = [], {"__name__": "__main__"}
+    try:
+        for block in tried(page):
+            try_block(block, tmp_path, environment, namespace, behind)
+    finally:
+        left = [end(process) for process in behind]
+    assert not any(left), left
+
+
+def test_pages_that_change_the_package(tmp_path, environment):
+    """All in one copy of it: each has its changes made before any runs, to compile once."""
+    source = ROOT / "planetary_twin_py"
+    ignored = shutil.ignore_patterns("__pycache__")
+    shutil.copytree(source, tmp_path / "planetary_twin_py", ignore=ignored)
+    here = {"PYTHONPATH": str(tmp_path), "XDG_CACHE_HOME": str(tmp_path / "cache")}
+    told = [block for page in PAGES if changes_code(page) for block in tried(page)]
+    assert len({block.page for block in told}) > 1
+    for block in sorted(told, key=lambda block: not makes_a_change(block)):
+        try_block(block, tmp_path, environment | here, {}, [])
+
+
+def tried(page):
+    return [block for block in blocks(page) if block.word("not-run") is None]
+
+
+def makes_a_change(block):
+    return block.word("file") is not None or any("git apply" in line for line in block.commands)
+
+
+def try_block(block: Block, folder, environment, namespace, behind):
+    if block.word("file"):
+        (folder / block.word("file")).write_text(block.text)
+    elif block.language == "python":
+        exec(compile("\n" * block.line + block.text, str(block), "exec"), namespace)
+    if block.language == "yaml":
+        check_yaml(block)
+    for command in block.commands if block.language == "console" else ():
+        if "background" in block.words:
+            log = (folder / f"background_{len(behind)}.log").open("w")
+            behind.append(
+                subprocess.Popen(
+                    f"exec {command}", shell=True, cwd=folder, env=environment,
+                    stdout=log, stderr=subprocess.STDOUT,
+                )
+            )  # fmt: skip
+            continue
+        done = subprocess.run(
+            command, shell=True, cwd=folder, env=environment, capture_output=True, text=True,
+            timeout=PATIENCE,
+        )  # fmt: skip
+        assert done.returncode == 0, f"{block}: {command}\n{done.stdout}{done.stderr}"
+
+
+def check_yaml(block):
+    """A scene, or a part of one, is a scene; parameters of nodes are YAML at least."""
+    told = yaml.safe_load(block.text)
+    if set(told) <= {"base", *pt.Scene.model_fields}:
+        whole = "base" in told or "gearset" in told
+        pt.parse_scene(block.text if whole else "base: paper\n" + block.text)
+
+
+def end(process):
+    """Ctrl-C; what the process then answers."""
+    if process.poll() is None:
+        process.send_signal(signal.SIGINT)
+    return process.wait(ENDS)
+
+
+@pytest.mark.parametrize("reason", REASONS)
+def test_every_reason_is_in_use(reason):
+    assert any(block.word("not-run") == reason for page in PAGES for block in blocks(page))

@@ -1,0 +1,62 @@
+"""The site is built without a warning: no broken link, no missing picture, no page left over."""
+
+import re
+import runpy
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+import planetary_twin_py as pt
+
+ROOT = Path(__file__).parents[2]
+
+
+@pytest.mark.slow
+def test_site_is_built_without_a_warning(tmp_path):
+    build = [Path(sys.executable).with_name("sphinx-build"), "--quiet", "--fail-on-warning"]
+    done = subprocess.run(
+        [*build, "--keep-going", "-d", tmp_path / "trees", ROOT / "docs", tmp_path / "site"],
+        capture_output=True,
+        text=True,
+        timeout=200,
+    )
+    assert done.returncode == 0, done.stdout + done.stderr
+    assert (tmp_path / "site/index.html").exists()
+
+
+@pytest.mark.slow
+def test_faults_fail_the_build_and_are_told(tmp_path):
+    pages = tmp_path / "docs"
+    pages.mkdir()
+    settings = (ROOT / "docs/conf.py").read_text().split("def read_sections(")[0]
+    (pages / "conf.py").write_text(settings)
+    (pages / "index.md").write_text("# Index\n\n```{toctree}\nmodel\n```\n")
+    links = "[a](nowhere.md) [b](model.md#no-such-heading) ![c](nowhere.png)"
+    (pages / "model.md").write_text(f"# Model\n\n{links}\n")
+    (pages / "orphan.md").write_text("# Orphan\n")
+    program = Path(sys.executable).with_name("sphinx-build")
+    build = [program, "--quiet", "--fail-on-warning", "--keep-going", pages, tmp_path / "site"]
+    done = subprocess.run(build, capture_output=True, text=True, timeout=100)
+    assert done.returncode != 0
+    for fault in ("nowhere.md", "no-such-heading", "nowhere.png", "orphan.md"):
+        assert fault in done.stderr, done.stderr
+
+
+def test_reference_names_every_public_object():
+    told = (ROOT / "docs/reference/python.md").read_text()
+    named = ["TUNABLES", *re.findall(r"^\.\. auto\w+:: (\w+)$", told, re.MULTILINE)]
+    assert sorted(named) == sorted(pt.__all__)
+
+
+def test_picture_of_the_architecture_is_the_one_that_is_drawn():
+    drawn = runpy.run_path(str(ROOT / "docs/_generate/architecture.py"))["picture"]()
+    assert (ROOT / "docs/architecture.svg").read_text() == drawn
+    assert all((ROOT / "planetary_twin_py" / folder).exists() for folder in folders(drawn))
+
+
+def folders(drawn):
+    """What the picture names of the package."""
+    titles = re.findall(r'font-weight="bold">([^<]*)<', drawn)
+    return [name for title in titles for name in title.split() if not name.startswith("ros_ws")]
