@@ -8,18 +8,24 @@ from typing import NoReturn
 import typer
 
 
-def fail(message: object) -> NoReturn:
+def fail(message: object, code: int = 2) -> NoReturn:
     """Print `message` as one line and end the command."""
-    typer.secho(f"planetary-twin: {message}", fg="red", err=True)
-    raise typer.Exit(2)
+    _say(f"planetary-twin: {message}", "red")
+    raise typer.Exit(code)
 
 
 def remark(message: str) -> None:
     """Print a line that the user should know but that ends nothing."""
-    typer.secho(f"planetary-twin: {message}", fg="yellow", err=True)
+    _say(f"planetary-twin: {message}", "yellow")
 
 
 def need(extra: str, *modules: str) -> None:
     """End the command where the `extra` that brings `modules` is not installed."""
     if any(find_spec(module) is None for module in modules):
         fail(f"this needs more packages: pip install 'planetary_twin_py[{extra}]'")
+
+
+def _say(line: str, colour: str) -> None:
+    from rich.console import Console  # which knows where colours are not wanted
+
+    Console(stderr=True).print(line, style=colour, markup=False, highlight=False, soft_wrap=True)

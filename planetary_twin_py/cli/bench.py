@@ -2,22 +2,20 @@
 
 from __future__ import annotations
 
-import json
 import math
 import os
-import sys
 from pathlib import Path
 from typing import Annotated
 
 import typer
 
+from ._arguments import JsonOption
 from ._fail import fail, need
+from ._figures import console_beside, put_figures
 
 
 def bench(
-    json_: Annotated[
-        str | None, typer.Option("--json", metavar="FILE", help="Write figures; - prints them.")
-    ] = None,
+    json_: JsonOption = None,
     markdown: Annotated[
         Path | None, typer.Option(help="Write the table as a page of the documentation.")
     ] = None,
@@ -33,12 +31,14 @@ def bench(
         typer.Option("--peers", help="Measure off-the-shelf solvers, too (a quarter of an hour)."),
     ] = False,
 ) -> None:
-    """Measure speed against error, beside a converged reference by SciPy's DOP853."""
+    """Measure speed against error, beside a converged reference by SciPy's DOP853.
+
+    Example: planetary-twin bench --plot speed.png --json figures.json
+    """
     if peers:
         need("bench", "CyRK", "sksundae")
     if plot is not None:
         need("plots", "matplotlib")
-    from rich.console import Console
 
     from ..benchmark.batch import batch_markdown, batch_table, measure_batch
     from ..benchmark.cases import CASES
@@ -50,7 +50,7 @@ def bench(
     from ..benchmark.steady import measure_steady, steady_markdown, steady_table
     from ..benchmark.table import measure, nothing
 
-    console = Console(stderr=json_ == "-")
+    console = console_beside(json_)
     with console.status("starting") as status:
         beside = peer_rows(status.update) if peers else nothing
         rows = measure(CASES, progress=status.update, beside=beside)
@@ -78,5 +78,4 @@ def bench(
     if json_ is not None:
         minutes = [row for row in steady if not math.isnan(row.repeats_from)]
         figures = [row.figures() for row in rows] + [row.figures() for row in minutes]
-        text = json.dumps(figures, indent=2) + "\n"
-        sys.stdout.write(text) if json_ == "-" else Path(json_).write_text(text, "utf-8")
+        put_figures(figures, json_)

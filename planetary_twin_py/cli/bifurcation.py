@@ -7,13 +7,14 @@ from typing import Annotated
 
 import typer
 
+from ._arguments import SceneArgument, SetOption, ToleranceOption
 from ._fail import fail, remark
 from ._settings import settings
 from ._study import PICTURES, TABLES, check_suffix, progress, put
 
 
 def bifurcation(
-    scene: Annotated[str, typer.Argument(help="Packaged scene, or path of a YAML file.")],
+    scene: SceneArgument,
     out: Annotated[Path, typer.Option(help="Table (.parquet, .csv) or picture (.png, .svg, .pdf)")],
     input_speed: Annotated[
         str, typer.Option(metavar="FROM:TO:COUNT", help="Speeds that are held.")
@@ -23,10 +24,8 @@ def bifurcation(
     ] = 0.2,
     cycles: Annotated[int, typer.Option(help="Mesh cycles that are looked at.")] = 60,
     phase: Annotated[float, typer.Option(help="Place in the mesh cycle, 0 to 1.")] = 0.0,
-    tolerance: Annotated[float, typer.Option(help="Relative local error of a step.")] = 1e-4,
-    set_: Annotated[
-        list[str] | None, typer.Option("--set", metavar="NAME=VALUE", help="Change a field.")
-    ] = None,
+    tolerance: ToleranceOption = 1e-4,
+    set_: SetOption = None,
 ) -> None:
     """Poincare sections of the DTE of SCENE against speed, each begun with the motion before it.
 

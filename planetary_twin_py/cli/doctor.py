@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-import json
-import sys
 from collections.abc import Iterator
 from importlib.metadata import entry_points
-from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING
 
 import typer
+
+from ._arguments import JsonOption
+from ._figures import console_beside, put_figures
 
 if TYPE_CHECKING:
     from ..doctor.finding import Finding
@@ -19,19 +19,18 @@ _COLOURS = {"sound": "green", "absent": "yellow", "broken": "red"}
 
 
 def doctor(
-    json_: Annotated[
-        str | None, typer.Option("--json", metavar="FILE", help="Write findings; - prints them.")
-    ] = None,
+    json_: JsonOption = None,
 ) -> None:
     """Check the installation part by part, and say how to mend what is missing.
 
     Exit code 1: a part is broken. Parts that are absent can be done without.
+
+    Example: planetary-twin doctor --json findings.json
     """
-    from rich.console import Console
     from rich.table import Table
     from rich.text import Text
 
-    console = Console(stderr=json_ == "-")
+    console = console_beside(json_)
     with console.status("looking"):
         found = list(_findings())
     table = Table(box=None, pad_edge=False)
@@ -42,9 +41,7 @@ def doctor(
         state = Text(finding.state, colour)
         table.add_row(finding.part, state, Text(finding.told), Text(finding.mend))
     console.print(table)
-    if json_ is not None:
-        text = json.dumps([finding._asdict() for finding in found], indent=2) + "\n"
-        sys.stdout.write(text) if json_ == "-" else Path(json_).write_text(text, "utf-8")
+    put_figures([finding._asdict() for finding in found], json_)
     if any(finding.state == "broken" for finding in found):
         raise typer.Exit(1)
 

@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-import json
-import sys
-from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
+from ._arguments import JsonOption, SceneArgument
 from ._fail import fail
+from ._figures import console_beside, put_figures
+from ._interrupt import interruptible
 
 if TYPE_CHECKING:
     from rich.table import Table
@@ -19,33 +19,33 @@ if TYPE_CHECKING:
 
 
 def explain(
-    scene: Annotated[str, typer.Argument(help="Packaged scene, or path of a YAML file.")] = "paper",
+    scene: SceneArgument = "paper",
     duration: Annotated[float, typer.Option(help="Simulated seconds of every run.")] = 0.1,
-    json_: Annotated[
-        str | None, typer.Option("--json", metavar="FILE", help="Write figures; - prints them.")
-    ] = None,
+    json_: JsonOption = None,
 ) -> None:
-    """Tell what SCENE models, and measure what leaving out each term would change."""
-    from rich.console import Console
+    """Tell what SCENE models, and measure what leaving out each term would change.
+
+    Example: planetary-twin explain cracked_tooth --duration 0.2
+    """
 
     from ..explanation.measure import explain as measure
     from ..scene import load_scene
 
-    console = Console(stderr=json_ == "-")
+    console = console_beside(json_)
     try:
         loaded = load_scene(scene)
         with console.status("running the scene") as status:
-            found = measure(
-                loaded, duration, lambda name: status.update(f"running it without {name}")
+            found = interruptible(
+                lambda: measure(
+                    loaded, duration, lambda name: status.update(f"running it without {name}")
+                )
             )
     except ValueError as error:
         fail(error)
     console.print(f"[bold]{loaded.name}[/bold]: {loaded.description}\n")
     console.print(_table(loaded, found))
     console.print(_limits(loaded))
-    if json_ is not None:
-        text = json.dumps(_as_figures(found), indent=2) + "\n"
-        sys.stdout.write(text) if json_ == "-" else Path(json_).write_text(text, "utf-8")
+    put_figures(_as_figures(found), json_)
 
 
 def _table(scene: Scene, found: Explanation) -> Table:

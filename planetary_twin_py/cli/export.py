@@ -7,11 +7,12 @@ from typing import Annotated
 
 import typer
 
-from ._fail import fail, remark
+from ._arguments import FileArgument, NamespaceOption
+from ._fail import fail, need, remark
 
 
 def export(
-    file: Annotated[Path, typer.Argument(help="Recording: an .mcap file or the folder of one.")],
+    file: FileArgument,
     out: Annotated[Path, typer.Option(help="Folder; or a file, for one topic: gears.parquet.")],
     format_: Annotated[
         str | None, typer.Option("--format", help="parquet, csv or npz; or as --out ends.")
@@ -19,18 +20,13 @@ def export(
     topics: Annotated[
         str, typer.Option(help="gearbox_state,operating_point,mesh_waveform; all unless given.")
     ] = "",
-    namespace: Annotated[
-        str | None, typer.Option(help="Which gearbox, if the recording holds several.")
-    ] = None,
+    namespace: NamespaceOption = None,
 ) -> None:
     """Write FILE as tables: a row per message, of the waveform a row per sample. SI units.
 
     Example: planetary-twin export recordings/NAME --out tables --format csv
     """
-    try:
-        import pyarrow  # noqa: F401
-    except ImportError:
-        fail("the tables are not installed: pip install 'planetary_twin_py[analysis]'")
+    need("analysis", "mcap", "rosbags", "pyarrow")
     from rich.console import Console
     from rich.progress import Progress
 

@@ -2,15 +2,14 @@
 
 from __future__ import annotations
 
-import json
 import math
-import sys
-from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
+from ._arguments import FileArgument, JsonOption, NamespaceOption
 from ._fail import fail, need, remark
+from ._figures import console_beside, put_figures
 from ._settings import settings
 
 if TYPE_CHECKING:
@@ -20,7 +19,7 @@ if TYPE_CHECKING:
 
 
 def fit(
-    file: Annotated[Path, typer.Argument(help="Recording: an .mcap file or the folder of one.")],
+    file: FileArgument,
     free: Annotated[
         str,
         typer.Option(
@@ -40,12 +39,8 @@ def fit(
         list[str] | None,
         typer.Option(metavar="NAME=VALUE", help="Standard deviation of a reading, in SI."),
     ] = None,
-    namespace: Annotated[
-        str | None, typer.Option(help="Which gearbox, if the recording holds several.")
-    ] = None,
-    json_: Annotated[
-        str | None, typer.Option("--json", metavar="FILE", help="Write figures; - prints them.")
-    ] = None,
+    namespace: NamespaceOption = None,
+    json_: JsonOption = None,
 ) -> None:
     """Estimate fields of the scene of FILE from what was measured, and say what it cannot tell.
 
@@ -55,12 +50,11 @@ def fit(
     Example: planetary-twin fit recordings/NAME --free lambda_ratio,input_torque
     """
     need("recording", "mcap", "rosbags")
-    from rich.console import Console
 
     from ..studies.fit.identify import Search, identify
     from ..studies.fit.remarks import remarks
 
-    console = Console(stderr=json_ == "-")
+    console = console_beside(json_)
     try:
         search = Search(
             free=tuple(name for name, _ in map(_pair, _parts(free))),
@@ -81,9 +75,7 @@ def fit(
     _tell(console, found)
     for line in told:
         remark(f"warning: {line}")
-    if json_ is not None:
-        text = json.dumps(_figures(found) | {"remarks": told}, indent=2) + "\n"
-        sys.stdout.write(text) if json_ == "-" else Path(json_).write_text(text, "utf-8")
+    put_figures(_figures(found) | {"remarks": told}, json_)
 
 
 def _name(text: str) -> str:

@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-import json
-import sys
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from ._fail import fail, remark
+from ._arguments import FileArgument, JsonOption
+from ._fail import fail, need, remark
+from ._figures import console_beside, put_figures
 
 if TYPE_CHECKING:
     from rich.console import Console
@@ -19,20 +19,18 @@ if TYPE_CHECKING:
 
 
 def info(
-    file: Annotated[Path, typer.Argument(help="Recording: an .mcap file or the folder of one.")],
+    file: FileArgument,
     events: Annotated[
         bool, typer.Option(help="Also what happened: looks at every interval, which takes longer.")
     ] = False,
-    json_: Annotated[
-        str | None, typer.Option("--json", metavar="FILE", help="Write figures; - prints them.")
-    ] = None,
+    json_: JsonOption = None,
 ) -> None:
     """Tell what FILE holds: topics, rates, losses, longest gaps, and what was changed when.
 
     Example: planetary-twin info recordings/paper_20260101_120000
     """
-    from rich.console import Console
 
+    need("recording", "mcap", "rosbags")
     from ..recording.info import read_info
     from ..recording.records import RecordingError
 
@@ -45,7 +43,7 @@ def info(
         fail(f"{error.filename}: {error.strerror}")
     for line in found.remarks:
         remark(line)
-    console = Console(stderr=json_ == "-")
+    console = console_beside(json_)
     _tell(console, found)
     for namespace, event in happened or []:
         text = f"{namespace} run {event.run:<3} {event.time:10.4f} s  {event.text}"
@@ -55,8 +53,7 @@ def info(
         if happened is not None:
             figures["changes"] = [change._asdict() for change in found.changes]
             figures["events"] = [{"namespace": n, **event._asdict()} for n, event in happened]
-        text = json.dumps(figures, indent=2) + "\n"
-        sys.stdout.write(text) if json_ == "-" else Path(json_).write_text(text, "utf-8")
+        put_figures(figures, json_)
 
 
 def _events(file: Path, found: Info) -> list[tuple[str, Event]]:

@@ -2,31 +2,27 @@
 
 from __future__ import annotations
 
-import json
-import sys
 from pathlib import Path
 from typing import Annotated
 
 import typer
 
+from ._arguments import JsonOption, SceneArgument, SetOption
 from ._fail import fail, need
+from ._figures import console_beside, put_figures
 from ._settings import settings
 
 
 def modal(
-    scene: Annotated[str, typer.Argument(help="Packaged scene, or path of a YAML file.")] = "paper",
+    scene: SceneArgument = "paper",
     model: Annotated[
         str, typer.Option(help="torsional, machines, printed, planar or spatial.")
     ] = "torsional",
-    set_: Annotated[
-        list[str] | None, typer.Option("--set", metavar="NAME=VALUE", help="Change a field.")
-    ] = None,
+    set_: SetOption = None,
     campbell: Annotated[
         Path | None, typer.Option(metavar="FILE.png", help="Draw the Campbell diagram.")
     ] = None,
-    json_: Annotated[
-        str | None, typer.Option("--json", metavar="FILE", help="Write figures; - prints them.")
-    ] = None,
+    json_: JsonOption = None,
 ) -> None:
     """List the natural modes of SCENE, how stiffnesses move them, and resonant speeds.
 
@@ -34,7 +30,6 @@ def modal(
     """
     if campbell is not None:
         need("plots", "matplotlib")
-    from rich.console import Console
     from rich.table import Table
 
     from ..modal.campbell import resonances
@@ -60,7 +55,7 @@ def modal(
         changes = [slopes[name][m] * 0.01 * stiffness[name] for name in slopes]
         shown = ["-" if change != change else f"{change:+.2f}" for change in changes]
         table.add_row(str(m + 1), f"{frequency:.2f}", kind, *shown)
-    console = Console(stderr=json_ == "-")
+    console = console_beside(json_)
     console.print(table)
     for resonance in found:
         console.print(
@@ -81,5 +76,4 @@ def modal(
             "kinds": list(modes.kinds),
             "resonances": [resonance._asdict() for resonance in found],
         }
-        text = json.dumps(figures, indent=2) + "\n"
-        sys.stdout.write(text) if json_ == "-" else Path(json_).write_text(text, "utf-8")
+        put_figures(figures, json_)

@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-import json
-import sys
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from ._arguments import JsonOption
 from ._fail import fail, need
+from ._figures import console_beside, put_figures
 from ._study import PICTURES
 
 if TYPE_CHECKING:
@@ -23,18 +23,18 @@ def paper(
         Path, typer.Option(help="The page; its pictures go into a folder of its name.")
     ] = Path("docs/paper.md"),
     pictures: Annotated[str, typer.Option(help="Their format: png, svg or pdf.")] = "png",
-    json_: Annotated[
-        str | None, typer.Option("--json", metavar="FILE", help="Write figures; - prints them.")
-    ] = None,
+    json_: JsonOption = None,
     jobs: Annotated[int, typer.Option(min=1, max=64, help="Processes.")] = 2,
 ) -> None:
-    """Recompute every table and figure of the paper, and write them beside what it states."""
+    """Recompute every table and figure of the paper, and write them beside what it states.
+
+    Example: planetary-twin paper --out paper.md --pictures svg
+    """
     if out.suffix != ".md":
         fail(f"--out = {str(out)!r}: must end in .md")
     if f".{pictures}" not in PICTURES:
         fail(f"--pictures = {pictures!r}: must be png, svg or pdf")
     need("plots", "matplotlib")
-    from rich.console import Console
     from rich.progress import Progress
 
     from ..paper.evidence import gather
@@ -46,7 +46,7 @@ def paper(
         out.parent.mkdir(parents=True, exist_ok=True)
     except OSError as error:
         fail(f"--out = {str(out)!r}: {error.strerror}")
-    console = Console(stderr=json_ == "-")
+    console = console_beside(json_)
     with Progress(console=console, transient=True) as progress:
         evidence = gather(
             Grid(),
@@ -61,9 +61,7 @@ def paper(
             fail(f"--out = {str(out)!r}: {error.strerror}")
     console.print(_table(found))
     console.print(f"{out}")
-    if json_ is not None:
-        text = json.dumps(figures(found, evidence), indent=2) + "\n"
-        sys.stdout.write(text) if json_ == "-" else Path(json_).write_text(text, "utf-8")
+    put_figures(figures(found, evidence), json_)
 
 
 def _table(entries: list[Entry]) -> Table:

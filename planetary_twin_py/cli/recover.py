@@ -7,11 +7,12 @@ from typing import Annotated
 
 import typer
 
-from ._fail import fail, remark
+from ._arguments import FileArgument
+from ._fail import fail, need, remark
 
 
 def recover(
-    file: Annotated[Path, typer.Argument(help="Recording: an .mcap file or the folder of one.")],
+    file: FileArgument,
     out: Annotated[
         Path | None, typer.Argument(help="New folder; by default beside FILE, its name and _whole.")
     ] = None,
@@ -20,6 +21,7 @@ def recover(
 
     Example: planetary-twin recover recordings/paper_20260101_120000
     """
+    need("recording", "mcap", "rosbags")
     from rich.console import Console
     from rich.table import Table
 

@@ -7,16 +7,14 @@ from typing import Annotated
 
 import typer
 
-from ._fail import fail, remark
+from ._arguments import FileArgument, NamespaceOption, SetOption
+from ._fail import fail, need, remark
 from ._settings import settings
 
 
 def resimulate(
-    file: Annotated[Path, typer.Argument(help="Recording: an .mcap file or the folder of one.")],
-    set_: Annotated[
-        list[str] | None,
-        typer.Option("--set", metavar="NAME=VALUE", help="What differs: lambda_ratio=1; repeat."),
-    ] = None,
+    file: FileArgument,
+    set_: SetOption = None,
     from_: Annotated[
         float, typer.Option("--from", help="Simulated instant from which it differs [s].")
     ] = 0.0,
@@ -29,9 +27,7 @@ def resimulate(
     run: Annotated[
         int | None, typer.Option(help="Which run, from 1, if there are several; or the last.")
     ] = None,
-    namespace: Annotated[
-        str | None, typer.Option(help="Which gearbox, if the recording holds several.")
-    ] = None,
+    namespace: NamespaceOption = None,
 ) -> None:
     """Ask what would have been: simulate FILE again with other values, into a second recording.
 
@@ -39,6 +35,7 @@ def resimulate(
 
     Example: planetary-twin resimulate recordings/NAME --set lambda_ratio=1.0 --from 3.0
     """
+    need("recording", "mcap", "rosbags")
     from rich.console import Console
     from rich.progress import Progress
 

@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
-import json
-import sys
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from ._fail import fail
+from ._arguments import JsonOption, SceneArgument, SetOption, ToleranceOption
+from ._fail import fail, need
+from ._figures import console_beside, put_figures
+from ._interrupt import interruptible
 from ._settings import settings
 
 if TYPE_CHECKING:
@@ -20,37 +21,33 @@ if TYPE_CHECKING:
 
 
 def simulate(
-    scene: Annotated[str, typer.Argument(help="Packaged scene, or path of a YAML file.")] = "paper",
+    scene: SceneArgument = "paper",
     duration: Annotated[float, typer.Option(help="Simulated seconds.")] = 1.0,
     sample_rate: Annotated[float, typer.Option(help="Samples per simulated second.")] = 50_000.0,
-    tolerance: Annotated[float, typer.Option(help="Relative local error of a step.")] = 1e-4,
-    set_: Annotated[
-        list[str] | None,
-        typer.Option("--set", metavar="NAME=VALUE", help="Change a field: mesh.ramp=0, or 3e-7 m."),
-    ] = None,
+    tolerance: ToleranceOption = 1e-4,
+    set_: SetOption = None,
     out: Annotated[
         Path | None, typer.Option(help="Write samples (.npz, .csv) or a recording (.mcap, folder).")
     ] = None,
-    json_: Annotated[
-        str | None, typer.Option("--json", metavar="FILE", help="Write figures; - prints them.")
-    ] = None,
+    json_: JsonOption = None,
 ) -> None:
     """Simulate SCENE and print what it does.
 
     Example: planetary-twin simulate paper --duration 0.5 --set lambda_ratio=1.5 --out run.npz
     """
-    from rich.console import Console
 
     from ..scene import load_scene
     from ..simulation import simulate as run
 
-    console = Console(stderr=json_ == "-")
+    console = console_beside(json_)
     try:
         if out is not None and out.suffix not in (*_WRITERS, *_RECORDINGS):
             fail(f"--out = {str(out)!r}: must end in {', '.join(_WRITERS)} or .mcap, or in nothing")
+        if out is not None and out.suffix in _RECORDINGS:
+            need("recording", "mcap", "rosbags")
         loaded = load_scene(scene).replace(**settings(set_ or []))
         with console.status(f"simulating {duration:g} s of {loaded.name}"):
-            result = run(loaded, duration, sample_rate, tolerance=tolerance)
+            result = interruptible(lambda: run(loaded, duration, sample_rate, tolerance=tolerance))
         if out is not None and out.suffix in _RECORDINGS:
             _record(console, out, loaded, duration, sample_rate, tolerance)
         elif out is not None:
@@ -60,18 +57,14 @@ def simulate(
     figures = _figures(result)
     for name, value in figures.items():
         console.print(f"{name.replace('_', ' '):28} {value:.6g}")
-    if json_ is not None:
-        text = json.dumps(figures, indent=2) + "\n"
-        sys.stdout.write(text) if json_ == "-" else Path(json_).write_text(text, "utf-8")
+    put_figures(figures, json_)
 
 
 def _record(console: Console, out: Path, scene: Scene, *how: float) -> None:
     from rich.progress import Progress
 
-    try:
-        from ..recording.offline import Plan, record
-    except ImportError:
-        fail("what records is not installed: pip install 'planetary_twin_py[recording]'")
+    from ..recording.offline import Plan, record
+
     plan = Plan(scene, *how)
     with Progress(console=console, transient=True, disable=not console.is_terminal) as progress:
         task = progress.add_task("recording", total=plan.duration)

@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-import json
-import sys
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
+from ._arguments import JsonOption, complete_recording
 from ._fail import fail, need, remark
+from ._figures import console_beside, put_figures
 
 if TYPE_CHECKING:
     from rich.console import Console
@@ -22,7 +22,12 @@ LINES = 12
 
 def spectrum(
     file: Annotated[
-        Path, typer.Argument(help="Recording, or the .npz file that `simulate --out` wrote.")
+        Path,
+        typer.Argument(
+            metavar="FILE",
+            help="Recording, or the .npz file that `simulate --out` wrote.",
+            autocompletion=complete_recording,
+        ),
     ],
     order: Annotated[
         bool, typer.Option("--order", help="Over cycles per turn of the sun against the carrier.")
@@ -34,9 +39,7 @@ def spectrum(
     ] = None,
     to: Annotated[float | None, typer.Option(help="End: simulated time in seconds.")] = None,
     out: Annotated[Path | None, typer.Option(help="Write it all: .png or .csv.")] = None,
-    json_: Annotated[
-        str | None, typer.Option("--json", metavar="FILE", help="Write figures; - prints them.")
-    ] = None,
+    json_: JsonOption = None,
 ) -> None:
     """List the highest lines in the spectrum of one mesh, and which are harmonics of the meshing.
 
@@ -46,7 +49,8 @@ def spectrum(
         fail(f"--out = {str(out)!r}: must end in .png or .csv")
     if out is not None and out.suffix == ".png":
         need("plots", "matplotlib")
-    from rich.console import Console
+    if file.suffix != ".npz":
+        need("recording", "mcap", "rosbags")
 
     from ..analysis.mesh_spectrum import frequency_spectrum_of, order_spectrum_of
     from ..analysis.signals import QUANTITIES, read_signal
@@ -64,10 +68,8 @@ def spectrum(
     for line in signal.remarks:
         remark(line)
     figures = _figures(signal, found, "order" if order else "frequency_hz")
-    _tell(Console(stderr=json_ == "-"), figures, QUANTITIES[quantity])
-    if json_ is not None:
-        text = json.dumps(figures, indent=2) + "\n"
-        sys.stdout.write(text) if json_ == "-" else Path(json_).write_text(text, "utf-8")
+    _tell(console_beside(json_), figures, QUANTITIES[quantity])
+    put_figures(figures, json_)
 
 
 def _sun_teeth(signal: Signal) -> int | None:

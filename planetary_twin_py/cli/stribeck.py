@@ -7,20 +7,19 @@ from typing import Annotated
 
 import typer
 
+from ._arguments import SceneArgument, SetOption
 from ._fail import fail, remark
 from ._settings import settings
 from ._study import PICTURES, TABLES, check_suffix, progress, put
 
 
 def stribeck(
-    scene: Annotated[str, typer.Argument(help="Packaged scene, or path of a YAML file.")],
+    scene: SceneArgument,
     out: Annotated[Path, typer.Option(help="Table (.parquet, .csv) or picture (.png, .svg, .pdf)")],
     input_speed: Annotated[
         str, typer.Option(metavar="VALUES", help="Speeds, as for sweep.")
     ] = "1rpm:10000rpm:41:log",
-    set_: Annotated[
-        list[str] | None, typer.Option("--set", metavar="NAME=VALUE", help="Change a field.")
-    ] = None,
+    set_: SetOption = None,
 ) -> None:
     """Stribeck curves of the sun and ring meshes of SCENE: boundary, viscous and total friction.
 

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from ._arguments import SceneArgument, ToleranceOption
 from ._fail import fail, need, remark
 from ._study import PICTURES, TABLES, check_suffix, progress, put
 
@@ -23,7 +24,7 @@ CONTEXT = {"allow_extra_args": True, "ignore_unknown_options": True}
 
 def sweep(
     context: typer.Context,
-    scene: Annotated[str, typer.Argument(help="Packaged scene, or path of a YAML file.")],
+    scene: SceneArgument,
     out: Annotated[
         Path, typer.Option(help="Table (.parquet with units, .csv) or picture (.png, .svg, .pdf).")
     ],
@@ -32,7 +33,7 @@ def sweep(
     ] = None,
     duration: Annotated[float, typer.Option(help="Measured seconds of each run.")] = 0.2,
     settling: Annotated[float, typer.Option(help="Seconds simulated before.")] = 0.05,
-    tolerance: Annotated[float, typer.Option(help="Relative local error of a step.")] = 1e-4,
+    tolerance: ToleranceOption = 1e-4,
     scheduler: Annotated[
         str | None,
         typer.Option(

@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-import json
-import sys
-from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Any
 
 import typer
 
-from ._fail import fail
+from ._arguments import FileArgument, JsonOption, NamespaceOption
+from ._fail import fail, need
+from ._figures import console_beside, put_figures
 
 if TYPE_CHECKING:
     from rich.console import Console
@@ -18,13 +17,9 @@ if TYPE_CHECKING:
 
 
 def verify(
-    file: Annotated[Path, typer.Argument(help="Recording: an .mcap file or the folder of one.")],
-    namespace: Annotated[
-        str | None, typer.Option(help="Which gearbox, if the recording holds several.")
-    ] = None,
-    json_: Annotated[
-        str | None, typer.Option("--json", metavar="FILE", help="Write figures; - prints them.")
-    ] = None,
+    file: FileArgument,
+    namespace: NamespaceOption = None,
+    json_: JsonOption = None,
 ) -> None:
     """Simulate FILE again from what is in it and compare every value that was published.
 
@@ -33,14 +28,14 @@ def verify(
 
     Example: planetary-twin verify recordings/paper_20260101_120000
     """
-    from rich.console import Console
 
+    need("recording", "mcap", "rosbags")
     from ..recording.namespaces import choose_namespace
     from ..recording.records import RecordingError
     from ..recording.tape import Tape
     from ..recording.verify import verify as compare
 
-    console = Console(stderr=json_ == "-")
+    console = console_beside(json_)
     try:
         tape = Tape(file)
         chosen = choose_namespace(tape.topics, namespace, file)
@@ -53,9 +48,7 @@ def verify(
     except OSError as error:
         fail(f"{error.filename}: {error.strerror}")
     _tell(console, verdict)
-    if json_ is not None:
-        text = json.dumps(_figures(verdict), indent=2) + "\n"
-        sys.stdout.write(text) if json_ == "-" else Path(json_).write_text(text, "utf-8")
+    put_figures(_figures(verdict), json_)
     if not (verdict.identical if verdict.same_makers else verdict.within_bound):
         raise typer.Exit(1)
 

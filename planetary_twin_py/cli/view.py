@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Annotated, NamedTuple
 
 import typer
 
+from ._arguments import complete_recording, complete_scene
 from ._fail import fail, need, remark
 from ._live import look_at_twin, tell
 
@@ -28,7 +29,8 @@ def view(
     files: Annotated[
         list[Path] | None,
         typer.Argument(
-            metavar="[FILE]...",
+            metavar="FILE",
+            autocompletion=complete_recording,
             help="Recordings, each an .mcap file or the folder of one: several lie over one "
             "another. Without: the twin that runs.",
         ),
@@ -44,7 +46,11 @@ def view(
         bool, typer.Option("--serve", help="Show it in a browser instead, until Ctrl-C.")
     ] = False,
     scene: Annotated[
-        str | None, typer.Option(help="Scene to draw, in place of the one in the recording.")
+        str | None,
+        typer.Option(
+            help="Scene to draw, in place of the one in the recording.",
+            autocompletion=complete_scene,
+        ),
     ] = None,
     namespace: Annotated[
         str | None, typer.Option(help="Which gearbox, where there are several.")
@@ -58,7 +64,10 @@ def view(
         ),
     ] = None,
 ) -> None:
-    """Open recordings, or a running twin, in Rerun: gears in 3-D, plots, one time cursor."""
+    """Open recordings, or a running twin, in Rerun: gears in 3-D, plots, one time cursor.
+
+    Example: planetary-twin view recordings/NAME --during 2:3
+    """
     with _one_line_errors():
         asked = _read_stretch(during)
         if not files:

@@ -85,7 +85,11 @@ def bifurcation(
         )
     ways = {UP: _Way(scene, rising, holding), DOWN: _Way(scene, rising[::-1], holding)}
     with ThreadPoolExecutor(len(ways)) as pool:
-        found = list(pool.map(lambda way: list(way.walk(hear)), ways.values()))
+        try:
+            found = list(pool.map(lambda way: list(way.walk(hear)), ways.values()))
+        finally:
+            for way in ways.values():
+                way.interrupted = True
     return _tabulate(scene, holding, dict(zip(ways, found, strict=True)))
 
 
@@ -99,6 +103,7 @@ class _Way:
         for speed in speeds:
             scene.replace(input_speed=speed)  # refuse all at once, not the last after an hour
         self._speeds, self._holding = speeds, holding
+        self.interrupted = False
         self._section = Section(
             scene.replace(
                 input_speed=speeds[0],
@@ -109,8 +114,10 @@ class _Way:
         )
 
     def walk(self, hear: Hearer) -> Iterator[_Held]:
-        """What is seen at each speed, up to the first that fails."""
+        """What is seen at each speed, up to the first that fails, or until interrupted."""
         for speed in self._speeds:
+            if self.interrupted:
+                return
             held = self._hold(speed)
             hear(held.failure)
             yield held

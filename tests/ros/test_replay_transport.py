@@ -262,12 +262,12 @@ def test_what_cannot_be_renamed_or_chosen_ends_in_one_line(play: Play, split: Pa
     _refused(play(split, "--topics", "/odd"), "topics: /odd: ", "holds /planetary_twin/gearbox_")
     _refused(play(split, "--namespace", "9 lives"), "/9 lives/gearbox_state: ")
     _refused(play(split, "--rate", "0.001"), "rate_factor = 0.001: must be within 0.01")
-    _refused(play(split, "--remap", "no rule"), "--remap no rule: must be OLD:=NEW")
+    _refused(play(split, "--remap", "no rule"), "--remap no rule: must be OLD:=NEW", code=2)
 
 
-def _refused(process: subprocess.Popen[str], *reasons: str) -> None:
+def _refused(process: subprocess.Popen[str], *reasons: str, code: int = 1) -> None:
     _, errors = process.communicate(timeout=60)
-    assert process.returncode == 1
+    assert process.returncode == code
     assert len(errors.strip().splitlines()) == 1, errors
     assert all(reason in errors for reason in reasons), errors
 

@@ -153,7 +153,7 @@ def test_a_mistake_ends_in_one_line_before_anything_starts(
 ) -> None:
     process = run(*options)
     _, errors = process.communicate(timeout=60)
-    assert process.returncode == 1
+    assert process.returncode == 2
     assert len(errors.strip().splitlines()) == 1
     assert reason in errors
     assert not (tmp_path / "recordings").exists()

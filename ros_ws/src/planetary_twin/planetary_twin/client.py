@@ -22,7 +22,9 @@ _POLL = 0.02  # [s]
 class Client:
     """Spins in a thread of its own; `watch` is called while it waits."""
 
-    def __init__(self, name: str, namespace: str, watch: Callable[[], None] = lambda: None) -> None:
+    def __init__(
+        self, name: str, namespace: str, watch: Callable[[], None] = lambda: None
+    ) -> None:
         self.watch = watch
         self._context = rclpy.Context()
         # Signals stay Python's: they interrupt the waiting below, never a middleware call.
@@ -58,7 +60,7 @@ class Client:
         return True
 
     def call(self, service: Service, request: Any, patience: float = PATIENCE) -> Any:
-        """The answer of a service, or None where there is none in time."""
+        """Return the answer of a service, or None where there is none in time."""
         if not self.wait(service.service_is_ready, patience):
             return None
         future = service.call_async(request)

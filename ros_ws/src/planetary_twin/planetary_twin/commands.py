@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-import json
 import signal
-import sys
 from collections.abc import Mapping
 from pathlib import Path
 from types import FrameType
@@ -12,21 +10,22 @@ from typing import Annotated, Any
 
 import typer
 
+from planetary_twin_py.cli._arguments import JsonOption, SceneArgument, SetOption
+from planetary_twin_py.cli._fail import fail, need, remark
+from planetary_twin_py.cli._figures import console_beside, put_figures
+
 from .pacing import check_rate_factor
 
 RECORDINGS = Path("recordings")
 
 
 def run(
-    scene: Annotated[str, typer.Argument(help="Packaged scene, or path of a YAML file.")] = "paper",
+    scene: SceneArgument = "paper",
     duration: Annotated[float, typer.Option(help="Gearbox time [s].", min=0.1)] = 12.0,
     record: Annotated[
         str | None, typer.Option(metavar="NAME", help="Folder in recordings/; must be free.")
     ] = None,
-    set_: Annotated[
-        list[str] | None,
-        typer.Option("--set", metavar="NAME=VALUE", help="Parameter at start (SI); repeatable."),
-    ] = None,
+    set_: SetOption = None,
     rate_factor: Annotated[
         float, typer.Option(help="Gearbox seconds per second; 0: as fast as it goes.")
     ] = 1.0,
@@ -36,11 +35,14 @@ def run(
     tour: Annotated[
         bool, typer.Option(help="Change the operating point on the way, to show what it does.")
     ] = True,
-    json_: Annotated[
-        str | None, typer.Option("--json", metavar="FILE", help="Write figures; - prints them.")
-    ] = None,
+    json_: JsonOption = None,
 ) -> None:
-    """Run a gearbox live on ROS 2, change it while it runs, and record it."""
+    """
+    Run a gearbox live on ROS 2, change it while it runs, and record it.
+
+    Example: planetary-twin run paper --duration 20 --record first --set backlash=0.3um
+    """
+    need("ros", "mcap", "rosbags")
     interrupt_on_signals()
     options = {
         "scene": scene,
@@ -51,10 +53,11 @@ def run(
     try:
         _run(options, record, set_ or [], tour, json_)
     except KeyboardInterrupt:
-        print("interrupted before the recording began", file=sys.stderr)
-    except (ValueError, OSError) as reason:
-        print(f"planetary-twin run: {reason}", file=sys.stderr)
-        raise typer.Exit(1) from None
+        remark("interrupted before the recording began")
+    except ValueError as mistake:
+        fail(mistake)
+    except (RuntimeError, OSError) as failure:
+        fail(failure, 1)
 
 
 def _run(
@@ -65,8 +68,6 @@ def _run(
     target: str | None,
 ) -> None:
     # Loading ROS and the model takes a second in which Ctrl-C must end as cleanly as later.
-    from rich.console import Console
-
     from planetary_twin_py.tolerance import ladder_of
 
     from .running.outcome import print_outcome
@@ -83,13 +84,10 @@ def _run(
         values=_values(scene, settings),
         stops=tour_of(scene, duration) if tour else [],
     )
-    # Standard output is the machine's where figures are printed there.
-    console = Console(stderr=target == "-")
+    console = console_beside(target)
     outcome = run_session(plan, console)
     print_outcome(console, outcome)
-    if target is not None:
-        text = json.dumps(outcome.figures(), indent=2) + "\n"
-        sys.stdout.write(text) if target == "-" else Path(target).write_text(text, "utf-8")
+    put_figures(outcome.figures(), target)
 
 
 def _folder(record: str | None, scene: str) -> Path:
@@ -107,7 +105,7 @@ def _folder(record: str | None, scene: str) -> Path:
 
 
 def _values(scene: str, settings: list[str]) -> dict[str, float]:
-    """The settings in SI, tried on the scene before any process starts."""
+    """Return the settings in SI, tried on the scene before any process starts."""
     import planetary_twin_py as pt
 
     values = {}

@@ -25,19 +25,19 @@ class Listener(Protocol):
     """What hears of a live twin; called in its thread."""
 
     def prepare(self, window: Window) -> None:
-        """An interval has been computed; its wall instant is still to come."""
+        """Take an interval that has been computed; its wall instant is still to come."""
 
     def publish(self) -> None:
-        """The wall instant of the prepared interval's end is now."""
+        """Publish the prepared interval, whose end is at this wall instant."""
 
     def changed(self, point: OperatingPoint, instant: float) -> None:
-        """The operating point in force from simulated time `instant` [s] is a new one."""
+        """Take the operating point in force from simulated time `instant` [s] on."""
 
     def refused(self, reason: str) -> None:
-        """What was on its way to new values cannot go on, and stays where it is."""
+        """Hear why what was on its way to new values stays where it is."""
 
     def retuned(self, instant: float, before: Setting, affordable: Affordable) -> None:
-        """From simulated time `instant` [s] the setting is no more `before`, but `affordable`'s."""
+        """From simulated time `instant` [s] on, `affordable` sets what `before` did."""
 
     def ready(self) -> bool:
         """Whether time can pass: a clock that is to be followed is heard."""
@@ -46,7 +46,7 @@ class Listener(Protocol):
         """At the start, after a stop, and while time stands: the present time of `twin` is now."""
 
     def stopped(self, defect: Exception) -> None:
-        """The thread ends because of `defect`."""
+        """Hear that the thread ends because of `defect`."""
 
 
 class State(StrEnum):
@@ -69,9 +69,10 @@ class Progress(NamedTuple):
 
 
 class LiveTwin:
-    """Advances `twin` by `interval` [s] at a time, `rate_factor` simulated seconds per second, or
-    as fast as it goes where that is 0.
+    """
+    Advances `twin` by `interval` [s] at a time.
 
+    It makes `rate_factor` simulated seconds per second, or as fast as it goes where that is 0.
     `affordable` chooses the setting, and may be replaced at any time, from any thread. Orders
     are carried out between two intervals; their futures give the simulated instant [s] of that.
     """
@@ -160,8 +161,10 @@ class LiveTwin:
             self._listener.changed(self._twin.operating_point, self._twin.time)
 
     def _pass(self, duration: float, wait: Callable[[], None]) -> None:
-        """One interval, published after `wait`, at the setting that is affordable as far as is
-        known; only the wait costs nothing.
+        """
+        Compute one interval, and publish it after `wait`.
+
+        The setting is the affordable one as far as is known; only the wait costs nothing.
         """
         affordable = self.affordable
         self._tune(affordable)

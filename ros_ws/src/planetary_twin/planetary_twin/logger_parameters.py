@@ -29,7 +29,8 @@ class Wishes:
 
 
 def declare_wishes(node: Node) -> Wishes:
-    """Declare the parameters and return their values.
+    """
+    Declare the parameters and return their values.
 
     Raises `ValueError` for one that cannot be.
     """
@@ -63,7 +64,9 @@ def _declare_storage(node: Node) -> Storage:
     kinds = ", ".join(COMPRESSIONS)
     return Storage(
         declare_fixed(node, "compression", "zstd", f"of chunks: {kinds}"),
-        declare_bounded(node, "chunk_size", 1.0, CHUNK_SIZES, "of a chunk before compression [MB]"),
+        declare_bounded(
+            node, "chunk_size", 1.0, CHUNK_SIZES, "of a chunk before compression [MB]"
+        ),
         declare_bounded(
             node,
             "split_duration",

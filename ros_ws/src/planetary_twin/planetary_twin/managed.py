@@ -33,11 +33,12 @@ class NodeError(Exception):
 
 
 class ManagedNode(LifecycleNode):
-    """Lifecycle node that configures and activates itself unless `autostart` is false.
+    """
+    Lifecycle node that configures and activates itself unless `autostart` is false.
 
     `given` are parameters as from the command line. Subclasses override `configure`, `activate`,
-    `deactivate` and `close`; what these raise is logged and fails the transition, where rclpy alone
-    would swallow it.
+    `deactivate` and `close`; what these raise is logged and fails the transition, where rclpy
+    alone would swallow it.
     """
 
     def __init__(self, name: str, given: Mapping[str, Any] | None = None) -> None:
@@ -85,7 +86,8 @@ class ManagedNode(LifecycleNode):
         self._starting = False
 
     def fail(self, reason: str) -> None:
-        """From any thread: let an active node go to the error state.
+        """
+        From any thread: let an active node go to the error state.
 
         One that has started by itself has nobody to mend it: its process ends, with an exit code
         that is not zero.
@@ -106,7 +108,8 @@ class ManagedNode(LifecycleNode):
         return super().create_service(*given, **options | {"qos_profile": _REQUESTS})
 
     def set_parameters_atomically(self, parameter_list: list[Parameter]) -> SetParametersResult:
-        """As rclpy's, with a refusal that names the parameter for all that cannot be.
+        """
+        As rclpy's, with a refusal that names the parameter for all that cannot be.
 
         What is fixed may be set to what it is: a file that `ros2 param dump` wrote loads.
         """
@@ -152,7 +155,7 @@ class ManagedNode(LifecycleNode):
     def _change_state_if_possible(
         self, request: ChangeState.Request, response: ChangeState.Response
     ) -> ChangeState.Response:
-        """rclpy's service, which raises for what is no transition of the present state."""
+        """Rclpy's service, which raises for what is no transition of the present state."""
         wanted = request.transition.label or request.transition.id
         offered = self._state_machine.available_transitions
         if any(wanted in (number, label) for number, label, *_ in offered):
@@ -186,15 +189,19 @@ class ManagedNode(LifecycleNode):
 def run_node(
     make: Callable[[], ManagedNode], args: list[str] | None = None, title: str | None = None
 ) -> int:
-    """Run a node until SIGINT, SIGTERM or its own end; returns the exit code.
+    """
+    Run a node until SIGINT, SIGTERM or its own end; returns the exit code.
 
     Why it failed is printed in one line that begins with `title`, by default the node's class.
     """
     return run_nodes({title or make.__name__.lower(): make}, args)
 
 
-def run_nodes(makes: Mapping[str, Callable[[], ManagedNode]], args: list[str] | None = None) -> int:
-    """Start nodes in this order and run them until SIGINT, SIGTERM or the end of one of them.
+def run_nodes(
+    makes: Mapping[str, Callable[[], ManagedNode]], args: list[str] | None = None
+) -> int:
+    """
+    Start nodes in this order and run them until SIGINT, SIGTERM or the end of one of them.
 
     Each has an executor and a thread of its own, the last of them this one, so that none waits for
     another's callbacks. Why one failed is printed in one line that begins with its key.
@@ -260,7 +267,9 @@ def _serve_beside(executor: SingleThreadedExecutor, node: ManagedNode) -> None:
 def _initialize(args: list[str] | None) -> None:
     try:
         rclpy.init(args=args)
-    except RuntimeError as refusal:  # RCLError, and what rclpy derives for options it does not know
+    except (
+        RuntimeError
+    ) as refusal:  # RCLError, and what rclpy derives for options it does not know
         raise NodeError(f"--ros-args: {str(refusal).split(', at ')[0]}") from None
 
 

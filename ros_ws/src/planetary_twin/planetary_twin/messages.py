@@ -1,4 +1,5 @@
-"""Fills the twin's messages in place: making them anew would cost more than sending them.
+"""
+Fills the twin's messages in place: making them anew would cost more than sending them.
 
 Stamps are set when a message is sent.
 """
@@ -57,8 +58,9 @@ class StateMessage:
         message.planet_speed[: self._planets] = window.mean_speed[planets]
         for name in POWER_FLOW:
             setattr(message, name, float(getattr(window, name)))
-        for target, name, mesh in self._mesh:
-            target[:] = window.mesh[name][mesh : mesh + self._planets]
+        for target, name, first in self._mesh:
+            end = first + self._planets
+            target[:] = window.mesh[name][first:end]
         return message
 
 
@@ -96,7 +98,8 @@ class WaveformMessage:
 
 
 class JointsMessage:
-    """JointState: a joint `<body>_joint` per body, its position the absolute angle of the body.
+    """
+    JointState: a joint `<body>_joint` per body, its position the absolute angle of the body.
 
     The URDF in `robot_description` hangs the planets so that this also moves them rightly.
     """
@@ -132,7 +135,9 @@ class OperatingPointMessage:
         message.sequence += 1
         message.simulated_time = instant
         message.changed = ",".join(
-            name for name in TUNABLES if last is None or getattr(point, name) != getattr(last, name)
+            name
+            for name in TUNABLES
+            if last is None or getattr(point, name) != getattr(last, name)
         )
         for name in TUNABLES:
             setattr(message, name, float(getattr(point, name)))

@@ -64,7 +64,7 @@ FIGURES = (
 
 
 def sparkline(values: list[float]) -> str:
-    """A bar for each value between the least and the greatest; a blank where there is none."""
+    """Draw a bar for each value from the least to the greatest; a blank where there is none."""
     finite = [value for value in values if math.isfinite(value)]
     if not finite:
         return ""
@@ -90,11 +90,12 @@ class Monitor(Remote):
         self.node.create_subscription(DiagnosticArray, "/diagnostics", self._diagnose, 10)
 
     def look(self) -> Table:
-        """The table of now."""
+        """Return the table of now."""
         state = self.state
         if state is None:
-            raise ValueError(f"no twin publishes in {self.namespace}: start one with "
-                             "`planetary-twin run`")  # fmt: skip
+            raise ConnectionError(
+                f"no twin publishes in {self.namespace}: start one with `planetary-twin run`"
+            )
         report = self.report
         table = Table(box=None, header_style="bold", pad_edge=False)
         table.add_column(f"{self.namespace}  {state.simulated_time:.2f} s")
@@ -141,7 +142,7 @@ def watch(namespace: str, duration: float | None) -> None:
 
 
 def _print(monitor: Monitor, console: Console, end: float) -> None:
-    """A table now and then, for a file or a pipe."""
+    """Print a table now and then, for a file or a pipe."""
     console.print(monitor.look())
     while time.monotonic() + _PLAIN < end:
         time.sleep(_PLAIN)

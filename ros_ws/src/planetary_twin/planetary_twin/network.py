@@ -13,7 +13,8 @@ _MIDDLEWARE = "RMW_IMPLEMENTATION"
 
 
 def stay_on_this_machine() -> None:
-    """Open no socket to a network, here and in what is started.
+    """
+    Open no socket to a network, here and in what is started.
 
     Where the environment brings a profile or another middleware of its own, only discovery is
     limited: sockets are then theirs to bind.

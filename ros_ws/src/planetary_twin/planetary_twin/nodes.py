@@ -1,4 +1,5 @@
-"""The nodes' executables: a signal ends them while they load as cleanly as later.
+"""
+The nodes' executables: a signal ends them while they load as cleanly as later.
 
 Loading ROS and the model takes a second, in which Python would answer Ctrl-C with a traceback.
 """
@@ -12,22 +13,22 @@ from types import FrameType
 
 
 def simulation() -> int:
-    """The simulation node."""
+    """Run the simulation node."""
     return _run("simulation")
 
 
 def logger() -> int:
-    """The logger node."""
+    """Run the logger node."""
     return _run("logger")
 
 
 def replay() -> int:
-    """The replay node."""
+    """Run the replay node."""
     return _run("replay")
 
 
 def twin() -> int:
-    """The simulation and the logger in one process."""
+    """Run the simulation and the logger in one process."""
     return _run("composed")
 
 

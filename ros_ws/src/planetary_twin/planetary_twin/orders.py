@@ -14,7 +14,8 @@ _PATIENCE = 60.0  # [s] longest wait for an order to be carried out
 
 
 class Orders:
-    """Carried out in the order given; each future is the instant [s] of that.
+    """
+    Carried out in the order given; each future is the instant [s] of that.
 
     Changes that follow one another between two intervals become one, of what was given last: they
     would hold from the same instant, and a flood of them must not hold the twin up.
@@ -42,10 +43,11 @@ class Orders:
             return self._gathering[1]
 
     def carry_out(self, patience: float) -> list[Callable[[], None]]:
-        """Do what is there by now, and return what gives the answers; where nothing is, wait
-        `patience` [s] for one order.
+        """
+        Do what is there by now, and return what gives the answers.
 
-        What an order raises goes to who gave it; all but a `ValueError`, a refusal, is also raised.
+        Where nothing is there, wait `patience` [s] for one order. What an order raises goes to
+        who gave it; all but a `ValueError`, a refusal, is also raised.
         """
         answers: list[Callable[[], None]] = []
         for _ in range(max(self._queue.qsize(), 1)):

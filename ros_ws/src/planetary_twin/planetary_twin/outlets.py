@@ -19,7 +19,8 @@ from .topics import message_class
 
 
 class Outlets:
-    """A publisher for each topic, of its recorded type and QoS, under the name that `names` gives.
+    """
+    A publisher for each topic, of its recorded type and QoS, under the name that `names` gives.
 
     Raises `NodeError` where that cannot be had.
     """

@@ -21,12 +21,13 @@ def check_rate_factor(rate_factor: float) -> None:
 
 
 class Pace:
-    """Absolute deadlines every `period` seconds of wall time, so that no error adds up.
+    """
+    Absolute deadlines every `period` seconds of wall time, so that no error adds up.
 
     A deadline missed by more than one period is an overrun: the schedule shifts to now, because
-    catching up in a burst would only hide that the machine was too slow. With a period of 0 nothing
-    waits and nothing is late. `sleep` waits for a time [s], or less where there is something better
-    to do.
+    catching up in a burst would only hide that the machine was too slow. With a period of 0
+    nothing waits and nothing is late. `sleep` waits for a time [s], or less where there is
+    something better to do.
     """
 
     def __init__(self, period: float, sleep: Callable[[float], object] = time.sleep) -> None:

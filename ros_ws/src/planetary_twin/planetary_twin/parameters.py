@@ -33,7 +33,7 @@ _BRIEF.maxstring = _BRIEF.maxother = 60
 
 
 def brief(value: Any) -> str:
-    """A value as a refusal shows it, whoever sent it: one line of readable length."""
+    """Return a value as a refusal shows it, whoever sent it: one line of readable length."""
     return _BRIEF.repr(_listed(value))
 
 
@@ -83,7 +83,8 @@ def fixed_at(node: Node, given: Parameter) -> bool:
 
 
 def check_settable(node: Node, parameter: Parameter) -> None:
-    """Raise `ValueError` for a parameter that there is not, that is fixed or of another type.
+    """
+    Raise `ValueError` for a parameter that there is not, that is fixed or of another type.
 
     Numbers may be typed in other types, see `coerce`.
     """
@@ -137,7 +138,8 @@ def declare_changing(
 
 
 def declare_rate_factor(node: Node) -> float:
-    """Declare simulated seconds per second and return the value; 0 is as fast as it goes.
+    """
+    Declare simulated seconds per second and return the value; 0 is as fast as it goes.
 
     Raises `ValueError` for one between 0 and the slowest.
     """
@@ -153,7 +155,8 @@ def declare_rate_factor(node: Node) -> float:
 
 
 def declare_tunable(node: Node, tunable: Tunable, default: float, told_in: str) -> float:
-    """Declare a quantity that may change while the twin runs and return its value at start.
+    """
+    Declare a quantity that may change while the twin runs and return its value at start.
 
     `told_in` is the topic that tells the instant of a change.
     """
@@ -168,7 +171,8 @@ def declare_tunable(node: Node, tunable: Tunable, default: float, told_in: str) 
 
 
 def declare_geometry(node: Node, prefix: str, section: BaseModel) -> None:
-    """Declare every field of a scene's section, to be read alone.
+    """
+    Declare every field of a scene's section, to be read alone.
 
     Raises `ValueError` where a start value differs from the scene's.
     """
@@ -198,7 +202,8 @@ def _fields(prefix: str, section: BaseModel) -> Iterator[tuple[str, FieldInfo, A
 
 
 def coerce(parameters: list[Parameter], numbers: Container[str]) -> list[Parameter]:
-    """The same parameters, those named in `numbers` as DOUBLE.
+    """
+    Return the same parameters, those named in `numbers` as DOUBLE.
 
     `ros2 param set` sends `1` as INTEGER and `2e-7` as STRING, which strict typing refuses.
     Raises `ValueError` for a value that is no number.

@@ -25,20 +25,21 @@ class Stage(Protocol):
         """Whether the first cue may come."""
 
     def begin(self) -> None:
-        """The first cue comes next."""
+        """Begin anew: the first cue comes next."""
 
     def play(self, cue: Cue) -> None:
-        """The instant of `cue` is now."""
+        """Publish `cue`, whose instant is now."""
 
     def ended(self) -> None:
         """There is no further cue."""
 
     def stopped(self, defect: Exception) -> None:
-        """The thread ends because of `defect`."""
+        """Hear that the thread ends because of `defect`."""
 
 
 class Stretch(NamedTuple):
-    """What of a tape is played: from `begin` to `end` [ns], and from `begin` again if it loops.
+    """
+    What of a tape is played: from `begin` to `end` [ns], and from `begin` again if it loops.
 
     `cues` gives those from an instant to `end`. Anything up to `end` can be sought.
     """
@@ -50,9 +51,10 @@ class Stretch(NamedTuple):
 
 
 class Player:
-    """Plays so many recorded seconds per second, to absolute deadlines on the steady clock, or as
-    fast as it goes where the rate factor is 0.
+    """
+    Plays so many recorded seconds per second, to absolute deadlines on the steady clock.
 
+    Where the rate factor is 0, it plays as fast as it goes.
     A cue that is late is played at once and none is left out: the tape catches up by itself. Where
     it is paused at an instant, all up to and at that instant has been played. Orders are carried
     out between two cues; their futures give the recorded instant [s] of that.

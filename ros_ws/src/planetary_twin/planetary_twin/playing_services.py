@@ -18,10 +18,10 @@ class Deck(Protocol):
     """The replay, as far as its services are concerned."""
 
     def playing(self) -> Player:
-        """The player; raises `ValueError` where there is none."""
+        """Return the player; raises `ValueError` where there is none."""
 
     def stamp(self, instant: float) -> int:
-        """The recorder's time [ns] of a recorded instant [s]."""
+        """Return the recorder's time [ns] of a recorded instant [s]."""
 
 
 class PlayingServices:

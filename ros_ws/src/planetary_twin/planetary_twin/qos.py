@@ -23,7 +23,7 @@ _DEPTH = 100
 
 
 def to_words(qos: QoSProfile) -> dict[str, Any]:
-    """The profile as rosbag2 writes it."""
+    """Return the profile as rosbag2 writes it."""
     return {
         "history": _word(HistoryPolicy(qos.history)),
         "depth": qos.depth,
@@ -38,7 +38,8 @@ def to_words(qos: QoSProfile) -> dict[str, Any]:
 
 
 def publisher_qos(topic: Topic) -> QoSProfile:
-    """A profile that meets every subscription that the recorded publishers of `topic` met.
+    """
+    Return a profile that meets every subscription that the recorded publishers of `topic` met.
 
     With several of them that is the strongest reliability and durability any of them offered.
     """
@@ -67,7 +68,7 @@ def _word(policy: Any) -> str:
 
 
 def _policy(kind: type[IntEnum], written: str | int) -> Any:
-    """A policy from its word, or from its number in bags before version 9."""
+    """Return a policy from its word, or from its number in bags before version 9."""
     return kind(written) if isinstance(written, int) else kind[written.upper()]
 
 

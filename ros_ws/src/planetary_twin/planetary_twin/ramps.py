@@ -20,7 +20,9 @@ class Ramp(NamedTuple):
         """Its value at a simulated time [s] not before the beginning."""
         if time >= self.end:
             return self.last
-        return self.first + (self.last - self.first) * (time - self.begin) / (self.end - self.begin)
+        return self.first + (self.last - self.first) * (time - self.begin) / (
+            self.end - self.begin
+        )
 
 
 class Ramps:

@@ -36,7 +36,8 @@ STANDS = Verdict(DiagnosticStatus.STALE, "stands still")
 
 
 class RealTimeReport:
-    """Compares where a live twin stands now with where it stood at the report before.
+    """
+    Compares where a live twin stands now with where it stood at the report before.
 
     An interval has `period` [s] of wall time. `log` is the twin's; what is told is taken off it,
     because hours of ramps would fill the memory.
@@ -69,7 +70,8 @@ class RealTimeReport:
         *,
         last: bool,
     ) -> DiagnosticArray:
-        """The report, not stamped yet; `published` counts messages by topic.
+        """
+        Return the report, not stamped yet; `published` counts messages by topic.
 
         The `last` one is sent when the twin has stopped, so its counts are final.
         """
@@ -132,10 +134,11 @@ class RealTimeReport:
         return THINNED if thinned else KEEPS_UP
 
     def _settings(self) -> dict[str, object]:
-        """The tolerance and the waveform's rate, how often each has changed, and all since the
-        report before with the instant they hold from.
+        """
+        Return the tolerance and the waveform's rate, and how often each has changed.
 
-        All digits are told: with them a recording can be simulated again.
+        All since the report before are told with the instant they hold from, and with all digits:
+        with them a recording can be simulated again.
         """
         log, before = self._log[:], self._told
         new: dict[str, object] = {}
@@ -167,6 +170,6 @@ class RealTimeReport:
 
 
 def _rate(before: Progress, now: Progress, unknown: float) -> float:
-    """Simulated seconds per second of wall time; `unknown` where no time has passed."""
+    """Return simulated seconds per second of wall time; `unknown` where no time has passed."""
     wall = now.wall - before.wall
     return (now.simulated - before.simulated) / wall if wall > 0 else unknown

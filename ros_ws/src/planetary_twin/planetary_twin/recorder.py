@@ -34,7 +34,8 @@ class Refused(Exception):
 
 
 class Recorder:
-    """One recording after another; `failed` hears why one cannot go on.
+    """
+    One recording after another; `failed` hears why one cannot go on.
 
     `own` are the newest messages that the node itself has published.
     Raises `Refused` where something cannot be done.
@@ -58,7 +59,7 @@ class Recorder:
 
     @property
     def file(self) -> str:
-        """The file being written; empty where there is none."""
+        """Path of the file being written; empty where there is none."""
         return str(self._sink.file) if isinstance(self._sink, BagWriter) else ""
 
     @property
@@ -178,7 +179,7 @@ class Recorder:
         return self._sink
 
     def _bag(self, anew: bool = False) -> BagWriter:
-        """A bag in the folder that is named, or, for one more, in a free one."""
+        """Open a bag in the folder that is named, or, for one more, in a free one."""
         directory, name = self._wishes.directory, self._wishes.name
         while True:
             folder = named_folder(directory, name) if name else None

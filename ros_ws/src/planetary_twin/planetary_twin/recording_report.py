@@ -21,7 +21,7 @@ class RecordingReport:
     def message(
         self, file: str, size: int, accounts: Mapping[str, TopicAccount]
     ) -> DiagnosticArray:
-        """The report, not stamped yet, of a recording that goes on."""
+        """Return the report, not stamped yet, of a recording that goes on."""
         lost = sum(account.lost for account in accounts.values())
         new, self._lost = max(lost - self._lost, 0), lost
         figures: dict[str, object] = {"file": file, "bytes": size, "lost": lost}
@@ -33,7 +33,7 @@ class RecordingReport:
         return self._array(DiagnosticStatus.OK, "records all" if accounts else "idle", figures)
 
     def failure(self, reason: str) -> DiagnosticArray:
-        """The report of a recording that cannot go on."""
+        """Return the report of a recording that cannot go on."""
         return self._array(DiagnosticStatus.ERROR, reason, {})
 
     def _array(self, level: bytes, text: str, figures: Mapping[str, object]) -> DiagnosticArray:

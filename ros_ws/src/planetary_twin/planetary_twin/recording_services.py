@@ -11,7 +11,8 @@ from .recorder import Recorder, Refused
 
 
 class RecordingServices:
-    """`~/start`, `~/stop`, `~/split` and `~/snapshot` of a node.
+    """
+    `~/start`, `~/stop`, `~/split` and `~/snapshot` of a node.
 
     `active` gives its recorder, and raises `Refused` where it has none. The answer names the file,
     or why there is none.

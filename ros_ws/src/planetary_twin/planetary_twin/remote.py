@@ -42,9 +42,10 @@ class Setting(NamedTuple):
 
 
 class Remote(Client):
-    """Asks the simulation in `namespace`.
+    """
+    Asks the simulation in `namespace`.
 
-    Raises `ValueError` where there is none, or where it refuses.
+    Raises `ConnectionError` where there is none, or no answer, and `ValueError` where it refuses.
     """
 
     def __init__(self, namespace: str) -> None:
@@ -74,8 +75,10 @@ class Remote(Client):
             raise ValueError(answer.result.reason)
 
     def operate(self, typed: Mapping[str, str], ramp: float = 0.0) -> float:
-        """Change several quantities at one simulated instant [s], which is returned, or have them
-        reached within `ramp` [s] from it.
+        """
+        Change several quantities at one simulated instant [s], which is returned.
+
+        With a `ramp` [s], they are reached at its end.
         """
         for name in typed:
             if name not in TUNABLES:
@@ -109,7 +112,7 @@ class Remote(Client):
         try:
             if not self.wait(client.service_is_ready, _DISCOVERY):
                 domain = os.environ.get("ROS_DOMAIN_ID", "0")
-                raise ValueError(
+                raise ConnectionError(
                     f"no twin in {self.namespace} on ROS_DOMAIN_ID = {domain}: start one with "
                     "`planetary-twin run`"
                 )
@@ -119,11 +122,11 @@ class Remote(Client):
                     return answer
         finally:
             self.node.destroy_client(client)
-        raise ValueError(f"{self.namespace}/{NODE}/{service}: no answer")
+        raise ConnectionError(f"{self.namespace}/{NODE}/{service}: no answer")
 
 
 def in_si(name: str, typed: str) -> Any:
-    """What a user has typed for a parameter: a number where it is a quantity, else the text."""
+    """Read what a user has typed: a number where the parameter is a quantity, else the text."""
     try:
         return to_si(typed, TUNABLES[name].unit) if name in TUNABLES else typed
     except ValueError as refusal:

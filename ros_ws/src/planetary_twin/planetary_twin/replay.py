@@ -24,8 +24,9 @@ from .parameters import coerce, declare_bounded, declare_changing, declare_fixed
 from .playing import Player, Stretch
 from .playing_services import PlayingServices
 
-# Participants find one another at once, or, where a packet of the first exchange got lost, with the
-# next announcement: every 3 s. A subscriber that was there before must not miss the first messages.
+# Participants find one another at once, or, where a packet of the first exchange got lost, with
+# the next announcement: every 3 s. A subscriber that was there before must not miss the first
+# messages.
 _DISCOVERY = 4.0  # [s]
 _DELIVERY = 2.0  # [s] longest wait for subscribers to acknowledge the last messages
 _LONGEST = 1e7  # [s]
@@ -37,13 +38,13 @@ class Listener(Protocol):
     """Who hears how a replay goes."""
 
     def say(self, text: str) -> None:
-        """A line that stays."""
+        """Print a line that stays."""
 
     def warn(self, text: str) -> None:
-        """A line that the user should know of."""
+        """Print a line that the user should know of."""
 
     def move(self, instant: float, end: float) -> None:
-        """What is played stands at `instant` [s] of the recording and goes to `end`."""
+        """Show that what is played stands at `instant` [s] of the recording and goes to `end`."""
 
 
 class Replay(ManagedNode):
@@ -151,13 +152,13 @@ class Replay(ManagedNode):
     # Called by the services.
 
     def playing(self) -> Player:
-        """The player."""
+        """Return the player."""
         if self._player is None or not self._active:
             raise ValueError("the replay is not active, so its time stands still")
         return self._player
 
     def stamp(self, instant: float) -> int:
-        """The recorder's time [ns] of a recorded instant [s]."""
+        """Return the recorder's time [ns] of a recorded instant [s]."""
         return self._tape.start + round(instant * 1e9)
 
     def _declare(self) -> None:
@@ -225,8 +226,8 @@ class Replay(ManagedNode):
         self._warn_of_damage()
 
     def _warn_of_damage(self) -> None:
-        remarks = self._tape.remarks
-        for remark in remarks[self._told :]:
+        remarks, told = self._tape.remarks, self._told
+        for remark in remarks[told:]:
             self._listener.warn(remark)
         self._told = len(remarks)
 

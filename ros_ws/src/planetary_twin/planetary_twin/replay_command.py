@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import contextlib
 import inspect
-import sys
 from dataclasses import dataclass
-from pathlib import Path
 from typing import Annotated, Any
 
 import typer
+
+from planetary_twin_py.cli._arguments import FileArgument
+from planetary_twin_py.cli._fail import fail, need
 
 from .commands import interrupt_on_signals
 
@@ -18,7 +19,7 @@ from .commands import interrupt_on_signals
 class Options:
     """What the command takes: the node's parameters, and renamed topics."""
 
-    file: Annotated[Path, typer.Argument(help="Recording: an .mcap file or the folder of one.")]
+    file: FileArgument
     rate_factor: Annotated[
         float,
         typer.Option(
@@ -60,16 +61,19 @@ class Options:
 
 
 def replay(**given: Any) -> None:
-    """Publish a recording again, byte for byte and in its own time.
+    """
+    Publish a recording again, byte for byte and in its own time.
 
     While it plays: services replay/pause, replay/step and replay/seek, parameter rate_factor.
+
+    Example: planetary-twin replay recordings/NAME --rate 0.5 --loop
     """
+    need("ros", "mcap", "rosbags")
     interrupt_on_signals()
     remappings = given.pop("remap") or []
     for rule in remappings:
         if ":=" not in rule:
-            print(f"planetary-twin replay: --remap {rule}: must be OLD:=NEW", file=sys.stderr)
-            raise typer.Exit(1)
+            fail(f"--remap {rule}: must be OLD:=NEW")
     parameters = given | {
         "file": str(given["file"]),
         "duration": given["duration"] or 0.0,

@@ -29,11 +29,11 @@ class Bar:
         self._task = self.progress.add_task("finding subscribers", total=None)
 
     def say(self, text: str) -> None:
-        """A line that stays."""
+        """Print a line that stays."""
         self._console.print(text, highlight=False, soft_wrap=True)
 
     def warn(self, text: str) -> None:
-        """A line that the user should know of."""
+        """Print a line that the user should know of."""
         self._console.print(f"warning: {text}", style="yellow", highlight=False, soft_wrap=True)
 
     def move(self, instant: float, end: float) -> None:
@@ -43,7 +43,8 @@ class Bar:
 
 
 def replay_shown(parameters: Mapping[str, Any], remappings: Sequence[str]) -> int:
-    """Run a replay node with these parameters to its end; returns the exit code.
+    """
+    Run a replay node with these parameters to its end; returns the exit code.
 
     `remappings` are ROS's: OLD:=NEW.
     """

@@ -1,4 +1,5 @@
-"""SIGINT and SIGTERM: they interrupt what has nothing to lose, and otherwise only end the spinning.
+"""
+SIGINT and SIGTERM: they interrupt what has nothing to lose, and otherwise only end the spinning.
 
 rclpy's own handlers shut ROS down, which ends what spins; the ones here are called after them.
 """

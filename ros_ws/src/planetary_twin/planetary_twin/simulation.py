@@ -144,7 +144,7 @@ class Simulation(ManagedNode):
     # Time, see `time_services`.
 
     def running(self) -> LiveTwin:
-        """The live twin."""
+        """Return the live twin."""
         if self._live is None:
             raise ValueError("the simulation is not active, so its time stands still")
         return self._live
@@ -207,7 +207,9 @@ class Simulation(ManagedNode):
         if not 0.0 <= ramp <= LONGEST_RAMP:
             raise ValueError(f"ramp = {ramp:g} s: must be within 0 and {LONGEST_RAMP:g}")
         if len(names) != len(values) or not names:
-            raise ValueError(f"{len(names)} names for {len(values)} values: one each, at least one")
+            raise ValueError(
+                f"{len(names)} names for {len(values)} values: one each, at least one"
+            )
         for name in names:
             if name not in pt.TUNABLES:
                 raise ValueError(
@@ -232,7 +234,7 @@ class Simulation(ManagedNode):
 
     @property
     def _longest_wait(self) -> float:
-        """The loop takes orders up between two intervals, so this wait [s] is one interval long."""
+        """Orders are taken up between two intervals, so this wait [s] is one interval long."""
         return 2.0 * self._given.period + 1.0
 
     def _natural_modes(

@@ -29,10 +29,10 @@ TOLERANCE = pt.Tunable(
 
 
 class SimulationParameters:
-    """Declares them on `node`, refuses what cannot be, and says what they ask for.
+    """
+    Declares them on `node`, refuses what cannot be, and says what they ask for.
 
-    Raises:
-        ValueError: one that is given at the start is out of its range.
+    Raises `ValueError` where one that is given at the start is out of its range.
     """
 
     def __init__(self, node: Node) -> None:
@@ -78,15 +78,15 @@ class SimulationParameters:
         return 1.0 / (self.rate * (self.rate_factor or 1.0))
 
     def point(self) -> dict[str, float]:
-        """The operating point asked for now."""
+        """Return the operating point asked for now."""
         return {name: self._node.get_parameter(name).value for name in pt.TUNABLES}
 
     def scene_now(self) -> pt.Scene:
-        """The scene at that operating point."""
+        """Return the scene at that operating point."""
         return self.scene.replace(**self.point())
 
     def affordable(self, twin: pt.Twin) -> Affordable:
-        """What chooses the setting as asked for, from the twin's present one on."""
+        """Return what chooses the setting as asked for, from the twin's present one on."""
         wanted = self._node.get_parameter(TOLERANCE.name).value
         begin = Setting(twin.tolerance, twin.sample_rate)
         if self.rate_factor:

@@ -21,7 +21,7 @@ class Rising:
         self._last = 0
 
     def now(self) -> int:
-        """The time now [ns]."""
+        """Return the time now [ns]."""
         self._last = max(self._clock.now().nanoseconds, self._last + 1)
         return self._last
 
@@ -43,12 +43,13 @@ class _Look(NamedTuple):
 
 
 class Stamps:
-    """Maps simulated time to ROS time, interval after interval.
+    """
+    Maps simulated time to ROS time, interval after interval.
 
-    Stamps run with simulated time from the ROS time at which they `begin`, and move with the system
-    clock where that is set. With `use_sim_time` they are what /clock tells when an interval is
-    published. Where a clock is turned back, they go on from the newest. A twin that is itself the
-    `source` of /clock asks a clock but once.
+    Stamps run with simulated time from the ROS time at which they `begin`, and move with the
+    system clock where that is set. With `use_sim_time` they are what /clock tells when an interval
+    is published. Where a clock is turned back, they go on from the newest. A twin that is itself
+    the `source` of /clock asks a clock but once.
     """
 
     def __init__(self, clock: ROSClock, source: bool) -> None:

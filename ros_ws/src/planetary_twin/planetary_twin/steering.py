@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
-import sys
-from collections.abc import Callable, Iterator
+import contextlib
+from collections.abc import Iterator
 from contextlib import contextmanager
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
+
+from planetary_twin_py.cli._fail import fail
 
 if TYPE_CHECKING:
     from .remote import Remote
@@ -19,25 +21,30 @@ param = typer.Typer(no_args_is_help=True, help="Parameters of a running twin.")
 
 
 @contextmanager
-def _twin(namespace: str, command: str) -> Iterator[Remote]:
-    """The twin that runs; what it refuses ends the command in one line."""
+def _twin(namespace: str) -> Iterator[Remote]:
+    """Reach the twin that runs; what it refuses ends the command in one line."""
     from .remote import Remote
 
     try:
         with Remote(namespace) as remote:
             yield remote
     except ValueError as refusal:
-        print(f"planetary-twin {command}: {refusal}", file=sys.stderr)
-        raise typer.Exit(1) from None
+        fail(refusal)
+    except OSError as silence:
+        fail(silence, 1)
 
 
 @param.command("list")
 def list_(namespace: Namespace = NAMESPACE) -> None:
-    """All parameters with values, ranges and meanings."""
+    """
+    List all parameters with values, ranges and meanings.
+
+    Example: planetary-twin param list
+    """
     from rich.console import Console
     from rich.table import Table
 
-    with _twin(namespace, "param list") as twin:
+    with _twin(namespace) as twin:
         table = Table(box=None, header_style="bold", pad_edge=False)
         for title in ("parameter", "value", "range", "meaning"):
             table.add_column(title, justify="right" if title == "value" else "left")
@@ -49,10 +56,15 @@ def list_(namespace: Namespace = NAMESPACE) -> None:
 
 @param.command("get")
 def get(
-    name: Annotated[str, typer.Argument(help="Of the parameter.")], namespace: Namespace = NAMESPACE
+    name: Annotated[str, typer.Argument(help="Of the parameter.")],
+    namespace: Namespace = NAMESPACE,
 ) -> None:
-    """The value of a parameter."""
-    with _twin(namespace, "param get") as twin:
+    """
+    Print the value of a parameter.
+
+    Example: planetary-twin param get backlash
+    """
+    with _twin(namespace) as twin:
         print(_shown(twin.setting(name).value))
 
 
@@ -62,8 +74,12 @@ def set_(
     value: Annotated[str, typer.Argument(help="In SI, or with a unit: '0.3 um', '2000 rpm'.")],
     namespace: Namespace = NAMESPACE,
 ) -> None:
-    """Change a parameter."""
-    with _twin(namespace, "param set") as twin:
+    """
+    Change a parameter.
+
+    Example: planetary-twin param set backlash "0.3 um"
+    """
+    with _twin(namespace) as twin:
         twin.set(name, value)
         print(f"{name} = {_shown(twin.setting(name).value)}")
 
@@ -77,9 +93,13 @@ def op(
     ] = 0.0,
     namespace: Namespace = NAMESPACE,
 ) -> None:
-    """Change several quantities of a running twin at one simulated instant, or from it on."""
+    """
+    Change several quantities of a running twin at one simulated instant, or from it on.
+
+    Example: planetary-twin op input_speed=2000rpm lambda_ratio=1.5 --ramp 2
+    """
     typed = dict(_pair(change) for change in changes)
-    with _twin(namespace, "op") as twin:
+    with _twin(namespace) as twin:
         instant = twin.operate(typed, ramp)
         print(f"{', '.join(typed)} from {instant:g} s")
 
@@ -87,8 +107,7 @@ def op(
 def _pair(change: str) -> tuple[str, str]:
     name, equals, value = change.partition("=")
     if not (name and equals):
-        print(f"planetary-twin op: {change!r}: must be NAME=VALUE", file=sys.stderr)
-        raise typer.Exit(1)
+        fail(f"{change!r}: must be NAME=VALUE")
     return name, value
 
 
@@ -102,17 +121,15 @@ def monitor(
         float | None, typer.Option(help="Seconds to watch; without: until Ctrl-C.", min=0.1)
     ] = None,
 ) -> None:
-    """Show a running twin live: figures, and how they have changed."""
+    """
+    Show a running twin live: figures, and how they have changed.
+
+    Example: planetary-twin monitor --duration 10
+    """
     from .monitor import watch
 
-    _end_quietly(lambda: watch(namespace, duration))
-
-
-def _end_quietly(task: Callable[[], None]) -> None:
-    try:
-        task()
-    except KeyboardInterrupt:
-        pass
-    except ValueError as refusal:
-        print(f"planetary-twin monitor: {refusal}", file=sys.stderr)
-        raise typer.Exit(1) from None
+    with contextlib.suppress(KeyboardInterrupt):
+        try:
+            watch(namespace, duration)
+        except OSError as silence:
+            fail(silence, 1)

@@ -57,12 +57,13 @@ class Tap:
         self._describes = topic.type == _STRING and topic.name.endswith(_DESCRIPTION)
 
     def publishers(self) -> int:
-        """Publishers matched now, this node's own left out."""
+        """Count the publishers matched now, this node's own left out."""
         own = self._own is not _NOTHING
         return self.subscription.get_publisher_count() - own if self.subscription else 0
 
     def receive(self, raw: bytes, info: dict[str, Any]) -> None:
-        """Write a message, and those that wait behind it.
+        """
+        Write a message, and those that wait behind it.
 
         The executor would bring them one by one, at ten times the cost of writing one.
         """
@@ -93,12 +94,13 @@ class Tap:
         self.account.receive(number, self.publishers)
 
     def told_of_loss(self, event: QoSMessageLostInfo) -> None:
-        """The middleware tells of messages it could not deliver."""
+        """Hear from the middleware of messages it could not deliver."""
         self.account.reported += event.total_count_change
 
 
 class Taps:
-    """The taps of one recording; `failed` hears why the sink takes no more.
+    """
+    The taps of one recording; `failed` hears why the sink takes no more.
 
     What the node itself has published, of late in `own`, is not recorded: so a recording of a
     replay holds what was replayed.

@@ -17,7 +17,7 @@ class Clockwork(Protocol):
     """The simulation, as far as its time is concerned."""
 
     def running(self) -> LiveTwin:
-        """The live twin; raises `ValueError` where there is none."""
+        """Return the live twin; raises `ValueError` where there is none."""
 
     def reset(self) -> Future[float]:
         """Begin anew at simulated time zero."""

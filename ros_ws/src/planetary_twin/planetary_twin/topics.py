@@ -20,7 +20,8 @@ _EVERYWHERE = ("/diagnostics", "/tf")
 
 
 def wanted_topics(node: Node, chosen: Sequence[str]) -> list[str]:
-    """Topics that exist and are to be recorded.
+    """
+    Topics that exist and are to be recorded.
 
     `chosen` names them; without it, they are those that stand directly in the node's namespace,
     /diagnostics and /tf.
@@ -34,7 +35,7 @@ def wanted_topics(node: Node, chosen: Sequence[str]) -> list[str]:
 
 
 def describe(name: str, publishers: Sequence[TopicEndpointInfo]) -> Topic:
-    """The topic as a bag describes it."""
+    """Return the topic as a bag describes it."""
     first = publishers[0]
     return Topic(
         name=name,
@@ -46,7 +47,7 @@ def describe(name: str, publishers: Sequence[TopicEndpointInfo]) -> Topic:
 
 
 def message_class(type_name: str) -> type:
-    """The class of `pkg/msg/Name`; raises `ImportError` where its package is not installed."""
+    """Import the class of `pkg/msg/Name`; `ImportError` says that its package is not there."""
     package, kind, name = type_name.split("/")
     try:
         return getattr(import_module(f"{package}.{kind}"), name)
@@ -55,7 +56,7 @@ def message_class(type_name: str) -> type:
 
 
 def matching_qos(publishers: Sequence[TopicEndpointInfo]) -> QoSProfile:
-    """The strongest profile that every publisher still meets."""
+    """Return the strongest profile that every publisher still meets."""
     offered = [publisher.qos_profile for publisher in publishers]
     reliable = all(qos.reliability == ReliabilityPolicy.RELIABLE for qos in offered)
     latched = all(qos.durability == DurabilityPolicy.TRANSIENT_LOCAL for qos in offered)

@@ -35,10 +35,10 @@ _SILENCE = 10.0  # [s] longest wait for a twin
 
 
 def follow(namespace: str, duration: float | None) -> Iterator[list[Any]]:
-    """Batches of MCAP records for `duration` [s], without it for ever.
+    """
+    Yield batches of MCAP records for `duration` [s], without it for ever.
 
-    Raises:
-        RecordingError: nothing publishes there.
+    Raises `RecordingError` where nothing publishes.
     """
     stay_on_this_machine()
     with _Watch(namespace) as watch:
@@ -82,7 +82,7 @@ class _Watch(Client):
         return {_number(STATE), _number(ORIGIN)} <= self._heard
 
     def take(self) -> list[Any]:
-        """The records since the last call, definitions first."""
+        """Return the records since the last call, definitions first."""
         definitions, self._definitions = self._definitions, []
         count = len(self._records)  # what comes meanwhile is of the next batch
         return definitions + [self._records.popleft() for _ in range(count)]

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
-import json
-import sys
 from pathlib import Path
 from typing import Annotated
 
 import typer
+
+from planetary_twin_py.cli._arguments import JsonOption
+from planetary_twin_py.cli._fail import fail
+from planetary_twin_py.cli._figures import console_beside, put_figures
 
 
 def bench_live(
@@ -17,20 +19,20 @@ def bench_live(
     memory: Annotated[
         float, typer.Option(help="Of the measurement of the memory [s].", min=2.0)
     ] = 60.0,
-    json_: Annotated[
-        str | None, typer.Option("--json", metavar="FILE", help="Write figures; - prints them.")
-    ] = None,
+    json_: JsonOption = None,
     markdown: Annotated[
         Path | None, typer.Option(help="Write the tables as a page of the documentation.")
     ] = None,
 ) -> None:
-    """Measure jitter, latency, processor share and memory of a live twin."""
-    from rich.console import Console
+    """
+    Measure jitter, latency, processor share and memory of a live twin.
 
+    Example: planetary-twin bench-live --duration 10 --json figures.json
+    """
     from .measure import measure
     from .report import as_json, as_markdown, as_tables, remarks
 
-    console = Console(stderr=json_ == "-")
+    console = console_beside(json_)
     try:
         with console.status("starting") as status:
             figures = measure(duration, memory, status.update)
@@ -39,11 +41,6 @@ def bench_live(
         if markdown is not None:
             command = f"planetary-twin bench-live --duration {duration:g} --memory {memory:g}"
             markdown.write_text(as_markdown(figures, command), "utf-8")
-        if json_ is not None:
-            text = json.dumps(as_json(figures), indent=2) + "\n"
-            sys.stdout.write(text) if json_ == "-" else Path(json_).write_text(text, "utf-8")
-    except KeyboardInterrupt:
-        raise typer.Exit(130) from None
-    except (ValueError, OSError) as reason:
-        print(f"planetary-twin bench-live: {reason}", file=sys.stderr)
-        raise typer.Exit(1) from None
+        put_figures(as_json(figures), json_)
+    except (RuntimeError, ValueError, OSError) as reason:
+        fail(reason, 1)

@@ -17,7 +17,7 @@ class Quantiles(NamedTuple):
 
     @classmethod
     def of(cls, values: Sequence[float]) -> Self:
-        """The quantiles of `values`."""
+        """Return the quantiles of `values`."""
         if not len(values):
             return cls(*[float("nan")] * 3)
         return cls(*(float(v) for v in np.quantile(values, (0.5, 0.99, 1.0))))
@@ -31,6 +31,6 @@ class Slope(NamedTuple):
 
     @classmethod
     def of(cls, time: Sequence[float], values: Sequence[float]) -> Self:
-        """The slope of `values` over `time`, at least three of them."""
+        """Return the slope of `values` over `time`, at least three of them."""
         (slope, _), covariance = np.polyfit(time, values, 1, cov=True)
         return cls(float(slope), float(np.sqrt(covariance[0, 0])))

@@ -62,8 +62,10 @@ class Meter(Client):
         return numbers[-1] - numbers[0] + 1 - len(numbers) if numbers else 0
 
     def jitter(self, period: float) -> tuple[Quantiles, Quantiles]:
-        """Deviation [s] of the time between two messages from `period` [s]: as the publisher
-        stamped them in sending, and as they came.
+        """
+        Return the deviation [s] of the time between two messages from `period` [s].
+
+        First as the publisher stamped them in sending, then as they came.
         """
         sent, came = (
             Quantiles.of(np.abs(np.diff(times) * 1e-9 - period))

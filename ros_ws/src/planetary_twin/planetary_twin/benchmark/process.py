@@ -16,13 +16,16 @@ def processor_time(pid: int) -> float:
 
 
 def resident_memory(pid: int) -> float:
-    """[MB]"""
+    """Resident memory [MB]."""
     return _pages(pid)[1] * _PAGE / 1e6
 
 
 def own_memory(pid: int) -> float:
-    """Of the resident, what is neither of a file nor shared: the middleware's rings, which are
-    both, become resident as they are written to for the first time [MB]."""
+    """
+    Of the resident memory, what is neither of a file nor shared [MB].
+
+    The middleware's rings, which are both, become resident as they are first written to.
+    """
     _, resident, shared, *_ = _pages(pid)
     return (resident - shared) * _PAGE / 1e6
 

@@ -160,7 +160,7 @@ class _Sender(Client):
         return sum(self._status.recorded)
 
     def accounted(self) -> int:
-        """Recorded or lost, by the logger's account."""
+        """Count what is recorded or lost, by the logger's account."""
         return self.recorded() + sum(self._status.lost)
 
     def _hear(self, status: RecorderStatus) -> None:
@@ -179,7 +179,8 @@ class Payload:
 
     def __getitem__(self, number: int) -> bytes:
         begin = number * self._length % (len(self._text) - self._length)
-        return self._header + self._text[begin : begin + self._length] + b"\0"
+        end = begin + self._length
+        return self._header + self._text[begin:end] + b"\0"
 
 
 def bare_rate(size: int, file: Path) -> float:

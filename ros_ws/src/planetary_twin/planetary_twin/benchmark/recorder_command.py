@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
-import json
-import sys
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
+
+from planetary_twin_py.cli._arguments import JsonOption
+from planetary_twin_py.cli._fail import fail
+from planetary_twin_py.cli._figures import console_beside, put_figures
 
 if TYPE_CHECKING:
     from rich.table import Table
@@ -20,28 +22,23 @@ def bench_recorder(
     directory: Annotated[
         Path, typer.Option(help="On the disk to measure; what is written is deleted.")
     ] = Path("."),
-    json_: Annotated[
-        str | None, typer.Option("--json", metavar="FILE", help="Write figures; - prints them.")
-    ] = None,
+    json_: JsonOption = None,
 ) -> None:
-    """Find the highest rate that is recorded without loss, for small and large messages."""
-    from rich.console import Console
+    """
+    Find the highest rate that is recorded without loss, for small and large messages.
 
+    Example: planetary-twin bench-recorder --directory recordings
+    """
     from .recorder import measure
 
-    console = Console(stderr=json_ == "-")
+    console = console_beside(json_)
     try:
         with console.status("starting") as status:
             found = measure(duration, directory, status.update)
         console.print(_table(found))
-        if json_ is not None:
-            text = json.dumps([_plain(row) for row in found], indent=2) + "\n"
-            sys.stdout.write(text) if json_ == "-" else Path(json_).write_text(text, "utf-8")
-    except KeyboardInterrupt:
-        raise typer.Exit(130) from None
-    except (ValueError, OSError) as reason:
-        print(f"planetary-twin bench-recorder: {reason}", file=sys.stderr)
-        raise typer.Exit(1) from None
+        put_figures([_plain(row) for row in found], json_)
+    except (RuntimeError, ValueError, OSError) as reason:
+        fail(reason, 1)
 
 
 def _table(found: list[Throughput]) -> Table:

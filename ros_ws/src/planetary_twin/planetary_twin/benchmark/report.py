@@ -26,7 +26,7 @@ def as_json(figures: Figures) -> dict[str, Any]:
 
 
 def _plain(value: Any) -> Any:
-    """A record as a dictionary, whatever records it holds."""
+    """Return a record as a dictionary, whatever records it holds."""
     if hasattr(value, "_asdict"):
         return {name: _plain(part) for name, part in value._asdict().items()}
     return value
@@ -72,7 +72,7 @@ def _times(p: Punctuality) -> list[Row]:
 
 
 def remarks(figures: Figures) -> list[str]:
-    """What the tables leave out."""
+    """Tell what the tables leave out."""
     return [
         f"{p.rate:g} Hz: {p.messages} messages in {figures.duration:g} s, {p.lost} lost on their "
         f"way, real-time factor {p.real_time_factor:.4f}, {p.overruns} overruns"
@@ -95,7 +95,7 @@ def as_tables(figures: Figures) -> list[Table]:
 
 
 def as_markdown(figures: Figures, command: str) -> str:
-    """The page `docs/real-time.md`."""
+    """Return the page `docs/real-time.md`."""
     times, costs, memory = (_markdown(*table) for table in tables(figures))
     notes = "\n".join(f"- {remark}." for remark in remarks(figures))
     return f"""# Real time, measured
@@ -107,8 +107,8 @@ another one, on {figures.machine}. Read ratios where others use the machine, too
 
 The scene `paper`, waveform at 50 kHz, one listener. *Jitter*: deviation of the time between two
 `gearbox_state` from the period, *sent* by the publisher's stamps, *come* by the listener's clock.
-*Set to message*: from the call of `set_parameters_atomically` until a `gearbox_state` has come that
-shows the value; half an interval of it, on average, is waiting for the next interval.
+*Set to message*: from the call of `set_parameters_atomically` until a `gearbox_state` has come
+that shows the value; half an interval of it, on average, is waiting for the next interval.
 
 {times}
 

@@ -22,12 +22,13 @@ def _end_with_parent() -> None:
     ctypes.CDLL(None).prctl(_PR_SET_PDEATHSIG, signal.SIGTERM)
 
 
-class RunError(ValueError):
+class RunError(RuntimeError):
     """A run that cannot go on; the message says why in one line."""
 
 
 class Child:
-    """A node of this package, started with `parameters` in `namespace`.
+    """
+    A node of this package, started with `parameters` in `namespace`.
 
     It stands in a session of its own: Ctrl-C reaches the run alone, which ends its nodes in order.
     """
@@ -82,7 +83,7 @@ class Child:
         return self._process.returncode
 
     def last_words(self) -> str:
-        """The last line the process printed, or nothing."""
+        """Return the last line the process printed, or nothing."""
         self._log.seek(0)
         lines = self._log.read().decode(errors="replace").strip().splitlines()
         return lines[-1] if lines else ""

@@ -23,7 +23,8 @@ _MACHINERY = ("/rosout", "/parameter_events")
 
 
 class Operator(Client):
-    """Beside the two nodes of a run.
+    """
+    Beside the two nodes of a run.
 
     What it hears is kept as the newest `state`, `recorder` and real-time `figures`.
     """
@@ -47,7 +48,7 @@ class Operator(Client):
             raise RunError(f"{what}: not within {seconds:g} s")
 
     def next_state(self, after: float, seconds: float) -> GearboxState:
-        """The newest state later than simulated time `after` [s], within `seconds`."""
+        """Return the newest state later than simulated time `after` [s], within `seconds`."""
         newest: list[GearboxState] = []
 
         def heard() -> bool:
@@ -58,7 +59,7 @@ class Operator(Client):
         return newest[0]
 
     def twins(self) -> int:
-        """Simulations in this namespace, this run's own included."""
+        """Count the simulations in this namespace, this run's own included."""
         return self.node.get_node_names_and_namespaces().count((_NODE, self.namespace))
 
     def bring(self, transition: str, begin: str, goal: str, seconds: float) -> None:

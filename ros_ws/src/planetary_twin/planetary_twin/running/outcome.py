@@ -98,7 +98,9 @@ def read_outcome(file: Path, published: Mapping[str, int], figures: Mapping[str,
     return Outcome(
         file=file,
         topics={
-            name: _tally(types[name], published.get(name), recorded.get(name, 0), gaps.get(name, 0))
+            name: _tally(
+                types[name], published.get(name), recorded.get(name, 0), gaps.get(name, 0)
+            )
             for name in types
         },
         duration=float(span.sum()),
@@ -117,7 +119,7 @@ def _tally(kind: str, published: int | None, recorded: int, gaps: int) -> Tally:
 
 
 def print_outcome(console: Console, outcome: Outcome) -> None:
-    """A short table, and how to look at the recording."""
+    """Print a short table, and how to look at the recording."""
     table = Table(box=None, pad_edge=False)
     table.add_column("topic")
     for title in ("published", "recorded", "lost", "gaps"):

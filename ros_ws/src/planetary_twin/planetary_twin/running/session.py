@@ -43,7 +43,8 @@ class Plan:
 
 
 def run_session(plan: Plan, console: Console) -> Outcome:
-    """Run `plan` to its end, or until interrupted; either way the recording is finished.
+    """
+    Run `plan` to its end, or until interrupted; either way the recording is finished.
 
     Raises `RunError` where a node fails.
     """
@@ -131,7 +132,8 @@ def _domain() -> str:
 
 @contextlib.contextmanager
 def _alone(namespace: str) -> Iterator[None]:
-    """Raise `RunError` where a run of this user is under way in the same domain and namespace.
+    """
+    Raise `RunError` where a run of this user is under way in the same domain and namespace.
 
     Discovery may take longer than a short run; a lock does not, and ends with its process.
     """

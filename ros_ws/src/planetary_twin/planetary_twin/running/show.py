@@ -44,7 +44,7 @@ class Show:
         self._bar.stop()
 
     def say(self, simulated: float, text: str) -> None:
-        """A line that stays."""
+        """Print a line that stays."""
         self._console.print(f"{simulated:6.2f} s  {text}", highlight=False)
 
     def update(self, state: GearboxState, real_time_factor: str) -> None:

@@ -21,7 +21,9 @@ class Stop(NamedTuple):
 PAPER: Sequence[Stop] = (
     Stop(0.0, {}, "steady: 1000 rpm, 63 N m, lambda ratio 1"),
     Stop(2.0, {"lambda_ratio": 2.0}, "lambda ratio 1 -> 2: the film parts the asperities"),
-    Stop(3.5, {"backlash": 3.5e-7}, "backlash 0.2 -> 0.35 um: under load DTE shifts by half of it"),
+    Stop(
+        3.5, {"backlash": 3.5e-7}, "backlash 0.2 -> 0.35 um: under load DTE shifts by half of it"
+    ),
     Stop(5.0, {"input_speed": rpm(2000)}, "1000 -> 2000 rpm: mesh frequency and losses follow"),
     Stop(
         7.0,
@@ -35,6 +37,6 @@ TOURS: Mapping[str, Sequence[Stop]] = {"paper": PAPER}
 
 
 def tour_of(scene: str, duration: float) -> list[Stop]:
-    """The stops for a packaged scene's name in a run of `duration` [s]; none for other scenes."""
+    """Return the stops for a packaged scene in a run of `duration` [s]; none for other scenes."""
     scale = duration / LENGTH
     return [stop._replace(time=stop.time * scale) for stop in TOURS.get(scene, ())]

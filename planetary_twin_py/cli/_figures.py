@@ -1,0 +1,34 @@
+"""`--json FILE`: figures for machines, beside what a person reads."""
+
+from __future__ import annotations
+
+import json
+import sys
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from ._fail import fail
+
+if TYPE_CHECKING:
+    from rich.console import Console
+
+
+def console_beside(target: str | None) -> Console:
+    """Where a person reads: standard output, unless figures go there."""
+    from rich.console import Console
+
+    return Console(stderr=target == "-")
+
+
+def put_figures(figures: Any, target: str | None) -> None:
+    """Write `figures` as JSON into the file `target`, or to standard output where it is "-"."""
+    if target is None:
+        return
+    text = json.dumps(figures, indent=2) + "\n"
+    if target == "-":
+        sys.stdout.write(text)
+        return
+    try:
+        Path(target).write_text(text, "utf-8")
+    except OSError as error:
+        fail(f"--json = {target!r}: {error.strerror}")

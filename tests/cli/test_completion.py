@@ -1,0 +1,78 @@
+"""What a shell offers, and that it need not wait for it."""
+
+import subprocess
+import sys
+
+import pytest
+from command_line import COMMAND, run
+
+from planetary_twin_py import packaged_scenes
+from planetary_twin_py.cli._arguments import complete_recording, complete_scene
+
+HEAVY = ("numba", "numpy", "pint", "rclpy", "rich", "scipy")
+
+
+@pytest.fixture
+def recordings(tmp_path, monkeypatch):
+    """Recordings where they land, one elsewhere, and what is none."""
+    monkeypatch.chdir(tmp_path)
+    for name in ("recordings/first", "recordings/second", "other/third"):
+        (tmp_path / name).mkdir(parents=True)
+        (tmp_path / name / "part_0.mcap").touch()
+    (tmp_path / "recordings/notes").mkdir()
+    (tmp_path / "recordings/README.md").touch()
+    (tmp_path / "loose.mcap").touch()
+
+
+def offered(*words):
+    """What bash is told for the last of these words."""
+    line = ("planetary-twin", *words)
+    answer = run(
+        _PLANETARY_TWIN_COMPLETE="complete_bash",
+        COMP_WORDS=" ".join(line),
+        COMP_CWORD=str(len(line) - 1),
+        prelude="import sys; sys.argv[0] = 'planetary-twin'",
+    )
+    assert answer.returncode == 0 and not answer.stderr, answer.stderr
+    return answer.stdout.split()
+
+
+def test_scenes_are_those_that_can_be_loaded():
+    assert complete_scene("") == list(packaged_scenes())
+    assert complete_scene("pap") == ["paper", "paper_printed"]
+    assert complete_scene("./my.yaml") == []
+
+
+def test_recordings_are_files_and_folders_of_files(recordings):
+    assert complete_recording("") == ["loose.mcap", "recordings/first", "recordings/second"]
+    assert complete_recording("recordings/s") == ["recordings/second"]
+    assert complete_recording("other/") == ["other/third"]
+    assert complete_recording("nowhere/x") == []
+
+
+def test_a_shell_is_offered_commands_scenes_and_recordings(recordings):
+    assert offered("sim") == ["simulate"]
+    assert offered("explain", "crack") == ["cracked_tooth"]
+    assert offered("replay", "recordings/f") == ["recordings/first"]
+    assert offered("view", "--scene", "wind") == ["wind_turbine_stage"]
+
+
+def test_completion_and_help_load_nothing_that_one_would_wait_for():
+    for words in (["--help"], ["simulate", "--help"], ["run", "--help"]):
+        code = (
+            "import atexit, sys\n"
+            f"atexit.register(lambda: print(*[m for m in {HEAVY} if m in sys.modules], "
+            "file=sys.stderr))\n"
+            "from planetary_twin_py.cli import main; main()"
+        )
+        done = subprocess.run(
+            [sys.executable, "-c", code, *words], capture_output=True, text=True, check=True
+        )
+        assert done.stderr.strip() == ""
+
+
+def test_a_script_for_the_shell_is_shown():
+    script = subprocess.run(
+        [*COMMAND, "--show-completion", "bash"], capture_output=True, text=True, check=True
+    ).stdout
+    assert "_COMPLETE=complete_bash" in script and "complete -o default" in script

@@ -1,0 +1,110 @@
+"""What a person is used to from commands: exit codes, colours, pipes, Ctrl-C."""
+
+import os
+import pty
+import signal
+import subprocess
+import time
+from pathlib import Path
+
+import pytest
+from command_line import COMMAND, run
+
+MISTAKES = (
+    ["simulte"],
+    ["simulate", "--durration", "1"],
+    ["simulate", "--duration", "long"],
+    ["simulate", "papyrus"],
+    ["simulate", "--set", "backlash"],
+    ["sweep"],
+    ["info", "no/such/recording"],
+    ["run", "--set", "gap=1"],
+    ["modal", "--json", "no/such/folder.json"],
+)
+
+
+@pytest.mark.parametrize("arguments", MISTAKES, ids=" ".join)
+def test_what_is_typed_wrong_ends_with_2_and_without_a_traceback(arguments, tmp_path):
+    done = run(*arguments)
+    assert done.returncode == 2
+    assert done.stderr and "Traceback" not in done.stderr
+
+
+def test_what_succeeds_ends_with_0_and_says_nothing_on_the_error_stream():
+    done = run("modal")
+    assert (done.returncode, done.stderr) == (0, "")
+
+
+def printed_on_a_terminal(**environment):
+    """All that a mistake puts on a terminal."""
+    ours, theirs = pty.openpty()
+    subprocess.run(
+        [*COMMAND, "simulate", "papyrus"],
+        stdout=theirs,
+        stderr=theirs,
+        env=os.environ | {"TERM": "xterm-256color"} | environment,
+        timeout=60,
+    )
+    os.close(theirs)
+    with open(ours, "rb") as terminal:
+        return terminal.read1(10000)
+
+
+def test_colours_are_for_terminals_whose_user_has_not_declined():
+    assert b"\x1b[31m" in printed_on_a_terminal()
+    assert b"\x1b[" not in printed_on_a_terminal(NO_COLOR="1")
+    assert b"\x1b[" not in printed_on_a_terminal(TERM="dumb")
+    assert "\x1b[" not in run("simulate", "papyrus", TERM="xterm-256color").stderr
+
+
+@pytest.mark.parametrize("arguments", (["--help"], ["modal"], ["modal", "--json", "-"]))
+def test_a_reader_that_has_read_enough_is_no_error_to_tell(arguments):
+    process = subprocess.Popen(
+        [*COMMAND, *arguments], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True
+    )
+    process.stdout.close()
+    errors = process.stderr.read()
+    assert process.wait(60) == 1
+    assert "Traceback" not in errors and "BrokenPipe" not in errors
+
+
+def busy_threads(process):
+    """Threads besides the first that have computed for a while."""
+    first = str(process.pid)
+    busy = 0
+    for thread in Path(f"/proc/{process.pid}/task").iterdir():
+        ticks = int((thread / "stat").read_text().rpartition(")")[2].split()[11])
+        busy += thread.name != first and ticks > 0.3 * os.sysconf("SC_CLK_TCK")
+    return busy
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(
+    "arguments",
+    (
+        ["simulate", "--duration", "300"],
+        ["explain", "--duration", "300"],
+        ["sweep", "paper", "--input-speed", "1000rpm:5000rpm:400", "--out", "s.csv"],
+        ["bifurcation", "paper", "--out", "s.csv"],
+    ),
+    ids=lambda arguments: arguments[0],
+)
+def test_ctrl_c_ends_what_takes_long_at_once(arguments, tmp_path):
+    process = subprocess.Popen(
+        [*COMMAND, *arguments],
+        cwd=tmp_path,
+        stdout=subprocess.DEVNULL,
+        stderr=subprocess.PIPE,
+        text=True,
+    )
+    try:
+        deadline = time.monotonic() + 60.0
+        while not busy_threads(process):
+            assert time.monotonic() < deadline and process.poll() is None
+            time.sleep(0.05)
+        process.send_signal(signal.SIGINT)
+        _, errors = process.communicate(timeout=20)
+    finally:
+        process.kill()
+    assert process.returncode == 130
+    assert "Traceback" not in errors

@@ -1,0 +1,58 @@
+"""Every command's help shows units, and an example that can be typed."""
+
+import shlex
+
+import pytest
+from typer.core import TyperGroup
+from typer.main import get_command
+from typer.testing import CliRunner
+
+from planetary_twin_py.cli import build_app
+
+APP = build_app()
+
+
+def commands(group, *path):
+    """All commands with the words that lead to them."""
+    for name, command in group.commands.items():
+        if isinstance(command, TyperGroup):
+            yield from commands(command, *path, name)
+        else:
+            yield (*path, name), command
+
+
+ALL = dict(commands(get_command(APP)))
+
+
+def shown(*words):
+    done = CliRunner().invoke(APP, [*words, "--help"], env={"COLUMNS": "80"})
+    assert done.exit_code == 0, done.output
+    return done.output
+
+
+def test_commands_of_both_packages_are_there():
+    assert {("simulate",), ("run",), ("param", "set"), ("bench-live",)} <= set(ALL)
+    for words in ALL:
+        assert f"\n  {words[0]} " in shown()
+
+
+@pytest.mark.parametrize("words", ALL, ids=" ".join)
+def test_an_example_is_shown_as_it_is_typed_and_is_understood(words):
+    output = shown(*words)
+    typed = output.partition("\nExample:\n")[2].replace("\\\n", " ")
+    assert "\n" not in typed.strip()
+    program, *rest = shlex.split(typed)
+    assert program == "planetary-twin" and tuple(rest[: len(words)]) == words
+    ALL[words].make_context(words[-1], rest[len(words) :])
+
+
+@pytest.mark.parametrize(
+    ("command", "unit"), [("replay", "[s]"), ("run", "[s]"), ("resimulate", "[s]")]
+)
+def test_units_in_brackets_are_seen(command, unit):
+    assert unit in shown(command)
+
+
+def test_a_slip_of_the_keyboard_is_answered_with_what_was_meant():
+    done = CliRunner().invoke(APP, ["simulte"])
+    assert done.exit_code == 2 and "'simulate'" in done.output
