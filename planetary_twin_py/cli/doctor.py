@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from importlib.metadata import entry_points
 from typing import TYPE_CHECKING
 
 import typer
@@ -14,7 +13,6 @@ from ._figures import console_beside, put_figures
 if TYPE_CHECKING:
     from ..doctor.finding import Finding
 
-GROUP = "planetary_twin.checks"
 _COLOURS = {"sound": "green", "absent": "yellow", "broken": "red"}
 
 
@@ -47,17 +45,7 @@ def doctor(
 
 
 def _findings() -> Iterator[Finding]:
-    from ..doctor import cache, disk, packages, viewer
-    from ..doctor.finding import Finding
+    from ..doctor import apart, cache, disk, environment, packages, viewer
 
-    for part in (packages, cache, disk, viewer):
+    for part in (packages, cache, disk, viewer, environment, apart):
         yield from part.check()
-    added = entry_points(group=GROUP)
-    if not added:
-        mend = "see 'Where ROS 2 Jazzy is installed' in the README"
-        yield Finding("nodes", "absent", "the package planetary_twin is not installed", mend)
-    for entry in added:
-        try:
-            yield from entry.load()()
-        except ImportError as reason:
-            yield Finding(entry.name, "broken", str(reason), "source ROS 2, or make setup")

@@ -12,14 +12,14 @@ from packaging.requirements import Requirement
 from .finding import Finding
 
 PACKAGE = "planetary_twin_py"
-# What the extras are good for; those for building and testing are no matter of an installation.
+# What the extras are good for; those for developers and for ROS are no matter here.
 EXTRAS = {
     "recording": "read, verify and recover recordings",
+    "analysis": "export recordings as tables",
     "view": "look at recordings",
     "analysis": "export tables",
     "plots": "draw",
-    "studies": "sweep",
-    "bench": "compare with other solvers",
+    "studies": "sweep, and draw and fit what comes of it",
 }
 
 

@@ -9,7 +9,7 @@ from pathlib import Path
 
 from .finding import Finding
 
-_PATIENCE = 20.0  # [s]
+_PATIENCE = 5.0  # [s]
 _DRIVERS = ("/usr/share/vulkan/icd.d", "/etc/vulkan/icd.d")
 
 

@@ -8,8 +8,8 @@ import pytest
 from typer.testing import CliRunner
 
 from planetary_twin_py.cli import build_app
-from planetary_twin_py.cli.doctor import GROUP
-from planetary_twin_py.doctor import cache, disk, packages, viewer
+from planetary_twin_py.cli._commands import GROUP
+from planetary_twin_py.doctor import apart, cache, disk, environment, packages, viewer
 from planetary_twin_py.doctor.finding import Finding
 
 
@@ -41,7 +41,7 @@ def test_every_extra_of_an_installation_is_looked_at():
     import tomllib
 
     declared = set(tomllib.loads(project.read_text())["project"]["optional-dependencies"])
-    assert declared - extras == {"ros", "build", "test"}
+    assert declared - extras == {"ros", "build", "test", "bench"}
 
 
 def test_kernels_not_yet_compiled_and_a_cache_that_cannot_be_written_are_told(
@@ -93,17 +93,30 @@ def test_this_installation_is_sound_and_its_nodes_can_talk(tmp_path):
     assert found["middleware"]["state"] == "sound" and "arrived" in found["middleware"]["told"]
 
 
-def test_what_cannot_be_loaded_is_broken_and_takes_no_other_command_with_it(monkeypatch):
-    (entry,) = entry_points(group=GROUP)
+def test_a_middleware_that_ends_its_process_does_not_end_the_doctor(monkeypatch):
+    monkeypatch.setenv("RMW_IMPLEMENTATION", "rmw_of_no_one")
+    (found,) = apart.check()
+    assert (found.part, found.state) == ("ros", "broken")
+    assert "rmw_of_no_one" in found.told and "RMW_IMPLEMENTATION" in found.mend
+
+
+def test_another_distribution_that_is_sourced_is_told(monkeypatch):
+    monkeypatch.setenv("ROS_DISTRO", "jazzy")
+    assert [*environment.check()] == []
+    monkeypatch.setenv("ROS_DISTRO", "humble")
+    (found,) = environment.check()
+    assert found.state == "broken" and "humble" in found.told
+
+
+def test_a_command_that_cannot_be_loaded_takes_no_other_with_it(monkeypatch):
+    (entry,) = entry_points(group=GROUP, name="run")
 
     def broken(_):
         raise ImportError("librcl.so: cannot open shared object file")
 
     monkeypatch.setattr(type(entry), "load", broken)
-    done = CliRunner().invoke(build_app(), ["doctor"])
-    assert done.exit_code == 1
-    assert "librcl.so" in done.output
     done = CliRunner().invoke(build_app(), ["run"])
     assert done.exit_code == 2
+    assert "librcl.so" in done.output
     assert done.output.strip().endswith("planetary-twin doctor tells more")
     assert CliRunner().invoke(build_app(), ["modal", "--help"]).exit_code == 0

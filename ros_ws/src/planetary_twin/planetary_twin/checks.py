@@ -18,7 +18,7 @@ from planetary_twin_py.doctor.finding import Finding
 
 from .network import stay_on_this_machine
 
-_PATIENCE = 10.0  # [s] for two participants to find each other
+_PATIENCE = 5.0  # [s] for two participants to find each other
 _SHARED_MEMORY = Path("/dev/shm")
 
 

@@ -1,0 +1,182 @@
+"""The model as a wheel: what is in it, and that it works alone."""
+
+import email
+import re
+import shutil
+import subprocess
+import sys
+import tomllib
+import zipfile
+from pathlib import Path
+from xml.etree import ElementTree
+
+import pytest
+from catkin_pkg.package import parse_package
+from packaging.requirements import Requirement
+from packaging.version import Version
+
+ROOT = Path(__file__).parents[2]
+PROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text())["project"]
+MANIFESTS = [
+    ROOT / folder / "package.xml"
+    for folder in ("planetary_twin_py", "msgs_spec", "ros_ws/src/planetary_twin")
+]
+NOT_THE_MODELS = ("ros", "rclpy", "rerun", "mcap", "matplotlib", "pyarrow", "distributed", "sundae")
+
+
+@pytest.fixture(scope="module")
+def wheel(tmp_path_factory):
+    """The wheel of the files that are kept, built without a network."""
+    folder = tmp_path_factory.mktemp("wheel")
+    listed = subprocess.run(
+        ["git", "ls-files", "-co", "--exclude-standard"],
+        cwd=ROOT, capture_output=True, text=True, check=True,
+    )  # fmt: skip
+    for name in listed.stdout.splitlines():
+        if (ROOT / name).exists():
+            (folder / "source" / name).parent.mkdir(parents=True, exist_ok=True)
+            shutil.copy(ROOT / name, folder / "source" / name, follow_symlinks=False)
+    uv = [Path(sys.prefix, "bin/uv"), "--offline", "--quiet"]
+    subprocess.run(
+        [*uv, "build", "--wheel", "--no-build-isolation", "--python", sys.executable,
+         "--out-dir", folder, folder / "source"],
+        check=True,
+    )  # fmt: skip
+    (made,) = folder.glob("*.whl")
+    return made
+
+
+@pytest.fixture(scope="module")
+def alone(wheel, tmp_path_factory):
+    """Where the wheel is unpacked, as pip does."""
+    folder = tmp_path_factory.mktemp("installed")
+    zipfile.ZipFile(wheel).extractall(folder)
+    return folder
+
+
+def test_the_wheel_holds_the_package_and_what_it_reads(wheel):
+    held = set(zipfile.ZipFile(wheel).namelist())
+    kept = ROOT / "planetary_twin_py"
+    needed = {
+        str(file.relative_to(ROOT))
+        for pattern in ("**/*.py", "scene/packaged/*.yaml", "recording/msg/*.msg", "py.typed")
+        for file in kept.glob(pattern)
+    }
+    needed |= {f"planetary_twin_py/recording/msg/{m.name}" for m in ROOT.glob("msgs_spec/msg/*")}
+    assert "planetary_twin_py/py.typed" in needed and len(needed) > 300
+    assert needed <= held
+    assert {name.split("/")[0].split("-")[0] for name in held} == {"planetary_twin_py"}
+    assert not [name for name in held if "test" in name]
+    assert [name for name in held if name.endswith("licenses/LICENSE")]
+
+
+def test_the_model_alone_asks_for_no_ros_and_no_viewer(wheel):
+    with zipfile.ZipFile(wheel) as held:
+        (name,) = (name for name in held.namelist() if name.endswith("METADATA"))
+        metadata = email.message_from_bytes(held.read(name))
+    needs = [Requirement(text) for text in metadata.get_all("Requires-Dist")]
+    alone = [need.name for need in needs if need.marker is None]
+    assert {"numpy", "scipy", "numba", "typer"} <= set(alone)
+    assert not [need for need in alone if any(word in need.lower() for word in NOT_THE_MODELS)]
+    assert {"ros", "view", "studies"} <= set(metadata.get_all("Provides-Extra"))
+
+
+# `find_spec` and `import` take a module that is None for one that is not installed.
+WITHOUT = """
+import sys
+sys.path.insert(0, {folder!r})
+for name in ("rclpy", "rerun", "rerun_cli", "mcap", "rosbags", "matplotlib", "pyarrow",
+             "distributed", "sksundae", "CyRK", "planetary_twin", "planetary_twin_msgs"):
+    sys.modules[name] = None
+import planetary_twin_py
+assert planetary_twin_py.__file__.startswith({folder!r}), planetary_twin_py.__file__
+"""
+
+
+def without_extras(folder, code, *arguments):
+    return subprocess.run(
+        [sys.executable, "-c", WITHOUT.format(folder=str(folder)) + code, *arguments],
+        capture_output=True,
+        text=True,
+        timeout=250,
+    )
+
+
+@pytest.mark.slow
+def test_the_model_alone_simulates(alone):
+    done = without_extras(
+        alone,
+        "import planetary_twin_py as pt\n"
+        "print(pt.simulate(pt.load_scene('paper'), duration=0.01).efficiency)",
+    )
+    assert done.returncode == 0, done.stderr
+    assert 0.5 < float(done.stdout) < 1.0
+
+
+def test_the_package_is_imported_without_the_compiler(alone):
+    heavy = "[m for m in ('numba', 'numpy', 'scipy', 'pydantic', 'pint') if m in sys.modules]"
+    done = without_extras(alone, f"print({heavy})")
+    assert done.stdout.strip() == "[]", done.stderr
+
+
+@pytest.mark.parametrize(
+    ("typed", "extra"),
+    [
+        ("info x", "recording"),
+        ("verify x", "recording"),
+        ("recover x", "recording"),
+        ("resimulate x", "recording"),
+        ("fit x --free backlash", "recording"),
+        ("spectrum x", "recording"),
+        ("simulate --out x", "recording"),
+        ("export x --out y", "analysis"),
+        ("view x", "view"),
+        ("sweep paper --out x.csv", "studies"),
+        ("stribeck paper --out x.csv", "studies"),
+        ("bifurcation paper --out x.csv", "studies"),
+        ("plot x --out y.png", "studies"),
+        ("modal --campbell x.png", "plots"),
+        ("paper --out x.md", "plots"),
+        ("bench --plot x.png", "plots"),
+        ("bench --peers", "bench"),
+    ],
+)
+def test_a_command_names_the_extra_it_lacks(alone, typed, extra):
+    done = without_extras(alone, "from planetary_twin_py.cli import main; main()", *typed.split())
+    assert done.returncode == 2, done.stderr
+    assert len(done.stderr.splitlines()) == 1
+    assert f"pip install 'planetary_twin_py[{extra}]'" in done.stderr
+
+
+def test_all_tell_the_same_version():
+    version = PROJECT["version"]
+    assert len(Version(version).release) == 3
+    assert {str(parse_package(str(file)).version) for file in MANIFESTS} == {version}
+    setup = (ROOT / "ros_ws/src/planetary_twin/setup.py").read_text()
+    assert re.findall(r'version="(.+)"', setup) == [version]
+    cited = (ROOT / "CITATION.cff").read_text()
+    assert re.findall(r"^version: (.+)$", cited, re.MULTILINE) == [version]
+    assert re.search(
+        rf"^## \[({re.escape(version)}|Unreleased)\]", (ROOT / "CHANGELOG.md").read_text(), re.M
+    )
+
+
+@pytest.mark.parametrize("file", MANIFESTS, ids=lambda file: file.parent.name)
+def test_manifests_follow_rep_149(file):
+    warnings = []
+    package = parse_package(str(file), warnings=warnings)
+    package.validate(warnings)
+    assert not warnings
+    assert package.package_format == 3 and package.licenses == [PROJECT["license"]]
+    assert ElementTree.parse(file).getroot().tag == "package"
+
+
+def test_the_nodes_depend_on_every_ros_package_they_import():
+    nodes = ROOT / "ros_ws/src/planetary_twin"
+    text = "\n".join(file.read_text() for file in nodes.rglob("*.py") if "build" not in file.parts)
+    imported = set(re.findall(r"^\s*(?:from|import) (\w+)", text, re.MULTILINE))
+    declared = {need.name for need in parse_package(str(MANIFESTS[2])).exec_depends}
+    share = Path(sys.prefix, "share")
+    ros = {name for name in imported if (share / name / "package.xml").exists()}
+    assert {"rclpy", "sensor_msgs"} <= ros
+    assert ros - {"planetary_twin"} <= declared
