@@ -19,7 +19,6 @@ REASONS = {
     "set-up": "sets up, builds or tests the project itself, which tests/setup and CI do",
     "cluster": "needs machines of a cluster",
     "minutes": "takes minutes",
-    "machine": "measures the machine, which takes it for itself",
 }
 
 

@@ -9,6 +9,7 @@ import shutil
 import signal
 import subprocess
 import sys
+import time
 from pathlib import Path
 
 import pytest
@@ -19,8 +20,9 @@ import planetary_twin_py as pt
 
 PAGES = pages()
 RECORDED = 2.0  # [s] of recordings/NAME
-PATIENCE = 120.0  # [s] for a command
-ENDS = 30.0  # [s] for what ran in the background
+PATIENCE = 400.0  # [s] for a command; those that compile take a minute, others a few seconds
+STARTS = 100.0  # [s] for what runs in the background to say something
+ENDS = 60.0  # [s] for it to end
 
 pytestmark = pytest.mark.slow
 
@@ -38,7 +40,10 @@ def environment():
     """That of a reader who has activated .venv, on a machine without a display."""
     outside = {key: value for key, value in os.environ.items() if key != "DISPLAY"}
     path = f"{Path(sys.executable).parent}:{os.environ['PATH']}"
-    return outside | {"PATH": path, "MPLBACKEND": "Agg", "COLUMNS": "100"}
+    # Neither a domain of the tests of nodes, which are from 1 on, nor of those of the ros2 command.
+    domain = str(101 + (os.getpid() + 50) % 100)
+    told = {"PATH": path, "MPLBACKEND": "Agg", "COLUMNS": "100", "ROS_DOMAIN_ID": domain}
+    return outside | told | {"PYTHONUNBUFFERED": "1"}
 
 
 @pytest.fixture(scope="session")
@@ -60,6 +65,7 @@ def test_every_block_says_what_it_is_and_why_it_is_not_run(page):
         assert block.language != "console" or block.commands, f"{block}: no line begins with '$ '"
 
 
+@pytest.mark.timeout(600)
 @pytest.mark.parametrize("page", [page for page in PAGES if not changes_code(page)], ids=name)
 def test_page(page, tmp_path, recording, environment, monkeypatch):
     shutil.copytree(recording, tmp_path / "recordings" / "NAME")
@@ -74,6 +80,7 @@ def test_page(page, tmp_path, recording, environment, monkeypatch):
     assert not any(left), left
 
 
+@pytest.mark.timeout(900)
 def test_pages_that_change_the_package(tmp_path, environment):
     """All in one copy of it: each has its changes made before any runs, to compile once."""
     source = ROOT / "planetary_twin_py"
@@ -103,13 +110,7 @@ def try_block(block: Block, folder, environment, namespace, behind):
         check_yaml(block)
     for command in block.commands if block.language == "console" else ():
         if "background" in block.words:
-            log = (folder / f"background_{len(behind)}.log").open("w")
-            behind.append(
-                subprocess.Popen(
-                    f"exec {command}", shell=True, cwd=folder, env=environment,
-                    stdout=log, stderr=subprocess.STDOUT,
-                )
-            )  # fmt: skip
+            behind.append(start(command, folder, environment))
             continue
         done = subprocess.run(
             command, shell=True, cwd=folder, env=environment, capture_output=True, text=True,
@@ -124,6 +125,21 @@ def check_yaml(block):
     if set(told) <= {"base", *pt.Scene.model_fields}:
         whole = "base" in told or "gearset" in told
         pt.parse_scene(block.text if whole else "base: paper\n" + block.text)
+
+
+def start(command, folder, environment):
+    """Start what runs beside the commands to come, and wait until it says something."""
+    log = folder / "background.log"
+    process = subprocess.Popen(
+        f"exec {command}", shell=True, cwd=folder, env=environment,
+        stdout=log.open("w"), stderr=subprocess.STDOUT,
+        preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL),  # heard, whoever tests
+    )  # fmt: skip
+    deadline = time.monotonic() + STARTS
+    while not log.stat().st_size and process.poll() is None and time.monotonic() < deadline:
+        time.sleep(0.05)
+    assert process.poll() is None and log.stat().st_size, f"{command}\n{log.read_text()}"
+    return process
 
 
 def end(process):
