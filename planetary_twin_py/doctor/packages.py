@@ -17,7 +17,6 @@ EXTRAS = {
     "recording": "read, verify and recover recordings",
     "analysis": "export recordings as tables",
     "view": "look at recordings",
-    "analysis": "export tables",
     "plots": "draw",
     "studies": "sweep, and draw and fit what comes of it",
 }
