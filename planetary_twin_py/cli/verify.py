@@ -64,7 +64,11 @@ def _tell(console: Console, verdict: Verdict) -> None:
         console.print("recorded by       other kernels or another kind of machine")
     first = verdict.first_difference
     if first is None:
-        console.print("result            no bit differs")
+        console.print(
+            "result            no bit differs"
+            if verdict.identical
+            else "result            no bit differs of what could be compared, which is not all"
+        )
         return
     console.print(
         f"first difference  {first.topic}.{first.field}[{first.place}] at {first.time:.9g} s: "

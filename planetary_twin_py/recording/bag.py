@@ -12,7 +12,7 @@ from pathlib import Path
 from .account import TopicAccount
 from .latched import Latched, Serialised
 from .mcap_file import McapFile
-from .rosbag2 import FileEntry, Topic, bag_metadata
+from .rosbag2 import FileEntry, Topic, bag_metadata, metadata_record, metadata_yaml
 from .storage import Storage
 
 ACCOUNT_RECORD = "planetary_twin_account"
@@ -123,7 +123,7 @@ class BagWriter:
         topics = [(topic, counts[number]) for number, topic in enumerate(self._topics, start=1)]
         metadata = bag_metadata([_entry(file) for file in self._finished], topics)
         with (self.folder / "metadata.yaml").open("w", encoding="utf-8") as stream:
-            stream.write(metadata)
+            stream.write(metadata_yaml(metadata))
             stream.flush()
             os.fsync(stream.fileno())
 
@@ -154,7 +154,7 @@ class BagWriter:
         topics = [
             (topic, file.counts[number]) for number, topic in enumerate(self._topics, start=1)
         ]
-        file.note("rosbag2", {"serialized_metadata": bag_metadata([_entry(file)], topics)})
+        file.note("rosbag2", metadata_record(bag_metadata([_entry(file)], topics)))
         file.finish()
         self._finished.append(file)
 

@@ -71,14 +71,16 @@ class FileEntry(NamedTuple):
     messages: int
 
 
-def bag_metadata(files: Sequence[FileEntry], topics: Sequence[tuple[Topic, int]]) -> str:
-    """YAML text of `metadata.yaml` for a bag, from its topics' message counts."""
+def bag_metadata(
+    files: Sequence[FileEntry], topics: Sequence[tuple[Topic, int]]
+) -> dict[str, Any]:
+    """What rosbag2 notes of a bag, from its topics' message counts."""
     whole = Extent()
     for file in files:
         if file.messages:
             whole.include(file.extent.start)
             whole.include(file.extent.end)
-    information = {
+    return {
         "version": VERSION,
         "storage_identifier": "mcap",
         **_span(whole, sum(file.messages for file in files)),
@@ -90,7 +92,16 @@ def bag_metadata(files: Sequence[FileEntry], topics: Sequence[tuple[Topic, int]]
         "custom_data": None,
         "ros_distro": os.environ.get("ROS_DISTRO", "jazzy"),
     }
-    return yaml.safe_dump({"rosbag2_bagfile_information": information}, sort_keys=False)
+
+
+def metadata_yaml(metadata: Mapping[str, Any]) -> str:
+    """Text of `metadata.yaml`, which has the metadata below a name of its own."""
+    return yaml.safe_dump({"rosbag2_bagfile_information": metadata}, sort_keys=False)
+
+
+def metadata_record(metadata: Mapping[str, Any]) -> dict[str, str]:
+    """The same in an MCAP file, where rosbag2 looks for it before anything else, without a name."""
+    return {"serialized_metadata": yaml.safe_dump(metadata, sort_keys=False)}
 
 
 def _span(extent: Extent, messages: int) -> dict[str, Any]:

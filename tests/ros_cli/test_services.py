@@ -23,7 +23,7 @@ def test_the_operating_point_changes_as_a_whole(ros2: Ros2, twin: str) -> None:
     assert "success=True" in ros2.call(service, kind, request)
     assert ros2.value(twin, "backlash") == "3e-07"
     refused = ros2.call(service, kind, "{names: [backlash, gap], values: [1.0e-7, 1.0]}")
-    assert "success=False" in refused and "gap: no such quantity" in refused
+    assert "success=False" in refused and "no such quantity; there are backlash" in refused
     assert ros2.value(twin, "backlash") == "3e-07"
 
 

@@ -114,8 +114,9 @@ def read_outcome(file: Path, published: Mapping[str, int], figures: Mapping[str,
 
 
 def _tally(kind: str, published: int | None, recorded: int, gaps: int) -> Tally:
-    # A topic of another publisher has no counter to read: its numbering is all there is.
-    return Tally(kind, recorded + gaps if published is None else published, recorded, gaps)
+    # Where others publish, too, the twin's own counter is not all: numbering is all there is.
+    own = published is not None and published >= recorded
+    return Tally(kind, published if own else recorded + gaps, recorded, gaps)
 
 
 def print_outcome(console: Console, outcome: Outcome) -> None:
