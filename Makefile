@@ -17,19 +17,23 @@ ifneq ($(AMENT_PREFIX_PATH)$(_ROS_WHEELS_BOOTSTRAP_COMPLETE),)
 unexport LD_LIBRARY_PATH _ROS_WHEELS_BOOTSTRAP_COMPLETE
 endif
 
-.PHONY: setup run test suite test-fast soak bench view picture sample studies docs lint lock clean
+.PHONY: setup run test test-model test-nodes test-fast soak bench view picture sample studies docs lint lock clean
 
 setup: $(STAMPS)/interfaces $(STAMPS)/kernels $(STAMPS)/nodes
 
 run: setup
 	@$(BIN)/planetary-twin run $(ARGS)
 
-# Ten minutes of running live, beside all other tests.
+# Nodes wait for one another most of the time: beside their tests go those of the model, and ten
+# minutes of running live.
 test: lint
-	@$(MAKE) --no-print-directory --jobs=2 suite soak DURATION=$(or $(DURATION),600)
+	@$(MAKE) --no-print-directory --jobs=3 test-model test-nodes soak DURATION=$(or $(DURATION),600)
 
-suite: setup
-	$(BIN)/pytest --ignore=tests/ros/test_soak.py $(ARGS)
+test-model: setup
+	$(BIN)/pytest --ignore=tests/ros $(ARGS)
+
+test-nodes: setup
+	$(BIN)/pytest tests/ros --ignore=tests/ros/test_soak.py $(ARGS)
 
 test-fast: setup
 	$(BIN)/pytest -m "not slow" $(ARGS)

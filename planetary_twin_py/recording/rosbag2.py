@@ -71,9 +71,7 @@ class FileEntry(NamedTuple):
     messages: int
 
 
-def bag_metadata(
-    files: Sequence[FileEntry], topics: Sequence[tuple[Topic, int]]
-) -> dict[str, Any]:
+def bag_metadata(files: Sequence[FileEntry], topics: Sequence[tuple[Topic, int]]) -> dict[str, Any]:
     """What rosbag2 notes of a bag, from its topics' message counts."""
     whole = Extent()
     for file in files:

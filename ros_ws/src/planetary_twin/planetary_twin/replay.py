@@ -75,7 +75,8 @@ class Replay(ManagedNode):
         self._told = self._played = 0
         self._warn_of_damage()
         self._begin, self._end = self._stretch(tape)
-        topics = dict(tape.topics)
+        # A recorder may note topics it heard nothing of, whose types nobody has here.
+        topics = {name: topic for name, topic in tape.topics.items() if tape.counts[name]}
         ticking = self._clock_rate > 0.0 and CLOCK.name not in topics
         if ticking:
             topics[CLOCK.name] = CLOCK
