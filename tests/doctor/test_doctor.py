@@ -19,7 +19,7 @@ def by_part(findings):
 
 def test_packages_that_lack_are_named_with_the_extra_that_brings_them(monkeypatch):
     known = packages.version
-    missing = {"mcap", "matplotlib"}
+    missing = {"rerun-sdk", "pyarrow"}
 
     def version(name):
         if name in missing:
@@ -29,10 +29,10 @@ def test_packages_that_lack_are_named_with_the_extra_that_brings_them(monkeypatc
     assert {f.state for f in packages.check()} == {"sound"}
     monkeypatch.setattr(packages, "version", version)
     found = by_part(packages.check())
-    for extra, package in (("recording", "mcap"), ("view", "mcap"), ("plots", "matplotlib")):
+    for extra, package in (("view", "rerun-sdk"), ("analysis", "pyarrow"), ("studies", "pyarrow")):
         assert found[extra].state == "absent" and package in found[extra].told
         assert f"[{extra}]" in found[extra].mend
-    assert found["studies"].state == "sound"
+    assert found["recording"].state == found["plots"].state == "sound"
 
 
 def test_every_extra_of_an_installation_is_looked_at():

@@ -21,6 +21,7 @@ from small_disk import mounted
 
 from .peer import LATCHED, TWIN, Peer
 
+_PATIENCE = 5.0  # [s] for a node to end when it is asked to
 _DOMAINS = itertools.count(os.getpid())
 
 
@@ -83,7 +84,7 @@ Start = Callable[..., Program]
 
 @pytest.fixture
 def start(domain: int, tmp_path: Path) -> Iterator[Start]:
-    """Start a module with arguments; whatever still runs at the end is killed."""
+    """Start a module with arguments; whatever still runs at the end is ended."""
     processes: list[Program] = []
 
     def run(module: str, *arguments: str) -> Program:
@@ -91,10 +92,17 @@ def start(domain: int, tmp_path: Path) -> Iterator[Start]:
         return processes[-1]
 
     yield run
+    # Asked before they are killed: who dies at once leaves its shared memory to those that live.
     for process in processes:
         if process.poll() is None:
-            process.send_signal(signal.SIGKILL)
-        process.wait()
+            process.send_signal(signal.SIGCONT)
+            process.terminate()
+    for process in processes:
+        try:
+            process.wait(_PATIENCE)
+        except subprocess.TimeoutExpired:
+            process.kill()
+            process.wait()
         process.stdout.close()
 
 
