@@ -41,7 +41,7 @@ def test_every_extra_of_an_installation_is_looked_at():
     import tomllib
 
     declared = set(tomllib.loads(project.read_text())["project"]["optional-dependencies"])
-    assert declared - extras == {"ros", "build", "test", "bench"}
+    assert declared - extras == {"ros", "build", "docs", "test", "bench"}
 
 
 def test_kernels_not_yet_compiled_and_a_cache_that_cannot_be_written_are_told(
