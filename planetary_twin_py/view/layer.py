@@ -27,15 +27,16 @@ class Layer:
     order: int = 0
     below: str = ""
     """What its entities stand below, e.g. "difference"."""
-    _told: set[str] = field(default_factory=set)
+    _told: set[tuple[str, type]] = field(default_factory=set)
 
     def log(self, path: str, what: rr.AsComponents, static: bool = False) -> None:
         """Log at `path`; what is static once, however often it is given."""
         place = self._place(path)
-        if static and place in self._told:
+        told = (place, type(what))  # a solid may stand where a place is told
+        if static and told in self._told:
             return
         if static:
-            self._told.add(place)
+            self._told.add(told)
         self.stream.log(place, what, static=static)
 
     def send_columns(
