@@ -11,11 +11,11 @@ from mcap.exceptions import McapError
 from mcap.reader import make_reader
 from mcap.records import Message
 from mcap.stream_reader import StreamReader
+from numbered import NUMBERS
 from rosbags.rosbag2 import Reader
 
 from planetary_twin_py.recording.account import TopicAccount
 from planetary_twin_py.recording.bag import ACCOUNT_RECORD, BagWriter, free_folder, named_folder
-from planetary_twin_py.recording.rosbag2 import Topic
 from planetary_twin_py.recording.schema import message_definition
 
 _TYPES = {
@@ -23,22 +23,7 @@ _TYPES = {
     "std_msgs/msg/Header": "builtin_interfaces/Time stamp\nstring frame_id\n",
     "builtin_interfaces/msg/Time": "int32 sec\nuint32 nanosec\n",
     "demo_msgs/msg/Part": "uint8 SMALL=1\nstring<=8 name\n",
-    "demo_msgs/msg/Number": "float64 data\n",
 }
-_QOS = {
-    "history": "keep_last",
-    "depth": 10,
-    "reliability": "reliable",
-    "durability": "volatile",
-    "deadline": {"sec": 9223372036, "nsec": 854775807},
-    "lifespan": {"sec": 9223372036, "nsec": 854775807},
-    "liveliness": "automatic",
-    "liveliness_lease_duration": {"sec": 9223372036, "nsec": 854775807},
-    "avoid_ros_namespace_conventions": False,
-}
-_NUMBERS = Topic(
-    "/numbers", "demo_msgs/msg/Number", "RIHS01_00", _TYPES["demo_msgs/msg/Number"], [_QOS]
-)
 
 
 def _number(value: float) -> bytes:
@@ -64,18 +49,18 @@ def test_a_definition_brings_every_type_it_refers_to() -> None:
 
 def test_an_independent_reader_finds_every_message(tmp_path: Path) -> None:
     bag = BagWriter(tmp_path / "bag")
-    _write(bag, bag.add_topic(_NUMBERS, TopicAccount(recorded=100)), range(100))
+    _write(bag, bag.add_topic(NUMBERS, TopicAccount(recorded=100)), range(100))
     bag.close()
     with Reader(tmp_path / "bag") as reader:
         messages = list(reader.messages())
-        assert [connection.msgtype for connection in reader.connections] == [_NUMBERS.type]
+        assert [connection.msgtype for connection in reader.connections] == [NUMBERS.type]
         assert reader.message_count == len(messages) == 100
     assert [data for _, _, data in messages] == [_number(value) for value in range(100)]
 
 
 def test_the_file_holds_the_account_and_both_times(tmp_path: Path) -> None:
     bag = BagWriter(tmp_path / "bag")
-    _write(bag, bag.add_topic(_NUMBERS, TopicAccount(recorded=3, missed=2)), range(3))
+    _write(bag, bag.add_topic(NUMBERS, TopicAccount(recorded=3, missed=2)), range(3))
     bag.close()
     with bag.file.open("rb") as stream:
         reader = make_reader(stream)
@@ -93,7 +78,7 @@ def test_the_file_holds_the_account_and_both_times(tmp_path: Path) -> None:
 
 def test_what_was_flushed_is_readable_from_a_torn_file(tmp_path: Path) -> None:
     bag = BagWriter(tmp_path / "bag")
-    channel = bag.add_topic(_NUMBERS)
+    channel = bag.add_topic(NUMBERS)
     _write(bag, channel, range(50))
     bag.flush()
     torn = bag.file.read_bytes()
