@@ -2,7 +2,8 @@
 
 Each public module here holds one command, a function of the module's name. Other packages add
 theirs through the entry-point group `planetary_twin.commands`, so that what needs ROS comes with
-the ROS package; what they share with the commands here is `_arguments`, `_fail` and `_figures`.
+the ROS package; what they share with the commands here is `_arguments`, `_fail`, `_figures` and
+`_interrupts`.
 A command is loaded when it is asked for, and imports what is heavy only when it runs, so that
 `--help` and completion are quick.
 """
@@ -10,12 +11,14 @@ A command is loaded when it is asked for, and imports what is heavy only when it
 from __future__ import annotations
 
 import os
+import signal
 import sys
 
 import typer
 
 from ._commands import Group
 from ._help import PLAIN
+from ._interrupts import repeat_lost
 
 
 def build_app() -> typer.Typer:
@@ -36,6 +39,7 @@ def build_app() -> typer.Typer:
 
 def main() -> None:
     """Entry point of the console script."""
+    repeat_lost(signal.default_int_handler)
     try:
         try:
             build_app()()

@@ -11,6 +11,8 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from types import FrameType
 
+from planetary_twin_py.cli._interrupts import repeat_lost
+
 _NUMBERS = (signal.SIGINT, signal.SIGTERM)
 
 
@@ -25,6 +27,7 @@ class Signals:
         """Take the signals; before `rclpy.init`, which hands them on to who had them before."""
         for number in _NUMBERS:
             signal.signal(number, self._tell)
+        repeat_lost(self._tell)
 
     @contextmanager
     def interrupting(self) -> Iterator[None]:
@@ -43,8 +46,8 @@ class Signals:
             signal.signal(number, signal.SIG_IGN)
 
     def _tell(self, number: int, frame: FrameType | None) -> None:
-        told, self._told = self._told, True
-        if self._interrupting and not told:
+        first, self._told = not self._told, True
+        if self._interrupting and (first or number == signal.SIGALRM):
             raise KeyboardInterrupt
 
 

@@ -1,0 +1,29 @@
+"""Interrupts that fall where Python loses exceptions are made again, until one is heard."""
+
+from __future__ import annotations
+
+import signal
+import sys
+from collections.abc import Callable
+from types import FrameType
+from typing import Any
+
+_SOON = 0.01  # [s]
+
+
+def repeat_lost(interrupt: Callable[[int, FrameType | None], Any]) -> None:
+    """
+    Have the signal handler `interrupt` called again where its `KeyboardInterrupt` is lost.
+
+    Python prints and forgets what is raised in a callback of a weak reference, of which every
+    import has some, or in a destructor. The handler is called with `signal.SIGALRM` then.
+    """
+
+    def hook(lost: Any) -> None:
+        if lost.exc_type is KeyboardInterrupt:
+            signal.setitimer(signal.ITIMER_REAL, _SOON)  # by then the callback is over
+        else:
+            sys.__unraisablehook__(lost)
+
+    signal.signal(signal.SIGALRM, interrupt)
+    sys.unraisablehook = hook

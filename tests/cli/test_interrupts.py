@@ -1,0 +1,78 @@
+"""A Ctrl-C that falls into a callback is heard once the callback is over."""
+
+import subprocess
+import sys
+
+import pytest
+
+CALLBACKS = {
+    "weak reference": """
+import weakref
+class Thing: pass
+thing = Thing()
+watch = weakref.ref(thing, lambda gone: signal.raise_signal(signal.SIGINT))
+del thing
+""",
+    "destructor": """
+class Thing:
+    def __del__(self): signal.raise_signal(signal.SIGINT)
+thing = Thing()
+del thing
+""",
+    "defect": """
+class Thing:
+    def __del__(self): 1 / 0
+Thing()
+""",
+}
+
+PROGRAM = """
+import signal, time
+{prepare}
+try:
+    {arm}
+    exec({callback!r})
+    time.sleep(0.5)
+    print("lost")
+except KeyboardInterrupt:
+    print("heard")
+"""
+
+HANDLERS = {
+    "commands": (
+        "from planetary_twin_py.cli._interrupts import repeat_lost",
+        "repeat_lost(signal.default_int_handler)",
+    ),
+    "nodes": (
+        "from planetary_twin.signals import SIGNALS",
+        "SIGNALS.listen(); within = SIGNALS.interrupting(); within.__enter__()",
+    ),
+    "nothing": ("", ""),
+}
+
+
+def said(handlers, callback):
+    prepare, arm = HANDLERS[handlers]
+    program = PROGRAM.format(prepare=prepare, arm=arm or "pass", callback=CALLBACKS[callback])
+    done = subprocess.run(
+        [sys.executable, "-c", program], capture_output=True, text=True, timeout=60, check=True
+    )
+    return done.stdout.strip(), done.stderr
+
+
+@pytest.mark.parametrize("handlers", ["commands", "nodes"])
+@pytest.mark.parametrize("callback", ["weak reference", "destructor"])
+def test_an_interrupt_within_a_callback_is_heard_after_it(handlers, callback):
+    assert said(handlers, callback) == ("heard", "")
+
+
+def test_python_alone_loses_an_interrupt_within_a_callback():
+    output, errors = said("nothing", "destructor")
+    assert output == "lost"
+    assert "KeyboardInterrupt" in errors
+
+
+def test_other_exceptions_within_a_callback_are_shown():
+    output, errors = said("commands", "defect")
+    assert output == "lost"
+    assert "ZeroDivisionError" in errors
