@@ -63,7 +63,7 @@ def test_stamps_follow_the_clock_of_another_and_outlive_its_jumps(peer: Peer, st
     states = peer.listen(GearboxState, f"{TWIN}/gearbox_state", 1000)
     waves = peer.listen(MeshWaveform, f"{TWIN}/mesh_waveform", 1000)
     reports = peer.listen(DiagnosticArray, "/diagnostics")
-    peer.until(lambda: figures(reports).get("state") == "waits for /clock", 120.0)
+    peer.until(lambda: figures(reports).get("state") == "waits", 120.0)
     assert not states and all(ord(report.status[0].level) == 0 for report in reports)
 
     clock = Ticking(peer, 5.0)

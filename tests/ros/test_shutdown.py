@@ -141,8 +141,7 @@ def test_both_nodes_end_on_one_ctrl_c_and_the_recording_is_whole(
 ) -> None:
     logger = start("planetary_twin.logger", "--ros-args", "-p", "name:=bag")
     status = peer.listen(RecorderStatus, f"{TWIN}/logger/status")
-    peer.until(lambda: status, 60.0)  # it is there before there is anything to miss
-    simulation = running(peer, start)
+    simulation = running(peer, start, "--ros-args", "-p", "wait_for:=logger")
     peer.until(lambda: recorded(status) > 50)
     for process in (logger, simulation):  # as Ctrl-C reaches the group
         twice(process, signal.SIGINT)

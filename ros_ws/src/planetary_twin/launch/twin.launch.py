@@ -7,6 +7,7 @@ from launch.substitution import Substitution
 from launch.substitutions import (
     AndSubstitution,
     EnvironmentVariable,
+    IfElseSubstitution,
     LaunchConfiguration,
     NotSubstitution,
     PathJoinSubstitution,
@@ -26,6 +27,8 @@ _ARGUMENTS = (
     ("domain", _DOMAIN, "ROS_DOMAIN_ID of the nodes: twins of different domains never meet"),
     ("composed", "false", "simulation and logger in one process, for up to some 100 messages/s"),
 )
+
+_RECORDED_BY = IfElseSubstitution(LaunchConfiguration("record"), "logger", "")
 
 
 def generate_launch_description() -> LaunchDescription:
@@ -49,6 +52,7 @@ def _node(executable: str, condition: Substitution, **options: Shutdown) -> Node
     given = {
         "scene": ParameterValue(LaunchConfiguration("scene"), value_type=str),
         "rate_factor": ParameterValue(LaunchConfiguration("rate_factor"), value_type=float),
+        "wait_for": ParameterValue(_RECORDED_BY, value_type=str),
     }
     return Node(
         package="planetary_twin",

@@ -40,7 +40,7 @@ class Listener(Protocol):
         """From simulated time `instant` [s] on, `affordable` sets what `before` did."""
 
     def ready(self) -> bool:
-        """Whether time can pass: a clock that is to be followed is heard."""
+        """Whether time can pass: what it waits for is there, such as a clock to follow."""
 
     def goes_on(self, twin: Twin) -> None:
         """At the start, after a stop, and while time stands: the present time of `twin` is now."""
@@ -54,7 +54,7 @@ class State(StrEnum):
 
     RUNNING = "running"
     PAUSED = "paused"
-    WAITING = "waits for /clock"
+    WAITING = "waits"
 
 
 class Progress(NamedTuple):

@@ -16,6 +16,7 @@ import planetary_twin_py as pt
 from planetary_twin_py.affordable import Affordable, Setting
 from planetary_twin_py.robot import frames, robot_description
 
+from .audience import Audience
 from .live import LiveTwin, Progress
 from .managed import ManagedNode, NodeError, run_node
 from .parameters import brief
@@ -54,6 +55,7 @@ class Simulation(ManagedNode):
             self._transforms() if given.tf else None,
             given.clock,
         )
+        self._audience = Audience(self, given.wait_for)
         self._timer = self.create_timer(_REPORT_PERIOD, self._diagnose, clock=STEADY)
         self.create_service(SetOperatingPoint, "~/set_operating_point", self._set_operating_point)
         self.create_service(NaturalModes, "~/natural_modes", self._natural_modes)
@@ -72,10 +74,11 @@ class Simulation(ManagedNode):
         twin = self._running_twin()
         twin.set(**self._given.point())
         given, affordable = self._given, self._given.affordable(twin)
+        self._audience.begin()
         self._live = LiveTwin(twin, 1.0 / given.rate, given.rate_factor, affordable, self)
         self._report = self._new_report(twin, self._live.start())
         self._telemetry.describe(self._urdf)
-        if not self.ready():
+        if not self._telemetry.ready():
             self.get_logger().warning("use_sim_time: waits for the first message on /clock")
 
     def deactivate(self) -> None:
@@ -107,8 +110,8 @@ class Simulation(ManagedNode):
         self._telemetry.announce(point, instant)
 
     def ready(self) -> bool:
-        """Whether there is a ROS time to stamp with."""
-        return self._telemetry.ready()
+        """Whether there is a ROS time to stamp with, and who is waited for is there."""
+        return self._telemetry.ready() and self._audience.there()
 
     def goes_on(self, twin: pt.Twin) -> None:
         """Let the twin's present time be now."""

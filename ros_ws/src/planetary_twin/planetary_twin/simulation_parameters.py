@@ -10,6 +10,7 @@ import planetary_twin_py as pt
 from planetary_twin_py.affordable import Affordable, Setting, settings_of
 from planetary_twin_py.tolerance import AUTOMATIC, LIVE_TOLERANCE, TOLERANCES, ladder_of
 
+from .audience import PATIENCE
 from .parameters import (
     coerce,
     declare_bounded,
@@ -47,6 +48,13 @@ class SimulationParameters:
         )
         self.rate = declare_bounded(
             node, "publish_rate", 100.0, (10.0, 1000.0), "messages per simulated second [Hz]"
+        )
+        self.wait_for: str = declare_fixed(
+            node,
+            "wait_for",
+            "",
+            f"node that must have subscribed before the twin begins, such as the logger that is "
+            f"to record it from the first message on; waits {PATIENCE:g} s at most",
         )
         self.clock: bool = declare_fixed(node, "clock", False, "publish simulated time on /clock")
         self.sample_rate = declare_bounded(
