@@ -21,9 +21,15 @@ def repeat_lost(interrupt: Callable[[int, FrameType | None], Any]) -> None:
 
     def hook(lost: Any) -> None:
         if lost.exc_type is KeyboardInterrupt:
-            signal.setitimer(signal.ITIMER_REAL, _SOON)  # by then the callback is over
+            signal.setitimer(signal.ITIMER_REAL, _SOON)
         else:
             sys.__unraisablehook__(lost)
 
-    signal.signal(signal.SIGALRM, interrupt)
+    def repeat(number: int, frame: FrameType | None) -> None:
+        if frame is not None and frame.f_code is hook.__code__:  # it would be lost here too
+            signal.setitimer(signal.ITIMER_REAL, _SOON)
+        else:
+            interrupt(number, frame)
+
+    signal.signal(signal.SIGALRM, repeat)
     sys.unraisablehook = hook

@@ -59,8 +59,6 @@ def test_every_block_says_what_it_is_and_why_it_is_not_run(page):
     for block in blocks(page):
         reason = block.word("not-run")
         assert reason is None or reason in REASONS, f"{block}: {reason}"
-        if page.name == "README.md":  # its plain blocks are as GitHub shows them
-            continue
         assert block.language in LANGUAGES, f"{block}: {block.language!r}"
         assert block.language != "console" or block.commands, f"{block}: no line begins with '$ '"
 
