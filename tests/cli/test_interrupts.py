@@ -28,7 +28,6 @@ Thing()
 
 PROGRAM = """
 import signal, time
-signal.signal(signal.SIGINT, signal.default_int_handler)  # whoever tests may ignore it
 {prepare}
 try:
     {arm}

@@ -131,7 +131,6 @@ def start(command, folder, environment):
     process = subprocess.Popen(
         f"exec {command}", shell=True, cwd=folder, env=environment,
         stdout=log.open("w"), stderr=subprocess.STDOUT,
-        preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL),  # heard, whoever tests
     )  # fmt: skip
     deadline = time.monotonic() + STARTS
     while not log.stat().st_size and process.poll() is None and time.monotonic() < deadline:
