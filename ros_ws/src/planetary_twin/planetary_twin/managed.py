@@ -21,6 +21,7 @@ from rclpy.service import Service
 
 from .parameters import ParameterServices, brief, check_settable, declare_fixed, fixed_at
 from .signals import SIGNALS
+from .standard_error import never_waiting
 
 NAMESPACE = "planetary_twin"
 RCLError = rclpy_implementation.RCLError
@@ -206,6 +207,17 @@ def run_nodes(
     Each has an executor and a thread of its own, the last of them this one, so that none waits for
     another's callbacks. Why one failed is printed in one line that begins with its key.
     """
+    with never_waiting():
+        failures = _run_to_end(makes, args)
+    for name, failure in failures.items():
+        print(f"{name}: {failure}", file=sys.stderr)
+    return 1 if failures else 0
+
+
+def _run_to_end(
+    makes: Mapping[str, Callable[[], ManagedNode]], args: list[str] | None
+) -> dict[str, str]:
+    """Return why nodes failed, by their keys."""
     nodes: dict[str, ManagedNode] = {}
     executors: list[SingleThreadedExecutor] = []  # which outlive what a signal still does to them
     beside: list[threading.Thread] = []
@@ -246,9 +258,7 @@ def run_nodes(
                 failures[name] = failure
         rclpy.try_shutdown()
         SIGNALS.ignore()
-    for name, failure in failures.items():
-        print(f"{name}: {failure}", file=sys.stderr)
-    return 1 if failures else 0
+    return failures
 
 
 def _serve_beside(executor: SingleThreadedExecutor, node: ManagedNode) -> None:

@@ -1,0 +1,63 @@
+"""Who reads a node's log does not set its pace, and gets its lines."""
+
+from __future__ import annotations
+
+import fcntl
+import os
+import subprocess
+import sys
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+from planetary_twin_msgs.msg import GearboxState
+
+from .conftest import Start
+from .peer import TWIN, Peer
+from .told import figures, listen_to_reports
+
+NODE = f"{TWIN}/simulation"
+PAGE = 4096
+
+
+@pytest.fixture
+def stalled(domain: int, tmp_path: Path) -> Iterator[subprocess.Popen[bytes]]:
+    """A simulation that logs into a pipe which is full, and which nobody reads."""
+    reader, writer = os.pipe()
+    fcntl.fcntl(writer, fcntl.F_SETPIPE_SZ, PAGE)
+    os.write(writer, b"\n" * PAGE)
+    node = subprocess.Popen(
+        [sys.executable, "-m", "planetary_twin.simulation"], cwd=tmp_path, stderr=writer
+    )
+    yield node
+    node.kill()
+    node.wait()
+    os.close(writer)
+    os.close(reader)
+
+
+def test_its_lines_come_where_somebody_reads(peer: Peer, start: Start) -> None:
+    states = peer.listen(GearboxState, f"{TWIN}/gearbox_state")
+    node = start("planetary_twin.simulation", "--ros-args", "-p", "rate_factor:=1e9")
+    _, errors = node.communicate(timeout=60.0)
+    assert node.returncode == 1
+    assert "rate_factor out of range" in errors
+    node = start("planetary_twin.simulation")
+    peer.until(lambda: len(states) > 300, 60.0)
+    node.terminate()
+    _, errors = node.communicate(timeout=20.0)
+    assert "tolerance" in errors
+
+
+def test_a_terminal_that_stands_still_holds_up_neither_the_twin_nor_its_parameters(
+    peer: Peer, stalled: subprocess.Popen[bytes]
+) -> None:
+    states = peer.listen(GearboxState, f"{TWIN}/gearbox_state")
+    reports = listen_to_reports(peer)
+    # The tolerance that it chooses is the first line it logs.
+    peer.until(lambda: int(figures(reports).get("tolerance_changes", 0)), 60.0)
+    count = len(states)
+    assert peer.set(NODE, backlash=3e-7).successful
+    peer.until(lambda: len(states) > count + 300, 30.0)
+    stalled.terminate()
+    assert stalled.wait(10.0) == 0
