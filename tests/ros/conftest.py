@@ -21,6 +21,7 @@ from small_disk import mounted
 
 from .peer import LATCHED, TWIN, Peer
 
+_QUICK_DISCOVERY = Path(__file__).with_name("discovery.xml")
 _PATIENCE = 5.0  # [s] for a node to end when it is asked to
 _DOMAINS = itertools.count(os.getpid())
 
@@ -32,6 +33,7 @@ def domain(monkeypatch: pytest.MonkeyPatch) -> Iterator[int]:
         monkeypatch.setenv("ROS_DOMAIN_ID", str(number))
         monkeypatch.setenv("ROS_AUTOMATIC_DISCOVERY_RANGE", "LOCALHOST")
         monkeypatch.setenv("ROS_PYTHON_CHECK_FIELDS", "1")
+        monkeypatch.setenv("FASTRTPS_DEFAULT_PROFILES_FILE", str(_QUICK_DISCOVERY))
         yield number
 
 
