@@ -16,12 +16,12 @@ from pathlib import Path
 from typing import IO, Any
 
 import pytest
+from planetary_twin.network import loopback_profile
 from planetary_twin_msgs.msg import OperatingPoint
 from small_disk import mounted
 
 from .peer import LATCHED, TWIN, Peer
 
-_QUICK_DISCOVERY = Path(__file__).with_name("discovery.xml")
 _PATIENCE = 5.0  # [s] for a node to end when it is asked to
 _DOMAINS = itertools.count(os.getpid())
 
@@ -31,11 +31,11 @@ def domain(monkeypatch: pytest.MonkeyPatch) -> Iterator[int]:
     """A domain for this test, also in the environment of what it starts."""
     with _free_domain() as number:
         monkeypatch.setenv("ROS_DOMAIN_ID", str(number))
-        monkeypatch.setenv("ROS_AUTOMATIC_DISCOVERY_RANGE", "LOCALHOST")
         monkeypatch.setenv("ROS_PYTHON_CHECK_FIELDS", "1")
-        monkeypatch.setenv("FASTRTPS_DEFAULT_PROFILES_FILE", str(_QUICK_DISCOVERY))
-        # Shared memory keeps locks of nodes that are killed, and others crash there (Fast DDS 2.14).
-        monkeypatch.setenv("FASTDDS_BUILTIN_TRANSPORTS", "UDPv4")
+        # As `planetary-twin run` has it: nodes find one another at once, and none crashes at what
+        # another that was killed has left in shared memory.
+        monkeypatch.setenv("ROS_AUTOMATIC_DISCOVERY_RANGE", "SYSTEM_DEFAULT")
+        monkeypatch.setenv("FASTRTPS_DEFAULT_PROFILES_FILE", str(loopback_profile()))
         yield number
 
 

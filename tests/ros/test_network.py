@@ -19,16 +19,24 @@ COMMAND = "import sys; from planetary_twin_py.cli import main; sys.exit(main())"
 
 
 @pytest.fixture
+def peer(domain: int, monkeypatch: pytest.MonkeyPatch) -> Iterator[Peer]:
+    """A program of this machine that has no profile, and shared memory."""
+    monkeypatch.setenv("ROS_AUTOMATIC_DISCOVERY_RANGE", "LOCALHOST")
+    user = Peer()
+    yield user
+    user.close()
+
+
+@pytest.fixture
 def twin(
     request: pytest.FixtureRequest,
-    peer: Peer,  # begins before the environment changes: as any program of this machine
+    peer: Peer,  # begins before the environment changes
     tmp_path: Path,
     monkeypatch: pytest.MonkeyPatch,
 ) -> Iterator[None]:
     """`planetary-twin run`, with the discovery range of the environment or without any."""
     monkeypatch.delenv("ROS_AUTOMATIC_DISCOVERY_RANGE")
     monkeypatch.delenv("FASTRTPS_DEFAULT_PROFILES_FILE")
-    monkeypatch.delenv("FASTDDS_BUILTIN_TRANSPORTS")
     if request.param is not None:
         monkeypatch.setenv("ROS_AUTOMATIC_DISCOVERY_RANGE", request.param)
     process = subprocess.Popen([sys.executable, "-c", COMMAND, "run"], cwd=tmp_path)
