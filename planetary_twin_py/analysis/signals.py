@@ -13,7 +13,7 @@ from scipy.interpolate import PchipInterpolator
 
 from ..recording.reader import Recording, read_recording
 from ..recording.records import RecordingError
-from ..view.motion import unwrap
+from ..recording.unwrapping import unwrap
 from .stretches import even_stretches, longest_stretch, thinned
 
 Array = NDArray[np.float64]

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from ..view.quantities import MESH, OPERATING_POINT, RPM, TRAIN, WAVEFORM, Quantity
+from ..quantities import MESH, OPERATING_POINT, RPM, TRAIN, WAVEFORM, Quantity
 
 if TYPE_CHECKING:
     import pyarrow as pa

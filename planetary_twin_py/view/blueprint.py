@@ -7,13 +7,13 @@ from typing import Literal, NamedTuple
 
 import rerun.blueprint as rrb
 
+from ..quantities import MESH, OPERATING_POINT, TRAIN, WAVEFORM
 from ..robot.parts import carrier_radius
 from ..scene.gearset import Gearset
 from . import phase_portrait, spectra
 from .chart import bounds
 from .gears import MILLIMETRES
 from .overlay import DIFFERENCE
-from .quantities import MESH, OPERATING_POINT, TRAIN, WAVEFORM
 from .timeline import SIMULATED_TIME
 
 # At full speed teeth pass too fast for the eye: start slowed down, the viewer's slider is beside.

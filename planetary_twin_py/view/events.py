@@ -5,10 +5,10 @@ from __future__ import annotations
 import numpy as np
 import rerun as rr
 
+from ..quantities import OPERATING_POINT
 from ..recording.reader import Recording
 from . import timeline
 from .layer import Layer
-from .quantities import OPERATING_POINT
 
 _COLOUR = (120, 196, 140)
 

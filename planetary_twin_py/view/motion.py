@@ -13,8 +13,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..recording.reader import Recording, Series
+from ..recording.unwrapping import unwrap
 
-_TURN = 2.0 * np.pi
 Column = NDArray[np.float64]
 STEPS_PER_PITCH = 6  # the eye then sees a tooth move on rather than the wheel run backwards
 MOST_ROWS = 40_000  # of motion: about 2 MB per member
@@ -38,16 +38,6 @@ def motion(recording: Recording) -> Motion:
     for member, (position, speed) in _members(state, recording.planets).items():
         angle[member] = _refine(unwrap(state.time, position, speed), rows)
     return Motion(time, stamp.astype(np.int64) + state.stamp[0], angle)
-
-
-def unwrap(
-    time: NDArray[np.float64], angle: NDArray[np.float64], speed: NDArray[np.float64]
-) -> NDArray[np.float64]:
-    """Continuous angle [rad] from `angle` modulo a turn and mean `speed` [rad/s] before each."""
-    expected = speed[1:] * np.diff(time)
-    step = np.diff(angle)
-    turns = np.rint((expected - step) / _TURN)
-    return angle[0] + np.concatenate(([0.0], np.cumsum(step + _TURN * turns)))
 
 
 def _members(state: Series, planets: int) -> dict[str, tuple[Column, Column]]:

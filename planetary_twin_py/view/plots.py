@@ -9,10 +9,10 @@ import numpy as np
 import rerun as rr
 from numpy.typing import NDArray
 
+from ..quantities import MESH, TRAIN
 from ..recording.reader import Recording
 from . import timeline
 from .layer import Colour, Layer
-from .quantities import MESH, TRAIN
 
 _SUN_PLANET_HUE, _PLANET_RING_HUE = 0.58, 0.09  # blue and orange, told apart by most eyes
 TRAIN_COLOURS = ((236, 176, 64), (150, 158, 170), (205, 104, 86))

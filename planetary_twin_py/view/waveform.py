@@ -12,13 +12,13 @@ from itertools import pairwise
 import numpy as np
 from numpy.typing import NDArray
 
+from ..quantities import WAVEFORM
 from ..recording.reader import Recording
 from ..recording.waveform import Ranges, Stretch, Waveform
 from . import timeline
 from .detail import first_rows
 from .layer import Layer
 from .plots import log_series, mesh_colours
-from .quantities import WAVEFORM
 
 _CHUNK = 50_000  # samples sent at once, so that the viewer loads only the part it shows
 

@@ -4,7 +4,7 @@ import numpy as np
 from synthetic_recording import write_recording
 
 from planetary_twin_py.recording.reader import read_recording
-from planetary_twin_py.view.motion import STEPS_PER_PITCH, motion, unwrap
+from planetary_twin_py.view.motion import STEPS_PER_PITCH, motion
 
 
 def test_motion_passes_through_every_recorded_angle(tmp_path):
@@ -29,10 +29,3 @@ def test_no_step_hides_a_tooth_and_gears_turn_as_fast_as_recorded(tmp_path):
     assert np.isclose(turned, expected)
     assert np.isclose(moved.angle["ring"][-1] - moved.angle["ring"][0], -3 / 7 * expected)
     assert np.ptp(moved.angle["carrier"]) == 0.0
-
-
-def test_unwrapping_follows_the_speed_over_several_turns_and_lost_messages():
-    time = np.array([0.0, 0.01, 0.02, 0.09, 0.1])
-    speed = np.full(5, -700.0)
-    angle = np.mod(1.0 + speed * time, 2 * np.pi)
-    assert np.allclose(unwrap(time, angle, speed), 1.0 + speed * time)

@@ -54,7 +54,7 @@ TRAIN = {
     ),
     "mesh_frequency": (Quantity("Mesh frequency", "Hz"), ("mesh_frequency",)),
     "power": (Quantity("Power", "W"), ("input_power", "output_power")),
-    "power_loss": (Quantity("Power loss, all meshes", "W"), ("power_loss",)),
+    "power_loss": (Quantity("Power loss, all of the gearbox", "W"), ("power_loss",)),
     "efficiency": (Quantity("Efficiency", "%", 100.0), ("efficiency",)),
 }
 
