@@ -18,7 +18,7 @@ import typer
 
 from ._commands import Group
 from ._help import PLAIN
-from ._interrupts import repeat_lost
+from ._interrupts import repeat_lost, repeat_no_more
 
 
 def build_app() -> typer.Typer:
@@ -51,3 +51,5 @@ def main() -> None:
         sys.exit(1)
     except KeyboardInterrupt:
         sys.exit(130)
+    finally:
+        repeat_no_more()

@@ -33,3 +33,8 @@ def repeat_lost(interrupt: Callable[[int, FrameType | None], Any]) -> None:
 
     signal.signal(signal.SIGALRM, repeat)
     sys.unraisablehook = hook
+
+
+def repeat_no_more() -> None:
+    """At the end of a program: Python gives up its handlers before all is over."""
+    signal.signal(signal.SIGALRM, signal.SIG_IGN)

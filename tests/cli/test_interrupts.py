@@ -76,3 +76,20 @@ def test_other_exceptions_within_a_callback_are_shown():
     output, errors = said("commands", "defect")
     assert output == "lost"
     assert "ZeroDivisionError" in errors
+
+
+ENDS = """
+import atexit, signal, sys, time
+from planetary_twin_py.cli import main
+class Slow:
+    def __del__(self, sleep=time.sleep): sleep(0.1)
+slow = Slow()
+atexit.register(signal.raise_signal, signal.SIGINT)
+sys.argv = ["planetary-twin", "--help"]
+main()
+"""
+
+
+def test_an_interrupt_at_the_very_end_kills_nobody():
+    done = subprocess.run([sys.executable, "-c", ENDS], capture_output=True, text=True, timeout=60)
+    assert (done.returncode, done.stderr) == (0, "")

@@ -11,7 +11,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from types import FrameType
 
-from planetary_twin_py.cli._interrupts import repeat_lost
+from planetary_twin_py.cli._interrupts import repeat_lost, repeat_no_more
 
 _NUMBERS = (signal.SIGINT, signal.SIGTERM)
 
@@ -44,6 +44,7 @@ class Signals:
         """Let no signal disturb the interpreter's end."""
         for number in _NUMBERS:
             signal.signal(number, signal.SIG_IGN)
+        repeat_no_more()
 
     def _tell(self, number: int, frame: FrameType | None) -> None:
         first, self._told = not self._told, True
