@@ -13,10 +13,13 @@ from pathlib import Path
 
 import pytest
 from mcap.reader import make_reader
+from planetary_twin.running.session import SILENCE
+from planetary_twin_msgs.msg import GearboxState
+from std_srvs.srv import SetBool, Trigger
 
 from planetary_twin_py.scene import load_scene, parse_scene
 
-from .peer import TWIN
+from .peer import TWIN, Peer
 from .processes import working_in
 from .recordings import counts, torn_states
 
@@ -98,6 +101,8 @@ def test_ctrl_c_while_it_starts_leaves_nothing_running(
     assert process.returncode == 0, errors
     assert "Traceback" not in errors
     assert working_in(tmp_path) == []
+    # Either there is a recording of a twin that ran, or nothing.
+    assert all(counts(bag)[f"{TWIN}/gearbox_state"] for bag in tmp_path.glob("recordings/*"))
 
 
 @pytest.mark.parametrize("node", ["simulation", "logger"])
@@ -115,7 +120,7 @@ def test_the_death_of_a_node_ends_the_run_with_one_line(
     _, errors = process.communicate(timeout=60)
     assert process.returncode == 1
     assert len(errors.strip().splitlines()) == 1
-    assert node in errors
+    assert f"{node}: ended by SIGKILL; what was recorded is in recordings/" in errors
     assert working_in(tmp_path) == []
 
 
@@ -170,3 +175,29 @@ def test_a_second_run_on_the_same_domain_is_refused_and_leaves_the_first_alone(r
     output, _ = first.communicate(timeout=60)
     assert first.returncode == 0
     assert "efficiency" in output
+
+
+def test_a_run_does_not_begin_where_something_else_publishes_a_twin(
+    run: Callable[..., subprocess.Popen[str]], peer: Peer, tmp_path: Path
+) -> None:
+    peer.node.create_publisher(GearboxState, f"{TWIN}/gearbox_state", 10)
+    process = run("--duration", "60", "--record", "bag")
+    _, errors = process.communicate(timeout=60)
+    assert process.returncode == 1
+    assert "/peer runs on ROS_DOMAIN_ID" in errors
+    assert not (tmp_path / "recordings/bag").exists()
+
+
+def test_a_pause_however_long_and_a_reset_are_no_failure_of_a_run(
+    run: Callable[..., subprocess.Popen[str]], peer: Peer
+) -> None:
+    process = run("--duration", "3", "--no-tour", "--record", "bag")
+    _line(process, "rpm")
+    assert peer.call(SetBool, f"{TWIN}/simulation/pause", SetBool.Request(data=True)).success
+    _line(process, "paused")
+    time.sleep(SILENCE + 2.0)  # the very thing under test
+    assert peer.call(SetBool, f"{TWIN}/simulation/pause", SetBool.Request(data=False)).success
+    assert peer.call(Trigger, f"{TWIN}/simulation/reset", Trigger.Request()).success
+    output, errors = process.communicate(timeout=60)
+    assert process.returncode == 0, errors
+    assert "1.00 s" in output and "efficiency" in output

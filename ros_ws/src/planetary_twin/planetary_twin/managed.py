@@ -77,6 +77,7 @@ class ManagedNode(LifecycleNode):
     def start(self) -> None:
         """Go as far as the parameters say; raises `NodeError` where a step fails."""
         if not self._autostart:
+            self.get_logger().info("unconfigured, for autostart is false: waits for transitions")
             return
         self._starting = True
         for trigger in (self.trigger_configure, self.trigger_activate):

@@ -44,6 +44,7 @@ class Simulation(ManagedNode):
         self._report: RealTimeReport | None = None
         self._urdf = ""
         self._verdict = KEEPS_UP
+        self._company = 0
         self._submitted: Future[float] | None = None
         self._ramp = 0.0  # [s] in which what is being set is to be reached
         self._given = given = SimulationParameters(self)
@@ -257,9 +258,16 @@ class Simulation(ManagedNode):
         message = self._telemetry.diagnose(
             lambda published: report.message(live.progress, live.affordable, published, last=last)
         )
+        self._look_for_company()
         if report.verdict != self._verdict:
             self._verdict = report.verdict
             self._log(message.status[0])
+
+    def _look_for_company(self) -> None:
+        """Warn once of each that publishes as this twin does: who listens hears both."""
+        before, self._company = self._company, self.count_publishers("gearbox_state") - 1
+        if self._company > before:
+            self.get_logger().warning("gearbox_state has another publisher: a replay, or a twin")
 
     def _log(self, status: DiagnosticStatus) -> None:
         # A line of its own for each level: rclpy refuses one line with several.

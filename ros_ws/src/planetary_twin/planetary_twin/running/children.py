@@ -69,8 +69,11 @@ class Child:
     def check(self) -> None:
         """Raise `RunError` if the process has ended."""
         code = self._process.poll()
-        if code is not None:
-            raise RunError(self.last_words() or f"{self.node}: ended with exit code {code}")
+        if code is None:
+            return
+        if code < 0:
+            raise RunError(f"{self.node}: ended by {signal.Signals(-code).name}")
+        raise RunError(self.last_words() or f"{self.node}: ended with exit code {code}")
 
     def stop(self) -> int:
         """End the process, the gentle way first; returns its exit code."""

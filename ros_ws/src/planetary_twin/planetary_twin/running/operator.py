@@ -19,6 +19,9 @@ from ..reports import real_time_figures
 from .children import RunError
 
 _NODE = "simulation"
+_POLL = 0.1  # [s]
+_UNKNOWN = "_NODE_NAME_UNKNOWN_"  # of whom discovery has not told yet
+_REPORTED = 3.0  # [s] for which a report, one each second, tells how it is now
 _MACHINERY = ("/rosout", "/parameter_events")
 
 
@@ -34,6 +37,7 @@ class Operator(Client):
         self.state: GearboxState | None = None
         self.recorder = RecorderStatus()
         self.figures: dict[str, str] = {}
+        self._told = 0.0  # [s] when they came
         listen = self.node.create_subscription
         listen(GearboxState, "gearbox_state", self._hear_state, 10)
         listen(RecorderStatus, "logger/status", self._hear_recorder, 10)
@@ -47,20 +51,39 @@ class Operator(Client):
         if not self.wait(ready, seconds):
             raise RunError(f"{what}: not within {seconds:g} s")
 
-    def next_state(self, after: float, seconds: float) -> GearboxState:
-        """Return the newest state later than simulated time `after` [s], within `seconds`."""
-        newest: list[GearboxState] = []
+    def next_state(self, after: int, seconds: float) -> GearboxState | None:
+        """
+        Return the newest state whose number is above `after`; None while simulated time stands.
 
-        def heard() -> bool:
-            newest[:] = [self.state] if self.state is not None else []
-            return bool(newest) and newest[0].simulated_time > after
+        Raises `RunError` after `seconds` without one in which the twin runs.
+        """
+        deadline = time.monotonic() + seconds
 
-        self.need("simulation: publishes its state", heard, seconds)
-        return newest[0]
+        def later() -> bool:
+            return self.state is not None and self.state.sequence > after
 
-    def twins(self) -> int:
-        """Count the simulations in this namespace, this run's own included."""
-        return self.node.get_node_names_and_namespaces().count((_NODE, self.namespace))
+        while not self.wait(later, _POLL):
+            if self.stands():
+                return None
+            if time.monotonic() > deadline:
+                raise RunError(f"simulation: publishes no state within {seconds:g} s")
+        return self.state
+
+    def stands(self) -> str:
+        """`paused`, `waits` or nothing, as the twin's last report says, if that is new."""
+        told = self.figures.get("state", "")
+        recent = time.monotonic() < self._told + _REPORTED
+        return told if recent and told in ("paused", "waits") else ""
+
+    def company(self) -> list[str]:
+        """Names of others that publish a twin's state in this namespace."""
+        topic = self.node.resolve_topic_name("gearbox_state")
+        publishers = self.node.get_publishers_info_by_topic(topic)
+        names = [f"{p.node_namespace.rstrip('/')}/{p.node_name}" for p in publishers]
+        own = f"{self.namespace.rstrip('/')}/{_NODE}"
+        if own in names:
+            names.remove(own)
+        return [name for name in names if not name.endswith(_UNKNOWN)]
 
     def bring(self, transition: str, begin: str, goal: str, seconds: float) -> None:
         """Take the simulation through a lifecycle `transition` from state `begin` to `goal`."""
@@ -124,4 +147,5 @@ class Operator(Client):
         self.recorder = message
 
     def _hear_diagnostics(self, message: DiagnosticArray) -> None:
-        self.figures = real_time_figures(message, self.namespace) or self.figures
+        if figures := real_time_figures(message, self.namespace):
+            self.figures, self._told = figures, time.monotonic()

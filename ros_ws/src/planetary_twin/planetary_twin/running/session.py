@@ -5,6 +5,7 @@ from __future__ import annotations
 import contextlib
 import fcntl
 import os
+import shutil
 import signal
 import tempfile
 from collections.abc import Iterator, Mapping
@@ -25,7 +26,7 @@ from .tour import Stop
 _START = 60.0  # [s] longest wait for the nodes to find one another
 _BUILD = 300.0  # [s] longest wait for the model, which a first run compiles
 _END = 3.0  # [s] longest wait for the last messages to reach the file
-_SILENCE = 10.0  # [s] longest silence of a running twin
+SILENCE = 10.0  # [s] longest silence of a running twin
 
 
 @dataclass(frozen=True)
@@ -50,7 +51,12 @@ def run_session(plan: Plan, console: Console) -> Outcome:
     """
     stay_on_this_machine()
     with _alone(plan.namespace):
-        return _run(plan, console)
+        try:
+            return _run(plan, console)
+        except RunError as failure:
+            if plan.folder.exists():
+                raise RunError(f"{failure}; what was recorded is in {plan.folder}") from None
+            raise
 
 
 def _run(plan: Plan, console: Console) -> Outcome:
@@ -62,14 +68,17 @@ def _run(plan: Plan, console: Console) -> Outcome:
             logger.check()
             simulation.check()
 
-        with simulation, Operator(plan.namespace, watch) as operator:
-            with contextlib.suppress(KeyboardInterrupt), Show(console, plan.duration) as show:
+        with (
+            simulation,
+            Operator(plan.namespace, watch) as operator,
+            Show(console, plan.duration) as show,
+        ):
+            with _nothing_left(logger, plan.folder):
                 _begin(operator)
+            with contextlib.suppress(KeyboardInterrupt):
                 _drive(operator, plan, show)
             with _undisturbed():
                 _finish(operator)
-        if operator.state is None:
-            raise KeyboardInterrupt  # before there was anything to record
         if logger.stop() != 0:
             raise RunError(logger.last_words() or "logger: ended with an error")
     file = plan.folder / f"{plan.folder.name}_0.mcap"
@@ -117,13 +126,13 @@ def _bring_up(operator: Operator) -> None:
 
 
 def _refuse_company(operator: Operator) -> None:
-    """Raise `RunError` if the services may have answered for another run's simulation."""
-    if operator.twins() > 1:
-        raise RunError(_company())
+    """Raise `RunError` if others publish here: they would be recorded, and drive what looks."""
+    if others := operator.company():
+        raise RunError(_company(", ".join(others)))
 
 
-def _company() -> str:
-    return f"another twin runs on ROS_DOMAIN_ID = {_domain()}: end it, or choose another domain"
+def _company(others: str = "another twin") -> str:
+    return f"{others} runs on ROS_DOMAIN_ID = {_domain()}: end it, or choose another domain"
 
 
 def _domain() -> str:
@@ -154,13 +163,28 @@ def _take(lock: int) -> None:
         raise RunError(_company()) from None
 
 
+@contextlib.contextmanager
+def _nothing_left(logger: Child, folder: Path) -> Iterator[None]:
+    """Remove the recording of a twin that has not begun."""
+    try:
+        yield
+    except (RunError, KeyboardInterrupt):
+        with _undisturbed():
+            logger.stop()
+            shutil.rmtree(folder, ignore_errors=True)
+        raise
+
+
 def _drive(operator: Operator, plan: Plan, show: Show) -> None:
     """Follow the twin to the end of the run, turning the knobs on the way."""
     stops = list(plan.stops)
-    seen = 0.0
+    seen, number = 0.0, 0
     while seen < plan.duration:
-        state = operator.next_state(seen, _SILENCE / min(plan.rate_factor or 1.0, 1.0))
-        seen = state.simulated_time
+        state = operator.next_state(number, SILENCE / min(plan.rate_factor or 1.0, 1.0))
+        if state is None:
+            show.stand(seen, operator.stands())
+            continue
+        seen, number = state.simulated_time, state.sequence
         show.update(state, operator.figures.get("real_time_factor", "-"))
         while stops and stops[0].time <= seen:
             stop = stops.pop(0)
@@ -171,8 +195,6 @@ def _drive(operator: Operator, plan: Plan, show: Show) -> None:
 
 def _finish(operator: Operator) -> None:
     """Stop the twin, then wait until the file holds what it says it has published."""
-    if operator.state is None:
-        return
     operator.bring("deactivate", "active", "inactive", _END + 2.0)
     operator.wait(lambda: operator.figures.get("state") == "stopped", _END)
 

@@ -20,6 +20,7 @@ class Show:
         self._console = console
         self._duration = duration
         self._next_line = 0.0
+        self._stands = False
         self._bar = Progress(
             TextColumn("{task.completed:5.1f} / {task.total:g} s"),
             BarColumn(bar_width=24),
@@ -47,13 +48,23 @@ class Show:
         """Print a line that stays."""
         self._console.print(f"{simulated:6.2f} s  {text}", highlight=False)
 
+    def stand(self, simulated: float, why: str) -> None:
+        """Show that simulated time stands."""
+        self._bar.update(self._task, description=why)
+        if not self._console.is_terminal and not self._stands:
+            self.say(simulated, why)
+        self._stands = True
+
     def update(self, state: GearboxState, real_time_factor: str) -> None:
         """Show the newest state."""
         line = _line(state, real_time_factor)
         self._bar.update(self._task, completed=state.simulated_time, description=line)
-        if not self._console.is_terminal and state.simulated_time >= self._next_line:
-            self._next_line = math.floor(state.simulated_time) + _PLAIN_PERIOD
-            self.say(state.simulated_time, line)
+        self._stands = False
+        now = state.simulated_time
+        due = now >= self._next_line or now < self._next_line - _PLAIN_PERIOD  # it began anew
+        if not self._console.is_terminal and due:
+            self._next_line = math.floor(now) + _PLAIN_PERIOD
+            self.say(now, line)
 
 
 def _line(state: GearboxState, real_time_factor: str) -> str:
