@@ -47,6 +47,13 @@ def test_values_may_have_units_and_what_was_set_is_told(
     assert set(points[-1].changed.split(",")) == {"input_speed", "lambda_ratio"}
 
 
+def test_values_may_be_negative(points: list[OperatingPoint]) -> None:
+    for typed in ("-104 rad/s", "-104", "-1e2"):
+        answer = command("param", "set", "input_speed", typed)
+        assert answer.returncode == 0, answer.stderr
+    assert answer.stdout == "input_speed = -100\n"
+
+
 def test_every_parameter_is_listed_with_its_range(points: list[OperatingPoint]) -> None:
     listed = command("param", "list").stdout
     for words in ("backlash", "0 to 0.001", "compute_share", "fixed", "publish_rate"):
@@ -58,6 +65,7 @@ def test_every_parameter_is_listed_with_its_range(points: list[OperatingPoint]) 
     ("arguments", "told"),
     [
         (("param", "set", "backlash", "3"), "backlash"),
+        (("param", "set", "backlash", "-1"), "backlash = -1.0 m: must be a number within 0 and"),
         (("param", "set", "backlash", "3 kg"), "backlash"),
         (("param", "set", "scene", "other"), "scene"),
         (("param", "get", "gap"), "gap: no such parameter"),

@@ -20,8 +20,8 @@ from rclpy.node import Node
 from rclpy.parameter import Parameter
 from rclpy.parameter_service import ParameterService
 
-from planetary_twin_py import Tunable
-from planetary_twin_py.scene.quantity import unit_of
+from planetary_twin_py import TUNABLES, Tunable
+from planetary_twin_py.scene.quantity import unit_of, within
 
 from .pacing import AS_FAST_AS_IT_GOES, FASTEST, SLOWEST, check_rate_factor
 
@@ -84,7 +84,7 @@ def fixed_at(node: Node, given: Parameter) -> bool:
 
 def check_settable(node: Node, parameter: Parameter) -> None:
     """
-    Raise `ValueError` for a parameter that there is not, that is fixed or of another type.
+    Raise `ValueError` for one that there is not, that is fixed, of another type or out of range.
 
     Numbers may be typed in other types, see `coerce`.
     """
@@ -98,6 +98,17 @@ def check_settable(node: Node, parameter: Parameter) -> None:
     wanted = Parameter.Type(descriptor.type)
     if wanted not in (Parameter.Type.DOUBLE, parameter.type_):
         raise ValueError(f"{told}: must be of type {wanted.name}")
+    for limits in descriptor.floating_point_range:
+        _check_within(limits, parameter.name, number(parameter.name, parameter.value))
+
+
+def _check_within(limits: FloatingPointRange, name: str, value: float) -> None:
+    """Refuse what rclpy would, but with the unit."""
+    low, high = limits.from_value, limits.to_value
+    if not low <= value <= high:
+        unit = TUNABLES[name].unit if name in TUNABLES else ""
+        told = f"{name} = {value!r} {unit}".rstrip()
+        raise ValueError(f"{told}: {within(low, high, unit)}")
 
 
 def declare_fixed(node: Node, name: str, default: Any, description: str) -> Any:

@@ -16,6 +16,8 @@ if TYPE_CHECKING:
 
 NAMESPACE = "/planetary_twin"
 Namespace = Annotated[str, typer.Option(help="Of the twin, where several run.")]
+# A value may begin with "-", which would else be taken for an option.
+_NEGATIVE = {"ignore_unknown_options": True}
 
 param = typer.Typer(no_args_is_help=True, help="Parameters of a running twin.")
 
@@ -68,7 +70,7 @@ def get(
         print(_shown(twin.setting(name).value))
 
 
-@param.command("set")
+@param.command("set", context_settings=_NEGATIVE)
 def set_(
     name: Annotated[str, typer.Argument(help="Of the parameter.")],
     value: Annotated[str, typer.Argument(help="In SI, or with a unit: '0.3 um', '2000 rpm'.")],
