@@ -53,6 +53,11 @@ def test_units_in_brackets_are_seen(command, unit):
     assert unit in shown(command)
 
 
+def test_a_run_offers_to_set_no_more_than_it_takes():
+    assert "mesh.ramp" in shown("simulate")
+    assert "operating point" in shown("run") and "mesh.ramp" not in shown("run")
+
+
 def test_a_slip_of_the_keyboard_is_answered_with_what_was_meant():
     done = CliRunner().invoke(APP, ["simulte"])
     assert done.exit_code == 2 and "'simulate'" in done.output

@@ -10,13 +10,21 @@ from typing import Annotated, Any
 
 import typer
 
-from planetary_twin_py.cli._arguments import JsonOption, SceneArgument, SetOption
+from planetary_twin_py.cli._arguments import JsonOption, SceneArgument
 from planetary_twin_py.cli._fail import fail, need, remark
 from planetary_twin_py.cli._figures import console_beside, put_figures
 
 from .pacing import check_rate_factor
 
 RECORDINGS = Path("recordings")
+PointOption = Annotated[
+    list[str] | None,
+    typer.Option(
+        "--set",
+        metavar="NAME=VALUE",
+        help="Start at another operating point, in SI or with a unit: backlash=0.3um; repeatable.",
+    ),
+]
 
 
 def run(
@@ -25,7 +33,7 @@ def run(
     record: Annotated[
         str | None, typer.Option(metavar="NAME", help="Folder in recordings/; must be free.")
     ] = None,
-    set_: SetOption = None,
+    set_: PointOption = None,
     rate_factor: Annotated[
         float, typer.Option(help="Gearbox seconds per second; 0: as fast as it goes.")
     ] = 1.0,
