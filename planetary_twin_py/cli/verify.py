@@ -64,11 +64,7 @@ def _tell(console: Console, verdict: Verdict) -> None:
         console.print("recorded by       other kernels or another kind of machine")
     first = verdict.first_difference
     if first is None:
-        console.print(
-            "result            no bit differs"
-            if verdict.identical
-            else "result            no bit differs of what could be compared, which is not all"
-        )
+        console.print(f"result            {_sameness(verdict)}", highlight=False, soft_wrap=True)
         return
     console.print(
         f"first difference  {first.topic}.{first.field}[{first.place}] at {first.time:.9g} s: "
@@ -77,6 +73,22 @@ def _tell(console: Console, verdict: Verdict) -> None:
     )
     console.print(
         f"largest           {verdict.largest:.3g} x tolerance (bound between machines: {BOUND:g})"
+    )
+
+
+def _sameness(verdict: Verdict) -> str:
+    """How much is the same; the warnings before have told why it is not all."""
+    if verdict.identical:
+        return "no bit differs"
+    same = sum(verdict.messages.values())
+    if verdict.left_out:
+        return (
+            f"no bit differs in {same} of {same + verdict.left_out} messages; "
+            "the others could not be compared, as warned"
+        )
+    return (
+        f"{same} messages read, all of them compared equal; "
+        "but the recording is not whole, as warned"
     )
 
 

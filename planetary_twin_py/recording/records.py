@@ -78,7 +78,7 @@ def records_of(file: Path, remarks: list[str]) -> Iterator[Any]:
 def sections_of(file: Path, remarks: list[str]) -> Iterator[Section]:
     """The same records, section by section."""
     known = _Known()
-    sound, ended = 0, False
+    sound, ended = len(MAGIC), False
     with file.open("rb") as stream, ThreadPoolExecutor(os.cpu_count()) as threads:
         if stream.read(len(MAGIC)) != MAGIC:
             raise RecordingError(f"{file}: no recording: not an MCAP file")
@@ -138,6 +138,11 @@ def _torn(file: Path, sound: int, reason: Exception) -> str:
     if isinstance(reason, CRCValidationError) and isinstance(reason.record, DataEnd):
         return f"{file.name}: its data fail their checksum: what was read may be wrong or lacking"
     size = file.stat().st_size
+    if sound == size:
+        return (
+            f"{file.name}: has no end record, the recorder was stopped before it could finish; "
+            "everything before is sound"
+        )
     return (
         f"{file.name}: ends torn, the last {size - sound} of {size} bytes "
         f"are not readable ({type(reason).__name__}); everything before is sound"

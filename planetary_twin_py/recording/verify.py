@@ -39,6 +39,8 @@ class Verdict:
     """Whether the recording comes from the same kernels on the same kind of machine."""
     messages: dict[str, int] = field(default_factory=dict)
     """How many were compared, by topic."""
+    left_out: int = 0
+    """How many were read and could not be compared."""
     values: int = 0
     first_difference: Difference | None = None
     largest: float = 0.0
@@ -76,6 +78,7 @@ def verify(
             progress(found[1].end)
         else:
             strays[topic] += 1
+    verdict.left_out = strays.total()
     verdict.remarks += [
         f"{count} messages of {topic} belong to no interval that is simulated again"
         for topic, count in strays.items()

@@ -1,6 +1,7 @@
 """A recording that was altered is found; one that was not is the same to the last bit."""
 
 import json
+import struct
 from dataclasses import replace
 
 import numpy as np
@@ -11,7 +12,7 @@ from typer.testing import CliRunner
 
 from planetary_twin_py.cli import build_app
 from planetary_twin_py.recording.origin import makers_here
-from planetary_twin_py.recording.records import RecordingError
+from planetary_twin_py.recording.records import RecordingError, sections_of
 from planetary_twin_py.recording.verify import BOUND, verify
 
 
@@ -38,6 +39,15 @@ def next_bit(value):
         changed[2] = np.nextafter(value[2], np.array(np.inf, value.dtype))
         return changed
     return float(np.nextafter(value, np.inf))
+
+
+def end_of_data(file):
+    """Where a recorder that was killed between two records would have stopped at the latest."""
+    *_, last = (section.place for section in sections_of(file, []))
+    with file.open("rb") as stream:
+        stream.seek(last)
+        _, length = struct.unpack("<BQ", stream.read(9))
+    return last + 9 + length
 
 
 @pytest.fixture(scope="module")
@@ -127,6 +137,22 @@ def test_a_torn_file_is_the_same_up_to_its_end(sound, tmp_path):
     assert verdict.first_difference is None
     assert 10 <= verdict.messages["gearbox_state"] < 41
     assert any("ends torn" in remark for remark in verdict.remarks)
+
+
+def test_of_a_file_without_an_end_all_that_was_read_is_compared(sound, tmp_path):
+    torn = tmp_path / "torn.mcap"
+    torn.write_bytes(sound.read_bytes()[: end_of_data(sound)])
+    code, output = invoke(torn)
+    assert code == 1
+    assert "torn.mcap: has no end record, the recorder was stopped" in output
+    assert "122 messages read, all of them compared equal" in output
+
+
+def test_how_many_messages_could_not_be_compared_is_told(tmp_path):
+    file = record(tmp_path / "a", altering("mesh_waveform", 25, "start_time", next_bit))
+    code, output = invoke(file)
+    assert code == 1
+    assert "no bit differs in 121 of 122 messages" in output
 
 
 def test_any_bit_that_is_turned_in_the_file_is_found(sound, tmp_path):
