@@ -7,6 +7,7 @@ import sys
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from ._console import make_console
 from ._fail import fail
 
 if TYPE_CHECKING:
@@ -15,9 +16,7 @@ if TYPE_CHECKING:
 
 def console_beside(target: str | None) -> Console:
     """Where a person reads: standard output, unless figures go there."""
-    from rich.console import Console
-
-    return Console(stderr=target == "-")
+    return make_console(stderr=target == "-")
 
 
 def put_figures(figures: Any, target: str | None) -> None:

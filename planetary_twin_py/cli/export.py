@@ -8,6 +8,7 @@ from typing import Annotated
 import typer
 
 from ._arguments import FileArgument, NamespaceOption
+from ._console import make_console
 from ._fail import fail, need, remark
 
 
@@ -27,13 +28,12 @@ def export(
     Example: planetary-twin export recordings/NAME --out tables --format csv
     """
     need("analysis", "mcap", "rosbags", "pyarrow")
-    from rich.console import Console
     from rich.progress import Progress
 
     from ..recording.export import Export
     from ..recording.export import export as write
 
-    console = Console()
+    console = make_console()
     chosen = Export(out, format_, [name for name in topics.split(",") if name], namespace)
     try:
         with Progress(console=console, transient=True, disable=not console.is_terminal) as progress:

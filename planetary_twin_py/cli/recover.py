@@ -8,6 +8,7 @@ from typing import Annotated
 import typer
 
 from ._arguments import FileArgument
+from ._console import make_console
 from ._fail import fail, need, remark
 
 
@@ -22,7 +23,6 @@ def recover(
     Example: planetary-twin recover recordings/paper_20260101_120000
     """
     need("recording", "mcap", "rosbags")
-    from rich.console import Console
     from rich.table import Table
 
     from ..recording.records import RecordingError
@@ -42,6 +42,6 @@ def recover(
     table = Table("topic", "messages saved", box=None)
     for topic, count in saved.messages.items():
         table.add_row(topic, str(count))
-    console = Console()
+    console = make_console()
     console.print(table)
     console.print(f"{saved.file}", highlight=False, soft_wrap=True)

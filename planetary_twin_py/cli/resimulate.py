@@ -8,6 +8,7 @@ from typing import Annotated
 import typer
 
 from ._arguments import FileArgument, NamespaceOption, SetOption
+from ._console import make_console
 from ._fail import fail, need, remark
 from ._settings import settings
 
@@ -36,7 +37,6 @@ def resimulate(
     Example: planetary-twin resimulate recordings/NAME --set lambda_ratio=1.0 --from 3.0
     """
     need("recording", "mcap", "rosbags")
-    from rich.console import Console
     from rich.progress import Progress
 
     from ..recording.branch import Branch
@@ -45,7 +45,7 @@ def resimulate(
     from ..recording.tape import Tape
 
     folder = out or file.with_name(f"{file.stem}_again")
-    console = Console()
+    console = make_console()
     try:
         branch = Branch(settings(set_ or []), from_, duration, run)
         chosen = choose_namespace(Tape(file).topics, namespace, file)

@@ -31,6 +31,18 @@ def test_topics_rates_and_gaps_are_those_that_were_written(sound):
     assert info.remarks == []
 
 
+def test_a_pipe_gets_a_line_for_every_topic(sound, monkeypatch):
+    def lines():
+        printed = CliRunner().invoke(build_app(), ["info", str(sound)]).output
+        return [line for line in printed.splitlines() if f"{NAMESPACE}/operating_point" in line]
+
+    monkeypatch.delenv("COLUMNS", raising=False)
+    (line,) = lines()
+    assert line.rstrip().endswith(" OperatingPoint")
+    monkeypatch.setenv("COLUMNS", "80")
+    assert max(map(len, lines())) <= 80
+
+
 def test_changes_are_told_with_their_instants(sound):
     first, second, third = read_info(sound).changes
     assert first.time == 0.0 and len(first.values) == 7

@@ -59,6 +59,8 @@ def test_every_parameter_is_listed_with_its_range(points: list[OperatingPoint]) 
     for words in ("backlash", "0 to 0.001", "compute_share", "fixed", "publish_rate"):
         assert words in listed
     assert "qos_overrides" not in listed
+    (line,) = [line for line in listed.splitlines() if line.startswith("backlash ")]
+    assert "0 to 0.001" in line and line.rstrip().endswith("[m]")
 
 
 @pytest.mark.parametrize(

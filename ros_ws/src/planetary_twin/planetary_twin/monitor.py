@@ -15,6 +15,8 @@ from rich.console import Console
 from rich.live import Live
 from rich.table import Table
 
+from planetary_twin_py.cli._console import make_console
+
 from .remote import Remote
 from .reports import real_time_figures
 
@@ -128,7 +130,7 @@ class Monitor(Remote):
 
 def watch(namespace: str, duration: float | None) -> None:
     """Show the twin for `duration` [s], or until interrupted."""
-    console = Console()
+    console = make_console()
     with Monitor(namespace) as monitor:
         monitor.wait(lambda: monitor.state is not None, _SILENCE)
         end = math.inf if duration is None else time.monotonic() + duration

@@ -8,6 +8,8 @@ from typing import Any
 from rich.console import Console
 from rich.progress import BarColumn, Progress, TextColumn
 
+from planetary_twin_py.cli._console import make_console
+
 from .managed import run_node
 from .network import stay_on_this_machine
 from .replay import Replay
@@ -49,7 +51,7 @@ def replay_shown(parameters: Mapping[str, Any], remappings: Sequence[str]) -> in
     `remappings` are ROS's: OLD:=NEW.
     """
     stay_on_this_machine()
-    bar = Bar(Console())
+    bar = Bar(make_console())
     rules = [word for rule in remappings for word in ("-r", rule)]
     args = ["--ros-args", *rules] if rules else []
     with bar.progress:

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
+from planetary_twin_py.cli._console import make_console
 from planetary_twin_py.cli._fail import fail
 
 if TYPE_CHECKING:
@@ -43,7 +44,6 @@ def list_(namespace: Namespace = NAMESPACE) -> None:
 
     Example: planetary-twin param list
     """
-    from rich.console import Console
     from rich.table import Table
 
     with _twin(namespace) as twin:
@@ -53,7 +53,7 @@ def list_(namespace: Namespace = NAMESPACE) -> None:
         for setting in twin.settings():
             limits = "fixed" if setting.fixed else setting.limits
             table.add_row(setting.name, _shown(setting.value), limits, setting.description)
-        Console(markup=False).print(table)  # units stand in brackets
+        make_console(markup=False).print(table)  # units stand in brackets
 
 
 @param.command("get")
