@@ -74,7 +74,7 @@ def _tell(console: Console, found: Info) -> None:
 
     table = Table(box=None, pad_edge=False)
     table.add_column("topic", no_wrap=True)
-    for title in ("recorded", "lost", "rate [Hz]", "gap [s]"):
+    for title in ("recorded", "lost", "rate [Hz]", r"gap \[s]"):
         table.add_column(title, justify="right", no_wrap=True)
     table.add_column("type", overflow="fold")
     for name, topic in sorted(found.topics.items()):
