@@ -152,3 +152,22 @@ def test_the_simulation_ends_on_a_signal_without_a_traceback(peer: Peer, start: 
         _, errors = process.communicate(timeout=20)
         assert process.returncode == 0, errors
         assert "Traceback" not in errors
+
+
+def test_a_logger_that_is_held_up_for_half_a_second_misses_nothing(
+    peer: Peer, start: Start, tmp_path: Path
+) -> None:
+    logger = start("planetary_twin.logger", "--ros-args", "-p", "name:=bag")
+    start("planetary_twin.simulation", "--ros-args", "-p", "wait_for:=logger")
+    status = peer.listen(RecorderStatus, f"{TWIN}/logger/status")
+    states = peer.listen(GearboxState, f"{TWIN}/gearbox_state")
+    peer.until(lambda: states and status, 60.0)
+    for _ in range(3):
+        count = len(states)
+        logger.send_signal(signal.SIGSTOP)
+        peer.until(lambda count=count: len(states) > count + 50)
+        logger.send_signal(signal.SIGCONT)
+        peer.until(lambda count=count: len(states) > count + 150)
+    told = len(status)
+    peer.until(lambda: len(status) > told + 1)
+    assert dict(zip(status[-1].topics, status[-1].lost, strict=True)) == dict.fromkeys(TOPICS, 0)

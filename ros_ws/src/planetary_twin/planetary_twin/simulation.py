@@ -55,6 +55,7 @@ class Simulation(ManagedNode):
             given.frame_prefix + given.frame,
             self._transforms() if given.tf else None,
             given.clock,
+            given.rate,
         )
         self._audience = Audience(self, given.wait_for)
         self._timer = self.create_timer(_REPORT_PERIOD, self._diagnose, clock=STEADY)

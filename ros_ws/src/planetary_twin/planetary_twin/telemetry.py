@@ -31,11 +31,15 @@ from .transforms import TransformsMessage
 
 _LATCHED = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
 _DEPTH = 10
-_TF_DEPTH = 100  # as tf2_ros offers it
+_KEPT = 1.0  # [s] of messages, for reliable subscribers that are held up
 
 
 class Telemetry:
-    """Publishes windows, operating points and diagnostics, stamped with their own ROS time."""
+    """
+    Publishes windows, operating points and diagnostics, stamped with their own ROS time.
+
+    `rate` [Hz] is that of windows.
+    """
 
     def __init__(
         self,
@@ -44,16 +48,18 @@ class Telemetry:
         frame: str,
         transforms: TransformsMessage | None,
         clock: bool,
+        rate: float,
     ) -> None:
-        self._state = node.create_publisher(msg.GearboxState, "gearbox_state", _DEPTH)
-        self._waveform = node.create_publisher(msg.MeshWaveform, "mesh_waveform", _DEPTH)
-        self._joints = node.create_publisher(JointState, "joint_states", _DEPTH)
+        kept = max(round(_KEPT * rate), _DEPTH)
+        self._state = node.create_publisher(msg.GearboxState, "gearbox_state", kept)
+        self._waveform = node.create_publisher(msg.MeshWaveform, "mesh_waveform", kept)
+        self._joints = node.create_publisher(JointState, "joint_states", kept)
         self._point = node.create_publisher(msg.OperatingPoint, "operating_point", _LATCHED)
         self._description = node.create_publisher(String, "robot_description", _LATCHED)
         self._origin_of_run = node.create_publisher(String, "run_origin", _LATCHED)
         self._diagnostics = node.create_publisher(DiagnosticArray, "/diagnostics", _DEPTH)
-        self._tf = node.create_publisher(TFMessage, "/tf", _TF_DEPTH) if transforms else None
-        self._clock = node.create_publisher(Clock, "/clock", _DEPTH) if clock else None
+        self._tf = node.create_publisher(TFMessage, "/tf", kept) if transforms else None
+        self._clock = node.create_publisher(Clock, "/clock", kept) if clock else None
         self._state_message = StateMessage(scene, frame)
         self._waveform_message = WaveformMessage(scene, frame)
         self._joints_message: JointsMessage | None = None
