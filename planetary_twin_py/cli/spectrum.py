@@ -104,7 +104,7 @@ def _tell(console: Console, figures: dict[str, Any], unit: str) -> None:
 
     table = Table(box=None, pad_edge=False)
     axis = "order" if figures["lines"] and "order" in figures["lines"][0] else "frequency_hz"
-    headings = ("order" if axis == "order" else "frequency [Hz]", f"amplitude [{unit}]")
+    headings = ("order" if axis == "order" else "frequency [Hz]", rf"amplitude \[{unit}]")
     for heading in (*headings, "mesh orders"):
         table.add_column(heading, justify="right", no_wrap=True)
     table.add_column("")
