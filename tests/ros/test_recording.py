@@ -154,9 +154,7 @@ def test_the_simulation_ends_on_a_signal_without_a_traceback(peer: Peer, start: 
         assert "Traceback" not in errors
 
 
-def test_a_logger_that_is_held_up_for_a_moment_misses_nothing(
-    peer: Peer, start: Start, tmp_path: Path
-) -> None:
+def test_a_logger_that_is_held_up_for_a_moment_misses_nothing(peer: Peer, start: Start) -> None:
     logger = start("planetary_twin.logger", "--ros-args", "-p", "name:=bag")
     start("planetary_twin.simulation", "--ros-args", "-p", "wait_for:=logger")
     status = peer.listen(RecorderStatus, f"{TWIN}/logger/status")

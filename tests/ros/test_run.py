@@ -203,3 +203,19 @@ def test_a_pause_however_long_and_a_reset_are_no_failure_of_a_run(
     assert process.returncode == 0, errors
     assert re.search(r"^ +1\.\d\d s .*rpm", output, re.MULTILINE)  # of the run that began anew
     assert "efficiency" in output
+
+
+def test_a_recording_that_others_make_under_the_name_meanwhile_is_left_alone(
+    run: Callable[..., subprocess.Popen[str]], tmp_path: Path
+) -> None:
+    process = run("--duration", "60", "--record", "bag")
+    deadline = time.monotonic() + 60.0
+    while len(working_in(tmp_path)) < 2:  # from when on the name has been seen free
+        assert time.monotonic() < deadline
+    theirs = tmp_path / "recordings/bag/theirs.mcap"
+    theirs.parent.mkdir(parents=True)
+    theirs.write_bytes(b"theirs")
+    _, errors = process.communicate(timeout=60)
+    assert process.returncode == 1
+    assert "exists" in errors
+    assert theirs.read_bytes() == b"theirs"

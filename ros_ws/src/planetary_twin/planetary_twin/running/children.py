@@ -85,8 +85,12 @@ class Child:
                     self._process.wait(patience)
         return self._process.returncode
 
+    def words(self) -> str:
+        """Return all that the process has printed."""
+        self._log.seek(0)
+        return self._log.read().decode(errors="replace")
+
     def last_words(self) -> str:
         """Return the last line the process printed, or nothing."""
-        self._log.seek(0)
-        lines = self._log.read().decode(errors="replace").strip().splitlines()
+        lines = self.words().strip().splitlines()
         return lines[-1] if lines else ""

@@ -51,12 +51,7 @@ def run_session(plan: Plan, console: Console) -> Outcome:
     """
     stay_on_this_machine()
     with _alone(plan.namespace):
-        try:
-            return _run(plan, console)
-        except RunError as failure:
-            if plan.folder.exists():
-                raise RunError(f"{failure}; what was recorded is in {plan.folder}") from None
-            raise
+        return _run(plan, console)
 
 
 def _run(plan: Plan, console: Console) -> Outcome:
@@ -75,7 +70,7 @@ def _run(plan: Plan, console: Console) -> Outcome:
         ):
             with _nothing_left(logger, plan.folder):
                 _begin(operator)
-            with contextlib.suppress(KeyboardInterrupt):
+            with contextlib.suppress(KeyboardInterrupt), _told_where(plan.folder):
                 _drive(operator, plan, show)
             with _undisturbed():
                 _finish(operator)
@@ -165,14 +160,24 @@ def _take(lock: int) -> None:
 
 @contextlib.contextmanager
 def _nothing_left(logger: Child, folder: Path) -> Iterator[None]:
-    """Remove the recording of a twin that has not begun."""
+    """Remove the recording of a twin that has not begun; never a folder that others made."""
     try:
         yield
     except (RunError, KeyboardInterrupt):
         with _undisturbed():
             logger.stop()
-            shutil.rmtree(folder, ignore_errors=True)
+            if f"recording into {folder.absolute()}{os.sep}" in logger.words():
+                shutil.rmtree(folder, ignore_errors=True)
         raise
+
+
+@contextlib.contextmanager
+def _told_where(folder: Path) -> Iterator[None]:
+    """Name the recording of a run that fails."""
+    try:
+        yield
+    except RunError as failure:
+        raise RunError(f"{failure}; what was recorded is in {folder}") from None
 
 
 def _drive(operator: Operator, plan: Plan, show: Show) -> None:
