@@ -18,7 +18,7 @@ import typer
 
 from ._commands import Group
 from ._help import PLAIN
-from ._interrupts import repeat_lost, repeat_no_more
+from ._interrupts import interrupt, repeat_lost, repeat_no_more
 
 
 def build_app() -> typer.Typer:
@@ -39,7 +39,9 @@ def build_app() -> typer.Typer:
 
 def main() -> None:
     """Entry point of the console script."""
-    repeat_lost(signal.default_int_handler)
+    repeat_lost(interrupt)
+    if signal.getsignal(signal.SIGINT) is signal.default_int_handler:  # else it is to be ignored
+        signal.signal(signal.SIGINT, interrupt)
     try:
         try:
             build_app()()

@@ -40,8 +40,8 @@ except KeyboardInterrupt:
 
 HANDLERS = {
     "commands": (
-        "from planetary_twin_py.cli._interrupts import repeat_lost",
-        "repeat_lost(signal.default_int_handler)",
+        "from planetary_twin_py.cli._interrupts import interrupt, repeat_lost",
+        "repeat_lost(interrupt); signal.signal(signal.SIGINT, interrupt)",
     ),
     "nodes": (
         "from planetary_twin.signals import SIGNALS",
@@ -64,6 +64,27 @@ def said(handlers, callback):
 @pytest.mark.parametrize("callback", ["weak reference", "destructor"])
 def test_an_interrupt_within_a_callback_is_heard_after_it(handlers, callback):
     assert said(handlers, callback) == ("heard", "")
+
+
+FORGETFUL = """
+import pathlib, sys, tempfile
+folder = tempfile.mkdtemp()
+pathlib.Path(folder, "forgetful.py").write_text(
+    "try:\\n    import interrupted\\nexcept BaseException: pass\\n"
+)
+pathlib.Path(folder, "interrupted.py").write_text(
+    "import signal, time; signal.raise_signal(signal.SIGINT); time.sleep(0.05); ready = True"
+)
+sys.path.append(folder)
+import forgetful
+print(forgetful.interrupted.ready)
+"""
+
+
+@pytest.mark.parametrize("handlers", ["commands", "nodes"])
+def test_an_interrupt_within_an_import_is_heard_after_it(handlers, monkeypatch):
+    monkeypatch.setitem(CALLBACKS, "import", FORGETFUL)
+    assert said(handlers, "import") == ("True\nheard", "")
 
 
 def test_python_alone_loses_an_interrupt_within_a_callback():

@@ -5,7 +5,6 @@ from __future__ import annotations
 import signal
 from collections.abc import Mapping
 from pathlib import Path
-from types import FrameType
 from typing import Annotated, Any
 
 import typer
@@ -13,6 +12,7 @@ import typer
 from planetary_twin_py.cli._arguments import JsonOption, SceneArgument
 from planetary_twin_py.cli._fail import fail, need, remark
 from planetary_twin_py.cli._figures import console_beside, put_figures
+from planetary_twin_py.cli._interrupts import interrupt
 
 from .pacing import check_rate_factor
 
@@ -130,8 +130,4 @@ def _values(scene: str, settings: list[str]) -> dict[str, float]:
 def interrupt_on_signals() -> None:
     """Let SIGTERM and SIGHUP end a command as Ctrl-C does."""
     for number in (signal.SIGTERM, signal.SIGHUP):
-        signal.signal(number, _interrupt)
-
-
-def _interrupt(number: int, frame: FrameType | None) -> None:
-    raise KeyboardInterrupt
+        signal.signal(number, interrupt)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import sys
 import threading
+import time
 import traceback
 from collections.abc import Callable, Mapping
 from typing import Any
@@ -25,6 +26,7 @@ from .standard_error import never_waiting
 
 NAMESPACE = "planetary_twin"
 RCLError = rclpy_implementation.RCLError
+_SOON = 1e-3  # [s]
 _QUIET = 1.0  # [s] between two log lines that a client can cause
 _REQUESTS = QoSProfile(depth=100)
 
@@ -225,6 +227,8 @@ def _run_to_end(
     failures: dict[str, str] = {}
     name, *_ = makes
     SIGNALS.listen()
+    waker = threading.Thread(target=wake_after_shutdown, args=[executors], name="waker")
+    waker.start()
     try:
         with SIGNALS.interrupting():
             _initialize(args)
@@ -250,9 +254,8 @@ def _run_to_end(
     finally:
         if rclpy.ok():  # else rclpy's signal thread is at it, and must not be met there
             rclpy.try_shutdown()
-        for executor in executors:  # a signal may have woken it before ROS was shut down
-            executor.wake()
-        for thread in beside:
+        SIGNALS.told.set()
+        for thread in (waker, *beside):
             thread.join()
         for name, node in nodes.items():
             if failure := _end(node):
@@ -260,6 +263,20 @@ def _run_to_end(
         rclpy.try_shutdown()
         SIGNALS.ignore()
     return failures
+
+
+def wake_after_shutdown(executors: list[SingleThreadedExecutor]) -> None:
+    """
+    Wait for a signal, and wake what spins once ROS is shut down.
+
+    rclpy wakes executors first and shuts ROS down then: one that is quick sees ROS still running,
+    and waits on, for nothing.
+    """
+    SIGNALS.told.wait()
+    while rclpy.ok():
+        time.sleep(_SOON)
+    for executor in list(executors):
+        executor.wake()
 
 
 def _serve_beside(executor: SingleThreadedExecutor, node: ManagedNode) -> None:

@@ -7,11 +7,12 @@ rclpy's own handlers shut ROS down, which ends what spins; the ones here are cal
 from __future__ import annotations
 
 import signal
+import threading
 from collections.abc import Iterator
 from contextlib import contextmanager
 from types import FrameType
 
-from planetary_twin_py.cli._interrupts import repeat_lost, repeat_no_more
+from planetary_twin_py.cli._interrupts import interrupt, repeat_lost, repeat_no_more
 
 _NUMBERS = (signal.SIGINT, signal.SIGTERM)
 
@@ -20,7 +21,8 @@ class Signals:
     """Whether the process has been told to end, however often."""
 
     def __init__(self) -> None:
-        self._told = False
+        self.told = threading.Event()
+        """To end."""
         self._interrupting = False
 
     def listen(self) -> None:
@@ -34,7 +36,7 @@ class Signals:
         """Raise `KeyboardInterrupt` at the first signal within, or at once if it has come."""
         self._interrupting = True
         try:
-            if self._told:
+            if self.told.is_set():
                 raise KeyboardInterrupt
             yield
         finally:
@@ -47,9 +49,10 @@ class Signals:
         repeat_no_more()
 
     def _tell(self, number: int, frame: FrameType | None) -> None:
-        first, self._told = not self._told, True
+        first = not self.told.is_set()
+        self.told.set()
         if self._interrupting and (first or number == signal.SIGALRM):
-            raise KeyboardInterrupt
+            interrupt(number, frame)
 
 
 SIGNALS = Signals()
