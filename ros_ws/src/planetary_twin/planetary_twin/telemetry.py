@@ -31,14 +31,15 @@ from .transforms import TransformsMessage
 
 _LATCHED = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
 _DEPTH = 10
-_KEPT = 1.0  # [s] of messages, for reliable subscribers that are held up
+_KEPT = 1.0  # [s] of simulated time, for reliable subscribers that are held up
+_LEAST = 100  # messages, where more than a second of it passes in one
 
 
 class Telemetry:
     """
     Publishes windows, operating points and diagnostics, stamped with their own ROS time.
 
-    `rate` [Hz] is that of windows.
+    `rate` is that of windows, per simulated second.
     """
 
     def __init__(
@@ -50,7 +51,7 @@ class Telemetry:
         clock: bool,
         rate: float,
     ) -> None:
-        kept = max(round(_KEPT * rate), _DEPTH)
+        kept = max(round(_KEPT * rate), _LEAST)
         self._state = node.create_publisher(msg.GearboxState, "gearbox_state", kept)
         self._waveform = node.create_publisher(msg.MeshWaveform, "mesh_waveform", kept)
         self._joints = node.create_publisher(JointState, "joint_states", kept)
