@@ -9,7 +9,7 @@ from typer.testing import CliRunner
 
 from planetary_twin_py._records import new_record
 from planetary_twin_py.benchmark.cases import Case
-from planetary_twin_py.benchmark.peers import cvode, cvode_compiled, cyrk, work_precision
+from planetary_twin_py.benchmark.peers import cvode, cvode_compiled, cyrk, sundials, work_precision
 from planetary_twin_py.benchmark.peers.equations import rate
 from planetary_twin_py.benchmark.peers.problem import Problem
 from planetary_twin_py.benchmark.peers.solver import SolverError
@@ -116,12 +116,29 @@ def test_a_tight_tolerance_comes_to_the_reference(case, agreement, references):
 
 
 @pytest.mark.skipif("cvode_bdf" in MISSING, reason="needs the extra [bench]")
-def test_cvode_takes_the_same_path_with_a_compiled_callback():
-    """But for rounding, which now and then tips the choice of a step."""
+def test_cvode_is_given_the_same_right_hand_side_compiled():
+    problem, random = Problem(SHORT.scene()), np.random.default_rng(3)
+    setting = sundials.Setting(
+        sundials.BDF, cvode_compiled._function().address, problem.record.ctypes.data, 1e-4,
+        1e-4 * problem.scale, 1,
+    )  # fmt: skip
+    with sundials.cvode(setting) as given, sundials.cvode(setting) as answer:
+        for time in random.uniform(0.0, problem.mesh_period, 20):
+            given.y[:] = random.normal(0.0, 0.01, problem.size) * problem.scale
+            dy, data = np.empty(problem.size), problem.record.ctypes.data
+            rate(problem.record, time, given.y.copy(), dy)
+            assert cvode_compiled._function().ctypes(time, given.vector, answer.vector, data) == 0
+            np.testing.assert_allclose(answer.y, dy, rtol=1e-9, atol=1e-12 * abs(dy).max())
+
+
+@pytest.mark.skipif("cvode_bdf" in MISSING, reason="needs the extra [bench]")
+def test_cvode_errs_alike_with_a_compiled_callback(references):
+    """Not by the same path: rounding tips the choice of a step."""
     interpreted, compiled = (
-        solved(name, SHORT, 1e-4).dte for name in ("cvode_bdf", "cvode_bdf_compiled")
+        dte_error(solved(name, SHORT, 1e-4).dte, references["short"][:, DTE])
+        for name in ("cvode_bdf", "cvode_bdf_compiled")
     )
-    assert dte_error(compiled, interpreted) < 1e-5
+    assert 0.5 < compiled / interpreted < 2.0
 
 
 def test_the_mean_power_loss_is_that_of_the_reference(references):
