@@ -15,7 +15,7 @@ from .integrators.interpolant import Samples
 from .run import start
 from .scene import TUNABLES, OperatingPoint, Scene, SceneError
 from .tolerance import LIVE_TOLERANCE, check_tolerance
-from .window import Waveform, Window, mesh_statistics
+from .window import Stretch, Waveform, Window, mesh_statistics
 
 TICKS = 10**12  # of the clock, in a second
 LEEWAY = Fraction(1, 10**6)  # of a sample period, by which a sample may lie beyond its window
@@ -157,6 +157,7 @@ class Twin:
         if change[1:] != self.log[-1][1:]:
             self._engine.change(point, tolerance, self._clock)
             self._books = self._account()  # play that opens or closes stores no work of this window
+            self._end = self._engine.sample(self._clock)  # as the new point has it
             self.log.append(change)
         return self.time
 
@@ -183,6 +184,7 @@ class Twin:
         mean_speed = np.append(speed, 0.0)[names.place]
         sun, carrier = mean_speed[names.names.index("sun")], mean_speed[-1]
         mesh = samples.mesh[:, :, self._mesh_names.place]
+        stretch = self._stretch(step, first, (begin, samples, self._end))
         return Window(
             start=float(self._clock - step),
             end=self.time,
@@ -198,7 +200,7 @@ class Twin:
                 mesh_force=mesh[:, MESH_FORCE],
                 friction=mesh[:, BOUNDARY] + mesh[:, VISCOUS],
             ),
-            mesh=mesh_statistics(mesh),
+            mesh=mesh_statistics(stretch),
             angle=self._angles(),
             mean_speed=mean_speed,
             mesh_frequency=self.scene.gearset.teeth.sun * abs(sun - carrier) / (2.0 * math.pi),
@@ -208,6 +210,13 @@ class Twin:
             power_loss=float(rate[FRICTION] + rate[BEARING] + rate[CHURNING]),
             stored_power=stored,
         )
+
+    def _stretch(self, step: Fraction, first: int, parts: tuple[Samples, ...]) -> Stretch:
+        """The last `step` [s]: its beginning, the samples from number `first` on, and its end."""
+        mesh = np.concatenate([part.mesh for part in parts])[:, :, self._mesh_names.place]
+        start, end = float(first / Fraction(self.sample_rate) - (self._clock - step)), float(step)
+        inner = start + np.arange(len(mesh) - 2) / self.sample_rate
+        return Stretch(np.concatenate([[0.0], np.minimum(inner, end), [end]]), mesh)
 
     def _angles(self) -> np.ndarray:
         """Angles modulo a turn, exact in the whole turns of the motor."""

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 
@@ -122,34 +123,53 @@ class Window:
         return 1.0 - self.power_loss / put_in if put_in > 0.0 else math.nan
 
 
-def mesh_statistics(samples: np.ndarray) -> dict[str, np.ndarray]:
-    """Mean, rms and peak of what `observe` sampled, shape (samples, quantities, meshes).
+class Stretch(NamedTuple):
+    """What `observe` sees of a stretch of time at instants of it, its first and last included."""
 
-    rms is that of the deviation from the mean, peak the largest magnitude; film and lambda ratio
-    are means over the samples in contact, NaN without any.
+    instants: np.ndarray
+    """[s] from anywhere, not falling, shape (instants,)"""
+    mesh: np.ndarray
+    """Shape (instants, quantities, meshes)."""
+
+
+def mesh_statistics(stretch: Stretch) -> dict[str, np.ndarray]:
+    """Mean, rms and peak over a stretch of time, shape (meshes,) each.
+
+    Means are over time, by trapezoids from instant to instant: they do not depend on how many
+    samples happen to fall into the stretch. rms is that of the deviation from the mean, peak the
+    largest magnitude; film and lambda ratio are means over the time in contact, NaN without any.
     """
-    dte, force = samples[:, DTE], samples[:, MESH_FORCE]
-    if not len(samples):
-        samples = np.full((1, *samples.shape[1:]), np.nan)
-        dte, force = samples[:, DTE], samples[:, MESH_FORCE]
-    film, ratio = _mean_in_contact(samples[:, FILM]), _mean_in_contact(samples[:, LAMBDA])
+    dte, force = stretch.mesh[:, DTE], stretch.mesh[:, MESH_FORCE]
+    weights = _trapezoids(stretch.instants)
+    dte_mean = _mean(dte, weights)
     return {
-        "dte_mean": dte.mean(axis=0),
-        "dte_rms": dte.std(axis=0),
+        "dte_mean": dte_mean,
+        "dte_rms": np.sqrt(_mean(np.square(dte - dte_mean), weights)),
         "dte_peak": np.abs(dte).max(axis=0),
-        "mesh_force_mean": force.mean(axis=0),
+        "mesh_force_mean": _mean(force, weights),
         "mesh_force_peak": np.abs(force).max(axis=0),
-        "contact_fraction": np.where(np.isnan(force), np.nan, force != 0.0).mean(axis=0),
-        "film_thickness": film,
-        "lambda_ratio": ratio,
-        "boundary_friction": samples[:, BOUNDARY].mean(axis=0),
-        "viscous_friction": samples[:, VISCOUS].mean(axis=0),
-        "power_loss": samples[:, POWER_LOSS].mean(axis=0),
+        "contact_fraction": _mean((force != 0.0).astype(float), weights),
+        "film_thickness": _mean_in_contact(stretch.mesh[:, FILM], weights),
+        "lambda_ratio": _mean_in_contact(stretch.mesh[:, LAMBDA], weights),
+        "boundary_friction": _mean(stretch.mesh[:, BOUNDARY], weights),
+        "viscous_friction": _mean(stretch.mesh[:, VISCOUS], weights),
+        "power_loss": _mean(stretch.mesh[:, POWER_LOSS], weights),
     }
 
 
-def _mean_in_contact(values: np.ndarray) -> np.ndarray:
+def _trapezoids(instants: np.ndarray) -> np.ndarray:
+    """Share of the stretch for which each instant stands, a column that sums up to 1."""
+    gaps = np.diff(instants, prepend=instants[0], append=instants[-1])
+    return np.asarray(0.5 * (gaps[:-1] + gaps[1:]) / (instants[-1] - instants[0]))[:, None]
+
+
+def _mean(values: np.ndarray, weights: np.ndarray) -> np.ndarray:
+    """By column."""
+    return np.asarray((weights * values).sum(axis=0))
+
+
+def _mean_in_contact(values: np.ndarray, weights: np.ndarray) -> np.ndarray:
     """Mean of the rows that are numbers, by column; NaN without any."""
     sound = ~np.isnan(values)
     with np.errstate(invalid="ignore"):
-        return np.asarray(np.where(sound, values, 0.0).sum(axis=0) / sound.sum(axis=0))
+        return _mean(np.where(sound, values, 0.0), weights) / _mean(sound.astype(float), weights)

@@ -238,6 +238,28 @@ def test_a_sample_rate_set_changes_what_is_looked_at_and_not_what_happens():
     assert twin.sample_rate == 50e3
 
 
+def test_statistics_are_means_over_time_however_samples_fall_into_the_window():
+    """8.65 mesh cycles in a window, whose ends lie anywhere between samples."""
+    scene = PAPER.replace(input_speed=pt.rpm(1730))
+    twin, fine = pt.Twin(scene, 50e3, 1e-5), pt.Twin(scene, 1e6, 1e-5)
+    for _ in range(5):
+        shown, dte = twin.advance(0.010007).mesh, fine.advance(0.010007).waveform.dte
+        assert shown["dte_mean"] == pytest.approx(dte.mean(axis=0), rel=1e-4)
+        assert shown["dte_rms"] == pytest.approx(dte.std(axis=0), rel=1e-3)
+
+
+def test_a_window_without_a_sample_shows_what_was_set_before_it():
+    twin = pt.Twin(PAPER)
+    twin.advance(0.01)
+    before = twin.advance(1e-7).mesh
+    twin.set(lambda_ratio=2.0)
+    after = twin.advance(1e-7)
+    assert len(after.waveform.time) == 0
+    assert after.mesh["lambda_ratio"] == pytest.approx(2.0, rel=1e-12)
+    assert (after.mesh["boundary_friction"] < 0.5 * before["boundary_friction"]).all()
+    assert after.mesh["dte_mean"] == pytest.approx(before["dte_mean"], rel=1e-3)
+
+
 @pytest.mark.parametrize("rate", [0.0, -1.0, 2e7, math.nan])
 def test_a_sample_rate_that_cannot_be_is_refused_and_changes_nothing(rate):
     twin = pt.Twin(PAPER)

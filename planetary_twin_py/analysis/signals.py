@@ -14,7 +14,7 @@ from scipy.interpolate import PchipInterpolator
 from ..recording.reader import Recording, read_recording
 from ..recording.records import RecordingError
 from ..recording.unwrapping import unwrap
-from .stretches import even_stretches, longest_stretch, thinned
+from .stretches import full_rate, longest_stretch, sample_rate
 
 Array = NDArray[np.float64]
 QUANTITIES = {"dte": "m", "mesh_force": "N", "friction": "N"}
@@ -37,7 +37,7 @@ class Signal:
     @property
     def sample_rate(self) -> float:
         """[Hz]."""
-        return (len(self.time) - 1) / float(self.time[-1] - self.time[0])
+        return sample_rate(self.time)
 
     @property
     def speed(self) -> float:
@@ -60,13 +60,18 @@ class Signal:
                 f"from {low:g} to {high:g} s: {error}; "
                 f"the signal runs from {self.time[0]:g} to {self.time[-1]:g} s"
             ) from None
-        fewer = thinned(self.time, even_stretches(self.time))
-        remarks = (*self.remarks, fewer) if fewer else self.remarks
+        remarks = self.remarks
         if len(part) < len(inside):
             first, last = self.time[part[[0, -1]]]
             remarks += (
                 f"samples are missing or change their rate: analysed is the longest stretch "
                 f"without, {first:.4f} to {last:.4f} s",
+            )
+        rate, full = sample_rate(self.time[part]), full_rate(self.time)
+        if rate < 0.99 * full:
+            remarks += (
+                f"samples come at {rate:.0f} in place of {full:.0f} Hz: what lies above "
+                f"{0.5 * rate:.0f} Hz folds back below it",
             )
         return type(self)(
             self.samples[part], self.time[part], self.angle[part], self.scene_yaml, remarks

@@ -32,9 +32,19 @@ def longest_stretch(time: NDArray[np.float64]) -> slice:
     return max(stretches, key=lambda part: float(time[part.stop - 1] - time[part.start]))
 
 
+def sample_rate(time: NDArray[np.float64]) -> float:
+    """Of an even stretch [Hz]."""
+    return (len(time) - 1) / float(time[-1] - time[0])
+
+
+def full_rate(time: NDArray[np.float64]) -> float:
+    """The highest of any stretch [Hz]; 0 where there is none."""
+    return max((sample_rate(time[part]) for part in even_stretches(time)), default=0.0)
+
+
 def thinned(time: NDArray[np.float64], stretches: list[slice]) -> str | None:
     """A remark, where samples are further apart than elsewhere: a busy machine thins them."""
-    rates = [1.0 / float(time[part.start + 1] - time[part.start]) for part in stretches]
+    rates = [sample_rate(time[part]) for part in stretches]
     full = max(rates, default=0.0)
     few = [k for k, rate in enumerate(rates) if rate < (1.0 - _EVEN) * full]
     if not few:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -37,7 +38,10 @@ def spectrum(
     from_: Annotated[
         float | None, typer.Option("--from", help="Begin: simulated time in seconds.")
     ] = None,
-    to: Annotated[float | None, typer.Option(help="End: simulated time in seconds.")] = None,
+    to: Annotated[
+        float | None,
+        typer.Option(help="End. Without both: the longest time at one operating point, settled."),
+    ] = None,
     out: Annotated[Path | None, typer.Option(help="Write it all: .png or .csv.")] = None,
     json_: JsonOption = None,
 ) -> None:
@@ -56,7 +60,9 @@ def spectrum(
     from ..analysis.signals import QUANTITIES, read_signal
 
     try:
-        signal = read_signal(file, mesh, quantity).within(from_, to)
+        signal = read_signal(file, mesh, quantity)
+        whole = from_ is None and to is None
+        signal = _steady(file, signal) if whole else signal.within(from_, to)
         found = (order_spectrum_of if order else frequency_spectrum_of)(signal, _sun_teeth(signal))
         if out is not None:
             axis = "order [cycles per turn]" if order else "frequency [Hz]"
@@ -70,6 +76,19 @@ def spectrum(
     figures = _figures(signal, found, "order" if order else "frequency_hz")
     _tell(console_beside(json_), figures, QUANTITIES[quantity])
     put_figures(figures, json_)
+
+
+def _steady(file: Path, signal: Signal) -> Signal:
+    """The longest part at one operating point; all of what tells of none."""
+    from ..recording.steadiness import steady_span
+
+    if file.suffix == ".npz":
+        return signal.within(None, None)
+    if span := steady_span(file):
+        return signal.within(*span)
+    whole = signal.within(None, None)
+    told = f"{file}: tells of no time at one operating point: all of it is analysed"
+    return replace(whole, remarks=(*whole.remarks, told))
 
 
 def _sun_teeth(signal: Signal) -> int | None:
@@ -119,7 +138,8 @@ def _tell(console: Console, figures: dict[str, Any], unit: str) -> None:
     console.print(table)
     console.print(
         f"from {figures['from_s']:.4f} to {figures['to_s']:.4f} s, resolved to "
-        f"{figures['resolution']:.4g}, mean {figures['mean']:.6g} {unit}",
+        f"{figures['resolution']:.4g} {'of an order' if axis == 'order' else 'Hz'}, "
+        f"mean {figures['mean']:.6g} {unit}",
         highlight=False,
     )
 

@@ -8,9 +8,11 @@ from pathlib import Path
 import numpy as np
 import pytest
 from PIL import Image
-from synthetic_recording import BLOCK, SAMPLE_PERIOD, write_recording
+from synthetic_recording import BLOCK, SAMPLE_PERIOD, START_NS, write_recording
+from twin_recording import TwinRecording
 from typer.testing import CliRunner
 
+import planetary_twin_py as pt
 from planetary_twin_py.analysis.signals import of_recording
 from planetary_twin_py.cli import build_app
 from planetary_twin_py.recording.reader import read_recording
@@ -41,6 +43,24 @@ def test_lines_are_named_as_harmonics_of_the_meshing(file, options, axis):
         assert line["harmonic"] == round(line[axis] / first)
         assert line[axis] == pytest.approx(line["harmonic"] * first, rel=2e-3)
     assert "harmonic 1 of the meshing" in done.stderr
+
+
+def test_without_a_span_the_longest_time_at_one_operating_point_is_analysed(tmp_path):
+    recording, twin = TwinRecording(tmp_path / "bag"), pt.Twin(pt.load_scene("paper"))
+    recording.begin(twin, START_NS)
+    for _ in range(6):
+        recording.advance(twin, 0.01)
+    twin.set(input_speed=pt.rpm(1030.0))
+    recording.point(twin)
+    for _ in range(160):
+        recording.advance(twin, 0.01)
+    recording.finish()
+    file = tmp_path / "bag"
+    done = planetary_twin("spectrum", file, "--json", "-")
+    figures = json.loads(done.stdout)
+    assert 1.0 < figures["from_s"] < 1.5 and figures["to_s"] == pytest.approx(1.66, abs=1e-3)
+    assert figures["lines"][0]["frequency_hz"] == pytest.approx(515.0, rel=1e-3)
+    assert "Hz, mean" in done.stderr and "one operating point" not in done.stderr
 
 
 def test_a_picture_and_a_table_are_written(file, tmp_path):

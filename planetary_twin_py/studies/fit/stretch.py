@@ -12,6 +12,7 @@ from typing import Any
 from ...recording.namespaces import choose_namespace
 from ...recording.records import RecordingError
 from ...recording.schedule import Change, Interval, Run, messages_of, read_runs, stamp_of
+from ...recording.steadiness import between, length, longest_steady_part, settling
 from ...recording.tape import Tape
 from ...recording.topics import STATE, WAVEFORM
 from ...scene import Scene
@@ -20,7 +21,6 @@ from ...twin import TICKS, Twin
 LONGEST = 1.0  # [s] that is looked at unless more is asked for
 HISTORY = 2.0  # [s] before it that are simulated as recorded; of more, only the last part
 LEAD = 0.1  # [s] simulated before it then, for what is left of the start
-SETTLING = 4.0  # periods of the speed loop after a change, beside the ramp to a new speed
 FEWEST = 5  # intervals that noise can be seen in
 
 
@@ -90,15 +90,11 @@ def read_stretch(
     chosen = choose_namespace(Tape(path).topics, namespace, path)
     runs = read_runs(path, chosen, remarks)
     if begin is None and end is None:
-        run, intervals = max(
-            ((run, part) for run in runs for part in _steady_parts(run)),
-            key=lambda found: _length(found[1]),
-            default=(runs[0], []),
-        )
+        run, intervals = longest_steady_part(runs)
         intervals = [i for i in intervals if i.end <= intervals[0].begin + LONGEST * TICKS]
     else:
-        run = max(runs, key=lambda run: _length(run.intervals))
-        intervals = _between(run, begin or 0.0, math.inf if end is None else end)
+        run = max(runs, key=lambda run: length(run.intervals))
+        intervals = between(run, begin or 0.0, math.inf if end is None else end)
     if len(intervals) < FEWEST:
         asked = "" if begin is None and end is None else " from --from to --to"
         longest = max((run.intervals[-1].end for run in runs), default=0) / TICKS
@@ -118,43 +114,13 @@ def read_stretch(
     return Stretch(
         scene=scene,
         begins=begins,
-        before=tuple(i for i in _between(run, begins, math.inf) if i.end <= intervals[0].begin),
+        before=tuple(i for i in between(run, begins, math.inf) if i.end <= intervals[0].begin),
         intervals=tuple(intervals),
         states=tuple(states[interval.stamp] for interval in intervals),
         changes=tuple(change for change in run.changes if begins <= change.time < last),
         blocks=tuple(_blocks(path, chosen, intervals)) if waveform else (),
         remarks=tuple(remarks),
     )
-
-
-def _length(intervals: list[Interval]) -> int:
-    return intervals[-1].end - intervals[0].begin if intervals else 0
-
-
-def _between(run: Run, begin: float, end: float) -> list[Interval]:
-    ticks = round(begin * TICKS), end * TICKS
-    return [i for i in run.intervals if ticks[0] <= i.begin and i.end <= ticks[1]]
-
-
-def _steady_parts(run: Run) -> Iterator[list[Interval]]:
-    """Intervals from each change, settling left out, to the next."""
-    for place, change in enumerate(run.changes):
-        later = run.changes[place + 1].time if place + 1 < len(run.changes) else math.inf
-        yield _between(run, change.time + _settling(run, place), later)
-
-
-def _settling(run: Run, place: int) -> float:
-    """Time [s] after a change in which the speed loop still moves."""
-    control = run.origin.scene.drive.speed_control
-    values = run.changes[place].values
-    if place:
-        before = run.changes[place - 1].values
-    elif control.start_speed is None:
-        return 0.0  # a run starts in steady running
-    else:
-        before = values | {"input_speed": control.start_speed}
-    ramp = max(abs(values[k] - before[k]) for k in ("input_speed", "second_input_speed"))
-    return ramp / control.slew_rate + SETTLING / control.bandwidth
 
 
 def _reference(run: Run, begin: float) -> Interval | None:
@@ -164,7 +130,7 @@ def _reference(run: Run, begin: float) -> Interval | None:
     until = begin - LEAD
     for place in reversed(range(len(run.changes))):
         if run.changes[place].time < until:
-            if until >= run.changes[place].time + _settling(run, place):
+            if until >= run.changes[place].time + settling(run, place):
                 break
             until = run.changes[place].time
     ends = [interval.end / TICKS for interval in run.intervals]

@@ -47,6 +47,7 @@ class Outcome:
     overruns: int
     tolerance: float  # in force at the end
     tolerance_choice: str
+    sample_rates: tuple[float, float]  # [Hz] of the waveform, lowest and highest; NaN without
 
     def figures(self) -> dict[str, Any]:
         """For machines."""
@@ -65,6 +66,7 @@ class Outcome:
             "real_time_factor": self.real_time_factor,
             "overruns": self.overruns,
             "tolerance": None if np.isnan(self.tolerance) else self.tolerance,
+            "sample_rates_hz": None if np.isnan(self.sample_rates[0]) else self.sample_rates,
             "mean_power_loss_w": None if np.isnan(self.power_loss) else self.power_loss,
             "efficiency": None if np.isnan(self.efficiency) else self.efficiency,
             "file": str(self.file),
@@ -95,6 +97,7 @@ def read_outcome(file: Path, published: Mapping[str, int], figures: Mapping[str,
         for name in ("power_loss", "input_power", "interval")
     )
     put_in = float(np.sum(power * span))
+    rates = [state.sample_rate for state in states] or [float("nan")]
     return Outcome(
         file=file,
         topics={
@@ -110,6 +113,7 @@ def read_outcome(file: Path, published: Mapping[str, int], figures: Mapping[str,
         overruns=int(figures.get("overruns", 0)),
         tolerance=float(figures.get("tolerance", "nan")),
         tolerance_choice=figures.get("tolerance_choice", "unknown"),
+        sample_rates=(min(rates), max(rates)),
     )
 
 
@@ -133,6 +137,7 @@ def print_outcome(console: Console, outcome: Outcome) -> None:
         "gearbox time": f"{outcome.duration:.2f} s",
         "real-time factor": f"{outcome.real_time_factor:.4f}, {outcome.overruns} overruns",
         "tolerance": f"{outcome.tolerance:g}, {outcome.tolerance_choice}",
+        "waveform": _waveform(*outcome.sample_rates),
         "mean power loss": f"{outcome.power_loss:.2f} W",
         "efficiency": f"{outcome.efficiency:.3%}",
         "recording": str(outcome.file),
@@ -141,3 +146,9 @@ def print_outcome(console: Console, outcome: Outcome) -> None:
     console.print()
     for name, value in rows.items():
         console.print(f"{name:17} {value}", highlight=False, soft_wrap=True)
+
+
+def _waveform(lowest: float, highest: float) -> str:
+    if lowest == highest:
+        return f"{highest:g} Hz"
+    return f"{highest:g} Hz, at times down to {lowest:g} on a busy machine"
