@@ -25,7 +25,7 @@ DRAG_LAYOUT = {
     "bearing_body": (WHOLE, (BODIES, 2)),  # whose inner and outer ring
     "bearing_planet": (WHOLE, (BODIES,)),  # whose pin loads it, or NO_PLANET
     "bearing_idle": (REAL, (BODIES,)),  # f0 dm^3 [m^3]
-    "bearing_rubbing": (REAL, (BODIES,)),  # f1 dm/2 [m]
+    "bearing_rubbing": (REAL, (BODIES,)),  # f1 dm [m]
     "pin_share": REAL,  # load on a pin per sum of the forces of its planet's meshes [-]
     "discs": WHOLE,
     "disc_body": (WHOLE, (len(MEMBERS),)),
@@ -53,7 +53,7 @@ def build_drag(scene: Scene, bodies: Bodies) -> dict[str, object]:
         "bearing_body": np.array([rings for _, rings, _ in rows], dtype=int).reshape(-1, 2),
         "bearing_planet": np.array([planet for _, _, planet in rows], dtype=int),
         "bearing_idle": np.array([b.f0 * b.mean_diameter**3 for b, _, _ in rows]),
-        "bearing_rubbing": np.array([0.5 * b.f1 * b.mean_diameter for b, _, _ in rows]),
+        "bearing_rubbing": np.array([b.f1 * b.mean_diameter for b, _, _ in rows]),
         "pin_share": math.cos(scene.gearset.pressure_angle),
         "discs": len(discs),
         "disc_body": np.array([place[member] for member in discs], dtype=int),

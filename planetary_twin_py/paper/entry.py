@@ -55,8 +55,8 @@ class Entry:
     def verdict(self) -> Verdict:
         """Follows from the claims alone.
 
-        Reproduced if all of them come out and one of them is a number; the trend, if trends do but
-        some number does not.
+        Reproduced if all of them are reached and one of them is a number; the trend, if there are
+        trends and all of them are, but no number is stated or one is not reached; else not.
         """
         numbers = [claim.reached for claim in self.claims if claim.kind == "number"]
         trends = [claim.reached for claim in self.claims if claim.kind == "trend"]

@@ -23,6 +23,7 @@ WITHIN = 0.01  # of a frequency, which counts as the paper's
 PRINTED_RANGE = (1.5e3, 1.5e4)  # [N/m] section 9.1
 CAPTION_STIFFNESS = (1.4e3, 1.5e4)  # [N/m] Figure 14
 CAPTION_FREQUENCIES = (23.0, 8643.0)  # [Hz]
+UNIT_SLIP = 1e3  # what N/mm read as N/m would make of a stiffness
 MESHING_FREQUENCY = 350.0  # [Hz] section 9.1
 SAME_SHAPE = 0.9  # modal assurance criterion of shapes that have not changed
 
@@ -163,7 +164,9 @@ def mode_shapes(evidence: Evidence) -> Entry:
     soft, stiff = (printed_modes(k) for k in CAPTION_STIFFNESS)
     text = float(printed_modes(PRINTED_RANGE[0]).frequencies[1])
     highest = float(stiff.frequencies[-1])
-    where = _stiffness_at(CAPTION_FREQUENCIES[1], lambda k: float(printed_modes(k).frequencies[-1]))
+    where = _stiffness_at(CAPTION_FREQUENCIES[1], _highest)
+    slip = UNIT_SLIP * CAPTION_STIFFNESS[1]
+    slipped, fitted = _highest(slip), _highest(slip, FITTED_TO_TABLE_5)
     mass = printed_model(EQUATION_37).mass
     alike = _likeness(soft, stiff, mass)
     far = _likeness(soft, printed_modes(MESH_STIFFNESS), mass)
@@ -189,8 +192,10 @@ def mode_shapes(evidence: Evidence) -> Entry:
                 printed=f"highest mode {highest:.0f} Hz",
                 printed_holds=agrees(highest, CAPTION_FREQUENCIES[1], 1e-3),
                 kind="number",
-                why=f"8643 Hz comes out at Ksp = {where:.2g} N/m, "
-                f"{where / CAPTION_STIFFNESS[1]:.0f} times more, as if N/mm had been read as N/m",
+                why=f"8643 Hz takes Ksp = {where:.3g} N/m, {where / CAPTION_STIFFNESS[1]:.0f} "
+                f"times the stated; exactly {UNIT_SLIP:.0f} times, as if N/mm had been read as "
+                f"N/m, gives {slipped:.0f} Hz ({_off(slipped)}), with the masses that Table 5 was "
+                f"computed with {fitted:.0f} Hz ({_off(fitted)})",
             ),
             Claim(
                 says="the modes change drastically as Ksp varies",
@@ -206,8 +211,23 @@ def mode_shapes(evidence: Evidence) -> Entry:
         remarks="The paper's drawings are not in its text. The two modes of equal frequency, in "
         "which planets move against one another, are compared as a plane.",
         picture=_draw_shapes(),
-        figures={"highest_mode": highest, "stiffness_at_8643_hz": where},
+        figures={
+            "highest_mode": highest,
+            "stiffness_at_8643_hz": where,
+            "highest_mode_at_slip": slipped,
+            "highest_mode_at_slip_fitted": fitted,
+        },
     )
+
+
+def _highest(stiffness: float, data: PrintedSet = EQUATION_37) -> float:
+    """Highest natural frequency [Hz] of (37) and (38) with the sun's meshes that stiff [N/m]."""
+    return float(printed_modes(stiffness, data).frequencies[-1])
+
+
+def _off(frequency: float) -> str:
+    """How far a frequency [Hz] is from the caption's upper one."""
+    return f"{100 * (frequency / CAPTION_FREQUENCIES[1] - 1):+.2f} %"
 
 
 def _likeness(first: NaturalModes, second: NaturalModes, mass: np.ndarray) -> float:

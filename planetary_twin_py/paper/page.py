@@ -26,11 +26,13 @@ local nonlinearities*, Proc. IMechE Part K 231 (2017) 504-518.
   form that can run. [The model](model.md) says why each differs.
 - The text of the paper is at hand, its figures are not: of them only what captions and prose say
   can be compared, so no value is read off a curve.
-- Verdicts follow from computed numbers: *reproduced* where every statement comes out and one of
-  them is a number or a fact, *trend reproduced* where the stated trends do (a trend must hold at
-  every step and change by a thousandth at least), *cannot be* where one does not. A statement
-  counts as reached if either form gives it; where only the printed form does, the reason says why
-  ours differs.
+- A statement is a number or a fact, or a trend, which must hold at every step and change by a
+  thousandth at least. It is reached if either form gives it; where only the printed form does, the
+  reason says why ours differs.
+- Verdicts follow from the statements reached. *Reproduced*: all of them, and one at least is a
+  number or a fact. *Trend reproduced*: all trends, of which there is one at least, but no number or
+  fact is stated, or one is not reached; the reason says which. *Cannot be*: a trend is not reached,
+  or no trend is stated and a number or a fact is not reached.
 - The study runs the dynamic model at $points points: backlash $backlashes um, lambda
   $lambdas, $speeds rpm, at 63 N m, and for Figure 7
   at $torques N m. Each is run for both scenes over $duration s, of which the

@@ -14,7 +14,7 @@ class Bearing(Section):
 
     mean_diameter: float = quantity("m", "pitch diameter dm", gt=0.0, le=10.0)
     f0: float = quantity("", "of the friction without load", 2.0, ge=0.0, le=100.0)
-    f1: float = quantity("", "of the friction by load", 5e-4, ge=0.0, le=0.1)
+    f1: float = quantity("", "of the friction by load, M1 = f1 F dm", 5e-4, ge=0.0, le=0.1)
 
 
 class Churning(Section):

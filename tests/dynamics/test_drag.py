@@ -31,7 +31,7 @@ def test_planet_bearings_take_what_palmgren_says_at_the_pin_load():
     only = {"planet_bearing": LOSSES["planet_bearing"]}
     run = pt.simulate(scene_of(FLOWS[0], losses=only), 0.1)
     idle = 1e-7 * 8.0 * (89.888 * 1500.0) ** (2 / 3) * 10.0**3
-    rubbing = 1e-3 * 2 * 1750.0 * 5.0
+    rubbing = 1e-3 * 2 * 1750.0 * 10.0
     expected = 3 * (idle + rubbing) * 1e-3 * 1500.0 * math.pi / 30
     assert run.bearing_loss[run.time > 0.02].mean() == pytest.approx(expected, rel=0.01)
 

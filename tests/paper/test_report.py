@@ -108,6 +108,22 @@ def test_frequencies_and_crossings(found):
     assert modes["stiffness_at_8643_hz"] == pytest.approx(2.0e7, rel=0.05)
 
 
+def test_highest_mode_at_a_thousand_times_the_stated_stiffness_is_that_of_a_chain(found):
+    """Sun, planets as one and ring on two springs; the carrier of (38) hangs on one of its own."""
+
+    def highest(sun, planet, ring):
+        inner, outer = 3 * 1.5e7, 3 * 2e8
+        springs = [[inner, -inner, 0], [-inner, inner + outer, -outer], [0, -outer, outer]]
+        scale = np.diag(np.array([sun, 3 * planet, ring]) ** -0.5)
+        return np.linalg.eigvalsh(scale @ springs @ scale)[-1] ** 0.5 / (2 * np.pi)
+
+    modes = found["Figure 14"].figures
+    assert modes["highest_mode_at_slip"] == pytest.approx(highest(0.272, 0.1, 0.759))
+    assert modes["highest_mode_at_slip_fitted"] == pytest.approx(highest(0.2718, 0.0999, 0.727))
+    assert "8580 Hz (-0.73 %)" in found["Figure 14"].reason
+    assert "8632 Hz (-0.12 %)" in found["Figure 14"].reason
+
+
 def test_contact_ratios_and_jumps(found):
     assert found["Table 2"].figures["contact_ratios"] == pytest.approx([1.5554, 1.8092], abs=5e-5)
     assert found["Figure 3"].figures["printed_jumps"] == pytest.approx([40.0, 70.0])
