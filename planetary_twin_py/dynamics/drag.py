@@ -84,7 +84,10 @@ def apply_drag(model: Record, state: Record, v: np.ndarray, out: Record) -> None
         )
         load = 0.0
         if planet != NO_PLANET:
-            load = train.pin_share * abs(out.now.push[planet] + out.now.push[planets + planet])
+            load = train.pin_share * abs(
+                state.side[planet] * out.now.push[planet]
+                + state.side[planets + planet] * out.now.push[planets + planet]
+            )
         speed = body_speed(train, state, v, inner) - body_speed(train, state, v, outer)
         torque = bearing_torque(
             train.bearing_idle[b], train.bearing_rubbing[b], oil.kinematic, speed, load

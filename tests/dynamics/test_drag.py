@@ -7,6 +7,11 @@ import pytest
 from power_flows import ALL_FLOWS, FLOWS, scene_of
 
 import planetary_twin_py as pt
+from planetary_twin_py._records import new_record
+from planetary_twin_py.dynamics.drag import apply_drag
+from planetary_twin_py.dynamics.equations import EVALUATION
+from planetary_twin_py.dynamics.state import BEARING
+from planetary_twin_py.engine import Engine
 
 LOSSES = {
     "planet_bearing": {"mean_diameter": "10 mm", "f0": 8.0, "f1": 1e-3},
@@ -34,6 +39,21 @@ def test_planet_bearings_take_what_palmgren_says_at_the_pin_load():
     rubbing = 1e-3 * 2 * 1750.0 * 10.0
     expected = 3 * (idle + rubbing) * 1e-3 * 1500.0 * math.pi / 30
     assert run.bearing_loss[run.time > 0.02].mean() == pytest.approx(expected, rel=0.01)
+
+
+@pytest.mark.parametrize(("sides", "load"), [((1, 1), 700.0), ((-1, -1), 700.0), ((1, -1), 100.0)])
+def test_a_pin_carries_what_both_meshes_of_its_planet_leave_it(sides, load):
+    """400 N from the sun and 300 N from the ring: against one another where flanks differ."""
+    rough = {"planet_bearing": {"mean_diameter": "10 mm", "f0": 0.0, "f1": 1e-3}}
+    engine, out = Engine(scene_of(FLOWS[0], losses=rough), 1e-3), new_record(EVALUATION)
+    state, train = engine.march.end, engine.train
+    planets = train.meshes // 2
+    for k, (side, push) in enumerate(zip(sides, (400.0, 300.0), strict=True)):
+        state.side[k * planets : (k + 1) * planets] = side
+        out.now.push[k * planets : (k + 1) * planets] = push / math.cos(math.radians(21.34))
+    apply_drag(engine.model, state, np.zeros(train.lanes), out)
+    torque = 3 * 1e-3 * load * 0.010
+    assert out.power[BEARING] == pytest.approx(torque * 1500.0 * math.pi / 30, rel=1e-6)
 
 
 def test_losses_lower_the_efficiency_by_their_share():
