@@ -11,6 +11,7 @@ import numpy as np
 from .dynamics.bodies import Ratios, body_names, mesh_names
 from .dynamics.observe import BOUNDARY, DTE, MESH_FORCE, VISCOUS
 from .dynamics.state import BEARING, CHURNING, FRICTION, IMPULSE, WORK
+from .gearset.kinematics import mesh_frequency
 from .integrators.interpolant import Samples
 from .run import start
 from .scene import TUNABLES, OperatingPoint, Scene, SceneError
@@ -201,7 +202,7 @@ class Twin:
             mesh=mesh_statistics(mesh),
             angle=self._angles(),
             mean_speed=mean_speed,
-            mesh_frequency=self.scene.gearset.teeth.sun * abs(sun - carrier) / (2.0 * math.pi),
+            mesh_frequency=mesh_frequency(self.scene.gearset.tooth_numbers, sun, carrier),
             machine_speed=speed[self._shafts],
             machine_torque=rate[IMPULSE : IMPULSE + self._machines],
             machine_power=rate[WORK : WORK + self._machines],
