@@ -7,6 +7,18 @@ from dataclasses import dataclass
 import numpy as np
 
 from .dynamics.bodies import LOAD_MACHINE, MOTOR, SECOND_MOTOR
+from .dynamics.observe import (
+    BOUNDARY,
+    DTE,
+    FILM,
+    LAMBDA,
+    MESH_FORCE,
+    MESH_POWER,
+    POWER_LOSS,
+    QUANTITIES,
+    VISCOUS,
+)
+from .window import Stretch, mesh_statistics
 
 
 @dataclass(frozen=True)
@@ -120,6 +132,21 @@ class Result:
         """Tooth friction of all meshes, bearings and churning [W], (samples,)."""
         total: np.ndarray = self.power_loss.sum(axis=1) + self.bearing_loss + self.churning_loss
         return total
+
+    @property
+    def mesh(self) -> dict[str, np.ndarray]:
+        """Statistics of the meshes over the run, shape (meshes,) each: see `mesh_statistics`."""
+        seen = {
+            DTE: self.dte,
+            MESH_FORCE: self.mesh_force,
+            BOUNDARY: self.boundary_friction,
+            VISCOUS: self.viscous_friction,
+            FILM: self.film_thickness,
+            LAMBDA: self.lambda_ratio,
+            POWER_LOSS: self.power_loss,
+            MESH_POWER: self.mesh_power,
+        }
+        return mesh_statistics(Stretch(self.time, [seen[k] for k in range(QUANTITIES)]))
 
     @property
     def mesh_efficiency(self) -> tuple[float, float]:

@@ -11,6 +11,7 @@ import numpy as np
 from .dynamics.bodies import Ratios, body_names, mesh_names
 from .dynamics.observe import BOUNDARY, DTE, MESH_FORCE, VISCOUS
 from .dynamics.state import BEARING, CHURNING, FRICTION, IMPULSE, WORK
+from .gearset.kinematics import mesh_frequency
 from .integrators.interpolant import Samples
 from .run import start
 from .scene import TUNABLES, OperatingPoint, Scene, SceneError
@@ -203,7 +204,7 @@ class Twin:
             mesh=mesh_statistics(stretch),
             angle=self._angles(),
             mean_speed=mean_speed,
-            mesh_frequency=self.scene.gearset.teeth.sun * abs(sun - carrier) / (2.0 * math.pi),
+            mesh_frequency=mesh_frequency(self.scene.gearset.tooth_numbers, sun, carrier),
             machine_speed=speed[self._shafts],
             machine_torque=rate[IMPULSE : IMPULSE + self._machines],
             machine_power=rate[WORK : WORK + self._machines],
@@ -213,10 +214,11 @@ class Twin:
 
     def _stretch(self, step: Fraction, first: int, parts: tuple[Samples, ...]) -> Stretch:
         """The last `step` [s]: its beginning, the samples from number `first` on, and its end."""
-        mesh = np.concatenate([part.mesh for part in parts])[:, :, self._mesh_names.place]
+        seen = np.concatenate([part.mesh for part in parts])[:, :, self._mesh_names.place]
         start, end = float(first / Fraction(self.sample_rate) - (self._clock - step)), float(step)
-        inner = start + np.arange(len(mesh) - 2) / self.sample_rate
-        return Stretch(np.concatenate([[0.0], np.minimum(inner, end), [end]]), mesh)
+        inner = start + np.arange(len(seen) - 2) / self.sample_rate
+        instants = np.concatenate([[0.0], np.minimum(inner, end), [end]])
+        return Stretch(instants, list(np.moveaxis(seen, 1, 0)))
 
     def _angles(self) -> np.ndarray:
         """Angles modulo a turn, exact in the whole turns of the motor."""

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import NamedTuple
 
@@ -128,8 +129,8 @@ class Stretch(NamedTuple):
 
     instants: np.ndarray
     """[s] from anywhere, not falling, shape (instants,)"""
-    mesh: np.ndarray
-    """Shape (instants, quantities, meshes)."""
+    mesh: Sequence[np.ndarray]
+    """By quantity, shape (instants, meshes) each."""
 
 
 def mesh_statistics(stretch: Stretch) -> dict[str, np.ndarray]:
@@ -139,7 +140,7 @@ def mesh_statistics(stretch: Stretch) -> dict[str, np.ndarray]:
     samples happen to fall into the stretch. rms is that of the deviation from the mean, peak the
     largest magnitude; film and lambda ratio are means over the time in contact, NaN without any.
     """
-    dte, force = stretch.mesh[:, DTE], stretch.mesh[:, MESH_FORCE]
+    dte, force = stretch.mesh[DTE], stretch.mesh[MESH_FORCE]
     weights = _trapezoids(stretch.instants)
     dte_mean = _mean(dte, weights)
     return {
@@ -149,16 +150,18 @@ def mesh_statistics(stretch: Stretch) -> dict[str, np.ndarray]:
         "mesh_force_mean": _mean(force, weights),
         "mesh_force_peak": np.abs(force).max(axis=0),
         "contact_fraction": _mean((force != 0.0).astype(float), weights),
-        "film_thickness": _mean_in_contact(stretch.mesh[:, FILM], weights),
-        "lambda_ratio": _mean_in_contact(stretch.mesh[:, LAMBDA], weights),
-        "boundary_friction": _mean(stretch.mesh[:, BOUNDARY], weights),
-        "viscous_friction": _mean(stretch.mesh[:, VISCOUS], weights),
-        "power_loss": _mean(stretch.mesh[:, POWER_LOSS], weights),
+        "film_thickness": _mean_in_contact(stretch.mesh[FILM], weights),
+        "lambda_ratio": _mean_in_contact(stretch.mesh[LAMBDA], weights),
+        "boundary_friction": _mean(stretch.mesh[BOUNDARY], weights),
+        "viscous_friction": _mean(stretch.mesh[VISCOUS], weights),
+        "power_loss": _mean(stretch.mesh[POWER_LOSS], weights),
     }
 
 
 def _trapezoids(instants: np.ndarray) -> np.ndarray:
     """Share of the stretch for which each instant stands, a column that sums up to 1."""
+    if len(instants) == 1:
+        return np.ones((1, 1))
     gaps = np.diff(instants, prepend=instants[0], append=instants[-1])
     return np.asarray(0.5 * (gaps[:-1] + gaps[1:]) / (instants[-1] - instants[0]))[:, None]
 

@@ -2,12 +2,13 @@
 
 from pathlib import Path
 
-from . import command_line, interfaces, nodes, topics_and_services
+from . import command_line, interfaces, nodes, scene_fields, topics_and_services
 
 PAGES = {
     "command-line.md": command_line.page,
     "messages.md": interfaces.page,
     "nodes.md": nodes.page,
+    "scene-fields.md": scene_fields.page,
     "topics-and-services.md": topics_and_services.page,
 }
 

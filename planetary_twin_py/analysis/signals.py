@@ -127,7 +127,8 @@ def _of_run(path: Path, mesh: str, quantity: str) -> Signal:
         bodies = held["bodies"].tolist()
         angle = held["angle"][:, bodies.index("sun")] - held["angle"][:, bodies.index("carrier")]
         samples = _values(held, quantity)[:, _column(mesh, tuple(held["meshes"].tolist()))]
-        return Signal(samples, held["time"], angle, None)
+        scene = str(held["scene_yaml"]) if "scene_yaml" in held else None
+        return Signal(samples, held["time"], angle, scene)
     except FileNotFoundError:
         raise RecordingError(f"{path}: no such file or folder") from None
     except RecordingError:

@@ -61,7 +61,8 @@ SetOption = Annotated[
     typer.Option(
         "--set",
         metavar="NAME=VALUE",
-        help="Change a field, in SI or with a unit: mesh.ramp=0, backlash=0.3um; repeatable.",
+        help="Change a field, in SI or with a unit: mesh.ramp=0, backlash=0.3um; repeatable. "
+        "`planetary-twin fields` lists them.",
     ),
 ]
 JsonOption = Annotated[

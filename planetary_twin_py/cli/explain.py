@@ -15,6 +15,7 @@ if TYPE_CHECKING:
     from rich.table import Table
 
     from ..explanation.measure import Explanation, Figures
+    from ..explanation.meshes import Meshes
     from ..scene import Scene
 
 
@@ -29,11 +30,13 @@ def explain(
     """
 
     from ..explanation.measure import explain as measure
+    from ..explanation.meshes import describe_meshes
     from ..scene import load_scene
 
     console = console_beside(json_)
     try:
         loaded = load_scene(scene)
+        meshes = describe_meshes(loaded)
         with console.status("running the scene") as status:
             found = interruptible(
                 lambda: measure(
@@ -42,10 +45,60 @@ def explain(
             )
     except ValueError as error:
         fail(error)
-    console.print(f"[bold]{loaded.name}[/bold]: {loaded.description}\n")
+    told = f": {loaded.description}" if loaded.description else ""
+    console.print(f"[bold]{loaded.name}[/bold]{told}\n")
+    console.print(_mesh_table(loaded, meshes))
     console.print(_table(loaded, found))
     console.print(_limits(loaded))
-    put_figures(_as_figures(found), json_)
+    put_figures(_as_figures(found) | _mesh_figures(meshes), json_)
+
+
+def _mesh_table(scene: Scene, meshes: Meshes) -> Table:
+    from rich.table import Table
+
+    from ..units import rpm
+
+    point = scene.operating_point
+    inputs = (point.input_speed, point.second_input_speed)[: len(scene.drive.inputs)]
+    speed = " and ".join(f"{speed / rpm(1.0):.6g} rpm" for speed in inputs)
+    table = Table(
+        "",
+        title="Meshes at the operating point",
+        caption=f"mesh frequency f_m {meshes.mesh_frequency:.4g} Hz, input speed {speed}, "
+        f"input torque {point.input_torque:.4g} N m",
+    )
+    for side in ("sun-planet", "planet-ring"):
+        table.add_column(side, justify="right")
+    for label, *values in zip(_MESH_ROWS, meshes.sun_planet, meshes.planet_ring, strict=True):
+        table.add_row(label.replace("[", r"\["), *map(_shown, values))
+    return table
+
+
+# Of the fields of `MeshFigures`, in their order.
+_MESH_ROWS = (
+    "teeth [-]",
+    "contact ratio [-]",
+    "stiffness of one pair [N/m]",
+    "stiffness, mean over the mesh cycle [N/m]",
+    "natural frequency on its own two gears [Hz]",
+    "damping ratio of that mode [-]",
+    "static mesh force [N]",
+    "backlash on the line of action [m]",
+)
+
+
+def _shown(value: Any) -> str:
+    return "/".join(map(str, value)) if isinstance(value, tuple) else f"{value:.4g}"
+
+
+def _mesh_figures(meshes: Meshes) -> dict[str, Any]:
+    return {
+        "mesh_frequency": meshes.mesh_frequency,
+        "meshes": {
+            "sun_planet": meshes.sun_planet._asdict(),
+            "planet_ring": meshes.planet_ring._asdict(),
+        },
+    }
 
 
 def _table(scene: Scene, found: Explanation) -> Table:
@@ -59,14 +112,14 @@ def _table(scene: Scene, found: Explanation) -> Table:
     )
     for heading in ("term", "law"):
         table.add_column(heading)
-    for heading in ("mean DTE", "vibration", "power loss", "run time"):
+    for heading in ("mean DTE [%]", "vibration [%]", "power loss [%]", "run time [%]"):
         table.add_column(heading, justify="right")
     for effect in found.effects:
         table.add_row(
             effect.term.name,
             effect.term.law,
             *(_change(figures, effect.without, name) for name in _JUDGED),
-            f"{-100 * effect.cost:+.0f} %",
+            f"{-100 * effect.cost:+.0f}",
         )
     return table
 
@@ -76,7 +129,7 @@ _JUDGED = ("dte", "dte_vibration", "power_loss")
 
 def _change(with_: Figures, without: Figures, name: str) -> str:
     before, after = getattr(with_, name), getattr(without, name)
-    return f"{100 * (after / before - 1.0):+.2f} %" if before > 0.0 else "-"
+    return f"{100 * (after / before - 1.0):+.2f}" if before > 0.0 else "-"
 
 
 def _limits(scene: Scene) -> Table:

@@ -15,6 +15,7 @@ from ._settings import settings
 
 if TYPE_CHECKING:
     from rich.console import Console
+    from rich.table import Table
 
     from ..result import Result
     from ..scene import Scene
@@ -51,13 +52,14 @@ def simulate(
         if out is not None and out.suffix in _RECORDINGS:
             _record(console, out, loaded, duration, sample_rate, tolerance)
         elif out is not None:
-            _WRITERS[out.suffix](result, out)
+            _WRITERS[out.suffix](result, loaded, out)
     except (ValueError, OSError) as error:
         fail(error)
-    figures = _figures(result)
-    for name, value in figures.items():
-        console.print(f"{name.replace('_', ' '):28} {value:.6g}")
-    put_figures(figures, json_)
+    train, meshes = _train(loaded, result), _meshes(result)
+    for name, value in train.items():
+        console.print(f"{_TRAIN[name]:42} {value:.6g}", markup=False)
+    console.print(_table(meshes))
+    put_figures(train | meshes, json_)
 
 
 def _record(console: Console, out: Path, scene: Scene, *how: float) -> None:
@@ -71,17 +73,74 @@ def _record(console: Console, out: Path, scene: Scene, *how: float) -> None:
         record(plan, out, lambda time: progress.update(task, completed=time))
 
 
-def _figures(result: Result) -> dict[str, float]:
+# What a person reads of the whole train, by the names in JSON.
+_TRAIN = {
+    "efficiency": "efficiency [-]",
+    "mean_power_loss_W": "power loss, mean [W]",
+    "mean_dte_m": "DTE of all meshes, mean [m]",
+    "dte_vibration_rms_m": "DTE of all meshes, rms about the mean [m]",
+    "mean_mesh_force_N": "force of all meshes, mean [N]",
+    "mesh_frequency_Hz": "mesh frequency, mean [Hz]",
+    "energy_residual": "energy residual/energy put in [-]",
+    "real_time_factor": "real-time factor [-]",
+}
+
+
+def _train(scene: Scene, result: Result) -> dict[str, float]:
+    """Figures of the whole train, and means over all its meshes."""
+    from ..gearset.kinematics import mesh_frequency
+
     energy = result.energy
+    sun, carrier = (
+        float(result.speed[:, result.bodies.index(member)].mean()) for member in ("sun", "carrier")
+    )
     return {
         "efficiency": result.efficiency,
         "mean_power_loss_W": float(result.total_power_loss.mean()),
         "mean_dte_m": float(result.dte.mean()),
         "dte_vibration_rms_m": float(result.dte.std(axis=0).mean()),
         "mean_mesh_force_N": float(result.mesh_force.mean()),
+        "mesh_frequency_Hz": mesh_frequency(scene.gearset.tooth_numbers, sun, carrier),
         "energy_residual": energy.residual / energy.put_in if energy.put_in > 0.0 else 0.0,
         "real_time_factor": result.stats.real_time_factor,
     }
+
+
+_MESH_MEASURES = (
+    "dte_mean",
+    "dte_rms",
+    "mesh_force_mean",
+    "contact_fraction",
+    "film_thickness",
+    "lambda_ratio",
+    "power_loss",
+)
+
+
+def _meshes(result: Result) -> dict[str, dict[str, float]]:
+    """Figures of the sun meshes and of the ring meshes, as studies have them, by SI names."""
+    from ..studies.measures import MESH, mesh_rows
+
+    units = {name: MESH[name].unit for name in _MESH_MEASURES}
+    return {
+        side: {f"{name}_{unit}".rstrip("_"): row[name] for name, unit in units.items()}
+        for side, row in mesh_rows(result.mesh).items()
+    }
+
+
+def _table(meshes: dict[str, dict[str, float]]) -> Table:
+    from rich.table import Table
+
+    from ..studies.measures import MESH
+
+    table = Table("", title="Meshes by kind")
+    for side in meshes:
+        table.add_column(side.replace("_", "-"), justify="right")
+    rows = (row.values() for row in meshes.values())
+    for name, *values in zip(_MESH_MEASURES, *rows, strict=True):
+        label = rf"{MESH[name].description} \[{MESH[name].unit or '-'}]"
+        table.add_row(label, *(f"{value:.4g}" for value in values))
+    return table
 
 
 def _columns(result: Result) -> dict[str, Any]:
@@ -108,14 +167,19 @@ _MESH_QUANTITIES = (
 )
 
 
-def _write_npz(result: Result, path: Path) -> None:
+def _write_npz(result: Result, scene: Scene, path: Path) -> None:
     import numpy as np
+    import yaml
 
-    arrays = {name: getattr(result, name) for name in ("time", "angle", "speed", *_MESH_QUANTITIES)}
-    np.savez_compressed(path, bodies=result.bodies, meshes=result.meshes, **arrays)
+    text = yaml.safe_dump(scene.model_dump(mode="json"), sort_keys=False)
+    arrays: dict[str, Any] = {
+        name: getattr(result, name) for name in ("time", "angle", "speed", *_MESH_QUANTITIES)
+    }
+    arrays |= {"bodies": result.bodies, "meshes": result.meshes, "scene_yaml": text}
+    np.savez_compressed(path, **arrays)
 
 
-def _write_csv(result: Result, path: Path) -> None:
+def _write_csv(result: Result, _: Scene, path: Path) -> None:
     import numpy as np
 
     columns = _columns(result)

@@ -48,7 +48,7 @@ def sweep(
     Values are a list (1000rpm,2000rpm), a grid (1:2:5: five values from 1 to 2) or one of equal
     ratios (0.01:0.1:5:log); with --samples also a range (1:2, 0.01:0.1:log). What is done survives
     a kill: the same command goes on where it was. Fields with a dot are given by it:
-    --mesh.damping.loss_factor 0.005:0.02:4.
+    --mesh.damping.loss_factor 0.005:0.02:4; `planetary-twin fields` lists them.
 
     Example: planetary-twin sweep paper --backlash 2e-7:3.5e-7:4 --lambda-ratio 1:2:5
     --input-speed 1000rpm,2000rpm --out study.parquet

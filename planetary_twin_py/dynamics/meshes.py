@@ -13,14 +13,14 @@ import numpy as np
 
 from .._records import MESHES, REAL, WHOLE
 from ..gearset.geometry import base_pitch, pitch_radius, planet_ring_path, sun_planet_path
-from ..gearset.kinematics import mesh_cycles_per_turn
 from ..gearset.phasing import mesh_phases
 from ..mesh.tooth_pairs import PAIRS, SEGMENTS, TERMS, pair_table, terms_in_use
 from ..scene import Scene
 from .alike import PlanetGroups, planet_groups
-from .bodies import Bodies, rigid_ratios, rim_masses
+from .bodies import Bodies
 from .faults import FAULTS_LAYOUT, build_faults, fault_kinks
 from .form_errors import FORM_ERRORS_LAYOUT, build_form_errors
+from .mesh_damping import damping_cycles, steady_damping_times
 from .stiffness_laws import GEARS, stiffness_laws
 
 MESHES_LAYOUT: dict[str, Any] = {
@@ -91,8 +91,8 @@ def build_meshes(scene: Scene, bodies: Bodies) -> dict[str, Any]:
         "stiffness": stiffness,
         "stiffness_base": np.array([law.base for law in laws]),
         "stiffness_gain": np.array([law.gain for law in laws]),
-        "damping_time": _damping_times(scene, stiffness),
-        "damping_cycles": _damping_cycles(scene),
+        "damping_time": steady_damping_times(scene, stiffness),
+        "damping_cycles": damping_cycles(scene),
         "lowest_frequency": damping.lowest_frequency,
         "base_pitch": base_pitch(gearset.module, angle),
         "pitch_curvature": np.array([[curvature[gear] for gear in pair] for pair in GEARS]),
@@ -116,31 +116,3 @@ def _rows(groups: PlanetGroups, place: dict[str, int]) -> tuple[np.ndarray, np.n
     ring = [[place[f"planet_{i}"], place["ring"], place["carrier"]] for i in numbers]
     signs = np.repeat([[1.0, 1.0, -1.0], [-1.0, 1.0, -1.0]], len(numbers), axis=0)
     return np.array(sun + ring), signs
-
-
-def _damping_times(scene: Scene, stiffness: np.ndarray) -> np.ndarray:
-    """tau [s] of each kind of mesh where it does not follow the speed, else 0.
-
-    Natural frequencies are those of a mesh on its own two gears at single-pair stiffness.
-    """
-    damping, mass = scene.mesh.damping, rim_masses(scene)
-    effective = np.array([mass[a] * mass[b] / (mass[a] + mass[b]) for a, b in GEARS])
-    natural = np.sqrt(stiffness / effective)
-    if damping.law == "viscous":
-        return 2.0 * damping.damping_ratio / natural
-    if damping.law == "natural_frequency":
-        return damping.loss_factor * 2.0 * math.pi / natural
-    return np.zeros(2)
-
-
-def _damping_cycles(scene: Scene) -> float:
-    """tau times meshing frequency where the damping follows it, else 0."""
-    damping, teeth = scene.mesh.damping, scene.gearset.tooth_numbers
-    if not damping.follows_speed:
-        return 0.0
-    if damping.law == "meshing_frequency":
-        return damping.loss_factor
-    # (1e) takes Zs Zr/(Zs + Zr) cycles per turn of the input, whatever is held.
-    printed = teeth.sun * teeth.ring / (teeth.sun + teeth.ring)
-    ratios = {kind: ratio[0] for kind, ratio in rigid_ratios(scene).items()}
-    return damping.loss_factor * abs(float(mesh_cycles_per_turn(teeth, ratios))) / printed

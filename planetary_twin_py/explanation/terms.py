@@ -38,9 +38,18 @@ STATICS_ONLY = Limit(
 )
 
 
+HELIX = Limit(
+    "helix",
+    "in `modal --model spatial` only; runs as spur teeth of the transverse plane, without overlap "
+    "or axial force",
+)
+
+
 def limits(scene: Scene) -> tuple[Limit, ...]:
-    """What `scene` leaves out for good, or by its choice of statics alone."""
-    return (STATICS_ONLY, *NOT_MODELLED) if scene.dynamics == "quasi_static" else NOT_MODELLED
+    """What `scene` leaves out for good, of its helix, or by its choice of statics alone."""
+    statics = (STATICS_ONLY,) if scene.dynamics == "quasi_static" else ()
+    helix = (HELIX,) if scene.gearset.helix_angle != 0.0 else ()
+    return (*statics, *helix, *NOT_MODELLED)
 
 
 def terms(scene: Scene) -> tuple[Term, ...]:

@@ -6,6 +6,7 @@ All speeds are absolute and counter-clockwise positive. Salagianni et al. 2017, 
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from fractions import Fraction
 from typing import NamedTuple
@@ -58,6 +59,11 @@ def speeds_per_input(
         return (speed_ratios(teeth, held, inputs[0]),)
     first, second = inputs
     return speed_ratios(teeth, second, first), speed_ratios(teeth, first, second)
+
+
+def mesh_frequency(teeth: Teeth, sun: float, carrier: float) -> float:
+    """Rate [Hz] at which teeth pass a mesh at these speeds [rad/s]."""
+    return teeth.sun * abs(sun - carrier) / (2.0 * math.pi)
 
 
 def mesh_cycles_per_turn(teeth: Teeth, ratios: dict[str, Fraction]) -> Fraction:

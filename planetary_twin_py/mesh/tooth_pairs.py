@@ -137,3 +137,9 @@ def terms_in_use(table: PairTable) -> int:
     sizes = np.abs(table.weight * lengths ** np.arange(TERMS))
     largest = sizes.max(axis=(0, 1))
     return max(2, int(np.max(np.nonzero(largest > 1e-12 * largest.max()))) + 1)
+
+
+def mean_weight(edge: np.ndarray, weight: np.ndarray) -> float:
+    """Mean over the mesh cycle of a weight (SEGMENTS, TERMS) with `edge` (SEGMENTS + 1,)."""
+    power = np.arange(1, TERMS + 1)
+    return float((weight * np.diff(edge)[:, None] ** power / power).sum())

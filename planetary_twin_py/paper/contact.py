@@ -8,6 +8,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from ..dynamics.moment import damping_time
 from ..dynamics.start import build_load
 from ..dynamics.train import build_train
 from ..plots.style import BLUE, GREY, ORANGE, drawing, panels
@@ -47,7 +48,7 @@ def spring(scene: Scene) -> Spring:
     train = build_train(scene)
     load = build_load(scene, scene.operating_point, train)
     cycle_rate = abs(train.cycles[0]) * scene.operating_point.input_speed / (2.0 * np.pi)
-    tau = train.damping_time[0] or train.damping_cycles / cycle_rate
+    tau = damping_time(train, 0, cycle_rate)
     single = float(train.stiffness[0])
     double = single * scene.mesh.double_pair_ratio
     return Spring(single, double, float(load.half_backlash), float(load.offset), float(tau))

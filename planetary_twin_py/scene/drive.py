@@ -13,17 +13,23 @@ from .quantity import Section, quantity
 class Machine(Section):
     """Motor or load, coupled elastically to a member of the gearset."""
 
-    member: Member
+    member: Member = Field(description="member of the gearset it turns")
     inertia: float = quantity("kg m^2", "moment of inertia", gt=0.0, le=1e9)
-    coupling_stiffness: float = quantity("N m/rad", "of the shaft coupling", gt=0.0, le=1e12)
-    coupling_damping: float = quantity("N m s/rad", "of the shaft coupling", ge=0.0, le=1e9)
+    coupling_stiffness: float = quantity(
+        "N m/rad", "stiffness of the shaft coupling to the member", gt=0.0, le=1e12
+    )
+    coupling_damping: float = quantity(
+        "N m s/rad", "damping of the shaft coupling to the member", ge=0.0, le=1e9
+    )
 
 
 class SpeedControl(Section):
     """How the drive reaches and keeps the speed, and how its torque fluctuates."""
 
-    bandwidth: float = quantity("Hz", "of the speed loop", 3.0, gt=0.0, le=100.0)
-    slew_rate: float = quantity("rad/s^2", "of the speed set-point", 500.0, gt=0.0, le=1e6)
+    bandwidth: float = quantity("Hz", "bandwidth of the speed loop", 3.0, gt=0.0, le=100.0)
+    slew_rate: float = quantity(
+        "rad/s^2", "slew rate of the speed set-point", 500.0, gt=0.0, le=1e6
+    )
     start_speed: float | None = quantity(
         "rad/s",
         "speed of the first motor at time zero; not given: that of the operating point",
@@ -41,10 +47,10 @@ class Drive(Section):
     the torque of the second follows from that of the first.
     """
 
-    input: Machine
-    second_input: Machine | None = None
-    output: Machine
-    speed_control: SpeedControl = SpeedControl()
+    input: Machine = Field(description="motor")
+    second_input: Machine | None = Field(None, description="second motor, of a differential")
+    output: Machine = Field(description="load")
+    speed_control: SpeedControl = Field(SpeedControl(), description="how the speed is kept")
     speed_limit: float = quantity(
         "rad/s", "largest speed a motor may be set to", 1100.0, gt=0, le=1e5
     )

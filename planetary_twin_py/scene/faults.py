@@ -19,15 +19,17 @@ class ToothFault(Section):
     A tooth of a planet meets the sun and the ring with opposite flanks.
     """
 
-    gear: Literal["sun", "planet", "ring"]
+    gear: Literal["sun", "planet", "ring"] = Field(description="which gear the tooth is of")
     planet: int = Field(1, ge=1, le=7, description="which planet, if the gear is one")
-    tooth: int = Field(0, ge=0, le=2999)
+    tooth: int = Field(
+        0, ge=0, le=2999, description="which tooth, counted from 0, that which meets planet 1 first"
+    )
 
 
 class Crack(ToothFault):
     """A crack at the root, which softens the tooth on both flanks in every mesh."""
 
-    kind: Literal["crack"]
+    kind: Literal["crack"] = Field(description="a crack at the root")
     stiffness_loss: float | None = quantity(
         "", "share of the stiffness a pair with this tooth has lost", None, gt=0.0, le=0.9
     )
@@ -48,14 +50,16 @@ class Crack(ToothFault):
 class FlankFault(ToothFault):
     """A fault of one flank."""
 
-    flank: Literal["drive", "coast"] = "drive"
+    flank: Literal["drive", "coast"] = Field(
+        "drive", description="drive: the flank that carries where the torque on the sun is positive"
+    )
     mesh: Literal["sun", "ring"] = Field("sun", description="of a planet: which mesh it is in")
 
 
 class Spall(FlankFault):
     """A pit in the flank, where part of the face width no longer carries."""
 
-    kind: Literal["spall"]
+    kind: Literal["spall"] = Field(description="a pit in a flank")
     begin: float = quantity("", "position on the path [base pitches]", -0.1, ge=-2.0, le=2.0)
     end: float = quantity("", "position on the path [base pitches]", 0.1, ge=-2.0, le=2.0)
     stiffness_loss: float = quantity("", "share of the stiffness lost there", gt=0.0, le=0.9)
@@ -70,7 +74,7 @@ class Spall(FlankFault):
 class Wear(FlankFault):
     """A flank worn by `depth` all over, which adds to the backlash while it carries alone."""
 
-    kind: Literal["wear"]
+    kind: Literal["wear"] = Field(description="a worn flank")
     depth: float = quantity("m", "missing material, on the line of action", gt=0.0, le=1e-3)
 
 

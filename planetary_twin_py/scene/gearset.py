@@ -38,21 +38,23 @@ class Gearset(Section):
     modes in space; else helical gears run as spur gears do whose stiffness varies less.
     """
 
-    teeth: ToothNumbers
-    module: float = quantity("m", "module", gt=0.0, le=1.0)
-    pressure_angle: float = quantity("rad", "pressure angle", ge=0.15, le=0.6)
+    teeth: ToothNumbers = Field(description="tooth numbers")
+    module: float = quantity("m", "module, in the transverse plane", gt=0.0, le=1.0)
+    pressure_angle: float = quantity(
+        "rad", "pressure angle, in the transverse plane", ge=0.15, le=0.6
+    )
     helix_angle: float = quantity(
         "rad", "on the pitch circle, positive for a right-hand sun", 0.0, ge=-0.8, le=0.8
     )
     addendum: float = quantity("", "addendum in modules", 1.0, gt=0.0, le=1.5)
     face_width: float = quantity("m", "face width", gt=0.0, le=5.0)
     planet_angles: tuple[float, ...] = quantity(
-        "rad", "positions of the planets on the carrier", min_length=2, max_length=7
+        "rad", "positions of the planets on the carrier, one each", min_length=2, max_length=7
     )
     held: Held = Field(
         "carrier", description="member held fast; none: a differential with two inputs"
     )
-    equivalent_mass: EquivalentMasses
+    equivalent_mass: EquivalentMasses = Field(description="moments of inertia over r^2")
     planet_mass: float = quantity("kg", "mass of one planet", gt=0.0, le=1e6)
 
     @property

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Self
 
-from pydantic import model_validator
+from pydantic import Field, model_validator
 
 from .quantity import Section, quantity
 
@@ -36,8 +36,8 @@ class Churning(Section):
 class Losses(Section):
     """What is not given does not resist."""
 
-    planet_bearing: Bearing | None = None
-    sun_bearing: Bearing | None = None
-    ring_bearing: Bearing | None = None
-    carrier_bearing: Bearing | None = None
-    churning: Churning | None = None
+    planet_bearing: Bearing | None = Field(None, description="of every planet on the carrier")
+    sun_bearing: Bearing | None = Field(None, description="of the sun in the housing")
+    ring_bearing: Bearing | None = Field(None, description="of the ring in the housing")
+    carrier_bearing: Bearing | None = Field(None, description="of the carrier in the housing")
+    churning: Churning | None = Field(None, description="members that turn in oil")

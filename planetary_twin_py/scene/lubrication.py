@@ -21,20 +21,36 @@ class Lubrication(Section):
         "sliding",
         description="sliding: -f dVs/dw, takes f Vs; printed: P/w, Salagianni et al. (17)-(20)",
     )
-    film: Literal["dowson_higginson", "dowson_toyoda", "salagianni"] = "dowson_higginson"
-    lambda_ratio: Literal["prescribed", "computed"] = "computed"
-    asperities: Literal["exact", "printed"] = "exact"
-    boundary: Literal["greenwood_tripp", "load_sharing"] = "greenwood_tripp"
-    traction: Literal["evans_johnson", "printed"] = "evans_johnson"
+    film: Literal["dowson_higginson", "dowson_toyoda", "salagianni"] = Field(
+        "dowson_higginson", description="law of the film thickness; salagianni: their (15)"
+    )
+    lambda_ratio: Literal["prescribed", "computed"] = Field(
+        "computed",
+        description="prescribed: that of the operating point; computed: film/composite roughness",
+    )
+    asperities: Literal["exact", "printed"] = Field(
+        "exact", description="functions F_2, F_5/2; printed: the polynomials of the appendix"
+    )
+    boundary: Literal["greenwood_tripp", "load_sharing"] = Field(
+        "greenwood_tripp", description="law of boundary friction"
+    )
+    traction: Literal["evans_johnson", "printed"] = Field(
+        "evans_johnson", description="law of viscous friction; printed: their (12)"
+    )
     modulus: Literal["by_equation", "printed"] = Field(
         "by_equation", description="by_equation: E* in (11), 2 E* in (13) and (15)"
     )
-    rolling: Literal["none", "goksem_hargreaves"] = "none"
+    rolling: Literal["none", "goksem_hargreaves"] = Field(
+        "none", description="law of rolling resistance"
+    )
     viscosity: float = quantity(
-        "Pa s", "at atmospheric pressure and the reference temperature", ge=1e-3, le=10.0
+        "Pa s",
+        "dynamic viscosity at atmospheric pressure and the reference temperature",
+        ge=1e-3,
+        le=10.0,
     )
     reference_temperature: float = quantity(
-        "K", "at which the oil has that viscosity", 343.15, ge=233.15, le=433.15
+        "K", "temperature at which the oil has that viscosity", 343.15, ge=233.15, le=433.15
     )
     viscosity_slope: float = quantity(
         "",
@@ -43,18 +59,28 @@ class Lubrication(Section):
         ge=0.0,
         le=6.0,
     )
-    oil_density: float = quantity("kg/m^3", "of the oil", 890.0, ge=500.0, le=2000.0)
-    pressure_viscosity: float = quantity("1/Pa", "pressure coefficient", gt=0.0, le=1e-6)
+    oil_density: float = quantity("kg/m^3", "density of the oil", 890.0, ge=500.0, le=2000.0)
+    pressure_viscosity: float = quantity(
+        "1/Pa", "pressure coefficient of the viscosity", gt=0.0, le=1e-6
+    )
     temperature_viscosity: float = quantity("1/K", "thermal coefficient", 0.04, gt=0.0, le=1.0)
     shear_stress: float = quantity("Pa", "Eyring stress", gt=0.0, le=1e9)
-    oil_conductivity: float = quantity("W/(m K)", "of the oil", 0.137, gt=0.0, le=1e4)
-    solid_conductivity: float = quantity("W/(m K)", "of the gears", 46.0, gt=0.0, le=1e4)
-    solid_density: float = quantity("kg/m^3", "of the gears", 7800.0, gt=0.0, le=1e5)
-    solid_heat_capacity: float = quantity("J/(kg K)", "of the gears", 470.0, gt=0.0, le=1e5)
-    youngs_modulus: float = quantity("Pa", "of the gears", 206e9, gt=0.0, le=1e12)
-    poisson_ratio: float = quantity("", "of the gears", 0.3, ge=0.0, lt=0.5)
-    roughness_parameter: float = quantity("", "xi beta sigma", 0.055, gt=0.0, le=1.0)
-    asperity_slope: float = quantity("", "sigma/beta", 0.001, gt=0.0, le=1.0)
+    oil_conductivity: float = quantity(
+        "W/(m K)", "thermal conductivity of the oil", 0.137, gt=0.0, le=1e4
+    )
+    solid_conductivity: float = quantity(
+        "W/(m K)", "thermal conductivity of the gears", 46.0, gt=0.0, le=1e4
+    )
+    solid_density: float = quantity("kg/m^3", "density of the gears", 7800.0, gt=0.0, le=1e5)
+    solid_heat_capacity: float = quantity(
+        "J/(kg K)", "specific heat of the gears", 470.0, gt=0.0, le=1e5
+    )
+    youngs_modulus: float = quantity("Pa", "Young's modulus of the gears", 206e9, gt=0.0, le=1e12)
+    poisson_ratio: float = quantity("", "Poisson ratio of the gears", 0.3, ge=0.0, lt=0.5)
+    roughness_parameter: float = quantity(
+        "", "xi beta sigma of the asperities", 0.055, gt=0.0, le=1.0
+    )
+    asperity_slope: float = quantity("", "sigma/beta of the asperities", 0.001, gt=0.0, le=1.0)
     pressure_coefficient: float = quantity("", "eps of the boundary film", 0.17, ge=0.0, le=1.0)
     boundary_coefficient: float = quantity(
         "", "friction coefficient without a film, for load sharing", 0.11, ge=0.0, le=1.0

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Literal, Self
 
-from pydantic import model_validator
+from pydantic import Field, model_validator
 
 from .quantity import Section, quantity
 
@@ -24,9 +24,13 @@ class MeshDamping(Section):
 
     law: Literal[
         "meshing_frequency", "printed_meshing_frequency", "natural_frequency", "viscous"
-    ] = "viscous"
-    damping_ratio: float = quantity("", "damping ratio of one mesh", 0.05, ge=0.0, le=2.0)
-    loss_factor: float = quantity("", "tau times frequency", 0.009, ge=0.0, le=1.0)
+    ] = Field("viscous", description="what tau follows from")
+    damping_ratio: float = quantity(
+        "", "damping ratio of one mesh, for law: viscous", 0.05, ge=0.0, le=2.0
+    )
+    loss_factor: float = quantity(
+        "", "tau times frequency, for the other laws", 0.009, ge=0.0, le=1.0
+    )
     lowest_frequency: float = quantity(
         "Hz", "meshing frequency below which the law no longer follows it", 5.0, gt=0.0, le=1e4
     )
@@ -41,11 +45,20 @@ class TransmissionError(Section):
     """Static transmission error of a mesh: harmonics of the meshing frequency.
 
     e = sum of a_n sin(2 pi n x + p_n) over n = 1, 2, ..., x the mesh cycles since a pair was at
-    the pitch point; positive e is material that is missing.
+    the pitch point. A mesh is squeezed by |d - e| - B/2, d the DTE: positive e is material that is
+    missing on the drive flanks, and in excess on the coast flanks.
     """
 
-    amplitudes: tuple[float, ...] = quantity("m", "of harmonics 1, 2, ...", (), max_length=4)
-    phases: tuple[float, ...] = quantity("rad", "of the same; none: all zero", (), max_length=4)
+    amplitudes: tuple[float, ...] = quantity(
+        "m",
+        "amplitudes of harmonics 1, 2, ... of e, each within "
+        f"{-LARGEST_ERROR:g} and {LARGEST_ERROR:g}; positive e: missing material",
+        (),
+        max_length=4,
+    )
+    phases: tuple[float, ...] = quantity(
+        "rad", "phases of the same; none: all zero", (), max_length=4
+    )
 
     @model_validator(mode="after")
     def _a_phase_each(self) -> Self:
@@ -63,7 +76,11 @@ class TransmissionError(Section):
 
 
 class Runout(Section):
-    """Eccentricity of the gears on their bearings, which returns with every turn."""
+    """Eccentricity of the gears on their bearings, which returns with every turn.
+
+    Each adds its size times a sine of the gear's turn to the error of form e, with the sign of
+    `sun_planet_error` and `planet_ring_error`.
+    """
 
     sun: float = quantity("m", "eccentricity of the sun", 0.0, ge=0.0, le=1e-2)
     planet: float = quantity("m", "eccentricity of every planet", 0.0, ge=0.0, le=1e-2)
@@ -77,7 +94,9 @@ class ToothCompliance(Section):
     "yang_sun": the constant of much of the literature, which leaves most of that out.
     """
 
-    contact: Literal["weber_banaschek", "yang_sun"] = "weber_banaschek"
+    contact: Literal["weber_banaschek", "yang_sun"] = Field(
+        "weber_banaschek", description="law of the contact's own compliance"
+    )
     hub: float = quantity(
         "", "radius at which sun and planets are held, over their root radius", 0.5, ge=0.1, le=0.95
     )
@@ -101,12 +120,14 @@ class Mesh(Section):
     Results are along the line of action in any case.
     """
 
-    stiffness: Literal["given", "involute"] = "given"
+    stiffness: Literal["given", "involute"] = Field(
+        "given", description="given: by numbers; involute: computed from the teeth"
+    )
     sun_planet_stiffness: float | None = quantity(
-        "N/m", "of a single tooth pair", None, ge=1e3, le=1e13
+        "N/m", "stiffness of a single tooth pair; for stiffness: given", None, ge=1e3, le=1e13
     )
     planet_ring_stiffness: float | None = quantity(
-        "N/m", "of a single tooth pair", None, ge=1e3, le=1e13
+        "N/m", "stiffness of a single tooth pair; for stiffness: given", None, ge=1e3, le=1e13
     )
     double_pair_ratio: float = quantity(
         "", "stiffness of two pairs over that of one", 1.75, ge=1.0, le=2.0
@@ -114,13 +135,21 @@ class Mesh(Section):
     ramp: float = quantity(
         "", "base pitches over which a pair takes up its load; 0: at once", 0.03, ge=0.0, le=0.2
     )
-    backlash: Literal["dead_zone", "regulatory_factor"] = "dead_zone"
-    motion: Literal["line_of_action", "pitch_arc"] = "line_of_action"
-    tooth: ToothCompliance = ToothCompliance()
-    damping: MeshDamping = MeshDamping()
-    sun_planet_error: TransmissionError = TransmissionError()
-    planet_ring_error: TransmissionError = TransmissionError()
-    runout: Runout = Runout()
+    backlash: Literal["dead_zone", "regulatory_factor"] = Field(
+        "dead_zone", description="law of the force near the play"
+    )
+    motion: Literal["line_of_action", "pitch_arc"] = Field(
+        "line_of_action", description="what stiffness and backlash refer to"
+    )
+    tooth: ToothCompliance = Field(ToothCompliance(), description="for stiffness: involute")
+    damping: MeshDamping = Field(MeshDamping(), description="damping of a mesh")
+    sun_planet_error: TransmissionError = Field(
+        TransmissionError(), description="error of form of every sun-planet mesh"
+    )
+    planet_ring_error: TransmissionError = Field(
+        TransmissionError(), description="error of form of every planet-ring mesh"
+    )
+    runout: Runout = Field(Runout(), description="eccentricities of the gears")
 
     @model_validator(mode="after")
     def _numbers_where_they_are_wanted(self) -> Self:

@@ -25,20 +25,22 @@ from .supports import Supports
 class Scene(Section):
     """A gearset, its laws, its drive and the point it runs at."""
 
-    name: str
-    description: str = ""
+    name: str = Field(description="what recordings and pictures call it")
+    description: str = Field("", description="what it is, in words")
     dynamics: Literal["torsional", "quasi_static"] = Field(
         "torsional",
         description="torsional: all bodies are free to vibrate; quasi_static: the train turns "
         "rigidly and its loads are in static equilibrium at every instant",
     )
-    gearset: Gearset
-    mesh: Mesh
-    lubrication: Lubrication
-    drive: Drive
-    operating_point: OperatingPoint
-    losses: Losses = Losses()
-    supports: Supports | None = None
+    gearset: Gearset = Field(description="what the gears are")
+    mesh: Mesh = Field(description="how the teeth touch")
+    lubrication: Lubrication = Field(description="oil, surfaces and laws of friction")
+    drive: Drive = Field(description="what drives, and what is driven")
+    operating_point: OperatingPoint = Field(description="what may change while the twin runs")
+    losses: Losses = Field(Losses(), description="losses outside the tooth contacts")
+    supports: Supports | None = Field(
+        None, description="masses and bearings, for natural modes in which axes move"
+    )
     faults: tuple[Fault, ...] = Field((), max_length=MOST_FAULTS, description="faulty teeth")
 
     @model_validator(mode="after")

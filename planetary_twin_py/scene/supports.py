@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from pydantic import Field
+
 from .quantity import Section, quantity
 
 
@@ -25,7 +27,7 @@ class Support(Section):
 class Supports(Section):
     """Sun, ring and carrier on the housing, planets on the carrier."""
 
-    sun: Support
-    planet: Support
-    ring: Support
-    carrier: Support
+    sun: Support = Field(description="on the housing")
+    planet: Support = Field(description="every planet, on the carrier")
+    ring: Support = Field(description="on the housing")
+    carrier: Support = Field(description="on the housing")

@@ -47,7 +47,9 @@ MESH = {
     "mesh_force_peak": MeshMeasure("N", "mesh force, largest magnitude", np.max),
     "contact_fraction": MeshMeasure("", "share of time in contact, smallest", np.min),
     "film_thickness": MeshMeasure("m", "film thickness in contact, mean", np.mean),
-    "lambda_ratio": MeshMeasure("", "specific film thickness in contact, mean", np.mean),
+    "lambda_ratio": MeshMeasure(
+        "", "lambda ratio (specific film thickness) in contact, mean", np.mean
+    ),
     "boundary_friction": MeshMeasure("N", "boundary friction of a mesh, mean", np.mean),
     "viscous_friction": MeshMeasure("N", "viscous friction of a mesh, mean", np.mean),
     "power_loss": MeshMeasure("W", "tooth friction of all these meshes, mean", np.sum),
@@ -80,8 +82,17 @@ def measure(scene: Scene, settings: Settings) -> Row:
 def row(window: Window) -> Row:
     """The figures of a window."""
     figures = {name: float(getattr(window, name)) for name in TRAIN}
-    planets = len(window.meshes) // 2
-    for side, meshes in zip(SIDES, (slice(planets), slice(planets, None)), strict=True):
-        for name, measure in MESH.items():
-            figures[f"{side}_{name}"] = float(measure.over_meshes(window.mesh[name][meshes]))
+    for side, values in mesh_rows(window.mesh).items():
+        figures |= {f"{side}_{name}": value for name, value in values.items()}
     return figures
+
+
+def mesh_rows(mesh: dict[str, np.ndarray]) -> dict[str, Row]:
+    """The figures of `MESH` for both `SIDES`, from statistics of the meshes, (meshes,) each."""
+    planets = len(mesh["dte_mean"]) // 2
+    return {
+        side: {
+            name: float(measure.over_meshes(mesh[name][meshes])) for name, measure in MESH.items()
+        }
+        for side, meshes in zip(SIDES, (slice(planets), slice(planets, None)), strict=True)
+    }

@@ -28,6 +28,59 @@ def test_figures_are_those_of_the_library():
     assert figures["mean_power_loss_W"] == pytest.approx(run.total_power_loss.mean())
 
 
+@pytest.mark.parametrize("name", ["paper", "lightly_loaded"])
+def test_meshes_of_the_sun_and_of_the_ring_are_told_apart(name):
+    """Against the samples themselves; under light load the teeth part for a while."""
+    figures = json.loads(invoke(name, "--duration", "0.1", "--json", "-").stdout)
+    run = pt.simulate(pt.load_scene(name), 0.1)
+    for side, meshes in {"sun_planet": slice(3), "planet_ring": slice(3, 6)}.items():
+        found, touching = figures[side], run.mesh_force[:, meshes] != 0.0
+        assert found == pytest.approx(
+            {
+                "dte_mean_m": run.dte[:, meshes].mean(),
+                "dte_rms_m": max(run.dte[:, meshes].std(axis=0)),
+                "mesh_force_mean_N": run.mesh_force[:, meshes].mean(),
+                "contact_fraction": min(touching.mean(axis=0)),
+                "film_thickness_m": np.nanmean(run.film_thickness[:, meshes], axis=0).mean(),
+                "lambda_ratio": np.nanmean(run.lambda_ratio[:, meshes], axis=0).mean(),
+                "power_loss_W": run.power_loss[:, meshes].mean(axis=0).sum(),
+            },
+            rel=1e-3,
+        )
+        assert (found["contact_fraction"] < 0.99) == (name == "lightly_loaded")
+
+
+def test_the_mesh_frequency_is_that_of_a_differential_too():
+    """30 teeth of the sun, against the carrier that turns as well."""
+    scene = pt.load_scene("differential")
+    sun, carrier = scene.operating_point.input_speed, scene.operating_point.second_input_speed
+    figures = json.loads(invoke("differential", "--duration", "0.1", "--json", "-").stdout)
+    turns = abs(sun - carrier) / (2 * np.pi)
+    assert figures["mesh_frequency_Hz"] == pytest.approx(30 * turns, rel=1e-3)
+
+
+def test_what_a_person_reads_has_units_and_says_which_meshes_it_is_of():
+    shown, figures = invoke("paper", *SHORT).stdout, expected()
+    told = dict(line.rsplit(maxsplit=1) for line in shown.splitlines() if "]  " in line)
+    labels = {label.strip(): float(value) for label, value in told.items() if "│" not in label}
+    assert labels["DTE of all meshes, mean [m]"] == pytest.approx(figures.dte.mean(), rel=1e-5)
+    rows = {
+        cells[0].strip(): [float(cell) for cell in cells[1:]]
+        for cells in (line.strip("│").split("│") for line in shown.splitlines() if line[0] == "│")
+    }
+    dte = figures.dte.mean(axis=0)
+    assert rows["DTE, mean [m]"] == pytest.approx([dte[:3].mean(), dte[3:].mean()], rel=0.01)
+    assert all(label.endswith("]") for label in (*labels, *rows))
+
+
+def test_samples_carry_their_scene(tmp_path):
+    invoke("paper", *SHORT, "--out", str(tmp_path / "run.npz"))
+    text = str(np.load(tmp_path / "run.npz")["scene_yaml"])
+    assert pt.parse_scene(text) == pt.load_scene("paper").replace(
+        lambda_ratio=1.5, **{"mesh.ramp": 0.05}
+    )
+
+
 def test_samples_are_written_whole(tmp_path):
     run = expected()
     for name in ("run.npz", "run.csv"):

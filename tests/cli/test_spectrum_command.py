@@ -81,6 +81,18 @@ def test_samples_of_simulate_are_analysed_too(tmp_path):
     planetary_twin("simulate", "paper", "--duration", 0.1, "--out", npz)
     done = planetary_twin("spectrum", npz, "--order", "--from", 0.05, "--json", "-")
     assert done.returncode == 0, done.stderr
+    lines = json.loads(done.stdout)["lines"]
+    assert lines[0]["order"] == pytest.approx(30.0, abs=0.3)
+    assert [line["harmonic"] for line in lines] == [round(line["order"] / 30) for line in lines]
+
+
+def test_samples_without_a_scene_have_lines_that_are_not_named(tmp_path):
+    npz = tmp_path / "run.npz"
+    planetary_twin("simulate", "paper", "--duration", 0.1, "--out", npz)
+    with np.load(npz) as held:
+        np.savez(npz, **{name: held[name] for name in held.files if name != "scene_yaml"})
+    done = planetary_twin("spectrum", npz, "--order", "--from", 0.05, "--json", "-")
+    assert done.returncode == 0, done.stderr
     line = json.loads(done.stdout)["lines"][0]
     assert line["order"] == pytest.approx(30.0, abs=0.3)
     assert line["harmonic"] is None

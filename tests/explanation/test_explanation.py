@@ -9,6 +9,7 @@ from typer.testing import CliRunner
 import planetary_twin_py as pt
 from planetary_twin_py.cli import build_app
 from planetary_twin_py.explanation.measure import explain
+from planetary_twin_py.explanation.meshes import describe_meshes
 from planetary_twin_py.explanation.terms import limits, terms
 
 SCENES = pytest.mark.parametrize("name", pt.packaged_scenes())
@@ -44,6 +45,20 @@ def test_a_quasi_static_scene_says_that_dynamics_is_left_out():
     assert limits(pt.load_scene("paper")) == limits(still)[1:]
 
 
+def test_a_scene_with_a_helix_says_what_that_does_not_do():
+    straight = pt.load_scene("paper")
+    helical = straight.replace(**{"gearset.helix_angle": "-15 deg"})
+    assert limits(helical)[0].name == "helix" and limits(helical)[1:] == limits(straight)
+    assert limits(pt.load_scene("wind_turbine_stage"))[0].name == "helix"
+
+
+def test_running_knows_no_helix():
+    """What "Left out" says of it: the same samples, to the last bit."""
+    straight = pt.load_scene("cracked_tooth")
+    helical = straight.replace(**{"gearset.helix_angle": "15 deg"})
+    assert np.array_equal(pt.simulate(straight, 0.01).dte, pt.simulate(helical, 0.01).dte)
+
+
 def test_what_leaving_friction_out_changes_is_what_two_runs_differ_by():
     scene = pt.load_scene("paper")
     found = explain(scene, 0.02)
@@ -65,6 +80,34 @@ def test_the_command_prints_terms_and_limits_and_figures_for_machines():
     data = json.loads(figures.stdout)
     assert data["scene"]["power_loss"] > 0.0
     assert [term["name"] for term in data["terms"]] == names(pt.load_scene("paper"))
+    assert data["mesh_frequency"] == pytest.approx(500.0)
+    assert data["meshes"]["planet_ring"]["teeth"] == [20, 70]
+
+
+def test_meshes_are_shown_before_the_terms_with_units():
+    done = CliRunner().invoke(build_app(), ["explain", "paper", "--duration", "0.005"])
+    before, _, after = done.output.partition("Modelled, and")
+    rows = dict(
+        (cell.strip() for cell in line.strip("│").split("│", 1))
+        for line in before.splitlines()
+        if line.startswith("│")
+    )
+    figures = describe_meshes(pt.load_scene("paper"))
+    assert len(rows) == len(figures.sun_planet) and all(label.endswith("]") for label in rows)
+    assert rows["damping ratio of that mode [-]"].split() == [
+        f"{figures.sun_planet.damping_ratio:.4g}",
+        "│",
+        f"{figures.planet_ring.damping_ratio:.4g}",
+    ]
+    assert "f_m 500 Hz, input speed 1000 rpm, input torque 63 N m" in before
+    assert "power loss [%]" in after
+
+
+def test_a_scene_without_a_description_is_told_by_its_name_alone(tmp_path):
+    file = tmp_path / "my.yaml"
+    file.write_text('base: paper\nname: my\ndescription: ""\n')
+    done = CliRunner().invoke(build_app(), ["explain", str(file), "--duration", "0.005"])
+    assert done.output.splitlines()[0] == "my"
 
 
 def test_an_unknown_scene_ends_in_one_line():

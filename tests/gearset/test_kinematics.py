@@ -1,5 +1,6 @@
 """Speeds against Willis' relations and against the numbers of the paper's gearset."""
 
+import math
 from fractions import Fraction
 from itertools import permutations
 
@@ -9,6 +10,7 @@ from planetary_twin_py.gearset.kinematics import (
     MEMBERS,
     Teeth,
     mesh_cycles_per_turn,
+    mesh_frequency,
     speed_ratios,
     speeds_per_input,
 )
@@ -57,3 +59,10 @@ def test_speeds_of_a_differential_are_those_of_both_inputs_together():
 def test_a_member_cannot_be_held_and_turn_and_must_be_central(held, reference):
     with pytest.raises(ValueError, match="two of"):
         speed_ratios(PAPER, held, reference)
+
+
+def test_teeth_pass_as_often_as_the_sun_turns_against_the_carrier():
+    turn = 2 * math.pi
+    assert mesh_frequency(PAPER, 1000 / 60 * turn, 0.0) == pytest.approx(500.0)
+    assert mesh_frequency(PAPER, -2 * turn, 3 * turn) == pytest.approx(150.0)
+    assert mesh_frequency(PAPER, 7.0, 7.0) == 0.0

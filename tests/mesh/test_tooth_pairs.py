@@ -7,7 +7,15 @@ import pytest
 
 from planetary_twin_py.gearset.geometry import PathOfContact, planet_ring_path, sun_planet_path
 from planetary_twin_py.gearset.kinematics import Teeth
-from planetary_twin_py.mesh.tooth_pairs import PAIRS, TERMS, TOTAL, along, pair_table, terms_in_use
+from planetary_twin_py.mesh.tooth_pairs import (
+    PAIRS,
+    TERMS,
+    TOTAL,
+    along,
+    mean_weight,
+    pair_table,
+    terms_in_use,
+)
 
 PAPER = Teeth(30, 20, 70), math.radians(21.34), 1.0
 EXTERNAL, INTERNAL = sun_planet_path(*PAPER), planet_ring_path(*PAPER)
@@ -112,3 +120,18 @@ def test_positions_of_a_fault_become_edges():
     j = int(np.argmin(np.abs(table.edge[: table.segments] - 0.15)))
     p = int(np.nonzero(table.shift[j] == 0.0)[0][0])
     assert pit[j, p, 0] == pytest.approx(0.5)
+
+
+@PATHS
+@RAMPS
+def test_mean_weight_is_the_contact_ratio_less_a_ramp(path, ramp):
+    table = pair_table(path, ramp)
+    mean = mean_weight(table.edge, table.weight[:, TOTAL])
+    assert mean == pytest.approx(path.contact_ratio - ramp)
+
+
+def test_mean_weight_of_a_strength_is_its_integral_over_the_path():
+    table = pair_table(EXTERNAL, 0.0, lambda s: 1.0 - 0.3 * s**2)
+    a, r = EXTERNAL
+    mean = mean_weight(table.edge, table.weight[:, TOTAL])
+    assert mean == pytest.approx(a + r - 0.1 * (a**3 + r**3))

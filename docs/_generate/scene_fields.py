@@ -1,0 +1,32 @@
+"""The fields of a scene, from the schema that checks it."""
+
+from planetary_twin_py.scene.fields import SceneField, SceneSection, scene_sections
+
+_HEAD = """# Fields of a scene
+
+Made from the schema that checks a scene. `planetary-twin fields` lists them on the command line,
+`planetary-twin fields mesh.damping` a part of them. Names are those that `--set`, `sweep` and
+`Scene.replace` take; what is in `operating_point` goes without it, too: `backlash`. Faults are a
+list, N counts them from 0.
+
+Defaults and ranges are in the unit beside them; values may be given in any unit of its kind:
+`0.2 um`, `1000 rpm`. A round bracket leaves the end of a range out, a unit of - is that of a pure
+number. How they act together is told in [scenes](../scenes.md).
+"""
+_COLUMNS = "| field | unit | default | range | meaning |\n|---|---|---|---|---|\n"
+
+
+def page() -> str:
+    """A section for every section of a scene."""
+    return _HEAD + "".join(map(_section, scene_sections()))
+
+
+def _section(section: SceneSection) -> str:
+    kind = f", kind {section.kind}" if section.kind else ""
+    title = f"`{section.name}`{kind}" if section.name else "The scene"
+    return f"\n## {title}\n\n{section.meaning}\n\n{_COLUMNS}" + "".join(map(_row, section.fields))
+
+
+def _row(field: SceneField) -> str:
+    cells = (f"`{field.name}`", *field[1:])
+    return "| " + " | ".join(cell.replace("|", "\\|") for cell in cells) + " |\n"

@@ -1,0 +1,49 @@
+"""`planetary-twin fields`: what a scene can say, with units, defaults and ranges."""
+
+from __future__ import annotations
+
+from typing import Annotated
+
+import typer
+
+from ._arguments import JsonOption
+from ._fail import fail
+from ._figures import console_beside, put_figures
+
+
+def fields(
+    part: Annotated[
+        str, typer.Argument(metavar="PART", help="Those whose dotted names have this in them.")
+    ] = "",
+    json_: JsonOption = None,
+) -> None:
+    """List the fields of a scene: what --set, sweep and a YAML file may name.
+
+    Those of the operating point may be named without operating_point. before them. A round bracket
+    leaves the end of a range out.
+
+    Example: planetary-twin fields mesh.damping
+    """
+    from rich.table import Table
+
+    from ..scene.fields import SceneField, scene_sections
+
+    sections = list(scene_sections())
+    found = [
+        (section.kind, field)
+        for section in sections
+        for field in section.fields
+        if part in field.name
+    ]
+    if not found:
+        names = ", ".join(field.name for field in sections[0].fields)
+        fail(f"PART = {part!r}: is in the name of no field; they begin with {names}")
+    console = console_beside(json_)
+    table = Table()
+    for heading in SceneField._fields:
+        table.add_column(heading, no_wrap=heading == "name")
+    for kind, field in found:
+        name = f"{field.name} ({kind})" if kind else field.name
+        table.add_row(*(text.replace("[", r"\[") for text in (name, *field[1:])))
+    console.print(table, highlight=False)
+    put_figures([{"kind": kind, **field._asdict()} for kind, field in found], json_)

@@ -1,0 +1,78 @@
+"""The two kinds of mesh of a scene in the figures one asks for first, at its operating point."""
+
+from __future__ import annotations
+
+import math
+from typing import NamedTuple
+
+import numpy as np
+
+from .._records import Record
+from ..dynamics.mesh_damping import natural_frequencies
+from ..dynamics.moment import damping_time
+from ..dynamics.start import build_load
+from ..dynamics.static_load import mesh_force
+from ..dynamics.stiffness_laws import GEARS
+from ..dynamics.train import build_train
+from ..gearset.geometry import planet_ring_path, sun_planet_path
+from ..mesh.tooth_pairs import TOTAL, mean_weight
+from ..scene import Scene
+
+
+class MeshFigures(NamedTuple):
+    """Of each mesh between these two kinds of gears, with healthy teeth."""
+
+    teeth: tuple[int, int]
+    contact_ratio: float
+    single_stiffness: float  # of one pair, about the pitch point [N/m]
+    mean_stiffness: float  # over the mesh cycle [N/m]
+    natural_frequency: float  # on its own two gears, with one pair in contact [Hz]
+    damping_ratio: float  # of that mode at the operating point [-]
+    static_force: float  # mean under the torque of the operating point, without friction [N]
+    backlash: float  # total play on the line of action [m]
+
+
+class Meshes(NamedTuple):
+    """Both kinds of mesh, and how fast teeth pass them at the operating point."""
+
+    mesh_frequency: float  # [Hz]
+    sun_planet: MeshFigures
+    planet_ring: MeshFigures
+
+
+def describe_meshes(scene: Scene) -> Meshes:
+    """Figures of the meshes of `scene` at its operating point.
+
+    Raises:
+        ValueError: there are no such teeth, or they leave a moment without contact.
+    """
+    point = scene.operating_point
+    train = build_train(scene)
+    load = build_load(scene, point, train)
+    frequency = abs(float(train.cycles @ load.target_speed)) / (2.0 * math.pi)
+    natural = natural_frequencies(scene, train.stiffness)
+    gearset, teeth = scene.gearset, scene.gearset.tooth_numbers._asdict()
+    paths = [
+        path(gearset.tooth_numbers, gearset.pressure_angle, gearset.addendum)
+        for path in (sun_planet_path, planet_ring_path)
+    ]
+    sun_planet, planet_ring = (
+        MeshFigures(
+            teeth=(teeth[first], teeth[second]),
+            contact_ratio=paths[kind].contact_ratio,
+            single_stiffness=float(train.stiffness[kind]),
+            mean_stiffness=_mean_stiffness(train, kind),
+            natural_frequency=float(natural[kind]) / (2.0 * math.pi),
+            damping_ratio=0.5 * damping_time(train, kind, frequency) * float(natural[kind]),
+            static_force=abs(mesh_force(scene, point.input_torque)),
+            backlash=2.0 * float(load.half_backlash),
+        )
+        for kind, (first, second) in enumerate(GEARS)
+    )
+    return Meshes(frequency, sun_planet, planet_ring)
+
+
+def _mean_stiffness(train: Record, kind: int) -> float:
+    weight: np.ndarray = train.weight[kind, :, TOTAL]
+    base, gain = float(train.stiffness_base[kind]), float(train.stiffness_gain[kind])
+    return base + gain * mean_weight(train.edge[kind], weight)

@@ -1,0 +1,129 @@
+"""The fields of a scene as its schema has them: name, unit, default, range, meaning."""
+
+from __future__ import annotations
+
+import inspect
+from collections.abc import Iterator
+from typing import Any, Literal, NamedTuple, get_args, get_origin
+
+from pydantic.fields import FieldInfo
+
+from .quantity import Section, unit_of
+from .scene import Scene
+
+REQUIRED = "required"
+NONE = "none"
+NUMBER = "N"  # in a name: which of several, from 0
+
+
+class SceneField(NamedTuple):
+    """A field in words."""
+
+    name: str
+    """Dotted, as `Scene.replace` and `--set` take it."""
+    unit: str
+    """"-" of a pure number, empty of what is no number."""
+    default: str
+    """In SI, or "required", or "none"."""
+    range: str
+    """An interval, whose round bracket leaves the end out; or the choices, or what it holds."""
+    meaning: str
+
+
+class SceneSection(NamedTuple):
+    """A section of a scene with its own fields, sections below it named among them."""
+
+    name: str
+    """Dotted; empty for the scene itself."""
+    kind: str
+    """Of those sections of which a place takes several kinds, else empty."""
+    meaning: str
+    """Paragraphs of the schema's text, lines folded."""
+    fields: tuple[SceneField, ...]
+
+
+def scene_sections() -> Iterator[SceneSection]:
+    """All sections of a scene, each before those below it."""
+    yield from _sections("", "", Scene)
+
+
+def _sections(name: str, kind: str, model: type[Section]) -> Iterator[SceneSection]:
+    prefix = f"{name}." if name else ""
+    fields = {f"{prefix}{own}": field for own, field in model.model_fields.items()}
+    rows = tuple(_field(dotted, field) for dotted, field in fields.items())
+    yield SceneSection(name, kind, inspect.cleandoc(model.__doc__ or ""), rows)
+    for dotted, field in fields.items():
+        models = _models(field.annotation)
+        below = dotted if _lengths(field) is None else f"{dotted}.{NUMBER}"
+        for one in models:
+            yield from _sections(below, one.__name__.lower() if len(models) > 1 else "", one)
+
+
+def _models(kind: Any) -> list[type[Section]]:
+    """Sections that a field of this type may hold."""
+    if isinstance(kind, type) and issubclass(kind, Section):
+        return [kind]
+    return [model for part in get_args(kind) for model in _models(part)]
+
+
+def _field(name: str, field: FieldInfo) -> SceneField:
+    unit = "-" if _is_number(field.annotation) else ""
+    return SceneField(
+        name, unit_of(field) or unit, _default(field), _range(field), field.description or ""
+    )
+
+
+def _is_number(kind: Any) -> bool:
+    return kind in (int, float) or any(map(_is_number, get_args(kind)))
+
+
+def _default(field: FieldInfo) -> str:
+    if field.is_required():
+        return REQUIRED
+    value = field.default
+    if isinstance(value, bool):
+        return str(value).lower()
+    if isinstance(value, Section):
+        return "its defaults"
+    if isinstance(value, (int, float)):
+        return f"{value:g}"
+    return str(value) if value else NONE
+
+
+def _range(field: FieldInfo) -> str:
+    lengths = _lengths(field)
+    if lengths is not None:
+        what = "sections" if _models(field.annotation) else "values"
+        return f"{lengths[0]} to {lengths[1]} {what}"
+    if _models(field.annotation):
+        return "section"
+    return ", ".join(_choices(field.annotation)) or _interval(field) or "text"
+
+
+def _lengths(field: FieldInfo) -> tuple[int, int] | None:
+    """Fewest and most values of a field that holds several."""
+    most = [item.max_length for item in field.metadata if hasattr(item, "max_length")]
+    fewest = [item.min_length for item in field.metadata if hasattr(item, "min_length")]
+    return (max(fewest, default=0), min(most)) if most else None
+
+
+def _choices(kind: Any) -> tuple[str, ...]:
+    if kind is bool:
+        return "true", "false"
+    if get_origin(kind) is Literal:
+        return tuple(map(str, get_args(kind)))
+    return tuple(choice for part in get_args(kind) for choice in _choices(part))
+
+
+def _interval(field: FieldInfo) -> str:
+    ends = {
+        end: getattr(item, end)
+        for item in field.metadata
+        for end in ("ge", "gt", "le", "lt")
+        if hasattr(item, end)
+    }
+    if not ends:
+        return ""
+    low = f"[{ends['ge']:g}" if "ge" in ends else f"({ends['gt']:g}"
+    high = f"{ends['le']:g}]" if "le" in ends else f"{ends['lt']:g})"
+    return f"{low}, {high}"

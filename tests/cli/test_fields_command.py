@@ -1,0 +1,49 @@
+"""The command `fields` against the schema, and where a user is told of it."""
+
+import json
+
+import pytest
+from typer.testing import CliRunner
+
+from planetary_twin_py.cli import build_app
+from planetary_twin_py.scene.fields import scene_sections
+
+
+def invoke(*arguments):
+    return CliRunner().invoke(build_app(), arguments)
+
+
+def test_all_fields_are_listed_with_unit_default_and_range():
+    shown = [line for line in invoke("fields").stdout.splitlines() if line.startswith("│")]
+    rows = [[cell.strip() for cell in line.strip("│").split("│")] for line in shown]
+    for section in scene_sections():
+        for field in section.fields:
+            name = f"{field.name} ({section.kind})" if section.kind else field.name
+            assert [name, *field[1:]] in rows
+
+
+def test_a_part_of_a_name_leaves_those_that_have_it():
+    found = json.loads(invoke("fields", "mesh.damping.", "--json", "-").stdout)
+    names = [field["name"] for field in found]
+    own = ("law", "damping_ratio", "loss_factor", "lowest_frequency")
+    assert names == [f"mesh.damping.{name}" for name in own]
+    assert found[1] == {
+        "kind": "",
+        "name": "mesh.damping.damping_ratio",
+        "unit": "-",
+        "default": "0.05",
+        "range": "[0, 2]",
+        "meaning": "damping ratio of one mesh, for law: viscous",
+    }
+
+
+def test_a_part_of_no_name_ends_in_one_line():
+    done = invoke("fields", "mesh.colour")
+    assert done.exit_code == 2
+    assert done.stderr.count("\n") == 1 and "mesh.colour" in done.stderr
+
+
+@pytest.mark.parametrize("command", ["simulate", "sweep", "modal"])
+def test_commands_that_take_fields_tell_of_it(command):
+    shown = " ".join(invoke(command, "--help").stdout.split())
+    assert "planetary-twin fields" in shown

@@ -1,0 +1,126 @@
+"""Figures of the meshes against closed forms and against what runs."""
+
+import math
+
+import numpy as np
+import pytest
+
+import planetary_twin_py as pt
+from planetary_twin_py.dynamics.stiffness_laws import tooth_pairs
+from planetary_twin_py.explanation.meshes import describe_meshes
+
+PAPER = pt.load_scene("paper")
+COSINE = math.cos(math.radians(21.34))
+RIM = {"sun": 0.272 / COSINE**2, "planet": 0.1 / COSINE**2, "ring": 0.759 / COSINE**2}  # [kg]
+PAIRS = {"sun_planet": ("sun", "planet"), "planet_ring": ("planet", "ring")}
+BOTH = pytest.mark.parametrize("kind", PAIRS)
+
+
+def of(kind, scene=PAPER, **changes):
+    return getattr(describe_meshes(scene.replace(**changes)), kind)
+
+
+def natural_frequency(kind, stiffness):
+    """[Hz] from the eigenvalue of two masses that a spring pushes apart."""
+    first, second = (RIM[gear] for gear in PAIRS[kind])
+    matrix = np.array([[stiffness / first] * 2, [stiffness / second] * 2])
+    return math.sqrt(np.linalg.eigvals(matrix).max()) / (2 * math.pi)
+
+
+@BOTH
+def test_natural_frequency_is_that_of_two_gears_on_one_pair(kind):
+    assert of(kind).natural_frequency == pytest.approx(natural_frequency(kind, 2e8))
+    softer = of(kind, **{f"mesh.{kind}_stiffness": 1e8})
+    assert softer.natural_frequency == pytest.approx(natural_frequency(kind, 1e8))
+
+
+@BOTH
+def test_damping_ratio_is_half_of_tau_times_omega_by_every_law(kind):
+    """tau = eta/f_m gives pi eta f/f_m: 0.44 at the sun, 0.40 at the ring, at 500 Hz."""
+    f = natural_frequency(kind, 2e8)
+
+    def ratio(**changes):
+        return of(kind, **changes).damping_ratio
+
+    law = "mesh.damping.law"
+    assert ratio() == pytest.approx(math.pi * 0.009 * f / 500.0)
+    assert ratio() == pytest.approx({"sun_planet": 0.44, "planet_ring": 0.40}[kind], abs=0.005)
+    assert ratio(input_speed=pt.rpm(2000)) == pytest.approx(math.pi * 0.009 * f / 1000.0)
+    assert ratio(input_speed=0.0) == pytest.approx(math.pi * 0.009 * f / 5.0)
+    printed = ratio(**{law: "printed_meshing_frequency"})  # which takes 350 Hz for 500
+    assert printed == pytest.approx(math.pi * 0.009 * f / 350.0)
+    assert ratio(**{law: "natural_frequency"}) == pytest.approx(math.pi * 0.009)
+    assert ratio(**{law: "viscous", "mesh.damping.damping_ratio": 0.07}) == pytest.approx(0.07)
+
+
+@BOTH
+@pytest.mark.parametrize("ramp", [0.0, 0.03, 0.1])
+def test_mean_of_a_given_stiffness_counts_pairs_by_contact_ratio_less_a_ramp(kind, ramp):
+    """A pair takes its ramp to enter and to leave: it carries as for one base pitch less."""
+    figures = of(kind, **{"mesh.ramp": ramp})
+    pairs = {"sun_planet": 1.5554, "planet_ring": 1.8092}[kind]
+    assert figures.contact_ratio == pytest.approx(pairs, abs=1e-4)
+    mean = 2e8 * (1 + 0.75 * (figures.contact_ratio - ramp - 1))
+    assert figures.mean_stiffness == pytest.approx(mean)
+
+
+@pytest.mark.parametrize("kind", [0, 1])
+def test_mean_of_a_computed_stiffness_is_that_of_the_teeth_over_a_cycle(kind):
+    scene = pt.load_scene("cracked_tooth").replace(**{"mesh.ramp": 0.0})
+    figures, pair = describe_meshes(scene)[1 + kind], tooth_pairs(scene)[kind]
+    width = scene.gearset.face_width
+    path = np.linspace(-2.0, 2.0, 40001) + 1e-9
+    begin, end = path_of(scene, kind)
+    there = (begin < path) & (path < end)
+    stiffness = np.zeros_like(path)
+    stiffness[there] = pair.stiffness(path[there], width)
+    cycles = stiffness[:-1].reshape(4, -1)  # one pair behind the other
+    shared = np.where((cycles > 0.0).sum(axis=0) > 1, pair.shared_body_factor, 1.0)
+    mean = (shared * cycles.sum(axis=0)).mean()
+    assert figures.mean_stiffness == pytest.approx(mean, rel=1e-3)
+    assert figures.single_stiffness == pytest.approx(pair.stiffness(np.zeros(1), width)[0])
+
+
+def path_of(scene, kind):
+    """Where a pair of teeth meets and parts, base pitches from the pitch point."""
+    teeth, angle = scene.gearset.teeth, scene.gearset.pressure_angle
+
+    def reach(z, addendum):
+        tip, base = z / 2 + addendum, z / 2 * math.cos(angle)
+        return (
+            abs(math.sqrt(tip**2 - base**2) - z / 2 * math.sin(angle)) / math.pi / math.cos(angle)
+        )
+
+    height = scene.gearset.addendum
+    if kind == 0:
+        return -reach(teeth.planet, height), reach(teeth.sun, height)
+    return -reach(teeth.ring, -height), reach(teeth.planet, height)
+
+
+@BOTH
+def test_force_is_the_torque_over_base_radius_and_planets(kind):
+    assert of(kind).static_force == pytest.approx(63.0 / 3 / (0.012 * COSINE))
+    assert of(kind, input_torque=-21.0).static_force == pytest.approx(7.0 / (0.012 * COSINE))
+
+
+@BOTH
+def test_backlash_is_the_way_between_the_flanks_on_the_line_of_action(kind):
+    assert of(kind, backlash=3e-7).backlash == pytest.approx(3e-7)
+    along_arcs = of(kind, backlash=3e-7, **{"mesh.motion": "pitch_arc"})
+    assert along_arcs.backlash == pytest.approx(3e-7 * COSINE)
+    # The printed law has no force within +-B.
+    printed = of(kind, backlash=3e-7, **{"mesh.backlash": "regulatory_factor"})
+    assert printed.backlash == pytest.approx(6e-7)
+
+
+@pytest.mark.parametrize("name", ["paper", "differential", "wind_turbine_stage"])
+def test_mesh_frequency_is_that_of_a_run(name):
+    scene = pt.load_scene(name)
+    twin = pt.Twin(scene)
+    cycle = 1.0 / describe_meshes(scene).mesh_frequency
+    assert twin.advance(4 * cycle).mesh_frequency == pytest.approx(1.0 / cycle, rel=2e-3)
+
+
+def test_teeth_are_named_sun_first():
+    found = describe_meshes(PAPER)
+    assert (found.sun_planet.teeth, found.planet_ring.teeth) == ((30, 20), (20, 70))

@@ -1,0 +1,121 @@
+"""The fields in words against pydantic's own JSON schema, and against what a scene takes."""
+
+import math
+from types import SimpleNamespace
+
+import pytest
+
+import planetary_twin_py as pt
+from planetary_twin_py.scene.fields import scene_sections
+
+SCHEMA = pt.Scene.model_json_schema()
+FIELDS = {
+    (section.kind, field.name): field for section in scene_sections() for field in section.fields
+}
+
+
+def resolved(schema):
+    return SCHEMA["$defs"][schema["$ref"].rsplit("/", 1)[1]] if "$ref" in schema else schema
+
+
+def one_of(schema):
+    """What a field may be besides null; and that with what stands beside it."""
+    return [
+        resolved(part)
+        for part in schema.get("anyOf", schema.get("oneOf", [schema]))
+        if part != {"type": "null"}
+    ]
+
+
+def walk(schema, name="", kind=""):
+    """Kind, dotted name, what stands at the field and the schema of its value, of every field."""
+    for own, field in schema["properties"].items():
+        dotted = f"{name}.{own}".lstrip(".")
+        values = one_of(field)
+        yield kind, dotted, field, values[0]
+        for value in values:
+            items = one_of(value.get("items", {}))
+            for below in items if value.get("type") == "array" else values:
+                if "properties" not in below:
+                    continue
+                place = f"{dotted}.N" if below in items else dotted
+                yield from walk(below, place, below["title"].lower() if len(items) > 1 else kind)
+
+
+ALL = {(kind, name): SimpleNamespace(at=at, value=value) for kind, name, at, value in walk(SCHEMA)}
+
+
+def test_every_field_of_the_schema_is_there_and_no_other():
+    assert len(ALL) > 120
+    assert list(FIELDS) and set(FIELDS) == set(ALL)
+
+
+@pytest.mark.parametrize("key", ALL, ids=lambda key: key[1])
+def test_unit_choices_and_meaning_are_those_of_the_schema(key):
+    shown, told = FIELDS[key], ALL[key]
+    assert shown.meaning == told.at["description"] and shown.meaning
+    assert shown.unit == (told.at.get("unit", "") or ("-" if is_number(told.value) else ""))
+    choices = told.value.get("enum", [told.value["const"]] if "const" in told.value else [])
+    if choices:
+        assert shown.range == ", ".join(choices)
+
+
+def is_number(value):
+    return value.get("items", value).get("type") in ("number", "integer")
+
+
+@pytest.mark.parametrize("key", ALL, ids=lambda key: key[1])
+def test_ranges_are_those_of_the_schema(key):
+    shown, value = FIELDS[key].range, ALL[key].value
+    if value.get("type") == "array":
+        what = "values" if is_number(value) else "sections"
+        assert shown == f"{value.get('minItems', 0)} to {value['maxItems']} {what}"
+    elif is_number(value):
+        low, high = (float(end) for end in shown[1:-1].split(", "))
+        opened, closed = shown[0] + "low", shown[-1]
+        assert {"[low": value.get("minimum"), "(low": value.get("exclusiveMinimum")}[opened] == low
+        assert {"]": value.get("maximum"), ")": value.get("exclusiveMaximum")}[closed] == high
+
+
+@pytest.mark.parametrize("key", ALL, ids=lambda key: key[1])
+def test_defaults_are_those_of_the_schema(key):
+    shown, default = FIELDS[key].default, ALL[key].at.get("default", "required")
+    if isinstance(default, dict):
+        assert shown == "its defaults"
+    elif isinstance(default, float | int) and not isinstance(default, bool):
+        assert float(shown) == pytest.approx(default, rel=1e-5)
+    else:
+        assert shown == {None: "none", True: "true", False: "false"}.get(
+            default if not isinstance(default, list) else None, default or "none"
+        )
+
+
+@pytest.mark.parametrize(
+    "name, inside, outside",
+    [
+        ("mesh.ramp", (0.0, 0.2), (-1e-9, 0.2 + 1e-9)),
+        ("lubrication.poisson_ratio", (0.0, math.nextafter(0.5, 0.0)), (0.5,)),
+        ("drive.input.inertia", (math.nextafter(0.0, 1.0), 1e9), (0.0,)),
+    ],
+)
+def test_a_scene_takes_what_lies_in_the_range_and_no_more(name, inside, outside):
+    scene, shown = pt.load_scene("paper"), FIELDS["", name].range
+    assert (
+        shown
+        == {
+            "mesh.ramp": "[0, 0.2]",
+            "lubrication.poisson_ratio": "[0, 0.5)",
+            "drive.input.inertia": "(0, 1e+09]",
+        }[name]
+    )
+    for value in inside:
+        scene.replace(**{name: value})
+    for value in outside:
+        with pytest.raises(pt.SceneError):
+            scene.replace(**{name: value})
+
+
+def test_which_way_an_error_of_form_counts_is_told():
+    section = next(s for s in scene_sections() if s.name == "mesh.sun_planet_error")
+    assert "positive e" in section.meaning and "missing" in section.meaning
+    assert "positive e: missing material" in FIELDS["", "mesh.sun_planet_error.amplitudes"].meaning
