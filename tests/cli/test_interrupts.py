@@ -31,7 +31,7 @@ import signal, time
 {prepare}
 try:
     {arm}
-    exec({callback!r})
+    exec(compile({callback!r}, "callback", "exec"))  # Python dies of an interrupt of plain text
     time.sleep(0.5)
     print("lost")
 except KeyboardInterrupt:
@@ -77,14 +77,14 @@ pathlib.Path(folder, "interrupted.py").write_text(
 )
 sys.path.append(folder)
 import forgetful
-print(forgetful.interrupted.ready)
+assert forgetful.interrupted.ready
 """
 
 
 @pytest.mark.parametrize("handlers", ["commands", "nodes"])
 def test_an_interrupt_within_an_import_is_heard_after_it(handlers, monkeypatch):
     monkeypatch.setitem(CALLBACKS, "import", FORGETFUL)
-    assert said(handlers, "import") == ("True\nheard", "")
+    assert said(handlers, "import") == ("heard", "")
 
 
 def test_python_alone_loses_an_interrupt_within_a_callback():
