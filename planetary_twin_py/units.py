@@ -19,7 +19,7 @@ def rpm(value: float) -> float:
 def _registry() -> Any:
     import pint  # Costs 0.2 s, and most values come without a unit.
 
-    registry = pint.UnitRegistry(autoconvert_offset_to_baseunit=True)
+    registry: Any = pint.UnitRegistry(autoconvert_offset_to_baseunit=True)
     registry.define("newton_metre = newton * metre = Nm")  # else a number of metres
     return registry
 

@@ -159,6 +159,6 @@ def _mean(name: str, column: Array, first: int, last: int) -> float:
         raise ValueError(
             f"rows {first + 1} to {last}: {name} goes from {min(parts):.6g} to {max(parts):.6g} "
             f"{TUNABLES[name].unit}, must stay within {DRIFT:.0%}: a column operating_point tells, "
-            "by any number or word, which rows belong together"
+            f"by any number or word, which rows belong together; or leave {name} out and set it"
         )
     return mean

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import re
 from collections.abc import Mapping, Sequence
 from difflib import get_close_matches
@@ -103,28 +104,36 @@ def _named(heading: str, units: Mapping[str, str]) -> tuple[str, str | None]:
 
 def _in_si(name: str, column: pa.ChunkedArray, given: str | None, unit: str) -> Array:
     """Values (rows,) of a column."""
-    if pa.types.is_timestamp(column.type):
-        since = column.cast(pa.timestamp("ns")).cast(pa.int64()).to_numpy()
-        return np.asarray((since - since[0]) * 1e-9 if len(since) else since, dtype=float)
-    try:
-        values = column.cast(pa.float64()).to_numpy()
-    except (pa.ArrowInvalid, pa.ArrowNotImplementedError):
-        row, text = next((n, v) for n, v in enumerate(column.to_pylist(), 1) if not _number(v))
-        raise ValueError(f"row {row}: {name} = {text!r}: must be a number") from None
+    if name == TIME[0] and pa.types.is_timestamp(column.type):
+        return _seconds(column)
+    values = _numbers(name, column)
     if given is None:
-        return np.asarray(values, dtype=float)
+        return values
     try:
         return column_to_si(values, given, unit)
     except ValueError as reason:
         raise ValueError(f"column {name!r}: {reason}") from None
 
 
-def _number(value: object) -> bool:
+def _seconds(dates: pa.ChunkedArray) -> Array:
+    """Since the first of `dates` (rows,)."""
+    stamps = dates.to_numpy().astype("datetime64[ns]")
+    return np.asarray((stamps - stamps[:1]) / np.timedelta64(1, "s"), dtype=float)
+
+
+def _numbers(name: str, column: pa.ChunkedArray) -> Array:
+    """Values (rows,) of a column, NaN where it is empty."""
     try:
-        float(value)  # type: ignore[arg-type]
+        return np.asarray(column.cast(pa.float64()).to_numpy(), dtype=float)
+    except (pa.ArrowInvalid, pa.ArrowNotImplementedError):  # value by value, to tell of which
+        return np.array([_number(name, k, value) for k, value in enumerate(column.to_pylist(), 1)])
+
+
+def _number(name: str, row: int, value: Any) -> float:
+    try:
+        return math.nan if value is None else float(value)
     except (TypeError, ValueError):
-        return value is None
-    return True
+        raise ValueError(f"row {row}: {name} = {str(value)!r}: must be a number") from None
 
 
 def _step(time: Array) -> float:

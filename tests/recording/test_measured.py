@@ -25,6 +25,8 @@ SOUND = {
     "sun_planet_dte_rms_2 [um]": [0.1, 0.2, 0.3],
 }
 
+SOUND_DATES = np.datetime64("2026-11-22T10:00:00", "ms") + 20 * np.arange(3).astype("m8[ms]")
+
 
 def run(*arguments):
     return CliRunner().invoke(build_app(), list(map(str, arguments)))
@@ -98,6 +100,13 @@ def test_time_stamps_may_be_those_of_a_calendar(tmp_path):
     assert done.exit_code == 0 and "4 rows, one every 0.02 s" in done.output, done.output
 
 
+def test_a_table_as_spreadsheets_write_it_is_read(tmp_path):
+    text = "\ufefftime [min], power_loss [kW] ,operating_point\r\n 0.01, 0.05,a\r\n 0.02 ,,a\r\n"
+    (tmp_path / "rig.csv").write_bytes(text.encode())
+    done = run("import", tmp_path / "rig.csv", "--out", tmp_path / "rig")
+    assert done.exit_code == 0 and "2 rows, one every 0.6 s" in done.output, done.output
+
+
 def test_verify_says_that_it_was_measured_and_does_not_compare(tmp_path):
     bring_in(tmp_path, SOUND)
     done = run("verify", tmp_path / "rig", "--json", tmp_path / "out.json")
@@ -157,6 +166,11 @@ def with_time(*time):
         ),
         (with_column("lambda_ratio", [11, 11, 11]), "lambda_ratio = 11.0: must be a number within"),
         (with_column("backlash", [1e-7, 1e-7, 2e-7]), "rows 1 to 3: backlash goes from 1e-07 to"),
+        (
+            with_column("backlash [kg]", [1, 1, 1]),
+            "column 'backlash': [kg] is no unit that goes into",
+        ),
+        (with_column("efficiency", SOUND_DATES), "row 1: efficiency = '2026-11-22"),
         ({"power_loss": [1.0, 2.0]}, "column 'time': missing"),
         ({"time": [1.0, 2.0]}, "holds nothing that was measured"),
         ({"time": [1.0], "power_loss": [1.0]}, "1 rows: must be at least 2"),
