@@ -23,6 +23,7 @@ LABEL = "operating_point"
 UNREAD = ("stamp", "sequence", "interval", "planets")
 """Columns of an export that count messages; an import counts its own."""
 UNEVEN = 0.1  # of a step, by which a time stamp may be off: loggers round them
+_READERS = {".csv": csv.read_csv, ".parquet": parquet.read_table}
 _HEADING = re.compile(r"(.*?)\s*(?:\[(.*)\])?")
 
 
@@ -76,14 +77,13 @@ def read_measurements(path: Path, units: Mapping[str, str]) -> Measurements:
 
 
 def _read(path: Path) -> pa.Table:
+    if path.suffix not in _READERS:
+        raise ValueError(f"{path}: must end in {' or '.join(_READERS)}")
     try:
-        if path.suffix == ".parquet":
-            return parquet.read_table(path)
-        if path.suffix == ".csv":
-            return csv.read_csv(path)
-    except pa.ArrowInvalid as reason:
+        with path.open("rb") as stream:
+            return _READERS[path.suffix](stream)
+    except (pa.ArrowInvalid, UnicodeDecodeError) as reason:
         raise ValueError(f"{path}: {str(reason).splitlines()[0]}") from None
-    raise ValueError(f"{path}: must end in .csv or .parquet")
 
 
 def _named(heading: str, units: Mapping[str, str]) -> tuple[str, str | None]:

@@ -33,7 +33,7 @@ class Makers:
 
 @dataclass(frozen=True)
 class Measured:
-    """What a run has instead of makers that nothing has computed."""
+    """Stands for the makers of a run that nothing has computed: it was measured."""
 
     measured: str
     """Name of the table that it comes from."""
