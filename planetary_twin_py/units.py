@@ -6,6 +6,9 @@ import math
 from functools import cache
 from typing import Any
 
+import numpy as np
+from numpy.typing import NDArray
+
 
 def rpm(value: float) -> float:
     """Revolutions per minute in rad/s."""
@@ -16,7 +19,9 @@ def rpm(value: float) -> float:
 def _registry() -> Any:
     import pint  # Costs 0.2 s, and most values come without a unit.
 
-    return pint.UnitRegistry(autoconvert_offset_to_baseunit=True)
+    registry: Any = pint.UnitRegistry(autoconvert_offset_to_baseunit=True)
+    registry.define("newton_metre = newton * metre = Nm")  # else a number of metres
+    return registry
 
 
 def to_si(value: object, unit: str) -> object:
@@ -39,3 +44,23 @@ def to_si(value: object, unit: str) -> object:
         raise ValueError(f"{value!r} is not a quantity in {unit or '1'}") from None
     except Exception:
         raise ValueError(f"{value!r} is not a number with a unit") from None
+
+
+def column_to_si(values: NDArray[np.float64], given: str, unit: str) -> NDArray[np.float64]:
+    """Convert `values` in the unit `given`, e.g. "rpm", to the SI unit `unit`; "-" is that of 1.
+
+    A speed has an angle in its unit: "1/min" is refused for rad/s, lest a turn count as a radian.
+
+    Raises:
+        ValueError: `given` is no unit of the same quantity.
+    """
+    registry = _registry()
+    try:
+        source, target = (registry.Unit("" if name == "-" else name) for name in (given, unit))
+        alike = registry.get_root_units(source)[1] == registry.get_root_units(target)[1]
+    except Exception:
+        alike = False
+    if not alike:
+        raise ValueError(f"[{given}] is no unit that goes into {unit or '1'}")
+    converted = registry.Quantity(values, source).to(target).magnitude
+    return np.asarray(converted, dtype=float)

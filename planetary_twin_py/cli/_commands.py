@@ -45,7 +45,7 @@ class Commands(Mapping[str, Any]):
     def __init__(self) -> None:
         package = importlib.import_module(__package__)
         own = {
-            module.name: partial(_own, module.name)
+            module.name.rstrip("_"): partial(_own, module.name)
             for module in pkgutil.iter_modules(package.__path__)
             if not module.name.startswith("_")
         }
@@ -64,7 +64,8 @@ class Commands(Mapping[str, Any]):
 
 def _own(name: str) -> Any:
     module = importlib.import_module(f"{__package__}.{name}")
-    return _made(name, getattr(module, name), getattr(module, "CONTEXT", None))
+    # A file and a function cannot be called `import`, so an underscore follows.
+    return _made(name.rstrip("_"), getattr(module, name), getattr(module, "CONTEXT", None))
 
 
 def _added(entry: EntryPoint) -> Any:

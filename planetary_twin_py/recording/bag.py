@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import reprlib
+import tempfile
 import time
 from collections import Counter
 from collections.abc import Callable, Mapping
@@ -171,6 +172,20 @@ class BagWriter:
         self._clocks_noted = time.monotonic()
         if self._clocks is not None:
             self._file.note(CLOCKS_RECORD, self._clocks())
+
+
+def write_as(out: Path, write: Callable[[Path], Path]) -> Path:
+    """Have `write` make a bag folder `out`, or one file where that ends in .mcap; returns the file.
+
+    Raises:
+        FileExistsError: `out` exists.
+    """
+    if out.suffix != ".mcap":
+        return write(out)
+    if out.exists():
+        raise FileExistsError(17, "exists", str(out))
+    with tempfile.TemporaryDirectory(dir=out.parent, prefix=".") as folder:
+        return write(Path(folder) / out.stem).rename(out)
 
 
 def named_folder(directory: Path, name: str) -> Path:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any, NamedTuple
@@ -43,10 +44,11 @@ def read_events(path: Path, namespace: str, remarks: list[str]) -> Iterator[Even
 
 def _news(before: Any, state: Any) -> Iterator[str]:
     """In what an interval differs from the one before in its run."""
-    if before is None or state.tolerance != before.tolerance:
-        yield f"tolerance = {state.tolerance:g}"
-    if before is None or state.sample_rate != before.sample_rate:
-        yield f"waveform at {state.sample_rate:g} Hz"
+    for name, text in (("tolerance", "tolerance = {:g}"), ("sample_rate", "waveform at {:g} Hz")):
+        now = getattr(state, name)
+        measured = math.isnan(now)  # and not simulated, so that it has none
+        if not measured and (before is None or now != getattr(before, name)):
+            yield text.format(now)
     lost, already = _parted(state), [] if before is None else _parted(before)
     if lost and not already:
         yield f"contact is lost for a time at {', '.join(lost)}"

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-import tempfile
 import time
 from collections.abc import Callable
 from pathlib import Path
@@ -13,7 +12,7 @@ import yaml
 
 from ..scene import Scene
 from ..twin import TICKS
-from .bag import BagWriter
+from .bag import BagWriter, write_as
 from .compose import Composer
 from .definitions import topics_of
 from .origin import Origin, makers_here
@@ -44,12 +43,7 @@ def record(plan: Plan, out: Path, progress: Callable[[float], None] = lambda tim
         FileExistsError: `out` exists.
         OSError: it cannot be written.
     """
-    if out.suffix != ".mcap":
-        return _record(plan, out, progress)
-    if out.exists():
-        raise FileExistsError(17, "exists", str(out))
-    with tempfile.TemporaryDirectory(dir=out.parent, prefix=".") as folder:
-        return _record(plan, Path(folder) / out.stem, progress).rename(out)
+    return write_as(out, lambda folder: _record(plan, folder, progress))
 
 
 def _record(plan: Plan, folder: Path, progress: Callable[[float], None]) -> Path:

@@ -9,6 +9,7 @@ from __future__ import annotations
 import hashlib
 from dataclasses import asdict, dataclass
 from importlib.metadata import PackageNotFoundError, version
+from typing import Any
 
 import yaml
 
@@ -31,13 +32,21 @@ class Makers:
 
 
 @dataclass(frozen=True)
+class Measured:
+    """Stands for the makers of a run that nothing has computed: it was measured."""
+
+    measured: str
+    """Name of the table that it comes from."""
+
+
+@dataclass(frozen=True)
 class Origin:
     """A scene, when it began to run, and on what."""
 
     scene: Scene
     begins: int
     """ROS time of simulated time zero [ns]."""
-    makers: Makers
+    makers: Makers | Measured
 
     def text(self) -> str:
         """As it travels in a recording, in YAML."""
@@ -73,7 +82,13 @@ def read_origin(text: str) -> Origin:
         content = yaml.safe_load(text)
         scene = parse_scene(yaml.safe_dump(content["scene"], sort_keys=False))
         begins = int(content["begins"])
-        makers = Makers(content["kernels"], content["machine"], dict(content["software"]))
+        makers = _read_makers(content)
     except (yaml.YAMLError, KeyError, TypeError, ValueError) as reason:
         raise RecordingError(f"origin of the run: cannot be read: {reason}") from None
     return Origin(scene, begins, makers)
+
+
+def _read_makers(content: dict[str, Any]) -> Makers | Measured:
+    if "measured" in content:
+        return Measured(content["measured"])
+    return Makers(content["kernels"], content["machine"], dict(content["software"]))

@@ -13,6 +13,7 @@ from ..twin import TICKS
 from .bag import BagWriter
 from .branch import Branch, branched
 from .compose import Composer
+from .origin import Measured
 from .reader import SCENE_ATTACHMENT
 from .schedule import Run, messages_of, read_runs, without_gaps
 from .tape import Tape
@@ -44,7 +45,8 @@ def resimulate(
     """Simulate a run of the gearbox in `namespace` again, and write it into a new `folder`.
 
     Up to the branch the messages are as recorded, on the machine that recorded them to the last
-    bit. `progress` hears the simulated time reached, and that of the end [s].
+    bit; a run that was measured is simulated there, too. `progress` hears the simulated time
+    reached, and that of the end [s].
 
     Raises:
         RecordingError: nothing in the recording can be simulated again.
@@ -56,6 +58,8 @@ def resimulate(
     recorded = _chosen(read_runs(path, namespace, remarks), branch.run, remarks)
     recorded = replace(recorded, intervals=without_gaps(recorded, remarks))
     begins, run = branched(recorded, branch)
+    if isinstance(recorded.origin.makers, Measured):
+        remarks.append("was measured: what comes before the branch is simulated, too")
     _, state = next(messages_of(path, namespace, (STATE,), []))
     bag = BagWriter(folder)
     end = run.intervals[-1].end / TICKS

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from bisect import bisect_right
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
@@ -16,6 +17,10 @@ from .origin import Origin, read_origin
 from .records import RecordingError, files_of
 from .repeats import Repeats, unrepeated
 from .topics import ORIGIN, POINT, STATE
+
+# With which is simulated what was measured, and so has neither: those of `planetary-twin simulate`.
+TOLERANCE = 1e-4
+SAMPLE_RATE = 50_000.0  # [Hz]
 
 
 class Interval(NamedTuple):
@@ -127,8 +132,8 @@ class _Told:
                 stamp_of(message),
                 end - round(message.interval * TICKS),
                 end,
-                message.tolerance,
-                message.sample_rate,
+                _or(message.tolerance, TOLERANCE),
+                _or(message.sample_rate, SAMPLE_RATE),
             )
         )
 
@@ -176,6 +181,10 @@ class _Told:
                     f"from {before.time:g} s on, that run cannot be simulated again"
                 )
                 _cut(runs, before, after)
+
+
+def _or(value: float, default: float) -> float:
+    return default if math.isnan(value) else value
 
 
 def nanoseconds(ticks: int) -> int:

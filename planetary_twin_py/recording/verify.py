@@ -13,8 +13,9 @@ import numpy as np
 from ..window import Window
 from .again import Again
 from .fields import joint_fields, state_fields, waveform_fields
-from .origin import makers_here
-from .schedule import Interval, messages_of, read_runs
+from .origin import Measured, makers_here
+from .records import RecordingError
+from .schedule import Interval, Run, messages_of, read_runs
 from .topics import JOINTS, STATE, WAVEFORM
 
 BOUND = 10.0  # times the tolerance, by which other machines may differ; each keeps within 3
@@ -65,10 +66,11 @@ def verify(
 
     `progress` hears the simulated time [s] up to which all is compared.
     Raises:
-        RecordingError: nothing in the recording can be simulated again.
+        RecordingError: nothing in the recording can be simulated again, or it was measured.
     """
     verdict = Verdict()
     runs = read_runs(path, namespace, verdict.remarks)
+    _refuse_measured(path, runs)
     here = makers_here()
     verdict.same_makers = all(run.origin.makers == here for run in runs)
     again, strays = Again(runs, verdict.remarks), Counter[str]()
@@ -84,6 +86,17 @@ def verify(
         for topic, count in strays.items()
     ]
     return verdict
+
+
+def _refuse_measured(path: Path, runs: list[Run]) -> None:
+    """What no model has computed is not the same again, to the last bit or within a bound."""
+    for run in runs:
+        makers = run.origin.makers
+        if isinstance(makers, Measured):
+            raise RecordingError(
+                f"{path}: was measured (it comes from {makers.measured}) and not simulated, so "
+                "there is nothing to be the same; `fit` compares it with the model"
+            )
 
 
 def _compare(

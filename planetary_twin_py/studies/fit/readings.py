@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import pairwise
 from typing import Any, NamedTuple
@@ -88,19 +88,27 @@ def simulated(window: Window, begins: float) -> Interval:
 
 
 def read(name: str, intervals: Sequence[Interval], stretch: Stretch) -> Readings:
-    """The observable `name` over these intervals."""
+    """The observable `name` over these intervals, of those meshes where the recording tells it.
+
+    Raises:
+        ValueError: it tells it of none.
+    """
     if name == HARMONICS:
         return _harmonics(intervals, stretch)
-    rows = np.array([_row(name, interval) for interval in intervals])
+    told = ~np.isnan([_row(name, vars(state)) for state in stretch.states]).all(axis=0)
+    if not told.any():
+        raise ValueError(f"observe = {name}: is no number anywhere in this stretch")
+    rows = np.array([_row(name, interval.fields) for interval in intervals])
     ends = np.array([interval.end for interval in intervals])
-    return Readings(name, rows, _kinds(rows.shape[1]), _segments(ends, stretch))
+    kinds = _kinds(rows.shape[1])
+    return Readings(name, rows[:, told], kinds[told], _segments(ends, stretch))
 
 
-def _row(name: str, interval: Interval) -> Array:
+def _row(name: str, fields: Mapping[str, Any]) -> Array:
     if name in POWER_FLOW:
-        return np.array([interval.fields[name]], dtype=float)
-    planets = int(interval.fields["planets"])
-    return np.concatenate([interval.fields[f"{side}_{name}"][:planets] for side in SIDES])
+        return np.array([fields[name]], dtype=float)
+    planets = int(fields["planets"])
+    return np.concatenate([fields[f"{side}_{name}"][:planets] for side in SIDES])
 
 
 def _kinds(channels: int) -> NDArray[np.int64]:

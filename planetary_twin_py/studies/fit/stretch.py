@@ -9,6 +9,8 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+import numpy as np
+
 from ...recording.namespaces import choose_namespace
 from ...recording.records import RecordingError
 from ...recording.schedule import Change, Interval, Run, messages_of, read_runs, stamp_of
@@ -91,7 +93,8 @@ def read_stretch(
     runs = read_runs(path, chosen, remarks)
     if begin is None and end is None:
         run, intervals = longest_steady_part(runs)
-        intervals = [i for i in intervals if i.end <= intervals[0].begin + LONGEST * TICKS]
+        within = [i for i in intervals if i.end <= intervals[0].begin + LONGEST * TICKS]
+        intervals = intervals[: max(FEWEST, len(within))]
     else:
         run = max(runs, key=lambda run: length(run.intervals))
         intervals = between(run, begin or 0.0, math.inf if end is None else end)
@@ -155,18 +158,21 @@ def _start(run: Run, state: Any, reference: Interval | None) -> tuple[Scene, flo
 def _since_start_angles(scene: Scene, state: Any) -> float:
     """Time [s] since the teeth, and as nearly as may be the motor, stood as a run starts.
 
-    Each start stands at the same angles, so a start at that instant has the recorded phases.
+    Each start stands at the same angles, so a start at that instant has the recorded phases; 0
+    where a rig has not measured them.
     """
     first = Twin(scene).advance(1.0 / TICKS)
     at = {body: first.angle[k] for k, body in enumerate(first.bodies)}
     member = scene.drive.input.member
     turned = (getattr(state, f"{member}_angle") - at[member]) / (2.0 * math.pi)
     speed = getattr(state, f"{member}_speed") / (2.0 * math.pi)
+    meshed = state.sun_angle - at["sun"] - state.carrier_angle + at["carrier"]
+    rate = state.sun_speed - state.carrier_speed
+    if not np.isfinite([turned, speed, meshed, rate, state.mesh_frequency]).all():
+        return 0.0  # not measured
     if speed == 0.0 or state.mesh_frequency == 0.0:
         return 0.0
     since = (turned * math.copysign(1.0, speed)) % 1.0 / abs(speed)
-    meshed = state.sun_angle - at["sun"] - state.carrier_angle + at["carrier"]
-    rate = state.sun_speed - state.carrier_speed
     cycles = scene.gearset.teeth.sun * (meshed - rate * since) / (2.0 * math.pi)
     return since + (cycles - round(cycles)) * math.copysign(1.0, rate) / float(state.mesh_frequency)
 

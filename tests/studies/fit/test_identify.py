@@ -110,7 +110,7 @@ def test_far_into_a_run_the_simulation_begins_at_the_recorded_angles(tmp_path, m
         (Search(("backlash",), noise={"dte_mean": 1.0}), "noise = dte_mean: is not observed"),
         (Search(("backlash",), noise={"dte_rms": 0.0}), "must be above 0"),
         (Search(("backlash",), confidence=1.0), "confidence = 1.0: must be between 0 and 1"),
-        (Search(("backlash",), ("second_input_speed",)), "is no number somewhere"),
+        (Search(("backlash",), ("second_input_speed",)), "is no number anywhere"),
         (Search(("backlash", "lambda_ratio"), ("power_loss",)), "1 readings cannot tell 2"),
     ],
 )

@@ -1,0 +1,90 @@
+"""Parameters from tables as a rig writes them, whose truth is known."""
+
+import numpy as np
+import pyarrow as pa
+import pytest
+from pyarrow import csv, parquet
+from studies.fit.rig import PAPER, record
+
+import planetary_twin_py as pt
+from planetary_twin_py.recording.export import Export, export
+from planetary_twin_py.recording.measured import write_measured
+from planetary_twin_py.studies.fit import stretch
+from planetary_twin_py.studies.fit.identify import Search, identify
+from planetary_twin_py.studies.fit.stretch import read_stretch
+
+FREE = ("lambda_ratio", "input_torque")
+ELSEWHERE = {"lambda_ratio": 2.0, "input_torque": 45.0}
+
+
+def assert_told(found, **truth):
+    for place, parameter in enumerate(found.parameters):
+        low, high, _ = found.estimate.intervals[place]
+        assert found.estimate.told(place) and low < truth[parameter.name] < high
+        assert high - low < 0.2 * truth[parameter.name]
+
+
+@pytest.fixture(scope="module")
+def exported(tmp_path_factory):
+    """Of a gearbox whose film is thinner than that of the scene, with sensors of 0.3 %."""
+    folder = tmp_path_factory.mktemp("exported")
+    truth = PAPER.replace(lambda_ratio=0.7)
+    path = record(folder / "bag", truth, 0.3, seed=1, share=0.003)
+    export(path, Export(folder / "rig.parquet", topics=("gearbox_state",)))
+    return folder / "rig.parquet"
+
+
+def test_what_is_exported_imported_and_fitted_is_the_truth(exported, tmp_path):
+    write_measured(exported, PAPER, tmp_path / "rig")
+    found = identify(tmp_path / "rig", Search(FREE, start=ELSEWHERE, confidence=0.999))
+    assert_told(found, lambda_ratio=0.7, input_torque=63.0)
+    assert found.stretch.scene.operating_point.input_torque == pytest.approx(63.0, rel=0.005)
+
+
+@pytest.mark.slow
+def test_readings_of_one_mesh_are_enough(exported, tmp_path):
+    table = parquet.read_table(exported)
+    table = table.select(["simulated_time", "power_loss", "planet_ring_dte_rms_2"])
+    csv.write_csv(table, tmp_path / "rig.csv")
+    write_measured(tmp_path / "rig.csv", PAPER, tmp_path / "rig")
+    found = identify(tmp_path / "rig", Search(FREE, start=ELSEWHERE, confidence=0.999))
+    assert [readings.values.shape for readings in found.yardstick.recorded] == [(30, 1), (30, 1)]
+    assert_told(found, lambda_ratio=0.7, input_torque=63.0)
+
+
+@pytest.mark.parametrize(
+    ("observe", "told"),
+    [
+        ("dte_peak", "observe = dte_peak: is no number anywhere in this stretch"),
+        ("dte_waveform", "observe = dte_waveform: there is no waveform in this stretch"),
+        ("power_loss", "observe = power_loss: is no number somewhere in this stretch"),
+    ],
+)
+def test_what_was_not_measured_cannot_be_observed(tmp_path, observe, told):
+    loss = np.append(np.full(9, 75.0), np.nan)
+    table = pa.table({"time": np.arange(10) / 100.0, "power_loss": loss})
+    csv.write_csv(table, tmp_path / "rig.csv")
+    write_measured(tmp_path / "rig.csv", PAPER, tmp_path / "rig")
+    with pytest.raises(ValueError, match=told):
+        identify(tmp_path / "rig", Search(("lambda_ratio",), (observe,)))
+
+
+def test_without_angles_a_late_stretch_begins_in_steady_running(exported, tmp_path, monkeypatch):
+    monkeypatch.setattr(stretch, "HISTORY", 0.1)
+    table = parquet.read_table(exported).select(["simulated_time", "power_loss", "input_torque"])
+    parquet.write_table(table, tmp_path / "rig.parquet")
+    write_measured(tmp_path / "rig.parquet", PAPER, tmp_path / "rig")
+    found = identify(
+        tmp_path / "rig", Search(("lambda_ratio",), ("power_loss",), confidence=0.999),
+        begin=0.2, end=0.3,
+    )  # fmt: skip
+    assert found.stretch.begins == pytest.approx(0.1)
+    assert_told(found, lambda_ratio=0.7)
+
+
+def test_of_slow_readings_as_many_are_looked_at_as_tell_their_noise(tmp_path):
+    table = pa.table({"time": np.arange(60.0), "power_loss": np.full(60, 75.0)})
+    csv.write_csv(table, tmp_path / "rig.csv")
+    write_measured(tmp_path / "rig.csv", pt.load_scene("paper"), tmp_path / "rig")
+    found = read_stretch(tmp_path / "rig")
+    assert (found.start, found.end) == (0.0, 5.0)
