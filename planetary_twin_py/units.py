@@ -36,20 +36,19 @@ def to_si(value: object, unit: str) -> object:
         return float(value)  # YAML reads "2e8" as text
     except ValueError:
         pass
-    import pint
-
+    target = _registry().Unit(unit)
     try:
-        return float(_registry().Quantity(value).to(unit or "dimensionless").magnitude)
-    except pint.DimensionalityError:
-        raise ValueError(f"{value!r} is not a quantity in {unit or '1'}") from None
+        quantity = _registry().Quantity(value)
+        alike = _alike(quantity.units, target)
     except Exception:
         raise ValueError(f"{value!r} is not a number with a unit") from None
+    if not alike:
+        raise ValueError(f"{value!r} is not a quantity in {unit or '1'}")
+    return float(quantity.to(target).magnitude)
 
 
 def column_to_si(values: NDArray[np.float64], given: str, unit: str) -> NDArray[np.float64]:
     """Convert `values` in the unit `given`, e.g. "rpm", to the SI unit `unit`; "-" is that of 1.
-
-    A speed has an angle in its unit: "1/min" is refused for rad/s, lest a turn count as a radian.
 
     Raises:
         ValueError: `given` is no unit of the same quantity.
@@ -57,10 +56,19 @@ def column_to_si(values: NDArray[np.float64], given: str, unit: str) -> NDArray[
     registry = _registry()
     try:
         source, target = (registry.Unit("" if name == "-" else name) for name in (given, unit))
-        alike = registry.get_root_units(source)[1] == registry.get_root_units(target)[1]
+        alike = _alike(source, target)
     except Exception:
         alike = False
     if not alike:
         raise ValueError(f"[{given}] is no unit that goes into {unit or '1'}")
     converted = registry.Quantity(values, source).to(target).magnitude
     return np.asarray(converted, dtype=float)
+
+
+def _alike(source: Any, target: Any) -> bool:
+    """Whether units are of the same quantity.
+
+    A speed has an angle in its unit: "1/min" is none of rad/s, lest a turn count as a radian.
+    """
+    registry = _registry()
+    return bool(registry.get_root_units(source)[1] == registry.get_root_units(target)[1])

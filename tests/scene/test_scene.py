@@ -43,6 +43,13 @@ def test_quantities_are_read_in_their_units(written, meant):
     assert scene.operating_point.backlash == pytest.approx(meant)
 
 
+@pytest.mark.parametrize("written", ["1000 1/min", "16 Hz", "1000 m", "fast"])
+def test_a_speed_says_whether_it_counts_turns_or_radians(written):
+    with pytest.raises(pt.SceneError, match="input_speed") as refusal:
+        pt.load_scene("paper").replace(input_speed=written)
+    assert repr(written) in str(refusal.value) and "\n" not in str(refusal.value)
+
+
 CRACK = {"kind": "crack", "gear": "sun", "tooth": 0, "stiffness_loss": 0.2}
 
 
