@@ -7,6 +7,8 @@ from typing import Any
 
 import pytest
 import yaml
+from ament_index_python.packages import get_package_share_directory
+from planetary_twin_msgs.msg import GearboxState
 from rcl_interfaces.msg import Parameter, ParameterType, SetParametersResult
 from rcl_interfaces.srv import (
     GetParameters,
@@ -102,3 +104,19 @@ def test_a_dumped_file_gives_its_values_back(peer: Peer, start: Start, tmp_path:
         answer = set_all(peer, [p for p in sent if p.name != name] + [wrong])
         assert not answer.successful and answer.reason.startswith(reason), answer.reason
         assert values(peer) == changed
+
+
+def test_a_start_parameter_that_no_node_has_is_warned_of_and_no_other(
+    peer: Peer, start: Start
+) -> None:
+    """Those of the packaged file are all known."""
+    config = Path(get_package_share_directory("planetary_twin")) / "config" / "paper.yaml"
+    given = ("--ros-args", "--params-file", str(config), "-p", "backlsh:=3e-7")
+    process = start("planetary_twin.composed", *given)
+    states = peer.listen(GearboxState, f"{TWIN}/gearbox_state")
+    peer.until(lambda: states, 120.0)
+    process.terminate()
+    _, log = process.communicate(timeout=20)
+    told = [line for line in log.splitlines() if "no such parameter" in line]
+    assert len(told) == 1
+    assert told[0].endswith("backlsh: no such parameter, the nearest is backlash")

@@ -49,11 +49,12 @@ def generate_launch_description() -> LaunchDescription:
 
 
 def _node(executable: str, condition: Substitution, **options: Shutdown) -> Node:
-    given = {
-        "scene": ParameterValue(LaunchConfiguration("scene"), value_type=str),
-        "rate_factor": ParameterValue(LaunchConfiguration("rate_factor"), value_type=float),
-        "wait_for": ParameterValue(_RECORDED_BY, value_type=str),
-    }
+    given = {"scene": ParameterValue(LaunchConfiguration("scene"), value_type=str)}
+    if executable != "logger":
+        given |= {
+            "rate_factor": ParameterValue(LaunchConfiguration("rate_factor"), value_type=float),
+            "wait_for": ParameterValue(_RECORDED_BY, value_type=str),
+        }
     return Node(
         package="planetary_twin",
         executable=executable,

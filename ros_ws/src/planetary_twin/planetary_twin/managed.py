@@ -6,7 +6,8 @@ import sys
 import threading
 import time
 import traceback
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping
+from difflib import get_close_matches
 from typing import Any
 
 import rclpy
@@ -27,6 +28,7 @@ from .standard_error import never_waiting
 NAMESPACE = "planetary_twin"
 RCLError = rclpy_implementation.RCLError
 _SOON = 1e-3  # [s]
+_QOS = "qos_overrides."  # of topics, which ROS declares where it finds them
 _QUIET = 1.0  # [s] between two log lines that a client can cause
 _REQUESTS = QoSProfile(depth=100)
 
@@ -242,6 +244,7 @@ def _run_to_end(
                 given = [executors[-1], node]
                 beside.append(threading.Thread(target=_serve_beside, args=given, name=name))
                 beside[-1].start()
+        _warn_of_unknown(nodes.values())
         executors[-1].spin()
     except (KeyboardInterrupt, ExternalShutdownException):
         pass
@@ -277,6 +280,18 @@ def wake_after_shutdown(executors: list[SingleThreadedExecutor]) -> None:
         time.sleep(_SOON)
     for executor in list(executors):
         executor.wake()
+
+
+def _warn_of_unknown(nodes: Iterable[ManagedNode]) -> None:
+    """Tell of parameters given at the start that no node here has: ROS ignores them silently."""
+    known = [name for node in nodes for name in node._parameters]
+    told = set(known)
+    for node in nodes:
+        for name in sorted(node._parameter_overrides.keys() - told):
+            told.add(name)
+            if not name.startswith(_QOS):
+                near = get_close_matches(name, known, 1, 0.0)[0]
+                node.get_logger().warning(f"{name}: no such parameter, the nearest is {near}")
 
 
 def _serve_beside(executor: SingleThreadedExecutor, node: ManagedNode) -> None:

@@ -132,7 +132,8 @@ def watch(namespace: str, duration: float | None) -> None:
     """Show the twin for `duration` [s], or until interrupted."""
     console = make_console()
     with Monitor(namespace) as monitor:
-        monitor.wait(lambda: monitor.state is not None, _SILENCE)
+        with console.status(f"looking for a twin in {monitor.namespace}"):
+            monitor.wait(lambda: monitor.state is not None, _SILENCE)
         end = math.inf if duration is None else time.monotonic() + duration
         if not console.is_terminal:
             _print(monitor, console, end)
