@@ -72,8 +72,10 @@ studies: setup
 		--set input_torque=10 --set backlash=20um --set mesh.damping.loss_factor=0.006 \
 		--set drive.speed_limit=14000rpm --cycles 40 --tolerance 1e-3 --out docs/bifurcation.png
 
-# The site; a warning, so a broken link too, is an error.
+# The site, and the pages of its reference that are made from the code; a warning, so a broken link
+# too, is an error.
 docs: setup
+	cd docs && ../$(BIN)/python -m _generate
 	$(BIN)/sphinx-build --quiet --fail-on-warning --keep-going docs docs/_build/site
 
 lock: setup

@@ -1,17 +1,14 @@
-"""The site: Markdown by MyST, pages made from the code by `_generate`, warnings are errors.
+"""The site: Markdown by MyST, pages of the reference as `_generate` makes them from the code,
+warnings are errors.
 
 MathJax sets equations in the reader's browser, which loads it from the network; nothing else does,
 and the build does not.
 """
 
-import sys
 from importlib.metadata import version as version_of
-from pathlib import Path
 
 from sphinx.application import Sphinx
 from sphinx.ext.napoleon import Config, GoogleDocstring
-
-sys.path.insert(0, str(Path(__file__).parent))
 
 project = "planetary_twin"
 author = "the planetary_twin authors"
@@ -45,8 +42,5 @@ def read_sections(
 
 
 def setup(app: Sphinx) -> None:
-    """Have the pages of the reference made before any is read."""
-    from _generate import write_pages
-
-    app.connect("builder-inited", lambda app: write_pages(Path(app.srcdir) / "reference"))
+    """Have docstrings read."""
     app.connect("autodoc-process-docstring", read_sections)

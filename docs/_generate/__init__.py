@@ -11,11 +11,3 @@ PAGES = {
     "scene-fields.md": scene_fields.page,
     "topics-and-services.md": topics_and_services.page,
 }
-
-
-def write_pages(folder: Path) -> None:
-    """Write every page that is new or has changed, so that a second build is short."""
-    for name, page in PAGES.items():
-        file, text = folder / name, page()
-        if not file.exists() or file.read_text() != text:
-            file.write_text(text)

@@ -119,7 +119,10 @@ def _tell(console: Console, found: Identified) -> None:
         told = estimate.told(k)
         source = ("profile" if profiled else "curvature") if told else "tried"
         value = f"{estimate.values[k]:.6g}" if told else "not told"
-        table.add_row(parameter.name, value, f"{low:.6g} to {high:.6g}", parameter.unit, source)
+        span = f"{low:.6g} to {high:.6g}"
+        if math.isnan(low):
+            span, source = "-", "only together"
+        table.add_row(parameter.name, value, span, parameter.unit, source)
     console.print(table)
     console.print(f"{found.simulations} simulations in {found.wall_time:.1f} s", highlight=False)
 

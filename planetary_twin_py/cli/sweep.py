@@ -11,6 +11,7 @@ import typer
 
 from ._arguments import SceneArgument, ToleranceOption
 from ._fail import fail, need, remark
+from ._settings import settings
 from ._study import PICTURES, TABLES, check_suffix, progress, put
 
 if TYPE_CHECKING:
@@ -19,6 +20,7 @@ if TYPE_CHECKING:
     from ..studies.work import Crew, Failure
 
 # Fields of the scene are options, too; click passes on what it does not know.
+FIXED = "set"  # is none of them
 CONTEXT = {"allow_extra_args": True, "ignore_unknown_options": True}
 
 
@@ -48,7 +50,8 @@ def sweep(
     Values are a list (1000rpm,2000rpm), a grid (1:2:5: five values from 1 to 2) or one of equal
     ratios (0.01:0.1:5:log); with --samples also a range (1:2, 0.01:0.1:log). What is done survives
     a kill: the same command goes on where it was. Fields with a dot are given by it:
-    --mesh.damping.loss_factor 0.005:0.02:4; `planetary-twin fields` lists them.
+    --mesh.damping.loss_factor 0.005:0.02:4; `planetary-twin fields` lists them. --set NAME=VALUE,
+    repeatable, changes the scene at all points: --set drive.speed_limit=30000rpm.
 
     Example: planetary-twin sweep paper --backlash 2e-7:3.5e-7:4 --lambda-ratio 1:2:5
     --input-speed 1000rpm,2000rpm --out study.parquet
@@ -60,13 +63,15 @@ def sweep(
     from ..studies.sweep import sweep as run
 
     try:
-        loaded = load_scene(scene)
-        axes = [read_axis(loaded, field, text) for field, text in _fields(context.args)]
-        settings = Settings(duration, settling, tolerance=tolerance)
+        given = list(_fields(context.args))
+        fixed = settings([text for name, text in given if name == FIXED])
+        loaded = load_scene(scene).replace(**fixed)
+        axes = [read_axis(loaded, field, text) for field, text in given if field != FIXED]
+        how = Settings(duration, settling, tolerance=tolerance)
         study = (
-            grid(loaded, axes, settings)
+            grid(loaded, axes, how)
             if samples is None
-            else latin_hypercube(loaded, axes, samples, settings=settings)
+            else latin_hypercube(loaded, axes, samples, settings=how)
         )
         journal = out.with_name(f"{out.name}.journal")
         with _crew(scheduler) as crew, _progress(study) as hear:

@@ -21,6 +21,13 @@ from .operating_point import TUNABLES, OperatingPoint, Tunable
 from .quantity import SceneError, Section, explain
 from .supports import Supports
 
+_LIMITS = {  # fields of the drive that bound a quantity
+    "input_speed": "speed_limit",
+    "second_input_speed": "speed_limit",
+    "input_torque": "torque_limit",
+    "torque_ripple": "torque_limit",
+}
+
 
 class Scene(Section):
     """A gearset, its laws, its drive and the point it runs at."""
@@ -63,7 +70,8 @@ class Scene(Section):
         for tunable in self.tunables.values():
             value = getattr(self.operating_point, tunable.name)
             if not tunable.minimum <= value <= tunable.maximum:
-                raise ValueError(f"{tunable.name} = {value!r}: {tunable.range}")
+                why = f", drive.{_LIMITS[tunable.name]}" if tunable.name in _LIMITS else ""
+                raise ValueError(f"{tunable.name} = {value!r}: {tunable.range}{why}")
         return self
 
     @model_validator(mode="after")
@@ -83,14 +91,8 @@ class Scene(Section):
     @property
     def tunables(self) -> dict[str, Tunable]:
         """What may change while this scene runs, each with its range."""
-        limits = {
-            "input_speed": self.drive.speed_limit,
-            "second_input_speed": self.drive.speed_limit,
-            "input_torque": self.drive.torque_limit,
-            "torque_ripple": self.drive.torque_limit,
-        }
         return {
-            name: tunable.within(limits[name]) if name in limits else tunable
+            name: tunable.within(getattr(self.drive, _LIMITS[name])) if name in _LIMITS else tunable
             for name, tunable in TUNABLES.items()
         }
 

@@ -28,6 +28,16 @@ def test_any_field_is_an_option_and_what_is_done_is_cleared_away(tmp_path):
     assert len(table) == 4 and list(tmp_path.iterdir()) == [out]
 
 
+def test_what_is_set_holds_at_every_point(tmp_path):
+    out = tmp_path / "study.parquet"
+    fixed = ["--set", "drive.speed_limit=20000rpm", "--set=lambda_ratio=2"]
+    done = run("paper", *fixed, "--input-speed", "11000rpm,12000rpm", "--out", out, *QUICK)
+    assert done.exit_code == 0, done.output
+    table = pyarrow.parquet.read_table(out)
+    assert table["sun_planet_lambda_ratio"].to_pylist() == pytest.approx([2.0, 2.0], rel=1e-12)
+    assert table["mesh_frequency"].to_pylist() == pytest.approx([5500.0, 6000.0], rel=1e-3)
+
+
 def test_points_are_drawn_where_samples_are_asked_for(tmp_path):
     out = tmp_path / "study.csv"
     done = run("paper", "--backlash", "0.1um:1um:log", "--samples", 3, "--out", out, *QUICK)

@@ -1,5 +1,6 @@
 """The site is built without a warning: no broken link, no missing picture, no page left over."""
 
+import importlib
 import re
 import runpy
 import subprocess
@@ -48,6 +49,13 @@ def test_reference_names_every_public_object():
     told = (ROOT / "docs/reference/python.md").read_text()
     named = ["TUNABLES", *re.findall(r"^\.\. auto\w+:: (\w+)$", told, re.MULTILINE)]
     assert sorted(named) == sorted(pt.__all__)
+
+
+def test_pages_of_the_reference_are_those_that_the_code_makes(monkeypatch):
+    monkeypatch.syspath_prepend(ROOT / "docs")
+    pages = importlib.import_module("_generate").PAGES
+    for name, page in pages.items():
+        assert (ROOT / "docs/reference" / name).read_text() == page(), "make docs writes them"
 
 
 def test_picture_of_the_architecture_is_the_one_that_is_drawn():

@@ -67,7 +67,10 @@ CRACK = {"kind": "crack", "gear": "sun", "tooth": 0, "stiffness_loss": 0.2}
         ({"gearset__held": "planet"}, ["gearset.held", "planet", "carrier"]),
         ({"gearset__held": "sun"}, ["drive.input.member", "sun"]),
         ({"gearset__held": "none"}, ["gearset.held", "'none'", "drive.second_input"]),
-        ({"operating_point__input_speed": 1200.0}, ["input_speed", "within -1100 and 1100 rad/s"]),
+        (
+            {"operating_point__input_speed": 1200.0},
+            ["input_speed", "within -1100 and 1100 rad/s, drive.speed_limit"],
+        ),
         ({"operating_point__input_torque": -1e4}, ["input_torque", "within -1000 and 1000 N m"]),
         ({"operating_point__second_input_speed": 1.0}, ["second_input_speed", "no second input"]),
         ({"mesh__sun_planet_stiffness": None}, ["mesh", "sun_planet_stiffness", "missing"]),

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 
@@ -20,7 +21,8 @@ class Estimate:
     values: Array
     """(p,); without meaning where not told."""
     intervals: tuple[Interval, ...]
-    """Where the truth lies; of what is not told, values tried with the others held."""
+    """Where the truth lies; of what is not told, values tried with the others held, NaN where
+    several are told only together."""
     correlation: Array
     """(p, p), NaN beside what is not told."""
     untold: tuple[tuple[int, ...], ...]
@@ -58,8 +60,10 @@ def conclude(
     told = split(minimum, parameters, rise**0.5)
     found = intervals(residuals, parameters, minimum, told, rise)
     for k in range(len(parameters)):
-        if told.lost(k):
+        if (k,) in told.untold:
             found[k] = Interval(*unseen(residuals, parameters, minimum, k, rise), True)
+        elif told.lost(k):
+            found[k] = Interval(math.nan, math.nan, True)
     bound = tuple(
         bool(min(value - p.low, p.high - value) < AT_BOUND * p.scale)
         for value, p in zip(minimum.values, parameters, strict=True)
