@@ -1,7 +1,5 @@
 """Pages of the reference that are made from the code, each by a module of its own."""
 
-from pathlib import Path
-
 from . import command_line, interfaces, nodes, scene_fields, topics_and_services
 
 PAGES = {
