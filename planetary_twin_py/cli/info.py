@@ -74,16 +74,18 @@ def _tell(console: Console, found: Info) -> None:
 
     table = Table(box=None, pad_edge=False)
     table.add_column("topic", no_wrap=True)
-    for title in ("recorded", "lost", "rate [Hz]", r"gap \[s]"):
+    for title in ("recorded", "lost", "before", "rate [Hz]", r"gap \[s]"):
         table.add_column(title, justify="right", no_wrap=True)
     table.add_column("type", overflow="fold")
     for name, topic in sorted(found.topics.items()):
-        lost = "unknown" if topic.lost is None else str(topic.lost)
+        lost = "unknown" if topic.lost is None else str(topic.lost - topic.before)
         rate, gap = f"{topic.rate:.2f}", f"{topic.longest_gap * 1e-9:.3f}"
         if topic.recorded < 2:
             rate = gap = "-"
-        figures = (str(topic.recorded), lost, rate, gap, topic.type.rpartition("/")[2])
-        table.add_row(name, *figures, style="red" if topic.lost else None)
+        counts = str(topic.recorded), lost, str(topic.before)
+        missing = topic.lost is not None and topic.lost > topic.before
+        row = name, *counts, rate, gap, topic.type.rpartition("/")[2]
+        table.add_row(*row, style="red" if missing else None)
     console.print(table)
     console.print()
     for path in found.files:

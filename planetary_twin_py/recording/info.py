@@ -35,6 +35,8 @@ class TopicInfo:
     recorded: int = 0
     lost: int | None = None
     """Messages published but not received, by the recorder's account; None without one."""
+    before: int = 0
+    """Of these, published before the recording heard the first one."""
     first: int = 0
     last: int = 0
     longest_gap: int = 0
@@ -87,6 +89,7 @@ class Info:
                 "published": topic.recorded + (topic.lost or 0),
                 "recorded": topic.recorded,
                 "lost": topic.lost,
+                "before": topic.before,
                 "rate_hz": None if math.isnan(topic.rate) else topic.rate,
                 "longest_gap_s": topic.longest_gap * 1e-9,
             }
@@ -193,6 +196,7 @@ class _Told:
         for account in accounts:
             if topic := self.info.topics.get(account["topic"]):
                 topic.lost = (topic.lost or 0) + int(account["lost"])
+                topic.before += int(account["lost"]) - int(account["missed"])
 
     def _learn(self, topic: str, message: Any) -> None:
         """Take what a message tells of the run."""

@@ -146,7 +146,8 @@ class _Told:
         if not runs:
             raise RecordingError(
                 f"{path}: holds no run from its start with its origin ({ORIGIN}) and its changes, "
-                "so nothing can be simulated again"
+                "so nothing can be simulated again; what begins later, by ~/start or ~/snapshot, "
+                "holds none"
             )
         return runs
 

@@ -36,12 +36,29 @@ def stalled(domain: int, tmp_path: Path) -> Iterator[subprocess.Popen[bytes]]:
     os.close(reader)
 
 
+SHARED = """
+import os
+from planetary_twin.standard_error import never_waiting
+with never_waiting():
+    os.write(2, b"of the node\\n")
+"""
+
+
+def test_lines_in_a_file_that_others_write_into_stay(tmp_path: Path) -> None:
+    file = tmp_path / "log"
+    with file.open("wb", buffering=0) as log:
+        log.write(b"before\n")
+        subprocess.run([sys.executable, "-c", SHARED], stderr=log, check=True)
+        log.write(b"after\n")
+    assert file.read_text() == "before\nof the node\nafter\n"
+
+
 def test_its_lines_come_where_somebody_reads(peer: Peer, start: Start) -> None:
     states = peer.listen(GearboxState, f"{TWIN}/gearbox_state")
     node = start("planetary_twin.simulation", "--ros-args", "-p", "rate_factor:=1e9")
     _, errors = node.communicate(timeout=60.0)
     assert node.returncode == 1
-    assert "rate_factor out of range" in errors
+    assert "rate_factor = 1000000000.0: must be a number within 0 and 100" in errors
     node = start("planetary_twin.simulation")
     peer.until(lambda: len(states) > 300, 60.0)
     node.terminate()

@@ -172,6 +172,18 @@ def test_nonsense_at_start_ends_in_one_line(start: Start, given: str) -> None:
     assert given.split(":=")[1] in errors
 
 
+def test_what_launch_starts_with_leaves_the_operating_point_to_the_scene(
+    peer: Peer, start: Start
+) -> None:
+    file = ROOT / "ros_ws/src/planetary_twin/config/twin.yaml"
+    given = ("--ros-args", "--params-file", str(file), "-p", "scene:=lightly_loaded")
+    start("planetary_twin.simulation", *given)
+    points = peer.listen(OperatingPoint, f"{TWIN}/operating_point", LATCHED)
+    point = peer.until(lambda: points, 120.0)[0]
+    scene = pt.load_scene("lightly_loaded").operating_point
+    assert {name: getattr(point, name) for name in pt.TUNABLES} == scene.model_dump()
+
+
 def test_the_shipped_parameter_file_is_the_packaged_scene(peer: Peer, start: Start) -> None:
     file = ROOT / "ros_ws/src/planetary_twin/config/paper.yaml"
     start("planetary_twin.simulation", "--ros-args", "--params-file", str(file))

@@ -48,6 +48,7 @@ class Reports:
     [
         (10.0, 0.0, {}, DiagnosticStatus.OK, "keeps up"),
         (9.0, 0.0, {}, DiagnosticStatus.WARN, "falls behind: real time x 0.900, 0 overruns"),
+        (9.981, 0.0, {}, DiagnosticStatus.OK, "keeps up"),
         (10.0, 0.0, {"overruns": 3}, DiagnosticStatus.WARN, "falls behind: real time x 1.000, 3 "),
         (4.0, 0.0, {}, DiagnosticStatus.ERROR, "falls far behind: real time x 0.400"),
         (4.0, 0.0, {"paused": True}, DiagnosticStatus.OK, "keeps up"),
@@ -61,6 +62,16 @@ def test_the_level_says_how_far_behind_it_is(
     status = Reports()(simulated, ago, **more).status[0]
     assert status.level == level
     assert status.message.startswith(text)
+
+
+def test_where_two_looks_fall_within_an_interval_is_no_lag() -> None:
+    """Of a second between them, one shows 98 intervals and another 102."""
+    reports = Reports()
+    reports(0.0, 1.0)
+    assert reports(0.985, 0.0).status[0].level == DiagnosticStatus.OK
+    reports = Reports()
+    reports(0.0, 1.0)
+    assert reports(0.97, 0.0).status[0].level == DiagnosticStatus.WARN
 
 
 def test_a_twin_that_stands_still_has_no_speed() -> None:

@@ -16,7 +16,7 @@ from launch_ros.actions import Node
 from launch_ros.parameter_descriptions import ParameterValue
 from launch_ros.substitutions import FindPackageShare
 
-_CONFIG = PathJoinSubstitution([FindPackageShare("planetary_twin"), "config", "paper.yaml"])
+_CONFIG = PathJoinSubstitution([FindPackageShare("planetary_twin"), "config", "twin.yaml"])
 _DOMAIN = EnvironmentVariable("ROS_DOMAIN_ID", default_value="0")
 _ARGUMENTS = (
     ("scene", "paper", "packaged scene, or path of a YAML file"),

@@ -31,6 +31,10 @@ class Audience:
     def begin(self) -> None:
         """Count patience from now on."""
         self._since = time.monotonic()
+        if not self._there:
+            self._node.get_logger().info(
+                f"wait_for = {self._name}: waits until it has subscribed, {PATIENCE:g} s at most"
+            )
 
     def there(self) -> bool:
         """Whether it is there, has been before, or is waited for no longer."""

@@ -102,7 +102,7 @@ class LiveTwin:
 
     def start(self) -> Progress:
         """Begin at the twin's present time; returns where that is."""
-        begun = self.progress = self._standing()._replace(cpu=0.0, state=State.RUNNING)
+        begun = self.progress = self._standing()._replace(cpu=0.0)
         self._thread.start()
         return begun
 

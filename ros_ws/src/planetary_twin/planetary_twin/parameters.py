@@ -245,4 +245,6 @@ def _declare_number(
     given = node.declare_parameter(name, default, ParameterDescriptor(dynamic_typing=True)).value
     descriptor.type = ParameterType.PARAMETER_DOUBLE
     value = Parameter(name, Parameter.Type.DOUBLE, number(name, given))
+    for limits in descriptor.floating_point_range:
+        _check_within(limits, name, value.value)
     return float(node.set_descriptor(name, descriptor, value.get_parameter_value()).double_value)

@@ -15,6 +15,7 @@ from .live import Progress, State
 from .reports import REAL_TIME
 
 _TOLERATED_LAG = 0.01  # share of the wanted rate; below it the real-time factor is a warning
+_TOLERATED_INTERVALS = 2.0  # by which two looks may differ in any case: where they fall decides
 _BROKEN = 0.5  # share of the wanted rate; below it the real-time factor is an error
 _SHORTEST = 0.5  # [s] over less than this, one late wake-up would already look like a lag
 _STALL = 2.0  # [s] beyond its time, after which an interval counts as one that may never end
@@ -126,7 +127,9 @@ class RealTimeReport:
         if not stood and now.wall - self._last.wall >= _SHORTEST:
             if recent < _BROKEN * self._rate_factor:
                 return FALLS_FAR_BEHIND
-            if recent < (1.0 - _TOLERATED_LAG) * self._rate_factor:
+            wall = now.wall - self._last.wall
+            lag = wall * (1.0 - recent / self._rate_factor)
+            if lag > max(_TOLERATED_LAG * wall, _TOLERATED_INTERVALS * self._period):
                 return FALLS_BEHIND
         if now.overruns > self._last.overruns:
             return FALLS_BEHIND

@@ -161,8 +161,14 @@ class Recorder:
         except OSError as reason:
             sink.abandon()
             raise Refused(_told(sink.file, reason)) from None
-        # Under a name of its own: a signal has shut down what the node's name would publish to.
-        get_logger("recording").info(f"{sink.file}: {_summary(taps.accounts)}")
+        text = f"{sink.file}: {_summary(taps.accounts)}"
+        # A signal may have shut down what the node's own logger publishes to.
+        ours = self._node.context.ok()
+        logger = self._node.get_logger() if ours else get_logger("recording")
+        if any(account.missed for account in taps.accounts.values()):
+            logger.warning(text)
+        else:
+            logger.info(text)
 
     def _open(self, sink: BagWriter | Ring) -> None:
         if self._scene:
@@ -229,5 +235,7 @@ def _told(file: Path, reason: OSError) -> str:
 
 def _summary(accounts: dict[str, TopicAccount]) -> str:
     recorded = sum(account.recorded for account in accounts.values())
-    losses = ", ".join(f"{name} {a.lost}" for name, a in accounts.items() if a.lost)
-    return f"recorded {recorded} messages, lost {losses or 'none'}"
+    losses = ", ".join(f"{name} {a.missed}" for name, a in accounts.items() if a.missed)
+    early = ", ".join(f"{n} {a.lost - a.missed}" for n, a in accounts.items() if a.lost > a.missed)
+    text = f"recorded {recorded} messages, lost {losses or 'none'}"
+    return f"{text}; published before it began: {early}" if early else text

@@ -96,6 +96,8 @@ class Replay(ManagedNode):
 
     def activate(self) -> None:
         """Begin as soon as subscribers had time to be found, or go on."""
+        if not self.ready():
+            self._listener.say(f"looking for subscribers for {_DISCOVERY:g} s")
         self._player.start(self.get_parameter(_RATE).value)
         self._active = True
 

@@ -80,6 +80,7 @@ class Simulation(ManagedNode):
         self._live = LiveTwin(twin, 1.0 / given.rate, given.rate_factor, affordable, self)
         self._report = self._new_report(twin, self._live.start())
         self._telemetry.describe(self._urdf)
+        self.get_logger().info(f"runs {twin.scene.name} from {twin.time:g} s on")
         if not self._telemetry.ready():
             self.get_logger().warning("use_sim_time: waits for the first message on /clock")
 
