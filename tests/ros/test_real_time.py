@@ -26,7 +26,7 @@ class Reports:
     def __init__(self) -> None:
         self.log = [pt.Change(0.0, POINT, 1e-3, FULL)]
         self._now = time.monotonic()
-        begun = Progress(0.0, self._now - 10.0, 0.0, 0, False, State.RUNNING)
+        begun = Progress(0.0, self._now - 10.0, 0.0, 0.0, 0.0, 0, False, State.RUNNING)
         self._report = RealTimeReport("/twin", 1.0, PERIOD, self.log, begun)
 
     def __call__(
@@ -39,7 +39,9 @@ class Reports:
         last: bool = False,
     ) -> DiagnosticArray:
         state = State.PAUSED if paused else State.RUNNING
-        now = Progress(simulated, self._now - ago, 0.0, overruns, False, state)
+        lasted = simulated if paused else 10.0 - ago
+        wall = self._now - ago
+        now = Progress(simulated, wall, simulated, lasted, 0.0, overruns, False, state)
         return self._report.message(now, AFFORDABLE, {}, last=last)
 
 
@@ -79,6 +81,16 @@ def test_a_twin_that_stands_still_has_no_speed() -> None:
     for ago in (5.0, 6.0):
         told = figures([reports(5.0, ago)])
     assert float(told["real_time_factor"]) == 0.0
+
+
+def test_time_that_stood_is_no_part_of_the_mean() -> None:
+    """Nine seconds of waiting, or of a pause, and one at half the rate."""
+    report = Reports()._report
+    now = Progress(0.5, time.monotonic(), 0.5, 1.0, 0.0, 0, False, State.RUNNING)
+    assert (
+        figures([report.message(now, AFFORDABLE, {}, last=False)])["real_time_factor_mean"]
+        == "0.5000"
+    )
 
 
 def test_a_thinned_waveform_is_a_warning_though_it_keeps_up() -> None:

@@ -62,6 +62,8 @@ class Progress(NamedTuple):
 
     simulated: float  # [s]
     wall: float  # [s] steady clock
+    ran: float  # [s] simulated by intervals, one after another
+    lasted: float  # [s] of wall time that these took; none passes while time stands
     cpu: float  # [s] processor time of the thread
     overruns: int
     repeats: bool  # steady running, which is not computed again
@@ -98,6 +100,7 @@ class LiveTwin:
         self._untold = True  # an operating point that is in force
         self._thread = threading.Thread(target=self._run, name="twin", daemon=True)
         self._repeated = False
+        self._ran = self._lasted = self._mark = 0.0  # see `Progress`; where the last one ended
         self.progress = self._standing()
 
     def start(self) -> Progress:
@@ -139,6 +142,7 @@ class LiveTwin:
                 if stood and not self._stands:
                     self._listener.goes_on(self._twin)
                     self._pace.start()
+                    self._mark = time.monotonic()
                 if not self._stands:
                     self._follow_ramps()
                 self._announce()
@@ -146,6 +150,9 @@ class LiveTwin:
                     answer()
                 if not self._stands:
                     self._pass(self._interval, self._pace.wait)
+                    before, self._mark = self._mark, time.monotonic()
+                    self._ran += self._interval
+                    self._lasted += self._mark - before
                 self.progress = self._standing()
         except Exception as defect:
             self._listener.stopped(defect)
@@ -251,6 +258,8 @@ class LiveTwin:
         return Progress(
             self._twin.time,
             time.monotonic(),
+            self._ran,
+            self._lasted,
             time.thread_time(),
             self._pace.overruns,
             self._repeated,

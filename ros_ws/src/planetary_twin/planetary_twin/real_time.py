@@ -76,7 +76,9 @@ class RealTimeReport:
 
         The `last` one is sent when the twin has stopped, so its counts are final.
         """
-        recent = _rate(self._last, now, self._rate_factor)
+        lasted = now.lasted - self._last.lasted
+        resting = 0.0 if now.state != State.RUNNING else self._rate_factor
+        recent = _ratio(now.ran - self._last.ran, lasted, resting)
         overruns = now.overruns - self._last.overruns
         silence = time.monotonic() - now.wall
         self.verdict = self._judge(now, affordable, recent, 0.0 if last else silence)
@@ -98,7 +100,7 @@ class RealTimeReport:
         figures: dict[str, object] = {
             "state": "stopped" if last else now.state,
             "real_time_factor": f"{recent:.4f}",
-            "real_time_factor_mean": f"{_rate(self._begun, now, self._rate_factor):.4f}",
+            "real_time_factor_mean": f"{self._mean(now):.4f}",
             "rate_factor": f"{self._rate_factor:g}",
             "simulated_time": f"{now.simulated:.6f}",
             "overruns": now.overruns,
@@ -123,18 +125,21 @@ class RealTimeReport:
             return STANDS
         if not self._rate_factor:
             return RUNS_FREELY
-        stood = {now.state, self._last.state} != {State.RUNNING}
-        if not stood and now.wall - self._last.wall >= _SHORTEST:
+        lasted = now.lasted - self._last.lasted
+        if lasted >= _SHORTEST:
             if recent < _BROKEN * self._rate_factor:
                 return FALLS_FAR_BEHIND
-            wall = now.wall - self._last.wall
-            lag = wall * (1.0 - recent / self._rate_factor)
-            if lag > max(_TOLERATED_LAG * wall, _TOLERATED_INTERVALS * self._period):
+            lag = lasted * (1.0 - recent / self._rate_factor)
+            if lag > max(_TOLERATED_LAG * lasted, _TOLERATED_INTERVALS * self._period):
                 return FALLS_BEHIND
         if now.overruns > self._last.overruns:
             return FALLS_BEHIND
         thinned = self._log[-1].sample_rate < affordable.full_sample_rate
         return THINNED if thinned else KEEPS_UP
+
+    def _mean(self, now: Progress) -> float:
+        ran, lasted = now.ran - self._begun.ran, now.lasted - self._begun.lasted
+        return _ratio(ran, lasted, self._rate_factor)
 
     def _settings(self) -> dict[str, object]:
         """
@@ -172,7 +177,6 @@ class RealTimeReport:
         return shares
 
 
-def _rate(before: Progress, now: Progress, unknown: float) -> float:
+def _ratio(simulated: float, wall: float, unknown: float) -> float:
     """Return simulated seconds per second of wall time; `unknown` where no time has passed."""
-    wall = now.wall - before.wall
-    return (now.simulated - before.simulated) / wall if wall > 0 else unknown
+    return simulated / wall if wall > 0.0 else unknown
