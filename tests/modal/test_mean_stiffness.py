@@ -70,12 +70,12 @@ def test_the_twin_resonates_at_mean_stiffness_and_not_at_that_of_one_pair(harmon
     frequencies = np.linspace(0.97 * single, 1.03 * mean, 41)
     speeds = frequencies / harmonic / mesh_frequency_per_speed(scene)
     peak = frequencies[np.argmax([vibration(scene, speed) for speed in speeds])]
-    assert peak == pytest.approx(mean, rel=0.012)
+    assert peak == pytest.approx(mean, rel=0.015)
     assert peak > 1.05 * single
 
 
 def vibration(scene, speed):
-    """Rms of the first DTE about its mean [m], once the start has decayed."""
+    """Rms of the first sun DTE about its mean [m], once the start has decayed."""
     dte = pt.simulate(scene.replace(input_speed=speed), duration=0.04).dte[:, 0]
     return dte[len(dte) // 2 :].std()
 
@@ -85,5 +85,5 @@ def test_another_stiffness_and_teeth_that_part_end_in_one_line():
         pt.natural_modes(PAPER, stiffness="double")
     short = PAPER.replace(**{"gearset.addendum": 0.5})
     assert len(pt.natural_modes(short).frequencies) == 5
-    with pytest.raises(ValueError, match="contact ratio = .*: must be within"):
+    with pytest.raises(ValueError, match=r"contact ratio = .*: must be within"):
         pt.natural_modes(short, stiffness="mean")
