@@ -80,7 +80,7 @@ _MESH_ROWS = (
     "contact ratio [-]",
     "stiffness of one pair [N/m]",
     "stiffness, mean over the mesh cycle [N/m]",
-    "natural frequency on its own two gears [Hz]",
+    "natural frequency on its own two gears, one pair in contact [Hz]",
     "damping ratio of that mode [-]",
     "static mesh force [N]",
     "backlash on the line of action [m]",

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
@@ -11,6 +11,13 @@ from ._arguments import JsonOption, SceneArgument, SetOption
 from ._fail import fail, need
 from ._figures import console_beside, put_figures
 from ._settings import settings
+
+if TYPE_CHECKING:
+    from rich.table import Table
+
+    from ..modal.campbell import Resonance
+    from ..modal.modes import NaturalModes
+    from ..modal.springs import SpringModel
 
 
 def modal(
@@ -26,54 +33,97 @@ def modal(
 ) -> None:
     """List the natural modes of SCENE, how stiffnesses move them, and resonant speeds.
 
+    Frequencies are told with one tooth pair in every mesh and at mean mesh stiffness; resonant
+    speeds and the Campbell diagram are those at mean stiffness.
+
     Example: planetary-twin modal wind_turbine_stage --model planar --campbell campbell.png
     """
     if campbell is not None:
         need("plots", "matplotlib")
-    from rich.table import Table
-
     from ..modal.campbell import resonances
     from ..modal.modes import modes_of
-    from ..modal.natural import spring_model
-    from ..modal.sensitivity import frequency_sensitivities
+    from ..modal.natural import natural_modes, spring_model
     from ..scene import load_scene
 
     try:
         loaded = load_scene(scene).replace(**settings(set_ or []))
-        springs = spring_model(loaded, model)
+        single = natural_modes(loaded, model)
+        springs = spring_model(loaded, model, "mean")
     except ValueError as error:
         fail(error)
-    modes, slopes = modes_of(springs), frequency_sensitivities(springs)
-    found = resonances(loaded, modes, loaded.drive.speed_limit)
-    table = Table(
-        title=f"{loaded.name}, {model} model", caption="change of f [Hz] by 1 % of stiffness"
-    )
-    for heading in ("mode", "f [Hz]", "kind", *slopes):
-        table.add_column(heading.replace("_", " "), justify="right")
-    stiffness = {spring.kind: spring.stiffness for spring in springs.springs}
-    for m, (frequency, kind) in enumerate(zip(modes.frequencies, modes.kinds, strict=True)):
-        changes = [slopes[name][m] * 0.01 * stiffness[name] for name in slopes]
-        shown = ["-" if change != change else f"{change:+.2f}" for change in changes]
-        table.add_row(str(m + 1), f"{frequency:.2f}", kind, *shown)
+    mean, limit = modes_of(springs), loaded.drive.speed_limit
+    found = resonances(loaded, mean, limit)
     console = console_beside(json_)
-    console.print(table)
+    console.print(_mode_table(f"{loaded.name}, {model} model", single, mean, springs))
+    console.print(_heading(limit), highlight=False)
     for resonance in found:
-        console.print(
-            f"{resonance.speed * 30 / 3.141592653589793:10.1f} rpm: harmonic {resonance.harmonic} "
-            f"of the meshing meets mode {resonance.mode + 1} at {resonance.frequency:.1f} Hz"
-        )
+        console.print(_line(resonance))
+    if not found:
+        console.print("none")
     if campbell is not None:
         from ..plots.campbell import campbell_diagram
         from ..plots.style import save
 
         try:
-            save(campbell_diagram(loaded, modes, found, loaded.drive.speed_limit), str(campbell))
+            save(campbell_diagram(loaded, mean, found, limit), str(campbell))
         except (OSError, ValueError) as error:
             fail(f"--campbell = {str(campbell)!r}: {error}")
     if json_ is not None:
         figures = {
-            "frequencies_hz": modes.frequencies.tolist(),
-            "kinds": list(modes.kinds),
+            "frequencies_hz": single.frequencies.tolist(),
+            "kinds": list(single.kinds),
+            "mean_stiffness": {
+                "frequencies_hz": mean.frequencies.tolist(),
+                "kinds": list(mean.kinds),
+            },
+            "speed_limit": limit,
             "resonances": [resonance._asdict() for resonance in found],
         }
         put_figures(figures, json_)
+
+
+def _mode_table(
+    title: str, single: NaturalModes, mean: NaturalModes, springs: SpringModel
+) -> Table:
+    """Modes in the order of their frequencies; `springs` are those of `mean`."""
+    from rich.table import Table
+
+    from ..modal.sensitivity import frequency_sensitivities
+
+    slopes = frequency_sensitivities(springs)
+    stiffness = {spring.kind: spring.stiffness for spring in springs.springs}
+    table = Table(
+        title=title,
+        caption="f with one tooth pair in every mesh, f with the mean stiffness over the mesh "
+        "cycle; change of the latter [Hz] by 1 % of each stiffness",
+    )
+    for heading in ("mode", r"f, one pair \[Hz]", r"f, mean \[Hz]", "kind", *slopes):
+        table.add_column(heading.replace("_", " "), justify="right")
+    for m, kinds in enumerate(zip(single.kinds, mean.kinds, strict=True)):
+        changes = [slopes[name][m] * 0.01 * stiffness[name] for name in slopes]
+        shown = ["-" if change != change else f"{change:+.2f}" for change in changes]
+        frequencies = (f"{modes.frequencies[m]:.2f}" for modes in (single, mean))
+        # Where kinds of mesh stiffen unequally, one mode may overtake another.
+        table.add_row(str(m + 1), *frequencies, ", then ".join(dict.fromkeys(kinds)), *shown)
+    return table
+
+
+def _heading(limit: float) -> str:
+    from ..modal.campbell import HARMONICS
+    from ..units import rpm
+
+    return (
+        f"At mean mesh stiffness, harmonics 1 to {HARMONICS} of the meshing, speeds up to "
+        f"{limit / rpm(1.0):.0f} rpm (drive.speed_limit):"
+    )
+
+
+def _line(resonance: Resonance) -> str:
+    from ..units import rpm
+
+    numbers = range(resonance.mode + 1, resonance.mode + 1 + resonance.multiplicity)
+    modes = f"mode{'s' * (len(numbers) > 1)} {', '.join(map(str, numbers))}"
+    return (
+        f"{resonance.speed / rpm(1.0):10.1f} rpm: harmonic {resonance.harmonic} "
+        f"of the meshing meets {modes} at {resonance.frequency:.1f} Hz"
+    )

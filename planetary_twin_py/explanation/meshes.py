@@ -5,9 +5,7 @@ from __future__ import annotations
 import math
 from typing import NamedTuple
 
-import numpy as np
-
-from .._records import Record
+from ..dynamics.mean_stiffness import mean_stiffness
 from ..dynamics.mesh_damping import natural_frequencies
 from ..dynamics.moment import damping_time
 from ..dynamics.start import build_load
@@ -15,7 +13,6 @@ from ..dynamics.static_load import mesh_force
 from ..dynamics.stiffness_laws import GEARS
 from ..dynamics.train import build_train
 from ..gearset.geometry import planet_ring_path, sun_planet_path
-from ..mesh.tooth_pairs import TOTAL, mean_weight
 from ..scene import Scene
 
 
@@ -50,7 +47,7 @@ def describe_meshes(scene: Scene) -> Meshes:
     train = build_train(scene)
     load = build_load(scene, point, train)
     frequency = abs(float(train.cycles @ load.target_speed)) / (2.0 * math.pi)
-    natural = natural_frequencies(scene, train.stiffness)
+    natural, mean = natural_frequencies(scene, train.stiffness), mean_stiffness(train)
     gearset, teeth = scene.gearset, scene.gearset.tooth_numbers._asdict()
     paths = [
         path(gearset.tooth_numbers, gearset.pressure_angle, gearset.addendum)
@@ -61,7 +58,7 @@ def describe_meshes(scene: Scene) -> Meshes:
             teeth=(teeth[first], teeth[second]),
             contact_ratio=paths[kind].contact_ratio,
             single_stiffness=float(train.stiffness[kind]),
-            mean_stiffness=_mean_stiffness(train, kind),
+            mean_stiffness=float(mean[kind]),
             natural_frequency=float(natural[kind]) / (2.0 * math.pi),
             damping_ratio=0.5 * damping_time(train, kind, frequency) * float(natural[kind]),
             static_force=abs(mesh_force(scene, point.input_torque)),
@@ -70,9 +67,3 @@ def describe_meshes(scene: Scene) -> Meshes:
         for kind, (first, second) in enumerate(GEARS)
     )
     return Meshes(frequency, sun_planet, planet_ring)
-
-
-def _mean_stiffness(train: Record, kind: int) -> float:
-    weight: np.ndarray = train.weight[kind, :, TOTAL]
-    base, gain = float(train.stiffness_base[kind]), float(train.stiffness_gain[kind])
-    return base + gain * mean_weight(train.edge[kind], weight)

@@ -9,7 +9,7 @@ import numpy as np
 from ..dynamics.bodies import rigid_ratios
 from ..gearset.kinematics import mesh_cycles_per_turn
 from ..scene import Scene
-from .modes import NaturalModes
+from .modes import NaturalModes, clusters
 
 HARMONICS = 5
 
@@ -17,7 +17,8 @@ HARMONICS = 5
 class Resonance(NamedTuple):
     """A speed of the first motor at which a harmonic of the meshing frequency meets a mode."""
 
-    mode: int  # place in the order of frequencies, from 0
+    mode: int  # place in the order of frequencies, from 0; of modes of one frequency, the first
+    multiplicity: int  # number of modes of this frequency
     kind: str
     frequency: float  # [Hz]
     harmonic: int
@@ -34,13 +35,17 @@ def mesh_frequency_per_speed(scene: Scene) -> float:
 def resonances(
     scene: Scene, modes: NaturalModes, highest_speed: float, harmonics: int = HARMONICS
 ) -> tuple[Resonance, ...]:
-    """All of them up to `highest_speed` [rad/s], in the order of speed."""
+    """All of them up to `highest_speed` [rad/s], in the order of speed.
+
+    Modes at mean mesh stiffness are those at which a run resonates.
+    """
     per_speed = mesh_frequency_per_speed(scene)
+    levels = [(c.start, c.stop - c.start) for c in clusters(modes.frequencies)]
     found = [
-        Resonance(m, kind, float(frequency), h, float(frequency) / (h * per_speed))
-        for m, (frequency, kind) in enumerate(zip(modes.frequencies, modes.kinds, strict=True))
+        Resonance(m, count, modes.kinds[m], frequency, h, frequency / (h * per_speed))
+        for m, count in levels
         for h in range(1, harmonics + 1)
-        if frequency > 0.0
+        if (frequency := float(modes.frequencies[m])) > 0.0
     ]
     return tuple(
         sorted((r for r in found if r.speed <= highest_speed), key=lambda r: (r.speed, r.mode))

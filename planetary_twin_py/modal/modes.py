@@ -49,7 +49,7 @@ def modes_of(model: SpringModel) -> NaturalModes:
 def clusters(frequencies: np.ndarray) -> list[slice]:
     """Stretches of modes that share one frequency."""
     gaps = np.diff(frequencies) > SAME * np.maximum(frequencies[1:], 1e-300)
-    edges = [0, *(np.flatnonzero(gaps) + 1), len(frequencies)]
+    edges = [0, *(np.flatnonzero(gaps) + 1).tolist(), len(frequencies)]
     return [slice(a, b) for a, b in pairwise(edges)]
 
 

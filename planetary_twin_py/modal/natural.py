@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import math
 
-from ..dynamics.stiffness_laws import stiffness_laws
 from ..gearset.geometry import pitch_radius
 from ..scene import Scene, SceneError
 from ..scene.supports import Support, Supports
+from .mesh_stiffness import MeshStiffness, mesh_stiffness
 from .modes import NaturalModes, modes_of
 from .planar import PlanarBody, PlanarSet, planar_model
 from .printed import PrintedSet, printed_model
@@ -18,48 +18,51 @@ from .torsional import torsional_model
 MODELS = ("torsional", "machines", "printed", "planar", "spatial")
 
 
-def natural_modes(scene: Scene, model: str = "torsional") -> NaturalModes:
-    """Natural frequencies, mode shapes and kinds of modes of a scene at rest.
-
-    One tooth pair is in every mesh, nothing damps.
+def natural_modes(
+    scene: Scene, model: str = "torsional", stiffness: str = "single"
+) -> NaturalModes:
+    """Natural frequencies, mode shapes and kinds of modes of a scene at rest, without damping.
 
     Args:
         scene: what to analyse.
         model: "torsional", the gears and carrier of the twin; "machines", the same with motor and
             load; "printed", eqs. (32)-(38) of Salagianni et al. 2017; "planar", Lin and Parker
             1999; "spatial", all six motions of every body. The last two need `scene.supports`.
+        stiffness: of every mesh. "single", with one tooth pair in contact; "mean", over the mesh
+            cycle: that of the modes at which a run resonates.
 
     Raises:
-        ValueError: there is no such model, or the scene lacks what it needs.
+        ValueError: there is no such model or stiffness, the scene lacks what the model needs, or
+            the mean is asked for of teeth that leave a moment without contact.
     """
-    return modes_of(spring_model(scene, model))
+    return modes_of(spring_model(scene, model, stiffness))
 
 
-def spring_model(scene: Scene, model: str = "torsional") -> SpringModel:
+def spring_model(scene: Scene, model: str = "torsional", stiffness: str = "single") -> SpringModel:
     """Masses and springs of a scene, see `natural_modes`."""
     if model not in MODELS:
         raise ValueError(f"model = {model!r}: must be one of {', '.join(MODELS)}")
+    mesh = mesh_stiffness(scene, stiffness)
     if model in ("torsional", "machines"):
-        return torsional_model(scene, model == "machines")
+        return torsional_model(scene, mesh, model == "machines")
     if model == "printed":
-        return printed_model(_printed_set(scene))
+        return printed_model(_printed_set(scene, mesh))
     if model == "planar":
-        built = planar_model(_planar_set(scene))
+        built = planar_model(_planar_set(scene, mesh))
     else:
-        built = spatial_model(_spatial_set(scene))
+        built = spatial_model(_spatial_set(scene, mesh))
     return built.holding(f"{scene.gearset.held}.u")
 
 
-def _printed_set(scene: Scene) -> PrintedSet:
+def _printed_set(scene: Scene, mesh: MeshStiffness) -> PrintedSet:
     mass, gearset = scene.gearset.equivalent_mass, scene.gearset
-    sun_planet, planet_ring = (law.single for law in stiffness_laws(scene))
     return PrintedSet(
         mass.sun,
         mass.planet,
         mass.ring,
         mass.carrier,
-        sun_planet,
-        planet_ring,
+        mesh.sun_planet,
+        mesh.planet_ring,
         planets=gearset.planets,
     )
 
@@ -81,9 +84,8 @@ def _rim_masses(scene: Scene) -> dict[str, float]:
     }
 
 
-def _planar_set(scene: Scene) -> PlanarSet:
+def _planar_set(scene: Scene, mesh: MeshStiffness) -> PlanarSet:
     supports, rim, gearset = _supports(scene), _rim_masses(scene), scene.gearset
-    sun_planet, planet_ring = (law.single for law in stiffness_laws(scene))
 
     def body(name: str) -> PlanarBody:
         support: Support = getattr(supports, name)
@@ -95,16 +97,15 @@ def _planar_set(scene: Scene) -> PlanarSet:
         body("carrier"),
         body("planet"),
         gearset.planet_angles,
-        sun_planet,
-        planet_ring,
+        mesh.sun_planet,
+        mesh.planet_ring,
         gearset.pressure_angle,
         gearset.pressure_angle,
     )
 
 
-def _spatial_set(scene: Scene) -> SpatialSet:
+def _spatial_set(scene: Scene, mesh: MeshStiffness) -> SpatialSet:
     supports, rim, gearset = _supports(scene), _rim_masses(scene), scene.gearset
-    sun_planet, planet_ring = (law.single for law in stiffness_laws(scene))
     teeth, cosine = gearset.teeth, math.cos(gearset.pressure_angle)
     radius = {
         "sun": pitch_radius(teeth.sun, gearset.module) * cosine,
@@ -133,8 +134,8 @@ def _spatial_set(scene: Scene) -> SpatialSet:
         body("carrier"),
         body("planet"),
         gearset.planet_angles,
-        sun_planet,
-        planet_ring,
+        mesh.sun_planet,
+        mesh.planet_ring,
         gearset.pressure_angle,
         math.atan(math.tan(gearset.helix_angle) * cosine),
     )

@@ -1,7 +1,7 @@
 """The torsional model of a scene: the linear part of what the twin integrates.
 
-Coordinates u = r theta with base radii (r_c cos(phi) for the carrier), one tooth pair in every
-mesh, stiffness along the line of action (Kahraman 1994, with the carrier coupled to both meshes).
+Coordinates u = r theta with base radii (r_c cos(phi) for the carrier), stiffness along the line of
+action (Kahraman 1994, with the carrier coupled to both meshes).
 """
 
 from __future__ import annotations
@@ -9,12 +9,12 @@ from __future__ import annotations
 import numpy as np
 
 from ..dynamics.bodies import base_radii, build_bodies, machines
-from ..dynamics.stiffness_laws import stiffness_laws
 from ..scene import Scene
+from .mesh_stiffness import MeshStiffness
 from .springs import Rows, Spring, SpringModel
 
 
-def torsional_model(scene: Scene, with_machines: bool = False) -> SpringModel:
+def torsional_model(scene: Scene, mesh: MeshStiffness, with_machines: bool = False) -> SpringModel:
     """Gears and carrier of `scene`, on request with motors and load on their couplings."""
     bodies, found = build_bodies(scene), machines(scene)
     ground = len(bodies.mass) - 1
@@ -23,13 +23,12 @@ def torsional_model(scene: Scene, with_machines: bool = False) -> SpringModel:
         names = [name for name in names if name not in found]
     coordinates = tuple(f"{name}.u" for name in names)
     row, springs = Rows(coordinates), []
-    sun_planet, planet_ring = (law.single for law in stiffness_laws(scene))
     for i in range(scene.gearset.planets):
         planet = f"planet_{i + 1}.u"
         sun_row = row({"sun.u": 1.0, planet: 1.0, "carrier.u": -1.0})
         ring_row = row({planet: -1.0, "ring.u": 1.0, "carrier.u": -1.0})
-        springs += [Spring("sun_planet", sun_planet, sun_row)]
-        springs += [Spring("planet_ring", planet_ring, ring_row)]
+        springs += [Spring("sun_planet", mesh.sun_planet, sun_row)]
+        springs += [Spring("planet_ring", mesh.planet_ring, ring_row)]
     if with_machines:
         radii = base_radii(scene)
         for name, machine in found.items():

@@ -23,7 +23,8 @@ def campbell_diagram(
 ) -> Figure:
     """Frequencies against the speed of the first motor, up to `highest_speed` [rad/s].
 
-    Modes of one kind share a colour; `found` (see `resonances`) are the marked crossings.
+    `modes` are those at mean mesh stiffness, at which a run resonates; those of one kind share a
+    colour. `found` (see `resonances`) are the marked crossings.
     """
     with applied():
         figure, (axes,) = panels(height=4.5)
@@ -55,7 +56,7 @@ def campbell_diagram(
             ylim=(0.0, top),
             xlabel="speed of the first motor [rpm]",
             ylabel="frequency [Hz]",
-            title=f"{scene.name}: natural frequencies and harmonics of the meshing\n",
+            title=f"{scene.name}: natural frequencies at mean mesh stiffness\n",
         )
         figure.legend(loc="outside lower center", ncols=len(kinds) + 1)
     return figure
