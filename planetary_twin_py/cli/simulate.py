@@ -79,7 +79,9 @@ _TRAIN = {
     "mean_power_loss_W": "power loss, mean [W]",
     "mean_dte_m": "DTE of all meshes, mean [m]",
     "dte_vibration_rms_m": "DTE of all meshes, rms about the mean [m]",
+    "dte_peak_m": "DTE of any mesh, peak [m]",
     "mean_mesh_force_N": "force of all meshes, mean [N]",
+    "mesh_force_peak_N": "force of any mesh, peak [N]",
     "mesh_frequency_Hz": "mesh frequency, mean [Hz]",
     "energy_residual": "energy residual/energy put in [-]",
     "real_time_factor": "real-time factor [-]",
@@ -89,17 +91,20 @@ _TRAIN = {
 def _train(scene: Scene, result: Result) -> dict[str, float]:
     """Figures of the whole train, and means over all its meshes."""
     from ..gearset.kinematics import mesh_frequency
+    from ..studies.measures import glance
 
-    energy = result.energy
+    energy, seen = result.energy, glance(result)
     sun, carrier = (
         float(result.speed[:, result.bodies.index(member)].mean()) for member in ("sun", "carrier")
     )
     return {
         "efficiency": result.efficiency,
-        "mean_power_loss_W": float(result.total_power_loss.mean()),
-        "mean_dte_m": float(result.dte.mean()),
-        "dte_vibration_rms_m": float(result.dte.std(axis=0).mean()),
-        "mean_mesh_force_N": float(result.mesh_force.mean()),
+        "mean_power_loss_W": seen.power_loss,
+        "mean_dte_m": seen.dte_mean,
+        "dte_vibration_rms_m": seen.dte_rms,
+        "dte_peak_m": seen.dte_peak,
+        "mean_mesh_force_N": seen.mesh_force_mean,
+        "mesh_force_peak_N": seen.mesh_force_peak,
         "mesh_frequency_Hz": mesh_frequency(scene.gearset.tooth_numbers, sun, carrier),
         "energy_residual": energy.residual / energy.put_in if energy.put_in > 0.0 else 0.0,
         "real_time_factor": result.stats.real_time_factor,
