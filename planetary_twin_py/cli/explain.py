@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from ._arguments import JsonOption, SceneArgument
-from ._fail import fail
+from ._fail import fail, remark
 from ._figures import console_beside, put_figures
 from ._interrupt import interruptible
 
@@ -51,6 +51,8 @@ def explain(
     console.print(_mesh_table(loaded, meshes))
     console.print(_table(loaded, found))
     console.print(_limits(loaded))
+    for line in found.remarks:
+        remark(f"warning: {line}")
     put_figures(_as_figures(found) | _mesh_figures(meshes), json_)
 
 
@@ -169,4 +171,5 @@ def _as_figures(found: Explanation) -> dict[str, Any]:
             }
             for effect in found.effects
         ],
+        "remarks": found.remarks,
     }

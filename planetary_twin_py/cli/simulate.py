@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from ._arguments import JsonOption, SceneArgument, SetOption, ToleranceOption
-from ._fail import fail, need
+from ._fail import fail, need, remark
 from ._figures import console_beside, put_figures
 from ._interrupt import interruptible
 from ._settings import settings
@@ -37,6 +37,7 @@ def simulate(
     Example: planetary-twin simulate paper --duration 0.5 --set lambda_ratio=1.5 --out run.npz
     """
 
+    from ..explanation.remarks import remarks
     from ..scene import load_scene
     from ..simulation import simulate as run
 
@@ -59,7 +60,10 @@ def simulate(
     for name, value in train.items():
         console.print(f"{_TRAIN[name]:42} {value:.6g}", markup=False)
     console.print(_table(meshes))
-    put_figures(train | meshes, json_)
+    told = list(remarks(loaded, result))
+    for line in told:
+        remark(f"warning: {line}")
+    put_figures(train | meshes | {"remarks": told}, json_)
 
 
 def _record(console: Console, out: Path, scene: Scene, *how: float) -> None:

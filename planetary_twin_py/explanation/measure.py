@@ -10,6 +10,7 @@ from ..result import Result
 from ..scene import Scene
 from ..simulation import simulate
 from ..studies.measures import Glance, glance
+from .remarks import remarks
 from .terms import Term, terms
 
 REPEATS = 3  # of every run, to time it
@@ -28,6 +29,7 @@ class Explanation(NamedTuple):
 
     figures: Glance
     effects: tuple[Effect, ...]
+    remarks: tuple[str, ...]  # what whoever reads the figures must know
 
 
 def explain(
@@ -39,7 +41,7 @@ def explain(
     for term in terms(scene):
         progress(term.name)
         effects.append(_effect(scene, term, duration))
-    return Explanation(glance(whole), tuple(effects))
+    return Explanation(glance(whole), tuple(effects), tuple(remarks(scene, whole)))
 
 
 def _effect(scene: Scene, term: Term, duration: float) -> Effect:

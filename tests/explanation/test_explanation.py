@@ -90,6 +90,7 @@ def test_explain_and_simulate_tell_the_same_figures_of_the_same_run(name):
         "mesh_force_peak": "mesh_force_peak_N",
     }
     assert told[0]["scene"] == {mine: told[1][its] for mine, its in names.items()}
+    assert told[0]["remarks"] == told[1]["remarks"]
 
 
 def test_a_crack_shows_in_the_peaks_of_a_turn_that_means_do_not_show():
