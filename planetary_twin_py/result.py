@@ -96,6 +96,8 @@ class Stats:
 class Result:
     """Samples and balance of one run; arrays are (samples,), (samples, bodies/meshes)."""
 
+    duration: float
+    """Of the run [s], to the end of its last step; the ledger of energy is over it."""
     time: np.ndarray
     """[s]"""
     bodies: tuple[str, ...]
@@ -132,6 +134,11 @@ class Result:
         """Tooth friction of all meshes, bearings and churning [W], (samples,)."""
         total: np.ndarray = self.power_loss.sum(axis=1) + self.bearing_loss + self.churning_loss
         return total
+
+    @property
+    def mean_power_loss(self) -> float:
+        """Tooth friction of all meshes, bearings and churning, over the whole run [W]."""
+        return self.energy.loss / self.duration
 
     @property
     def mesh(self) -> dict[str, np.ndarray]:

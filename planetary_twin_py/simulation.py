@@ -84,6 +84,7 @@ def _result(
     ground = np.zeros((len(mesh), 1))
     turned = 2.0 * math.pi * samples.turns @ engine.train.ratio[: engine.train.bodies].T
     return Result(
+        duration=float(engine.reached),
         time=np.arange(1, len(mesh) + 1) / sample_rate,
         bodies=names.names,
         meshes=meshes.names,

@@ -3,10 +3,13 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from typing import Self
 
 import numpy as np
+from numpy.typing import NDArray
 
+from .band import Band
 from .orders import order_spectrum
 from .signals import Signal
 from .spectrum import Array, Line, amplitude_spectrum, strongest_lines
@@ -18,16 +21,35 @@ NEAR = 1.0  # [bins] from a harmonic: such a line is called one
 class MeshSpectrum:
     """`axis` [Hz or cycles per turn] and peak `amplitude` in SI (bins,).
 
-    `mesh` is where the first harmonic of the meshing lies on the axis; None if unknown.
+    `mesh` is where the first harmonic of the meshing lies on the axis; None if unknown. `band` is
+    the part of the axis that is looked at.
     """
 
     axis: Array
     amplitude: Array
     mesh: float | None
+    band: Band
+
+    def within(self, band: Band) -> Self:
+        """The same, looked at in `band`; raises `ValueError` where no bin lies in it."""
+        narrowed = replace(self, band=Band(band.low, min(band.high, self.band.high)))
+        if not narrowed.seen.any():
+            raise ValueError(
+                f"band = '{band.low:g}:{band.high:g}': nothing there: the spectrum has a value "
+                f"each {self.axis[1]:.4g} up to {self.axis[-1]:g}"
+            )
+        return narrowed
+
+    @property
+    def seen(self) -> NDArray[np.bool_]:
+        """Which bins lie in the band (bins,)."""
+        return np.asarray((self.axis >= self.band.low) & (self.axis <= self.band.high))
 
     def lines(self, count: int) -> list[Line]:
-        """The highest, see `strongest_lines`."""
-        return strongest_lines(self.axis, self.amplitude, count)
+        """The highest in the band, see `strongest_lines`."""
+        # All are sought first: where a band begins or ends in a slope is no peak.
+        found = strongest_lines(self.axis, self.amplitude, len(self.axis))
+        return [line for line in found if self.band.low <= line.place <= self.band.high][:count]
 
     def in_mesh_orders(self, place: float) -> float | None:
         """`place` on the axis over the first harmonic of the meshing."""
@@ -46,7 +68,7 @@ def frequency_spectrum_of(signal: Signal, sun_teeth: int | None) -> MeshSpectrum
     """Over frequency [Hz]; the meshing's is that at the mean speed."""
     found = amplitude_spectrum(signal.samples, signal.sample_rate)
     mesh = None if sun_teeth is None else sun_teeth * abs(signal.speed) / (2.0 * math.pi)
-    return MeshSpectrum(found.frequency, found.amplitude, mesh or None)
+    return _whole(found.frequency, found.amplitude, mesh or None)
 
 
 def order_spectrum_of(signal: Signal, sun_teeth: int | None) -> MeshSpectrum:
@@ -60,4 +82,8 @@ def order_spectrum_of(signal: Signal, sun_teeth: int | None) -> MeshSpectrum:
     fastest = float(np.abs(np.diff(signal.angle)).max())
     per_turn = max(math.floor(2.0 * math.pi / max(fastest, 1e-12)), 4)
     found = order_spectrum(signal.samples, signal.angle, min(per_turn, 1 << 15))
-    return MeshSpectrum(found.order, found.amplitude, sun_teeth)
+    return _whole(found.order, found.amplitude, sun_teeth)
+
+
+def _whole(axis: Array, amplitude: Array, mesh: float | None) -> MeshSpectrum:
+    return MeshSpectrum(axis, amplitude, mesh, Band(0.0, float(axis[-1])))

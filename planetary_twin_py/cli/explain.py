@@ -7,16 +7,17 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from ._arguments import JsonOption, SceneArgument
-from ._fail import fail
+from ._fail import fail, remark
 from ._figures import console_beside, put_figures
 from ._interrupt import interruptible
 
 if TYPE_CHECKING:
     from rich.table import Table
 
-    from ..explanation.measure import Explanation, Figures
+    from ..explanation.measure import Explanation
     from ..explanation.meshes import Meshes
     from ..scene import Scene
+    from ..studies.measures import Glance
 
 
 def explain(
@@ -50,6 +51,8 @@ def explain(
     console.print(_mesh_table(loaded, meshes))
     console.print(_table(loaded, found))
     console.print(_limits(loaded))
+    for line in found.remarks:
+        remark(f"warning: {line}")
     put_figures(_as_figures(found) | _mesh_figures(meshes), json_)
 
 
@@ -61,11 +64,15 @@ def _mesh_table(scene: Scene, meshes: Meshes) -> Table:
     point = scene.operating_point
     inputs = (point.input_speed, point.second_input_speed)[: len(scene.drive.inputs)]
     speed = " and ".join(f"{speed / rpm(1.0):.6g} rpm" for speed in inputs)
+    figures = (  # a line each, as a table folds its caption between a value and its unit, too
+        f"mesh frequency f_m {meshes.mesh_frequency:.4g} Hz",
+        f"input speed {speed}",
+        f"input torque {point.input_torque:.4g} N m",
+    )
     table = Table(
         "",
         title="Meshes at the operating point",
-        caption=f"mesh frequency f_m {meshes.mesh_frequency:.4g} Hz, input speed {speed}, "
-        f"input torque {point.input_torque:.4g} N m",
+        caption="\n".join(figures),
     )
     for side in ("sun-planet", "planet-ring"):
         table.add_column(side, justify="right")
@@ -105,31 +112,40 @@ def _table(scene: Scene, found: Explanation) -> Table:
     from rich.table import Table
 
     figures = found.figures
-    table = Table(
-        title="Modelled, and what the scene would be without it",
-        caption=f"as it is: mean DTE {1e6 * figures.dte:.4g} um, its vibration "
-        f"{1e6 * figures.dte_vibration:.4g} um rms, power loss {figures.power_loss:.4g} W",
+    told = (
+        f"{name} {factor * getattr(figures, field):.4g} {unit}"
+        for field, (name, unit, factor) in _JUDGED.items()
     )
-    for heading in ("term", "law"):
-        table.add_column(heading)
-    for heading in ("mean DTE [%]", "vibration [%]", "power loss [%]", "run time [%]"):
-        table.add_column(heading, justify="right")
+    table = Table(
+        title="Modelled, and by how many per cent figures differ without it",
+        caption="\n".join(("as it is", *told)),
+    )
+    table.add_column("term: law")
+    for heading in (*(name for name, _, _ in _JUDGED.values()), "run time"):
+        table.add_column(heading.replace(" ", "\n"), justify="right", no_wrap=True)
     for effect in found.effects:
         table.add_row(
-            effect.term.name,
-            effect.term.law,
+            f"{effect.term.name}: {effect.term.law}",
             *(_change(figures, effect.without, name) for name in _JUDGED),
             f"{-100 * effect.cost:+.0f}",
         )
     return table
 
 
-_JUDGED = ("dte", "dte_vibration", "power_loss")
+# Fields of a glance: what they are called, in which unit, and what one of SI is in it. Means and
+# rms are over all meshes, peaks in any of them.
+_JUDGED = {
+    "dte_mean": ("DTE mean", "um", 1e6),
+    "dte_rms": ("DTE rms", "um", 1e6),
+    "dte_peak": ("DTE peak", "um", 1e6),
+    "mesh_force_peak": ("force peak", "N", 1.0),
+    "power_loss": ("power loss", "W", 1.0),
+}
 
 
-def _change(with_: Figures, without: Figures, name: str) -> str:
+def _change(with_: Glance, without: Glance, name: str) -> str:
     before, after = getattr(with_, name), getattr(without, name)
-    return f"{100 * (after / before - 1.0):+.2f}" if before > 0.0 else "-"
+    return f"{100 * (after / before - 1.0):+.2f}" if before != 0.0 else "-"
 
 
 def _limits(scene: Scene) -> Table:
@@ -155,4 +171,5 @@ def _as_figures(found: Explanation) -> dict[str, Any]:
             }
             for effect in found.effects
         ],
+        "remarks": found.remarks,
     }

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from ._arguments import JsonOption, SceneArgument, SetOption, ToleranceOption
-from ._fail import fail, need
+from ._fail import fail, need, remark
 from ._figures import console_beside, put_figures
 from ._interrupt import interruptible
 from ._settings import settings
@@ -37,6 +37,7 @@ def simulate(
     Example: planetary-twin simulate paper --duration 0.5 --set lambda_ratio=1.5 --out run.npz
     """
 
+    from ..explanation.remarks import remarks
     from ..scene import load_scene
     from ..simulation import simulate as run
 
@@ -59,7 +60,10 @@ def simulate(
     for name, value in train.items():
         console.print(f"{_TRAIN[name]:42} {value:.6g}", markup=False)
     console.print(_table(meshes))
-    put_figures(train | meshes, json_)
+    told = list(remarks(loaded, result))
+    for line in told:
+        remark(f"warning: {line}")
+    put_figures(train | meshes | {"remarks": told}, json_)
 
 
 def _record(console: Console, out: Path, scene: Scene, *how: float) -> None:
@@ -79,7 +83,9 @@ _TRAIN = {
     "mean_power_loss_W": "power loss, mean [W]",
     "mean_dte_m": "DTE of all meshes, mean [m]",
     "dte_vibration_rms_m": "DTE of all meshes, rms about the mean [m]",
+    "dte_peak_m": "DTE of any mesh, peak [m]",
     "mean_mesh_force_N": "force of all meshes, mean [N]",
+    "mesh_force_peak_N": "force of any mesh, peak [N]",
     "mesh_frequency_Hz": "mesh frequency, mean [Hz]",
     "energy_residual": "energy residual/energy put in [-]",
     "real_time_factor": "real-time factor [-]",
@@ -89,17 +95,20 @@ _TRAIN = {
 def _train(scene: Scene, result: Result) -> dict[str, float]:
     """Figures of the whole train, and means over all its meshes."""
     from ..gearset.kinematics import mesh_frequency
+    from ..studies.measures import glance
 
-    energy = result.energy
+    energy, seen = result.energy, glance(result)
     sun, carrier = (
         float(result.speed[:, result.bodies.index(member)].mean()) for member in ("sun", "carrier")
     )
     return {
         "efficiency": result.efficiency,
-        "mean_power_loss_W": float(result.total_power_loss.mean()),
-        "mean_dte_m": float(result.dte.mean()),
-        "dte_vibration_rms_m": float(result.dte.std(axis=0).mean()),
-        "mean_mesh_force_N": float(result.mesh_force.mean()),
+        "mean_power_loss_W": seen.power_loss,
+        "mean_dte_m": seen.dte_mean,
+        "dte_vibration_rms_m": seen.dte_rms,
+        "dte_peak_m": seen.dte_peak,
+        "mean_mesh_force_N": seen.mesh_force_mean,
+        "mesh_force_peak_N": seen.mesh_force_peak,
         "mesh_frequency_Hz": mesh_frequency(scene.gearset.tooth_numbers, sun, carrier),
         "energy_residual": energy.residual / energy.put_in if energy.put_in > 0.0 else 0.0,
         "real_time_factor": result.stats.real_time_factor,

@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 LINES = 12
 
 
-def spectrum(
+def spectrum(  # noqa: PLR0913 - what, when, on which part of which axis, and where to
     file: Annotated[
         Path,
         typer.Argument(
@@ -35,6 +35,12 @@ def spectrum(
     ] = False,
     mesh: Annotated[str, typer.Option(help="Which mesh.")] = "sun_planet_1",
     quantity: Annotated[str, typer.Option(help="dte, mesh_force or friction.")] = "dte",
+    band: Annotated[
+        str | None,
+        typer.Option(
+            metavar="LOW:HIGH", help="Only this part of the axis, in Hz or with --order in orders."
+        ),
+    ] = None,
     from_: Annotated[
         float | None, typer.Option("--from", help="Begin: simulated time in seconds.")
     ] = None,
@@ -42,12 +48,14 @@ def spectrum(
         float | None,
         typer.Option(help="End. Without both: the longest time at one operating point, settled."),
     ] = None,
-    out: Annotated[Path | None, typer.Option(help="Write it all: .png or .csv.")] = None,
+    out: Annotated[
+        Path | None, typer.Option(help="Write all there is in the band: .png or .csv.")
+    ] = None,
     json_: JsonOption = None,
 ) -> None:
     """List the highest lines in the spectrum of one mesh, and which are harmonics of the meshing.
 
-    Example: planetary-twin spectrum recordings/NAME --order --from 2 --to 4 --out spectrum.png
+    Example: planetary-twin spectrum recordings/NAME --band 400:600 --out spectrum.png
     """
     if out is not None and out.suffix not in (".png", ".csv"):
         fail(f"--out = {str(out)!r}: must end in .png or .csv")
@@ -56,14 +64,17 @@ def spectrum(
     if file.suffix != ".npz":
         need("recording", "mcap", "rosbags")
 
+    from ..analysis.band import read_band
     from ..analysis.mesh_spectrum import frequency_spectrum_of, order_spectrum_of
     from ..analysis.signals import QUANTITIES, read_signal
 
     try:
+        part = None if band is None else read_band(band, "" if order else "Hz")
         signal = read_signal(file, mesh, quantity)
         whole = from_ is None and to is None
         signal = _steady(file, signal) if whole else signal.within(from_, to)
         found = (order_spectrum_of if order else frequency_spectrum_of)(signal, _sun_teeth(signal))
+        found = found if part is None else found.within(part)
         if out is not None:
             axis = "order [cycles per turn]" if order else "frequency [Hz]"
             labels = (axis, f"amplitude of {quantity} [{QUANTITIES[quantity]}]")
@@ -73,7 +84,8 @@ def spectrum(
         fail(error)
     for line in signal.remarks:
         remark(line)
-    figures = _figures(signal, found, "order" if order else "frequency_hz")
+    figures = {"mesh": mesh, "quantity": quantity}
+    figures |= _figures(signal, found, "order" if order else "frequency_hz")
     _tell(console_beside(json_), figures, QUANTITIES[quantity])
     put_figures(figures, json_)
 
@@ -137,6 +149,7 @@ def _tell(console: Console, figures: dict[str, Any], unit: str) -> None:
         )
     console.print(table)
     console.print(
+        f"{figures['quantity']} of {figures['mesh']}, "
         f"from {figures['from_s']:.4f} to {figures['to_s']:.4f} s, resolved to "
         f"{figures['resolution']:.4g} {'of an order' if axis == 'order' else 'Hz'}, "
         f"mean {figures['mean']:.6g} {unit}",
@@ -148,7 +161,7 @@ def _write(found: MeshSpectrum, out: Path, title: str, labels: tuple[str, str]) 
     if out.suffix == ".csv":
         import numpy as np
 
-        table = np.column_stack((found.axis, found.amplitude))
+        table = np.column_stack((found.axis, found.amplitude))[found.seen]
         np.savetxt(out, table, delimiter=",", header=",".join(labels), comments="")
         return
     from ..plots.spectrum import spectrum_plot

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+
 import numpy as np
 from matplotlib.figure import Figure
 
@@ -13,17 +15,20 @@ HARMONICS = 30  # of the meshing at most: beyond, marks would hide the curve
 
 
 def spectrum_plot(spectrum: MeshSpectrum, title: str, labels: tuple[str, str]) -> Figure:
-    """The curve without its mean; `labels` of both axes with their units."""
+    """The curve without its mean, in its band; `labels` of both axes with their units."""
     with applied():
         figure, (axes,) = panels(height=3.6)
-        axis, amplitude = spectrum.axis[1:], spectrum.amplitude[1:]
+        seen = spectrum.seen & (spectrum.axis > 0.0)
+        axis, amplitude = spectrum.axis[seen], spectrum.amplitude[seen]
         top = 2.0 * float(amplitude.max()) or 1.0
         low = top * 10.0**-DECADES
         axes.semilogy(axis, np.maximum(amplitude, 0.1 * low), lw=0.9)
-        axes.set(xlim=(0.0, axis[-1]), ylim=(low, top), xlabel=labels[0], ylabel=labels[1])
+        axes.set(xlim=spectrum.band, ylim=(low, top), xlabel=labels[0], ylabel=labels[1])
         axes.set_title(f"{title}\n")
         mesh = spectrum.mesh or np.inf
-        for harmonic in range(1, min(int(axis[-1] / mesh), HARMONICS) + 1):
+        first = max(math.ceil(spectrum.band.low / mesh), 1)
+        last = min(math.floor(spectrum.band.high / mesh), first + HARMONICS - 1)
+        for harmonic in range(first, last + 1):
             axes.axvline(harmonic * mesh, color=GREY, lw=0.5, zorder=0)
             place = (harmonic * mesh, top)
             axes.annotate(

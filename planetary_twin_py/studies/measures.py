@@ -7,6 +7,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from ..result import Result
 from ..scene import Scene
 from ..twin import Twin
 from ..window import Window
@@ -77,6 +78,25 @@ def measure(scene: Scene, settings: Settings) -> Row:
     if settings.settling:
         twin.advance(settings.settling)
     return row(twin.advance(settings.duration))
+
+
+class Glance(NamedTuple):
+    """A whole run in a few figures: over its time, and over all its meshes."""
+
+    power_loss: float  # tooth friction, bearings and churning, mean [W]
+    dte_mean: float  # mean over the meshes of each one's mean [m]
+    dte_rms: float  # mean over the meshes of the rms about each one's mean [m]
+    dte_peak: float  # largest magnitude in any mesh [m]
+    mesh_force_mean: float  # mean over the meshes of each one's mean [N]
+    mesh_force_peak: float  # largest magnitude in any mesh [N]
+
+
+def glance(result: Result) -> Glance:
+    """The figures of a whole run, its start included."""
+    mesh = result.mesh
+    means = {name: float(mesh[name].mean()) for name in ("dte_mean", "dte_rms", "mesh_force_mean")}
+    peaks = {name: float(mesh[name].max()) for name in ("dte_peak", "mesh_force_peak")}
+    return Glance(power_loss=result.mean_power_loss, **means, **peaks)
 
 
 def row(window: Window) -> Row:

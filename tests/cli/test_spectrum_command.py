@@ -76,6 +76,37 @@ def test_a_picture_and_a_table_are_written(file, tmp_path):
     assert table["amplitude_of_mesh_force_N"][0] == pytest.approx(63.0 / 0.0111772 / 3, rel=0.02)
 
 
+@pytest.mark.parametrize(("faulty", "low", "high"), [(True, 1e-9, 1e-8), (False, 0.0, 1e-11)])
+def test_a_cracked_tooth_of_the_sun_has_sidebands_at_its_turns(tmp_path, faulty, low, high):
+    """A band around the first harmonic of the meshing, 30 orders of the sun."""
+    npz, healthy = tmp_path / "run.npz", tmp_path / "healthy.yaml"
+    healthy.write_text("base: cracked_tooth\nname: healthy\nfaults: []\n")
+    scene = "cracked_tooth" if faulty else healthy
+    planetary_twin("simulate", scene, "--duration", 0.6, "--out", npz)
+    done = planetary_twin("spectrum", npz, "--order", "--band", "28.5:31.5", "--json", "-")
+    assert done.returncode == 0, done.stderr
+    lines = json.loads(done.stdout)["lines"]
+    assert lines[0]["harmonic"] == 1 and all(28.5 <= line["order"] <= 31.5 for line in lines)
+    for place in (29.0, 31.0):
+        near = [line["amplitude"] for line in lines if abs(line["order"] - place) < 0.05]
+        assert low <= max(near, default=0.0) < high
+    assert "dte of sun_planet_1, from" in done.stderr
+
+
+def test_a_band_restricts_the_table_and_has_the_same_lines_as_the_whole(file, tmp_path):
+    whole, part = (
+        json.loads(planetary_twin("spectrum", file, *band, "--to", 0.24, "--json", "-").stdout)
+        for band in ([], ["--band", "0.9 kHz:1600"])
+    )
+    inside = [line for line in whole["lines"] if 900.0 <= line["frequency_hz"] <= 1600.0]
+    assert [line["harmonic"] for line in inside] and part["lines"][: len(inside)] == inside
+    assert planetary_twin(
+        "spectrum", file, "--band", "900:1600", "--out", tmp_path / "a.csv"
+    ).returncode == 0  # fmt: skip
+    places = np.genfromtxt(tmp_path / "a.csv", delimiter=",", skip_header=1)[:, 0]
+    assert 900.0 <= places.min() < 905.0 and 1595.0 < places.max() <= 1600.0
+
+
 def test_samples_of_simulate_are_analysed_too(tmp_path):
     npz = tmp_path / "run.npz"
     planetary_twin("simulate", "paper", "--duration", 0.1, "--out", npz)
@@ -118,6 +149,12 @@ def test_users_errors_are_one_line_each(file, tmp_path):
         ([file, "--mesh", "sun"], "mesh = 'sun': must be one of sun_planet_1"),
         ([file, "--quantity", "noise"], "quantity = 'noise': must be one of dte"),
         ([file, "--from", "7"], "from 7 to 1 s"),
+        ([file, "--band", "600:400"], "band = '600:400': must be low:high in Hz"),
+        ([file, "--band", "400"], "band = '400': must be low:high"),
+        ([file, "--band", "a:b", "--order"], "band = 'a:b': must be low:high in orders"),
+        ([file, "--band", "nan:5"], "band = 'nan:5'"),
+        ([file, "--band", "1m:2m"], "band = '1m:2m'"),
+        ([file, "--band", "1e6:2e6"], "nothing there: the spectrum has a value each"),
         ([file, "--out", "a.pdf"], "must end in .png or .csv"),
         ([file, "--out", tmp_path / "no" / "a.csv"], "a.csv"),
     ]:

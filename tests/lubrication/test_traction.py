@@ -40,6 +40,20 @@ def test_friction_is_zero_not_negative_under_a_load_too_light_for_the_law():
     assert friction("pr", 1000, LOAD / 1000) == 0.0
 
 
+@pytest.mark.parametrize("film, heating", [(0.5e-6, 0.3), (2e-6, 1.0)])
+def test_friction_acts_above_the_pressure_that_the_film_asks_for(film, heating):
+    """2/alpha ln(h sqrt(1 + 9.6 Theta)/h0), from (12) solved for the pressure."""
+    thinnest = 1.2 / 2.3e6 * math.sqrt(2 * 0.137 * VISCOSITY / 0.04)
+    pressure = 2 / 2.1e-8 * math.log(film * math.sqrt(1 + 9.6 * heating) / thinnest)
+    assert pressure > 0.0
+    area, log_heat = 1e-6, math.log(9.6 * heating) + math.log(film) - TRACTION.log_heating
+    below, above = (
+        viscous_friction(TRACTION, share * pressure * area, area, math.log(film), log_heat)
+        for share in (1 - 1e-6, 1 + 1e-6)
+    )
+    assert below == 0.0 < above
+
+
 def test_sense_of_sliding_is_an_odd_tanh_of_the_slide_to_roll_ratio():
     for ratio in (0.0, 1e-4, 0.015, 0.1, 3.0):
         expected = math.tanh(ratio / 0.015)

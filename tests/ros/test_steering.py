@@ -115,6 +115,19 @@ def test_figures_are_numbers_also_where_a_gearset_has_few_planets() -> None:
     assert all(math.isfinite(figure.value(state)) for figure in FIGURES)
 
 
+def test_every_figure_of_one_kind_of_mesh_says_which() -> None:
+    for kind in ("sun_planet", "planet_ring"):
+        states = []
+        for level in (1.0, 2.0):
+            state = GearboxState(planets=3)
+            for name in state.get_fields_and_field_types():
+                if name.startswith(kind):
+                    getattr(state, name)[:] = level
+            states.append(state)
+        moved = [figure.name for figure in FIGURES if len({figure.value(s) for s in states}) > 1]
+        assert moved and all(kind.replace("_", "-") in name for name in moved)
+
+
 def test_the_commands_are_offered_on_the_command_line() -> None:
     names = get_command(build_app()).list_commands(None)
     assert {"op", "monitor", "param"} <= set(names)

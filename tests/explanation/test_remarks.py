@@ -1,0 +1,87 @@
+"""Viscous friction that is clipped to zero is told: runs of known loads, and samples made here."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from typer.testing import CliRunner
+
+import planetary_twin_py as pt
+from planetary_twin_py.cli import build_app
+from planetary_twin_py.explanation.remarks import clipped_friction, remarks
+
+HEAVY = pt.load_scene("paper")
+# 0.03 um is where the plateau ends without pressure: a tenth of the film.
+LIGHT = HEAVY.replace(
+    input_torque=0.3, **{"lubrication.shear_stress": "20 MPa", "lubrication.viscosity": 0.03}
+)
+
+
+@pytest.fixture(scope="module")
+def heavy():
+    return pt.simulate(HEAVY, 0.01)
+
+
+def test_a_heavy_load_has_viscous_friction_throughout(heavy):
+    assert clipped_friction(HEAVY, heavy) == {"sun_planet": 0.0, "planet_ring": 0.0}
+    assert list(remarks(HEAVY, heavy)) == []
+
+
+@pytest.mark.parametrize("dynamics", ["torsional", "quasi_static"])
+def test_a_light_load_has_none_and_that_is_told(dynamics):
+    scene = LIGHT.replace(dynamics=dynamics)
+    run = pt.simulate(scene, 0.01)
+    assert run.boundary_friction.max() > 0.0
+    assert clipped_friction(scene, run) == {"sun_planet": 1.0, "planet_ring": 1.0}
+    (line,) = remarks(scene, run)
+    assert "for 100 % (sun-planet meshes) and 100 % (planet-ring meshes) of the time" in line
+
+
+def test_only_the_kind_of_mesh_that_is_clipped_is_told(heavy):
+    """A fifth of the samples of one of three ring meshes."""
+    viscous = heavy.viscous_friction.copy()
+    viscous[: len(viscous) // 5, 3] = 0.0
+    scene, run = HEAVY, replace(heavy, viscous_friction=viscous)
+    shares = clipped_friction(scene, run)
+    assert shares["sun_planet"] == 0.0
+    assert shares["planet_ring"] == pytest.approx(1 / 15, rel=0.02)
+    (line,) = remarks(scene, run)
+    assert "sun-planet" not in line and "6.67 %" in line
+
+
+def test_teeth_that_have_parted_are_not_clipped(heavy):
+    apart = np.arange(len(heavy.time)) % 2 == 0
+    parted = {
+        name: np.where(apart[:, None], 0.0, getattr(heavy, name))
+        for name in ("mesh_force", "viscous_friction", "boundary_friction")
+    }
+    assert set(clipped_friction(HEAVY, replace(heavy, **parted)).values()) == {0.0}
+
+
+def test_neither_a_scene_without_friction_nor_the_printed_law_is_told():
+    for change in ({"lubrication.friction": False}, {"lubrication.traction": "printed"}):
+        scene = LIGHT.replace(**change)
+        assert list(remarks(scene, pt.simulate(scene, 0.005))) == []
+
+
+def test_a_film_that_carries_all_of_the_load_is_told_too():
+    """Then there is no boundary friction either, and an efficiency of 1."""
+    scene = LIGHT.replace(lambda_ratio=3.0, **{"lubrication.boundary": "load_sharing"})
+    run = pt.simulate(scene, 0.005)
+    assert run.efficiency == 1.0
+    assert set(clipped_friction(scene, run).values()) == {1.0}
+
+
+@pytest.mark.parametrize("command", ["simulate", "explain"])
+def test_the_commands_warn_in_one_line(command, tmp_path):
+    light = tmp_path / "light.yaml"
+    light.write_text(
+        "base: paper\nname: light\noperating_point: {input_torque: 0.3}\n"
+        "lubrication: {shear_stress: 20 MPa, viscosity: 0.03}\n"
+    )
+    for scene, lines in ((str(light), 1), ("paper", 0)):
+        done = CliRunner().invoke(build_app(), [command, scene, "--duration", "0.005"])
+        assert done.exit_code == 0, done.stderr
+        told = done.stderr.splitlines()
+        assert len(told) == lines
+        assert all("viscous friction is clipped to zero" in line for line in told)
