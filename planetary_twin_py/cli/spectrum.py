@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
+import inspect
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -21,7 +22,10 @@ if TYPE_CHECKING:
 LINES = 12
 
 
-def spectrum(  # noqa: PLR0913 - what, when, on which part of which axis, and where to
+@dataclass(frozen=True)
+class Options:
+    """What the command takes: what of which mesh, when, on which part of which axis, where to."""
+
     file: Annotated[
         Path,
         typer.Argument(
@@ -29,65 +33,98 @@ def spectrum(  # noqa: PLR0913 - what, when, on which part of which axis, and wh
             help="Recording, or the .npz file that `simulate --out` wrote.",
             autocompletion=complete_recording,
         ),
-    ],
+    ]
     order: Annotated[
         bool, typer.Option("--order", help="Over cycles per turn of the sun against the carrier.")
-    ] = False,
-    mesh: Annotated[str, typer.Option(help="Which mesh.")] = "sun_planet_1",
-    quantity: Annotated[str, typer.Option(help="dte, mesh_force or friction.")] = "dte",
+    ] = False
+    mesh: Annotated[str, typer.Option(help="Which mesh.")] = "sun_planet_1"
+    quantity: Annotated[str, typer.Option(help="dte, mesh_force or friction.")] = "dte"
     band: Annotated[
         str | None,
         typer.Option(
             metavar="LOW:HIGH", help="Only this part of the axis, in Hz or with --order in orders."
         ),
-    ] = None,
+    ] = None
     from_: Annotated[
         float | None, typer.Option("--from", help="Begin: simulated time in seconds.")
-    ] = None,
+    ] = None
     to: Annotated[
         float | None,
         typer.Option(help="End. Without both: the longest time at one operating point, settled."),
-    ] = None,
+    ] = None
     out: Annotated[
         Path | None, typer.Option(help="Write all there is in the band: .png or .csv.")
-    ] = None,
-    json_: JsonOption = None,
-) -> None:
+    ] = None
+    json_: JsonOption = None
+
+
+def spectrum(**given: Any) -> None:
     """List the highest lines in the spectrum of one mesh, and which are harmonics of the meshing.
 
     Example: planetary-twin spectrum recordings/NAME --band 400:600 --out spectrum.png
     """
-    if out is not None and out.suffix not in (".png", ".csv"):
-        fail(f"--out = {str(out)!r}: must end in .png or .csv")
-    if out is not None and out.suffix == ".png":
-        need("plots", "matplotlib")
-    if file.suffix != ".npz":
-        need("recording", "mcap", "rosbags")
-
-    from ..analysis.band import read_band
-    from ..analysis.mesh_spectrum import frequency_spectrum_of, order_spectrum_of
-    from ..analysis.signals import QUANTITIES, read_signal
+    asked = Options(**given)
+    _check(asked)
+    from ..analysis.signals import QUANTITIES
 
     try:
-        part = None if band is None else read_band(band, "" if order else "Hz")
-        signal = read_signal(file, mesh, quantity)
-        whole = from_ is None and to is None
-        signal = _steady(file, signal) if whole else signal.within(from_, to)
-        found = (order_spectrum_of if order else frequency_spectrum_of)(signal, _sun_teeth(signal))
-        found = found if part is None else found.within(part)
-        if out is not None:
-            axis = "order [cycles per turn]" if order else "frequency [Hz]"
-            labels = (axis, f"amplitude of {quantity} [{QUANTITIES[quantity]}]")
-            title = f"{file.name}: {mesh}, {signal.time[0]:.3f} to {signal.time[-1]:.3f} s"
-            _write(found, out, title, labels)
+        signal, found = _analysed(asked)
+        if asked.out is not None:
+            _write(asked.out, found, _title(asked, signal), _labels(asked))
     except (ValueError, OSError) as error:
         fail(error)
     for line in signal.remarks:
         remark(line)
-    figures = {"mesh": mesh, "quantity": quantity}
-    figures |= _figures(signal, found, "order" if order else "frequency_hz")
-    _tell(console_beside(json_), figures, QUANTITIES[quantity])
-    put_figures(figures, json_)
+    figures = {"mesh": asked.mesh, "quantity": asked.quantity}
+    figures |= _figures(signal, found, "order" if asked.order else "frequency_hz")
+    _tell(console_beside(asked.json_), figures, QUANTITIES[asked.quantity])
+    put_figures(figures, asked.json_)
+
+
+# Typer reads the options off the signature.
+vars(spectrum)["__signature__"] = inspect.signature(Options, eval_str=True).replace(
+    return_annotation=None
+)
+
+
+def _check(asked: Options) -> None:
+    """End the command where it cannot write what is asked for, or read it."""
+    out = asked.out
+    if out is not None and out.suffix not in (".png", ".csv"):
+        fail(f"--out = {str(out)!r}: must end in .png or .csv")
+    if out is not None and out.suffix == ".png":
+        need("plots", "matplotlib")
+    if asked.file.suffix != ".npz":
+        need("recording", "mcap", "rosbags")
+
+
+def _analysed(asked: Options) -> tuple[Signal, MeshSpectrum]:
+    from ..analysis.band import read_band
+    from ..analysis.mesh_spectrum import frequency_spectrum_of, order_spectrum_of
+    from ..analysis.signals import read_signal
+
+    band = None if asked.band is None else read_band(asked.band, "" if asked.order else "Hz")
+    signal = read_signal(asked.file, asked.mesh, asked.quantity)
+    if asked.from_ is None and asked.to is None:
+        signal = _steady(asked.file, signal)
+    else:
+        signal = signal.within(asked.from_, asked.to)
+    spectrum_of = order_spectrum_of if asked.order else frequency_spectrum_of
+    found = spectrum_of(signal, _sun_teeth(signal))
+    return signal, found if band is None else found.within(band)
+
+
+def _title(asked: Options, signal: Signal) -> str:
+    begin, end = signal.time[[0, -1]]
+    return f"{asked.file.name}: {asked.mesh}, {begin:.3f} to {end:.3f} s"
+
+
+def _labels(asked: Options) -> tuple[str, str]:
+    """Of the axes."""
+    from ..analysis.signals import QUANTITIES
+
+    axis = "order [cycles per turn]" if asked.order else "frequency [Hz]"
+    return axis, f"amplitude of {asked.quantity} [{QUANTITIES[asked.quantity]}]"
 
 
 def _steady(file: Path, signal: Signal) -> Signal:
@@ -157,7 +194,7 @@ def _tell(console: Console, figures: dict[str, Any], unit: str) -> None:
     )
 
 
-def _write(found: MeshSpectrum, out: Path, title: str, labels: tuple[str, str]) -> None:
+def _write(out: Path, found: MeshSpectrum, title: str, labels: tuple[str, str]) -> None:
     if out.suffix == ".csv":
         import numpy as np
 
