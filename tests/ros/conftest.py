@@ -16,7 +16,6 @@ from pathlib import Path
 from typing import IO, Any
 
 import pytest
-from planetary_twin.network import loopback_profile
 from planetary_twin_msgs.msg import OperatingPoint
 from small_disk import mounted
 
@@ -32,10 +31,6 @@ def domain(monkeypatch: pytest.MonkeyPatch) -> Iterator[int]:
     with _free_domain() as number:
         monkeypatch.setenv("ROS_DOMAIN_ID", str(number))
         monkeypatch.setenv("ROS_PYTHON_CHECK_FIELDS", "1")
-        # As `planetary-twin run` has it: nodes find one another at once, and none crashes at what
-        # another that was killed has left in shared memory.
-        monkeypatch.setenv("ROS_AUTOMATIC_DISCOVERY_RANGE", "SYSTEM_DEFAULT")
-        monkeypatch.setenv("FASTRTPS_DEFAULT_PROFILES_FILE", str(loopback_profile()))
         yield number
 
 

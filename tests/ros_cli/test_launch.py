@@ -57,6 +57,14 @@ def test_a_twin_of_another_domain_and_scene_is_not_met(ros2: Ros2) -> None:
     assert ros2.interrupt(far) == 0
 
 
+def test_a_scene_keeps_its_operating_point(ros2: Ros2) -> None:
+    light = ros2.start(*LAUNCH, "namespace:=light", "scene:=lightly_loaded", "record:=false")
+    ros2.until("active [3]", "lifecycle", "get", "/light/simulation")
+    assert ros2.value("/light/simulation", "input_torque") == "0.3"
+    assert ros2.value("/light/simulation", "torque_ripple") == "1.0"
+    assert ros2.interrupt(light) == 0
+
+
 def test_a_simulation_that_cannot_start_ends_the_launch_with_the_reason(ros2: Ros2) -> None:
     process = ros2.start(*LAUNCH, "namespace:=wrong", "rate_factor:=1000.0")
     process.wait(60)

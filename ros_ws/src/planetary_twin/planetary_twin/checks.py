@@ -20,6 +20,7 @@ from .network import stay_on_this_machine
 
 _PATIENCE = 5.0  # [s] for two participants to find each other
 _SHARED_MEMORY = Path("/dev/shm")
+_SWEEP = "rm /dev/shm/*fastrtps_*"
 
 
 def check() -> Iterator[Finding]:
@@ -52,7 +53,10 @@ def _conversation() -> Finding:
         return Finding(
             "middleware", "sound", f"a message arrived {told - begun:.1f} s after the start"
         )
-    mend = "check ROS_DOMAIN_ID, the firewall of the loopback interface, and RMW_IMPLEMENTATION"
+    mend = (
+        "check ROS_DOMAIN_ID, the firewall of the loopback interface, and RMW_IMPLEMENTATION; "
+        f"with no node running: {_SWEEP}"
+    )
     return Finding("middleware", "broken", f"no message arrived within {_PATIENCE:g} s", mend)
 
 
@@ -82,7 +86,7 @@ def _leftovers() -> Finding:
     if not left:
         return Finding("shared memory", "sound", "nothing left behind by killed nodes")
     told = f"{len(left)} segments left behind by killed nodes"
-    return Finding("shared memory", "sound", told, "with no node running: rm /dev/shm/*fastrtps_*")
+    return Finding("shared memory", "sound", told, f"with no node running: {_SWEEP}")
 
 
 def _mapped() -> set[str]:
