@@ -75,7 +75,7 @@ studies: setup
 # The site, and the pages of its reference that are made from the code; a warning, so a broken link
 # too, is an error.
 docs: setup
-	cd docs && ../$(BIN)/python -m _generate
+	cd docs && ../$(BIN)/python -m _generate reference
 	$(BIN)/sphinx-build --quiet --fail-on-warning --keep-going docs docs/_build/site
 
 lock: setup

@@ -1,8 +1,9 @@
-"""Writes the pages of the reference: `python -m _generate` in docs/."""
+"""Writes the pages of the reference: `python -m _generate reference` in docs/."""
 
+import sys
 from pathlib import Path
 
 from . import PAGES
 
 for name, page in PAGES.items():
-    (Path(__file__).parents[1] / "reference" / name).write_text(page())
+    (Path(sys.argv[1]) / name).write_text(page())
