@@ -18,8 +18,10 @@ class Ros2:
     def __init__(self, domain: int, folder: Path) -> None:
         self.folder = folder
         self.started: list[subprocess.Popen[str]] = []
+        # As a user has it, shared memory included.
+        given = {k: v for k, v in os.environ.items() if k != "FASTRTPS_DEFAULT_PROFILES_FILE"}
         self._environment = {
-            **os.environ,
+            **given,
             "ROS_DOMAIN_ID": str(domain),
             "ROS_AUTOMATIC_DISCOVERY_RANGE": "LOCALHOST",
         }
