@@ -24,12 +24,12 @@ ABSOLUTE = 1e-9  # [rad], [rad/s]
 class Rattle:
     """A stretch of rattle, and its solution by DOP853 near rounding, restarted at every switch."""
 
-    def __init__(self, begin=BEGIN):
+    def __init__(self, begin=BEGIN, span=SPAN):
         self.source = Engine(SCENE, 1e-6)
         self.source.advance(begin, 1, RATE, 0)
         self.start = self.source.march.end.time
         self.first = math.floor(self.start * RATE) + 1
-        self.count = round(SPAN * RATE)
+        self.count = round(span * RATE)
         self.times = (self.first + np.arange(self.count)) / RATE - self.start
         self.model = Reference(SCENE)
         self.state, side = absolute(self.source)
@@ -78,14 +78,12 @@ def test_dop853_reports_success_and_returns_garbage(rattle, tolerance):
 
 @pytest.mark.slow
 def test_dop853_returns_garbage_at_a_tight_tolerance_too():
-    """From which start it does so hangs on the last digits, so on the processor; everywhere it is
-    far off: some thousand, and nowhere less than a hundred, times the tolerance."""
-    outcomes = [Rattle(begin).peer("DOP853", 1e-4) for begin in (0.02, 0.021, 0.022, 0.023)]
+    """From which start it does so hangs on the last digits; everywhere it is far off."""
+    outcomes = [Rattle(begin, 6e-3).peer("DOP853", 1e-4) for begin in (0.02, 0.021, 0.022, 0.023)]
     assert all(success for success, _ in outcomes)
     errors = [error for _, error in outcomes]
     assert not max(errors) < 1.0
-    assert not np.median(errors) < 1000.0 * 1e-4
-    assert not min(errors) < 100.0 * 1e-4
+    assert not min(errors) < 1000.0 * 1e-4
 
 
 @pytest.mark.parametrize("method", ["RK45", "LSODA", "BDF"])
