@@ -90,6 +90,8 @@ _MESH_ROWS = (
     "natural frequency on its own two gears, one pair in contact [Hz]",
     "damping ratio of that mode [-]",
     "static mesh force [N]",
+    "Hertz pressure of that force on one pair at the pitch point [Pa]",
+    "tooth loss factor H_v [-]",
     "backlash on the line of action [m]",
 )
 

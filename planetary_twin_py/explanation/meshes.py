@@ -12,7 +12,9 @@ from ..dynamics.start import build_load
 from ..dynamics.static_load import mesh_force
 from ..dynamics.stiffness_laws import GEARS
 from ..dynamics.train import build_train
-from ..gearset.geometry import planet_ring_path, sun_planet_path
+from ..gearset.geometry import pitch_radius, planet_ring_path, sun_planet_path
+from ..losses.ohlendorf import tooth_loss_factor
+from ..lubrication.hertz import contact_modulus, half_width
 from ..scene import Scene
 
 
@@ -26,6 +28,8 @@ class MeshFigures(NamedTuple):
     natural_frequency: float  # on its own two gears, with one pair in contact [Hz]
     damping_ratio: float  # of that mode at the operating point [-]
     static_force: float  # mean under the torque of the operating point, without friction [N]
+    pitch_pressure: float  # largest, of that force on one pair at the pitch point (Hertz) [Pa]
+    loss_factor: float  # H_v (Ohlendorf 1958): a loss of friction coefficient times it [-]
     backlash: float  # total play on the line of action [m]
 
 
@@ -48,6 +52,7 @@ def describe_meshes(scene: Scene) -> Meshes:
     load = build_load(scene, point, train)
     frequency = abs(float(train.cycles @ load.target_speed)) / (2.0 * math.pi)
     natural, mean = natural_frequencies(scene, train.stiffness), mean_stiffness(train)
+    force = abs(mesh_force(scene, point.input_torque))
     gearset, teeth = scene.gearset, scene.gearset.tooth_numbers._asdict()
     paths = [
         path(gearset.tooth_numbers, gearset.pressure_angle, gearset.addendum)
@@ -61,9 +66,26 @@ def describe_meshes(scene: Scene) -> Meshes:
             mean_stiffness=float(mean[kind]),
             natural_frequency=float(natural[kind]) / (2.0 * math.pi),
             damping_ratio=0.5 * damping_time(train, kind, frequency) * float(natural[kind]),
-            static_force=abs(mesh_force(scene, point.input_torque)),
+            static_force=force,
+            pitch_pressure=_pitch_pressure(scene, force, kind),
+            loss_factor=tooth_loss_factor(paths[kind], teeth[first], teeth[second], kind == 1),
             backlash=2.0 * float(load.half_backlash),
         )
         for kind, (first, second) in enumerate(GEARS)
     )
     return Meshes(frequency, sun_planet, planet_ring)
+
+
+def _pitch_pressure(scene: Scene, force: float, kind: int) -> float:
+    """Largest pressure [Pa] where one pair touches at the pitch point under `force` [N].
+
+    p = 2 F/(pi b L) (Johnson 1985, eq. 4.46). A flank's radius of curvature there is r sin(alpha).
+    """
+    gearset, oil = scene.gearset, scene.lubrication
+    first, second = (getattr(gearset.teeth, gear) for gear in GEARS[kind])
+    curvature = 1.0 / pitch_radius(first, gearset.module)
+    curvature += (-1.0 if kind == 1 else 1.0) / pitch_radius(second, gearset.module)
+    radius = math.sin(gearset.pressure_angle) / curvature
+    modulus = contact_modulus(oil.youngs_modulus, oil.poisson_ratio)
+    width = gearset.face_width
+    return 2.0 * force / (math.pi * width * half_width(force, radius, width, modulus))

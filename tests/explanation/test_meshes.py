@@ -104,6 +104,24 @@ def test_force_is_the_torque_over_base_radius_and_planets(kind):
 
 
 @BOTH
+def test_pressure_is_that_of_iso_6336(kind):
+    """Z_H Z_E sqrt(F_t/(d1 b) (u +- 1)/u), Z_H = sqrt(2/(cos^2 tan)) at the pressure angle."""
+    first, second = {"sun_planet": (30, 20), "planet_ring": (20, -70)}[kind]
+    gearset, oil = PAPER.gearset, PAPER.lubrication
+    zone = math.sqrt(2.0 / (COSINE**2 * math.tan(math.radians(21.34))))
+    elasticity = math.sqrt(oil.youngs_modulus / (2.0 * math.pi * (1.0 - oil.poisson_ratio**2)))
+    ratio, tangential = second / first, of(kind).static_force * COSINE
+    line = tangential / (gearset.module * first * gearset.face_width)
+    iso = zone * elasticity * math.sqrt(line * (ratio + 1.0) / ratio)
+    assert of(kind).pitch_pressure == pytest.approx(iso)
+
+
+def test_loss_factors_are_those_of_the_papers_meshes():
+    assert of("sun_planet").loss_factor == pytest.approx(0.17152, abs=1e-5)
+    assert of("planet_ring").loss_factor == pytest.approx(0.09778, abs=1e-5)
+
+
+@BOTH
 def test_backlash_is_the_way_between_the_flanks_on_the_line_of_action(kind):
     assert of(kind, backlash=3e-7).backlash == pytest.approx(3e-7)
     along_arcs = of(kind, backlash=3e-7, **{"mesh.motion": "pitch_arc"})
