@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from difflib import get_close_matches
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import Any, BinaryIO, NamedTuple
 
 import numpy as np
 import pyarrow as pa
@@ -23,7 +23,6 @@ LABEL = "operating_point"
 UNREAD = ("stamp", "sequence", "interval", "planets")
 """Columns of an export that count messages; an import counts its own."""
 UNEVEN = 0.1  # of a step, by which a time stamp may be off: loggers round them
-_READERS = {".csv": csv.read_csv, ".parquet": parquet.read_table}
 _HEADING = re.compile(r"(.*?)\s*(?:\[(.*)\])?")
 
 
@@ -82,8 +81,31 @@ def _read(path: Path) -> pa.Table:
     try:
         with path.open("rb") as stream:
             return _READERS[path.suffix](stream)
-    except (pa.ArrowInvalid, UnicodeDecodeError) as reason:
+    except UnicodeDecodeError as reason:
+        raise ValueError(f"{path}: must be in UTF-8, byte {reason.start + 1} is not") from None
+    except pa.ArrowInvalid as reason:
         raise ValueError(f"{path}: {str(reason).splitlines()[0]}") from None
+
+
+def _read_csv(stream: BinaryIO) -> pa.Table:
+    """Separated by commas, semicolons or tabulators; decimal commas where none separates."""
+    text = stream.read().decode()
+    stream.seek(0)
+    heading, _, body = text.partition("\n")
+    separator = max(";\t,", key=heading.count)
+    commas = separator != "," and re.search(r"\d,\d", body) and not re.search(r"\d\.\d", body)
+    decimal = "," if commas else "."
+    return csv.read_csv(
+        stream,
+        parse_options=csv.ParseOptions(delimiter=separator),
+        convert_options=csv.ConvertOptions(decimal_point=decimal),
+    )
+
+
+_READERS: dict[str, Callable[[BinaryIO], pa.Table]] = {
+    ".csv": _read_csv,
+    ".parquet": parquet.read_table,
+}
 
 
 def _named(heading: str, units: Mapping[str, str]) -> tuple[str, str | None]:

@@ -12,6 +12,7 @@ from typer.testing import CliRunner
 import planetary_twin_py as pt
 from planetary_twin_py.cli import build_app
 from planetary_twin_py.recording.events import read_events
+from planetary_twin_py.recording.measurements import read_measurements
 from planetary_twin_py.recording.offline import NAMESPACE
 from planetary_twin_py.recording.reader import read_recording
 from planetary_twin_py.recording.schedule import read_runs
@@ -107,6 +108,21 @@ def test_a_table_as_spreadsheets_write_it_is_read(tmp_path):
     assert done.exit_code == 0 and "2 rows, one every 0.6 s" in done.output, done.output
 
 
+@pytest.mark.parametrize(
+    "text",
+    [
+        "time;power_loss [kW];operating_point\n1;0;warm, loaded\n1,5;0,25;warm, loaded\n",
+        "time;power_loss [kW]\n1;0\n1.5;0.25\n",
+        "time\tpower_loss [kW]\n1\t0\n1,5\t0,25\n",
+    ],
+)
+def test_semicolons_tabulators_and_decimal_commas_are_read(tmp_path, text):
+    (tmp_path / "rig.csv").write_text(text)
+    measured = read_measurements(tmp_path / "rig.csv", {"power_loss": "W"})
+    assert measured.step == 0.5
+    assert measured.columns["power_loss"] == pytest.approx([0.0, 250.0])
+
+
 def test_verify_says_that_it_was_measured_and_does_not_compare(tmp_path):
     bring_in(tmp_path, SOUND)
     done = run("verify", tmp_path / "rig", "--json", tmp_path / "out.json")
@@ -193,10 +209,14 @@ def test_a_missing_row_is_told_with_its_place(tmp_path):
 def test_a_file_that_is_no_table_is_refused(tmp_path):
     (tmp_path / "rig.txt").write_text("time\n")
     (tmp_path / "torn.parquet").write_bytes(b"PAR1")
+    (tmp_path / "latin.csv").write_bytes(
+        "time,oil_temperature [°C]\n1,60\n2,60\n".encode("latin-1")
+    )
     for name, told in (
         ("rig.txt", "must end in"),
         ("torn.parquet", "torn.parquet"),
         ("no.csv", "no.csv: No such file"),
+        ("latin.csv", "latin.csv: must be in UTF-8"),
     ):
         done = run("import", tmp_path / name, "--out", tmp_path / "rig")
         assert done.exit_code == 2 and told in done.output and done.output.count("\n") == 1
