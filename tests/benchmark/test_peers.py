@@ -25,6 +25,8 @@ from planetary_twin_py.engine import Engine
 from planetary_twin_py.integrators.march import begin_step
 from planetary_twin_py.scene import load_scene, packaged_scenes
 
+pytestmark = pytest.mark.slow
+
 SMOOTH = Case("smooth", {"lubrication.friction": False}, 0.002, 1)
 SHORT = Case("short", {}, 0.002, 1)
 VISCOUS = Case("viscous", {"mesh.damping.law": "viscous"}, 0.002, 1)

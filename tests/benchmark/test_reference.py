@@ -1,5 +1,7 @@
 """The converged reference sees every event."""
 
+import pytest
+
 from planetary_twin_py.benchmark.cases import CASES
 from planetary_twin_py.benchmark.reference import Reference
 from planetary_twin_py.benchmark.table import dte_error
@@ -9,6 +11,7 @@ from planetary_twin_py.engine import Engine
 RATE, SPAN = 50_000.0, 180e-6  # [Hz], [s]
 
 
+@pytest.mark.slow
 def test_flanks_that_meet_and_part_within_one_of_its_steps_are_not_missed():
     """At 156 us a planet touches the coast flank of the ring for 0.6 us: 1e-5 of the error."""
     scene = next(case for case in CASES if case.name.startswith("resonance")).compared()

@@ -24,6 +24,7 @@ def _short_runs(monkeypatch):
     monkeypatch.setattr(table, "WHOLE", 0.002)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("case", [SHORT, RATTLE, HITS], ids=lambda case: case.name)
 def test_the_error_against_the_reference_is_that_of_the_tolerance(case):
     rows = measure([case], (1e-3, 1e-5), methods=METHODS[:1])
@@ -35,12 +36,14 @@ def test_the_error_against_the_reference_is_that_of_the_tolerance(case):
     assert all(row.rtf_low <= row.rtf <= row.rtf_high for row in rows)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("case", [SHORT, RATTLE], ids=lambda case: case.name)
 def test_the_error_of_the_other_method_falls_with_the_tolerance(case):
     rows = measure([case], (1e-3, 1e-5), methods=METHODS[1:])
     assert 0.0 < 30.0 * rows[1].error_dte < rows[0].error_dte < 1e-2
 
 
+@pytest.mark.slow
 def test_every_method_has_its_rows_and_the_whole_run_is_that_of_simulate():
     """Set-up takes longer than so short a run: the speed from end to end is lower."""
     rows = measure([SHORT], (1e-2, 1e-3))
@@ -50,6 +53,7 @@ def test_every_method_has_its_rows_and_the_whole_run_is_that_of_simulate():
     assert rows[2].figures()["end_to_end_rtf"] is None
 
 
+@pytest.mark.slow
 def test_a_case_with_a_stretch_is_compared_there_and_timed_as_a_whole():
     assert RUN_UP.timed(10.0) == pytest.approx(0.003)
     assert RUN_UP.scene().drive.speed_control.start_speed == 50.0
@@ -84,6 +88,7 @@ def test_at_resonance_flanks_part_and_hit_back():
     assert (result.mesh_force == 0.0).any() and (result.mesh_force < 0.0).any()
 
 
+@pytest.mark.slow
 def test_the_page_of_the_documentation_shows_what_was_measured():
     (row,) = measure([SHORT], (1e-3,), methods=METHODS[:1])
     errors = f"{row.error_dte:.1e} | {row.error_ratio:.2g} | {row.error_power_loss:.1e}"
@@ -93,6 +98,7 @@ def test_the_page_of_the_documentation_shows_what_was_measured():
     assert as_table([row]).row_count == 1
 
 
+@pytest.mark.slow
 def test_the_page_shows_a_picture_only_where_there_is_one():
     rows = measure([SHORT], (1e-2,), methods=METHODS[:1])
     assert "![" not in as_markdown(rows)

@@ -25,6 +25,7 @@ def invoke(*arguments):
     return CliRunner().invoke(build_app(), ["bench", *arguments], env={"COLUMNS": "120"})
 
 
+@pytest.mark.slow
 def test_page_figures_and_picture_are_of_one_run(tmp_path):
     page, figures = tmp_path / "docs" / "page.md", tmp_path / "figures.json"
     picture = tmp_path / "docs" / "work.png"

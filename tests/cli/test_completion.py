@@ -2,9 +2,10 @@
 
 import subprocess
 import sys
+from pathlib import Path
 
 import pytest
-from command_line import COMMAND, run
+from command_line import run
 
 from planetary_twin_py import packaged_scenes
 from planetary_twin_py.cli._arguments import complete_recording, complete_scene
@@ -71,8 +72,12 @@ def test_completion_and_help_load_nothing_that_one_would_wait_for():
         assert done.stderr.strip() == ""
 
 
-def test_a_script_for_the_shell_is_shown():
-    script = subprocess.run(
-        [*COMMAND, "--show-completion", "bash"], capture_output=True, text=True, check=True
-    ).stdout
-    assert "_COMPLETE=complete_bash" in script and "complete -o default" in script
+def test_bash_completes_with_the_script_that_is_shown():
+    """The shell it is for is the one that asks."""
+    program = Path(sys.executable).with_name("planetary-twin")
+    done = subprocess.run(
+        ["bash", "-c", f'eval "$({program} --show-completion)"; complete -p planetary-twin'],
+        capture_output=True,
+        text=True,
+    )
+    assert done.returncode == 0 and done.stdout.startswith("complete "), done.stderr

@@ -36,6 +36,7 @@ def test_without_a_display_one_line_names_what_works(file, monkeypatch):
     assert "--screenshot" in done.stderr
 
 
+@pytest.mark.slow
 def test_users_errors_are_one_line_each(file, tmp_path):
     for arguments, reason in [
         (["view", tmp_path / "missing"], "no such file"),

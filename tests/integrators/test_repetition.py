@@ -53,6 +53,7 @@ class Settled:
         self.gain = sum(self.engine.stored()) - stored
 
 
+@pytest.mark.slow
 @EVERY_SCENE
 def test_what_repeats_is_what_would_have_been_computed(scene):
     repeated, computed = Settled(scene, "auto"), Settled(scene, "march")
@@ -122,6 +123,7 @@ def test_windows_do_not_decide_what_repeats():
         assert np.array_equal(other_angle, angle)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "changes",
     [

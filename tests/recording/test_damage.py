@@ -117,6 +117,7 @@ def played(file):
     return [tape.topics, cues], tape.remarks
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("read", [values, counted, recovered, played])
 def test_what_is_read_is_as_written_or_the_damage_is_told(sound, tmp_path, monkeypatch, read):
     monkeypatch.setattr(os, "fsync", lambda file: None)  # hundreds of times, for no power cut

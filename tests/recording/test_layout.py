@@ -73,6 +73,7 @@ def assert_same(row, message):
         np.testing.assert_array_equal(row, message)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("little_endian", [True, False])
 @settings(max_examples=400, deadline=None)
 @given(data=st.data())

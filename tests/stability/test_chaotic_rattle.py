@@ -6,6 +6,8 @@ from stability.sound import PAPER, assert_closed, assert_finite
 
 import planetary_twin_py as pt
 
+pytestmark = pytest.mark.slow
+
 CHAOTIC = PAPER.replace(
     input_speed=1100.0,
     input_torque=5.0,

@@ -17,6 +17,7 @@ def find(path, *free, begin=None, end=None, **search):
     return identify(path, Search(free, start=start, **search), begin=begin, end=end)
 
 
+@pytest.mark.slow
 def test_rattle_tells_the_backlash(tmp_path):
     errors = []
     for seed in range(3):
