@@ -106,14 +106,14 @@ class Info:
         }
 
 
-def read_info(path: Path) -> Info:
-    """Read the recording at `path`: an .mcap file or a folder of them.
+def read_info(*paths: Path) -> Info:
+    """Read the recording at a path, an .mcap file or a folder of them; several one after another.
 
     A finished file is asked for its index, and no more of it is read than must be.
     Raises:
         RecordingError: there is none.
     """
-    told = _Told(Info(files_of(path)))
+    told = _Told(Info([file for path in paths for file in files_of(path)]))
     for file in told.info.files:
         more = deepcopy(told)
         try:

@@ -77,6 +77,36 @@ def test_a_run_records_every_message_it_publishes(
     assert working_in(tmp_path) == []
 
 
+def test_a_recording_that_was_split_on_the_way_is_counted_as_a_whole(
+    run: Callable[..., subprocess.Popen[str]], peer: Peer, tmp_path: Path
+) -> None:
+    process = run("--duration", "5", "--no-tour", "--record", "bag", "--json", "figures.json")
+    _line(process, "rpm")
+    assert peer.call(Trigger, f"{TWIN}/logger/split", Trigger.Request()).success
+    output, errors = process.communicate(timeout=60)
+    assert process.returncode == 0, errors
+    figures = json.loads((tmp_path / "figures.json").read_text())
+    assert figures["duration_s"] >= 5.0
+    assert all(topic["lost"] == 0 for topic in figures["topics"].values()), output
+    assert f"recordings{os.sep}bag: 2 files" in output
+
+
+def test_what_came_while_the_logger_was_stopped_is_told_and_both_recordings_are_counted(
+    run: Callable[..., subprocess.Popen[str]], peer: Peer, tmp_path: Path
+) -> None:
+    process = run("--duration", "6", "--no-tour", "--record", "bag", "--json", "figures.json")
+    _line(process, "rpm")
+    for service in ("stop", "start"):
+        assert peer.call(Trigger, f"{TWIN}/logger/{service}", Trigger.Request(), 20.0).success
+    output, errors = process.communicate(timeout=60)
+    assert process.returncode == 0, errors
+    states = json.loads((tmp_path / "figures.json").read_text())["topics"][f"{TWIN}/gearbox_state"]
+    held = [counts(bag)[f"{TWIN}/gearbox_state"] for bag in tmp_path.glob("recordings/*")]
+    assert len(held) == 2 and sum(held) == states["recorded"]
+    assert states["recorded"] + states["lost"] == states["published"] >= 600
+    assert "while the logger was stopped" in output
+
+
 def test_ctrl_c_leaves_a_readable_recording_and_the_table(
     run: Callable[..., subprocess.Popen[str]], tmp_path: Path
 ) -> None:

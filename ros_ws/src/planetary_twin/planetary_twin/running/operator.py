@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable, Mapping
+from pathlib import Path
 from typing import Any
 
 import rclpy
@@ -29,13 +30,15 @@ class Operator(Client):
     """
     Beside the two nodes of a run.
 
-    What it hears is kept as the newest `state`, `recorder` and real-time `figures`.
+    What it hears is kept as the newest `state`, `recorder` and real-time `figures`, and as the
+    `recordings` there were.
     """
 
     def __init__(self, namespace: str, watch: Callable[[], None]) -> None:
         super().__init__("operator", namespace, watch)
         self.state: GearboxState | None = None
         self.recorder = RecorderStatus()
+        self.recordings: dict[str, None] = {}  # names of their folders, in their order
         self.figures: dict[str, str] = {}
         self._told = 0.0  # [s] when they came
         listen = self.node.create_subscription
@@ -145,6 +148,8 @@ class Operator(Client):
 
     def _hear_recorder(self, message: RecorderStatus) -> None:
         self.recorder = message
+        if message.file:
+            self.recordings[Path(message.file).parent.name] = None
 
     def _hear_diagnostics(self, message: DiagnosticArray) -> None:
         if figures := real_time_figures(message, self.namespace):

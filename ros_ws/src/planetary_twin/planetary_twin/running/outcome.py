@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -14,7 +14,7 @@ from rclpy.serialization import deserialize_message
 from rich.console import Console
 from rich.table import Table
 
-from planetary_twin_py.recording.bag import ACCOUNT_RECORD
+from planetary_twin_py.recording.info import TopicInfo, read_info
 
 _STATE = "planetary_twin_msgs/msg/GearboxState"
 
@@ -36,9 +36,9 @@ class Tally:
 
 @dataclass(frozen=True)
 class Outcome:
-    """A finished run."""
+    """A finished run; it has several `files` where the logger was told to split or to stop."""
 
-    file: Path
+    files: Sequence[Path]
     topics: Mapping[str, Tally]
     duration: float  # [s] simulated
     power_loss: float  # [W] mean; NaN without a state
@@ -69,29 +69,21 @@ class Outcome:
             "sample_rates_hz": None if np.isnan(self.sample_rates[0]) else self.sample_rates,
             "mean_power_loss_w": None if np.isnan(self.power_loss) else self.power_loss,
             "efficiency": None if np.isnan(self.efficiency) else self.efficiency,
-            "file": str(self.file),
+            "file": str(self.files[0]),
         }
 
 
-def read_outcome(file: Path, published: Mapping[str, int], figures: Mapping[str, str]) -> Outcome:
-    """Count what `file` holds against what was `published`; `figures` are the last report's."""
-    types: dict[str, str] = {}
-    recorded: dict[str, int] = {}
-    states: list[GearboxState] = []
-    with file.open("rb") as stream:
-        reader = make_reader(stream)
-        for schema, channel, message in reader.iter_messages():
-            recorded[channel.topic] = recorded.get(channel.topic, 0) + 1
-            if schema is not None and schema.name == _STATE:
-                states.append(deserialize_message(message.data, GearboxState))
-        summary = reader.get_summary()
-        for channel in summary.channels.values() if summary else ():
-            types[channel.topic] = summary.schemas[channel.schema_id].name
-        gaps = {
-            record.metadata["topic"]: int(record.metadata["lost"])
-            for record in reader.iter_metadata()
-            if record.name == ACCOUNT_RECORD
-        }
+def read_outcome(
+    folders: Sequence[Path], published: Mapping[str, int], figures: Mapping[str, str]
+) -> Outcome:
+    """
+    Count what the recordings in `folders` hold against what was `published`.
+
+    There are several where the logger was stopped and started again; `figures` are those of the
+    simulation's last report.
+    """
+    info = read_info(*folders)
+    states = [state for file in info.files for state in _states(file)]
     loss, power, span = (
         np.array([getattr(state, name) for state in states])
         for name in ("power_loss", "input_power", "interval")
@@ -99,13 +91,8 @@ def read_outcome(file: Path, published: Mapping[str, int], figures: Mapping[str,
     put_in = float(np.sum(power * span))
     rates = [state.sample_rate for state in states] or [float("nan")]
     return Outcome(
-        file=file,
-        topics={
-            name: _tally(
-                types[name], published.get(name), recorded.get(name, 0), gaps.get(name, 0)
-            )
-            for name in types
-        },
+        files=info.files,
+        topics={name: _tally(topic, published.get(name)) for name, topic in info.topics.items()},
         duration=float(span.sum()),
         power_loss=float(np.sum(loss * span) / span.sum()) if states else float("nan"),
         efficiency=1.0 - float(np.sum(loss * span)) / put_in if put_in > 0 else float("nan"),
@@ -117,10 +104,18 @@ def read_outcome(file: Path, published: Mapping[str, int], figures: Mapping[str,
     )
 
 
-def _tally(kind: str, published: int | None, recorded: int, gaps: int) -> Tally:
+def _states(file: Path) -> Iterator[GearboxState]:
+    with file.open("rb") as stream:
+        for schema, _, message in make_reader(stream).iter_messages():
+            if schema is not None and schema.name == _STATE:
+                yield deserialize_message(message.data, GearboxState)
+
+
+def _tally(topic: TopicInfo, published: int | None) -> Tally:
+    gaps = (topic.lost or 0) - topic.before
     # Where others publish, too, the twin's own counter is not all: numbering is all there is.
-    own = published is not None and published >= recorded
-    return Tally(kind, published if own else recorded + gaps, recorded, gaps)
+    own = published is not None and published >= topic.recorded
+    return Tally(topic.type, published if own else topic.recorded + gaps, topic.recorded, gaps)
 
 
 def print_outcome(console: Console, outcome: Outcome) -> None:
@@ -140,12 +135,21 @@ def print_outcome(console: Console, outcome: Outcome) -> None:
         "waveform": _waveform(*outcome.sample_rates),
         "mean power loss": f"{outcome.power_loss:.2f} W",
         "efficiency": f"{outcome.efficiency:.3%}",
-        "recording": str(outcome.file),
-        "view it": f"planetary-twin view {outcome.file.parent}",
+        "recording": _places(outcome.files),
+        "view it": f"planetary-twin view {outcome.files[0].parent}",
     }
+    if any(tally.lost > tally.gaps for tally in outcome.topics.values()):
+        rows["lost, no gap"] = "published at an end, or while the logger was stopped"
     console.print()
     for name, value in rows.items():
         console.print(f"{name:17} {value}", highlight=False, soft_wrap=True)
+
+
+def _places(files: Sequence[Path]) -> str:
+    if len(files) == 1:
+        return str(files[0])
+    folders = dict.fromkeys(str(file.parent) for file in files)
+    return f"{' and '.join(folders)}: {len(files)} files"
 
 
 def _waveform(lowest: float, highest: float) -> str:

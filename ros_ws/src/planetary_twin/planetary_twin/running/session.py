@@ -76,8 +76,9 @@ def _run(plan: Plan, console: Console) -> Outcome:
                 _finish(operator)
         if logger.stop() != 0:
             raise RunError(logger.last_words() or "logger: ended with an error")
-    file = plan.folder / f"{plan.folder.name}_0.mcap"
-    return read_outcome(file, operator.published(), operator.figures)
+    names = dict.fromkeys([plan.folder.name, *operator.recordings])
+    folders = [plan.folder.with_name(name) for name in names]
+    return read_outcome(folders, operator.published(), operator.figures)
 
 
 def _logger_parameters(plan: Plan) -> dict[str, object]:
