@@ -112,11 +112,12 @@ def test_a_start_parameter_that_no_node_has_is_warned_of_and_no_other(
     """Those of the packaged file are all known."""
     config = Path(get_package_share_directory("planetary_twin")) / "config" / "paper.yaml"
     given = ("--ros-args", "--params-file", str(config), "-p", "backlsh:=3e-7")
-    process = start("planetary_twin.composed", *given)
+    process = start("planetary_twin.composed", *given, "-p", "zzz:=1")
     states = peer.listen(GearboxState, f"{TWIN}/gearbox_state")
     peer.until(lambda: states, 120.0)
     process.terminate()
     _, log = process.communicate(timeout=20)
     told = [line for line in log.splitlines() if "no such parameter" in line]
-    assert len(told) == 1
+    assert len(told) == 2
     assert told[0].endswith("backlsh: no such parameter, the nearest is backlash")
+    assert told[1].endswith("zzz: no such parameter")

@@ -35,11 +35,10 @@ class Reports:
         ago: float,
         *,
         overruns: int = 0,
-        paused: bool = False,
+        state: State = State.RUNNING,
         last: bool = False,
     ) -> DiagnosticArray:
-        state = State.PAUSED if paused else State.RUNNING
-        lasted = simulated if paused else 10.0 - ago
+        lasted = 10.0 - ago if state == State.RUNNING else simulated
         wall = self._now - ago
         now = Progress(simulated, wall, simulated, lasted, 0.0, overruns, False, state)
         return self._report.message(now, AFFORDABLE, {}, last=last)
@@ -53,7 +52,7 @@ class Reports:
         (9.981, 0.0, {}, DiagnosticStatus.OK, "keeps up"),
         (10.0, 0.0, {"overruns": 3}, DiagnosticStatus.WARN, "falls behind: real time x 1.000, 3 "),
         (4.0, 0.0, {}, DiagnosticStatus.ERROR, "falls far behind: real time x 0.400"),
-        (4.0, 0.0, {"paused": True}, DiagnosticStatus.OK, "keeps up"),
+        (4.0, 0.0, {"state": State.PAUSED}, DiagnosticStatus.OK, "paused"),
         (7.0, 3.0, {}, DiagnosticStatus.STALE, "stands still: the interval in progress has"),
         (7.0, 3.0, {"last": True}, DiagnosticStatus.OK, "keeps up"),
     ],
@@ -64,6 +63,16 @@ def test_the_level_says_how_far_behind_it_is(
     status = Reports()(simulated, ago, **more).status[0]
     assert status.level == level
     assert status.message.startswith(text)
+
+
+def test_who_waits_from_one_report_to_the_next_is_warned_of() -> None:
+    reports = Reports()
+    at_start = reports(0.0, 0.0, state=State.WAITING).status[0]
+    assert at_start.level == DiagnosticStatus.OK
+    still = reports(0.0, 0.0, state=State.WAITING).status[0]
+    assert still.level == DiagnosticStatus.WARN
+    assert still.message.startswith("waits: for the first message on /clock")
+    assert reports(10.0, 0.0).status[0].level == DiagnosticStatus.OK
 
 
 def test_where_two_looks_fall_within_an_interval_is_no_lag() -> None:

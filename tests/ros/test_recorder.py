@@ -123,6 +123,25 @@ def numbers_in(path: Path) -> list[int]:
     return found
 
 
+def test_what_was_published_before_a_recording_began_is_no_loss_to_warn_of(
+    peer: Peer, start: Start
+) -> None:
+    logger = Logger(peer, start, "name:=bag")
+    ticker = Ticker(peer)
+    peer.until(lambda: logger.recorded() > 50)
+    assert logger.ask("stop").success
+    heard = ticker.sent
+    started = logger.ask("start")
+    assert started.success
+    peer.until(lambda: logger.status[-1].file == started.message and logger.recorded())
+    status = logger.status[-1]
+    before = status.before[list(status.topics).index(TOPIC)]
+    assert before == logger.lost() >= heard
+    seen = len(logger.reports)
+    peer.until(lambda: len(logger.reports) > seen + 1)
+    assert all(report.level == DiagnosticStatus.OK for report in logger.reports)
+
+
 def test_recordings_begin_split_and_end_on_demand(peer: Peer, start: Start, tmp_path: Path) -> None:
     logger = Logger(peer, start, "name:=bag", "compression:=lz4")
     ticker = Ticker(peer)

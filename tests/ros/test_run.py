@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import math
 import os
 import re
 import signal
@@ -15,6 +16,7 @@ from pathlib import Path
 import pytest
 from mcap.reader import make_reader
 from planetary_twin.running.session import SILENCE
+from planetary_twin.running.tour import LENGTH, tour_of
 from planetary_twin_msgs.msg import GearboxState
 from std_srvs.srv import SetBool, Trigger
 
@@ -75,6 +77,10 @@ def test_a_run_records_every_message_it_publishes(
     assert attached["robot_description.urdf"].strip().endswith("</robot>")
     assert Path(tmp_path / figures["file"]).exists()
     assert working_in(tmp_path) == []
+
+
+def test_a_run_without_end_is_shown_around_as_a_usual_one() -> None:
+    assert tour_of("paper", math.inf) == tour_of("paper", LENGTH)
 
 
 def test_a_recording_that_was_split_on_the_way_is_counted_as_a_whole(

@@ -48,6 +48,13 @@ def test_values_may_have_units_and_what_was_set_is_told(
     assert set(points[-1].changed.split(",")) == {"input_speed", "lambda_ratio"}
 
 
+def test_where_there_is_no_twin_those_elsewhere_are_named(points: list[OperatingPoint]) -> None:
+    assert points
+    answer = command("param", "get", "backlash", "--namespace", "/elsewhere")
+    assert answer.returncode != 0 and answer.stderr.count("\n") == 1
+    assert "there is one in /planetary_twin: --namespace chooses" in answer.stderr
+
+
 def test_values_may_be_negative(points: list[OperatingPoint]) -> None:
     for typed in ("-104 rad/s", "-104", "-1e2"):
         answer = command("param", "set", "input_speed", typed)

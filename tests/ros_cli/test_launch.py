@@ -9,7 +9,9 @@ from rosbags.rosbag2 import Reader
 from .command import Ros2
 
 LAUNCH = ("launch", "planetary_twin", "twin.launch.py")
-ARGUMENTS = ("scene", "namespace", "record", "rate_factor", "params", "domain", "composed")
+ARGUMENTS = (
+    "scene", "namespace", "frame_prefix", "record", "rate_factor", "params", "domain", "composed",
+)  # fmt: skip
 
 
 def test_every_argument_is_described(ros2: Ros2) -> None:
@@ -22,12 +24,16 @@ def test_every_argument_is_described(ros2: Ros2) -> None:
 
 def test_twins_of_two_namespaces_run_and_record_side_by_side(ros2: Ros2) -> None:
     """One of them in one process, at another rate."""
-    left = ros2.start(*LAUNCH, "namespace:=left")
-    right = ros2.start(*LAUNCH, "namespace:=right", "composed:=true", "rate_factor:=0.5")
+    left = ros2.start(*LAUNCH, "namespace:=left", "frame_prefix:=left/")
+    options = ("frame_prefix:=right/", "composed:=true", "rate_factor:=0.5")
+    right = ros2.start(*LAUNCH, "namespace:=right", *options)
     for name in ("left", "right"):
         ros2.until("active [3]", "lifecycle", "get", f"/{name}/simulation")
         ros2.until("active [3]", "lifecycle", "get", f"/{name}/logger")
     assert ros2.value("/right/simulation", "rate_factor") == "0.5"
+    for name in ("left", "right"):
+        state = ros2.echo(f"/{name}/gearbox_state")
+        assert state["header"]["frame_id"] == f"{name}/gearbox"
     ros2("param", "set", "/left/simulation", "backlash", "3e-7")
     assert ros2.value("/left/simulation", "backlash") == "3e-07"
     assert ros2.value("/right/simulation", "backlash") == "2e-07"

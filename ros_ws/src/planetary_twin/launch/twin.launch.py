@@ -21,6 +21,7 @@ _DOMAIN = EnvironmentVariable("ROS_DOMAIN_ID", default_value="0")
 _ARGUMENTS = (
     ("scene", "paper", "packaged scene, or path of a YAML file"),
     ("namespace", "planetary_twin", "one per twin, so that several run side by side"),
+    ("frame_prefix", "", "before the names of all frames of /tf, which several twins share"),
     ("record", "true", "whether the logger records, into recordings/ of the working directory"),
     ("rate_factor", "1.0", "simulated seconds per second"),
     ("params", _CONFIG, "YAML file with parameters of both nodes"),
@@ -54,6 +55,7 @@ def _node(executable: str, condition: Substitution, **options: Shutdown) -> Node
         given |= {
             "rate_factor": ParameterValue(LaunchConfiguration("rate_factor"), value_type=float),
             "wait_for": ParameterValue(_RECORDED_BY, value_type=str),
+            "frame_prefix": ParameterValue(LaunchConfiguration("frame_prefix"), value_type=str),
         }
     return Node(
         package="planetary_twin",

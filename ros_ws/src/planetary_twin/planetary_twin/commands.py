@@ -29,7 +29,9 @@ PointOption = Annotated[
 
 def run(
     scene: SceneArgument = "paper",
-    duration: Annotated[float, typer.Option(help="Gearbox time [s].", min=0.1)] = 12.0,
+    duration: Annotated[
+        float, typer.Option(help="Gearbox time [s]; inf: until Ctrl-C.", min=0.1)
+    ] = 12.0,
     record: Annotated[
         str | None, typer.Option(metavar="NAME", help="Folder in recordings/; must be free.")
     ] = None,

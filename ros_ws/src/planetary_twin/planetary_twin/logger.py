@@ -124,6 +124,7 @@ class Logger(ManagedNode):
         status.topics = list(accounts)
         status.recorded = [account.recorded for account in accounts.values()]
         status.lost = [account.lost for account in accounts.values()]
+        status.before = [account.lost - account.missed for account in accounts.values()]
         self._status_publisher.publish(status)
 
 

@@ -290,8 +290,8 @@ def _warn_of_unknown(nodes: Iterable[ManagedNode]) -> None:
         for name in sorted(node._parameter_overrides.keys() - told):
             told.add(name)
             if not name.startswith(_QOS):
-                near = get_close_matches(name, known, 1, 0.0)[0]
-                node.get_logger().warning(f"{name}: no such parameter, the nearest is {near}")
+                near = "".join(f", the nearest is {n}" for n in get_close_matches(name, known, 1))
+                node.get_logger().warning(f"{name}: no such parameter{near}")
 
 
 def _serve_beside(executor: SingleThreadedExecutor, node: ManagedNode) -> None:

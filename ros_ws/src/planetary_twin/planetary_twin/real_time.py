@@ -30,6 +30,8 @@ class Verdict(NamedTuple):
 
 RUNS_FREELY = Verdict(DiagnosticStatus.OK, "runs as fast as it goes")
 KEEPS_UP = Verdict(DiagnosticStatus.OK, "keeps up")
+PAUSED = Verdict(DiagnosticStatus.OK, "paused")
+WAITS = Verdict(DiagnosticStatus.WARN, "waits")
 THINNED = Verdict(DiagnosticStatus.WARN, "keeps up with a thinned waveform")
 FALLS_BEHIND = Verdict(DiagnosticStatus.WARN, "falls behind")
 FALLS_FAR_BEHIND = Verdict(DiagnosticStatus.ERROR, "falls far behind")
@@ -59,6 +61,7 @@ class RealTimeReport:
         self._told: Change | None = None
         self._changes = {"tolerance": 0, "sample_rate": 0}
         self._begun = self._last = begun
+        self._waited = False  # at the report before
         self._process_cpu = time.process_time()
         self._wall = time.monotonic()
         self.verdict = KEEPS_UP
@@ -88,6 +91,7 @@ class RealTimeReport:
             THINNED: f"{self._log[-1].sample_rate:g} of {affordable.full_sample_rate:g} Hz",
             FALLS_BEHIND: f"real time x {recent:.3f}, {overruns} overruns",
             FALLS_FAR_BEHIND: f"real time x {recent:.3f}, {overruns} overruns",
+            WAITS: "for the first message on /clock, or for the node that wait_for names",
             STANDS: f"the interval in progress has not ended for {silence:.1f} s",
         }
         told = [self.verdict.text, details.get(self.verdict, "")]
@@ -123,6 +127,11 @@ class RealTimeReport:
     ) -> Verdict:
         if silence > self._period + _STALL:
             return STANDS
+        if now.state == State.PAUSED:
+            return PAUSED
+        waited, self._waited = self._waited, now.state == State.WAITING
+        if waited and self._waited:  # and not only on its way to running
+            return WAITS
         if not self._rate_factor:
             return RUNS_FREELY
         lasted = now.lasted - self._last.lasted

@@ -16,14 +16,15 @@ class RecordingReport:
 
     def __init__(self, hardware: str) -> None:
         self._hardware = hardware
-        self._lost = 0
+        self._missed = 0
 
     def message(
         self, file: str, size: int, accounts: Mapping[str, TopicAccount]
     ) -> DiagnosticArray:
         """Return the report, not stamped yet, of a recording that goes on."""
+        missed = sum(account.missed for account in accounts.values())
+        new, self._missed = max(missed - self._missed, 0), missed
         lost = sum(account.lost for account in accounts.values())
-        new, self._lost = max(lost - self._lost, 0), lost
         figures: dict[str, object] = {"file": file, "bytes": size, "lost": lost}
         for name, account in accounts.items():
             for figure in ("recorded", "lost", "before", "reported"):

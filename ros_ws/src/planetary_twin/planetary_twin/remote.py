@@ -107,14 +107,20 @@ class Remote(Client):
             for name, value, descriptor in zip(names, got.values, told.descriptors, strict=True)
         ]  # fmt: skip
 
+    def _cure(self) -> str:
+        """Where there are twins instead, or how to get one."""
+        nodes = self.node.get_node_names_and_namespaces()
+        if elsewhere := sorted(space for name, space in nodes if name == NODE):
+            return f"there is one in {', '.join(elsewhere)}: --namespace chooses"
+        return "start one with `planetary-twin run`"
+
     def _ask(self, kind: type, service: str, request: Any) -> Any:
         client: Service = self.node.create_client(kind, f"{NODE}/{service}")
         try:
             if not self.wait(client.service_is_ready, _DISCOVERY):
                 domain = os.environ.get("ROS_DOMAIN_ID", "0")
                 raise ConnectionError(
-                    f"no twin in {self.namespace} on ROS_DOMAIN_ID = {domain}: start one with "
-                    "`planetary-twin run`"
+                    f"no twin in {self.namespace} on ROS_DOMAIN_ID = {domain}: {self._cure()}"
                 )
             for _ in range(_TRIALS):
                 answer = self.call(client, request, PATIENCE)

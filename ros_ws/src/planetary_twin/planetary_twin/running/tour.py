@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping, Sequence
 from typing import NamedTuple
 
@@ -38,5 +39,5 @@ TOURS: Mapping[str, Sequence[Stop]] = {"paper": PAPER}
 
 def tour_of(scene: str, duration: float) -> list[Stop]:
     """Return the stops for a packaged scene in a run of `duration` [s]; none for other scenes."""
-    scale = duration / LENGTH
+    scale = duration / LENGTH if math.isfinite(duration) else 1.0
     return [stop._replace(time=stop.time * scale) for stop in TOURS.get(scene, ())]
