@@ -14,6 +14,8 @@ from collections.abc import Callable
 from pathlib import Path
 
 import pytest
+from lifecycle_msgs.msg import Transition
+from lifecycle_msgs.srv import ChangeState
 from mcap.reader import make_reader
 from planetary_twin.running.session import SILENCE
 from planetary_twin.running.tour import LENGTH, tour_of
@@ -239,6 +241,19 @@ def test_a_pause_however_long_and_a_reset_are_no_failure_of_a_run(
     assert process.returncode == 0, errors
     assert re.search(r"^ +1\.\d\d s .*rpm", output, re.MULTILINE)  # of the run that began anew
     assert "efficiency" in output
+
+
+def test_a_run_whose_simulation_is_shut_down_says_so(
+    run: Callable[..., subprocess.Popen[str]], peer: Peer, tmp_path: Path
+) -> None:
+    process = run("--duration", "60", "--no-tour", "--record", "bag")
+    _line(process, "rpm")
+    request = ChangeState.Request(transition=Transition(label="shutdown"))
+    assert peer.call(ChangeState, f"{TWIN}/simulation/change_state", request, 20.0).success
+    _, errors = process.communicate(timeout=60)
+    assert process.returncode == 1
+    assert "was made finalized by a request to its life cycle; what was recorded is in" in errors
+    assert counts(tmp_path / "recordings/bag")[f"{TWIN}/gearbox_state"] > 0
 
 
 def test_a_recording_that_others_make_under_the_name_meanwhile_is_left_alone(

@@ -69,8 +69,16 @@ class Operator(Client):
             if self.stands():
                 return None
             if time.monotonic() > deadline:
-                raise RunError(f"simulation: publishes no state within {seconds:g} s")
+                raise RunError(f"simulation: {self._silent(seconds)}")
         return self.state
+
+    def _silent(self, seconds: float) -> str:
+        """Say why no state has come for `seconds`."""
+        answer = self.call(self._get, GetState.Request())
+        label = answer.current_state.label if answer else ""
+        if label in ("", "active"):
+            return f"publishes no state within {seconds:g} s"
+        return f"was made {label} by a request to its life cycle"
 
     def stands(self) -> str:
         """`paused`, `waits` or nothing, as the twin's last report says, if that is new."""
