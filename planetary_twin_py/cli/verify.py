@@ -60,6 +60,8 @@ def _tell(console: Console, verdict: Verdict) -> None:
         console.print(f"warning: {remark}", style="yellow", soft_wrap=True, highlight=False)
     counts = ", ".join(f"{count} {topic}" for topic, count in verdict.messages.items())
     console.print(f"compared          {counts}: {verdict.values} values", highlight=False)
+    if verdict.not_recorded:
+        console.print(f"not recorded      {verdict.not_recorded} states on the way")
     if not verdict.same_makers:
         console.print("recorded by       other kernels or another kind of machine")
     first = verdict.first_difference
@@ -102,5 +104,6 @@ def _figures(verdict: Verdict) -> dict[str, Any]:
         "largest_difference": verdict.largest,
         "messages": verdict.messages,
         "values": verdict.values,
+        "not_recorded": verdict.not_recorded,
         "remarks": verdict.remarks,
     }

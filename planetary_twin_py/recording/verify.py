@@ -42,6 +42,8 @@ class Verdict:
     """How many were compared, by topic."""
     left_out: int = 0
     """How many were read and could not be compared."""
+    not_recorded: int = 0
+    """Intervals on the way that the recording has no state of."""
     values: int = 0
     first_difference: Difference | None = None
     largest: float = 0.0
@@ -73,6 +75,7 @@ def verify(
     _refuse_measured(path, runs)
     here = makers_here()
     verdict.same_makers = all(run.origin.makers == here for run in runs)
+    verdict.not_recorded = sum(_missing(run) for run in runs)
     again, strays = Again(runs, verdict.remarks), Counter[str]()
     for topic, message in messages_of(path, namespace, (STATE, WAVEFORM, JOINTS), []):
         if found := again.interval_of(topic, message):
@@ -86,6 +89,12 @@ def verify(
         for topic, count in strays.items()
     ]
     return verdict
+
+
+def _missing(run: Run) -> int:
+    """Count the intervals between a run's first and last that are not recorded."""
+    first, last = run.intervals[0], run.intervals[-1]
+    return last.number - first.number + 1 - len(run.intervals)
 
 
 def _refuse_measured(path: Path, runs: list[Run]) -> None:

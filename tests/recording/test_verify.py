@@ -110,6 +110,7 @@ def test_what_is_missing_is_bridged_while_nothing_changes(tmp_path):
     verdict = verify(record(tmp_path / "a", without("gearbox_state", {5, 6})), NAMESPACE)
     assert verdict.first_difference is None
     assert verdict.messages["gearbox_state"] == 39
+    assert verdict.not_recorded == 2
     assert [remark.split()[0] for remark in verdict.remarks] == ["2", "2"]  # joints, waveform
 
 
