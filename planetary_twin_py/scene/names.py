@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 from difflib import get_close_matches
 
-NEAR = 0.6  # likeness by difflib, below which names share little more than some letters
+NEAR = 0.7  # likeness by difflib, below which names share little more than some letters
 _MOST = 3
 
 

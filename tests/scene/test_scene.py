@@ -136,6 +136,7 @@ def test_a_mistyped_name_is_told_rather_than_the_right_one_it_leaves_out():
         ("mesh.viscosity", "; did you mean lubrication.viscosity?"),
         ("mesh.rump", "; did you mean mesh.ramp?"),
         ("backlas", "; did you mean backlash or mesh.backlash?"),
+        ("supports.sun.mass", ""),  # not given in this scene, and far from the phases of a mesh
         ("mesh.colour", ""),
         ("nosuch", ""),
         ("x", ""),
