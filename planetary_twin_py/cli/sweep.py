@@ -48,10 +48,11 @@ def sweep(
     """Run SCENE at many points: any field of it is an option, with values or a range.
 
     Values are a list (1000rpm,2000rpm), a grid (1:2:5: five values from 1 to 2) or one of equal
-    ratios (0.01:0.1:5:log); with --samples also a range (1:2, 0.01:0.1:log). What is done survives
-    a kill: the same command goes on where it was. Fields with a dot are given by it:
-    --mesh.damping.loss_factor 0.005:0.02:4; `planetary-twin fields` lists them. --set NAME=VALUE,
-    repeatable, changes the scene at all points: --set drive.speed_limit=30000rpm.
+    ratios (0.01:0.1:5:log); with --samples also a range (1:2, 0.01:0.1:log); with a unit each, or
+    all in SI. What is done survives a kill: the same command goes on where it was. Fields with a
+    dot are given by it: --mesh.damping.loss_factor 0.005:0.02:4; `planetary-twin fields` lists
+    them. --set NAME=VALUE, repeatable, changes the scene at all points: --set
+    drive.speed_limit=30000rpm.
 
     Example: planetary-twin sweep paper --backlash 2e-7:3.5e-7:4 --lambda-ratio 1:2:5
     --input-speed 1000rpm,2000rpm --out study.parquet

@@ -8,7 +8,7 @@ from typing import Any, Literal, NamedTuple, get_args, get_origin
 
 from pydantic.fields import FieldInfo
 
-from .quantity import Section, unit_of
+from .quantity import Section, sections_in, unit_of
 from .scene import Scene
 
 REQUIRED = "required"
@@ -53,17 +53,10 @@ def _sections(name: str, kind: str, model: type[Section]) -> Iterator[SceneSecti
     rows = tuple(_field(dotted, field) for dotted, field in fields.items())
     yield SceneSection(name, kind, inspect.cleandoc(model.__doc__ or ""), rows)
     for dotted, field in fields.items():
-        models = _models(field.annotation)
+        models = sections_in(field.annotation)
         below = dotted if _lengths(field) is None else f"{dotted}.{NUMBER}"
         for one in models:
             yield from _sections(below, one.__name__.lower() if len(models) > 1 else "", one)
-
-
-def _models(kind: Any) -> list[type[Section]]:
-    """Sections that a field of this type may hold."""
-    if isinstance(kind, type) and issubclass(kind, Section):
-        return [kind]
-    return [model for part in get_args(kind) for model in _models(part)]
 
 
 def _field(name: str, field: FieldInfo) -> SceneField:
@@ -93,9 +86,9 @@ def _default(field: FieldInfo) -> str:
 def _range(field: FieldInfo) -> str:
     lengths = _lengths(field)
     if lengths is not None:
-        what = "sections" if _models(field.annotation) else "values"
+        what = "sections" if sections_in(field.annotation) else "values"
         return f"{lengths[0]} to {lengths[1]} {what}"
-    if _models(field.annotation):
+    if sections_in(field.annotation):
         return "section"
     return ", ".join(_choices(field.annotation)) or _interval(field) or "text"
 

@@ -1,11 +1,11 @@
-"""Scene fields with a unit, a meaning and a range; errors that name all three."""
+"""Scene fields with a unit, a meaning and a range."""
 
 from __future__ import annotations
 
 import math
-from typing import Any
+from typing import Any, get_args
 
-from pydantic import BaseModel, ConfigDict, Field, ValidationError, ValidationInfo, field_validator
+from pydantic import BaseModel, ConfigDict, Field, ValidationInfo, field_validator
 from pydantic.fields import FieldInfo
 
 from ..units import to_si
@@ -42,6 +42,13 @@ def unit_of(field: FieldInfo) -> str | None:
     return str(extra["unit"]) if isinstance(extra, dict) and "unit" in extra else None
 
 
+def sections_in(kind: Any) -> list[type[Section]]:
+    """Sections that a field of this type may hold."""
+    if isinstance(kind, type) and issubclass(kind, Section):
+        return [kind]
+    return [section for part in get_args(kind) for section in sections_in(part)]
+
+
 def bounds(field: FieldInfo) -> tuple[float, float]:
     """Smallest and largest value a field admits."""
     low, high = -math.inf, math.inf
@@ -49,38 +56,6 @@ def bounds(field: FieldInfo) -> tuple[float, float]:
         low = max(low, getattr(item, "ge", -math.inf), getattr(item, "gt", -math.inf))
         high = min(high, getattr(item, "le", math.inf), getattr(item, "lt", math.inf))
     return low, high
-
-
-def explain(error: ValidationError, model: type[BaseModel]) -> str:
-    """The first defect of `error` in one line: field, value, what is allowed."""
-    defect = error.errors(include_url=False)[0]
-    path = [str(part) for part in defect["loc"]]
-    name = ".".join(path) or "scene"
-    if defect["type"] == "extra_forbidden":
-        return f"{name}: no such field"
-    if defect["type"] == "missing":
-        return f"{name}: missing"
-    reason = defect["msg"].removeprefix("Value error, ")
-    if not path or isinstance(defect["input"], dict):
-        return f"{name}: {reason}" if path else reason
-    return f"{name} = {defect['input']!r}: {_allowed(model, path) or reason}"
-
-
-def _allowed(model: type[BaseModel], path: list[str]) -> str | None:
-    """The range of the field at `path`, in words; None if it has none."""
-    field = None
-    for part in path:
-        field = model.model_fields.get(part)
-        if field is None:
-            return None
-        if isinstance(field.annotation, type) and issubclass(field.annotation, BaseModel):
-            model = field.annotation
-    if field is None or unit_of(field) is None:
-        return None
-    low, high = bounds(field)
-    if low == -math.inf and high == math.inf:
-        return f"must be a finite number in {unit_of(field) or '1'}"
-    return within(low, high, unit_of(field) or "")
 
 
 def within(low: float, high: float, unit: str) -> str:

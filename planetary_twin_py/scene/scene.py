@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from difflib import get_close_matches
 from importlib import resources
 from pathlib import Path
 from typing import Any, Literal, Self
@@ -11,14 +10,16 @@ from typing import Any, Literal, Self
 import yaml
 from pydantic import Field, ValidationError, model_validator
 
+from .defect import explain
 from .drive import Drive
 from .faults import MOST_FAULTS, Crack, Fault
 from .gearset import Gearset
 from .losses import Losses
 from .lubrication import Lubrication
 from .mesh import Mesh
+from .names import did_you_mean, no_such_field
 from .operating_point import TUNABLES, OperatingPoint, Tunable
-from .quantity import SceneError, Section, explain
+from .quantity import SceneError, Section
 from .supports import Supports
 
 _LIMITS = {  # fields of the drive that bound a quantity
@@ -96,6 +97,11 @@ class Scene(Section):
             for name, tunable in TUNABLES.items()
         }
 
+    @property
+    def field_names(self) -> Iterator[str]:
+        """All fields there are, as `replace` takes them."""
+        return (path.removeprefix("operating_point.") for path in _paths(self.model_dump()))
+
     def replace(self, **changes: Any) -> Scene:
         """A copy with other values.
 
@@ -114,7 +120,7 @@ class Scene(Section):
             for part in path[:-1]:
                 node = node.get(part, {}) if isinstance(node, dict) else {}
             if not isinstance(node, dict) or path[-1] not in node:
-                raise SceneError(f"{name}: no such field{_close(name, data)}")
+                raise SceneError(no_such_field(name, self.field_names))
             node[path[-1]] = value
         return _validated(data)
 
@@ -124,13 +130,6 @@ def _validated(data: Any) -> Scene:
         return Scene.model_validate(data)
     except ValidationError as error:
         raise SceneError(explain(error, Scene).removeprefix("operating_point.")) from None
-
-
-def _close(name: str, data: dict[str, Any]) -> str:
-    """Names that `name` may be meant for, in words; empty without any."""
-    known = [*TUNABLES, *_paths(data)]
-    found = get_close_matches(name, known, 3, 0.7)
-    return f"; close to it are {', '.join(found)}" if found else ""
 
 
 def _paths(node: Any) -> Iterator[str]:
@@ -162,6 +161,7 @@ def load_scene(name_or_path: str | Path) -> Scene:
             raise SceneError(
                 f"scene = {str(name_or_path)!r}: neither a readable file ({error.strerror}) nor "
                 f"one of {', '.join(packaged_scenes())}"
+                f"{did_you_mean(str(name_or_path), packaged_scenes())}"
             ) from None
     return parse_scene(text)
 
@@ -183,7 +183,10 @@ def parse_scene(text: str) -> Scene:
     if "base" in data:
         base = data.pop("base")
         if base not in packaged_scenes():
-            raise SceneError(f"base = {base!r}: must be one of {', '.join(packaged_scenes())}")
+            raise SceneError(
+                f"base = {base!r}: must be one of {', '.join(packaged_scenes())}"
+                f"{did_you_mean(str(base), packaged_scenes())}"
+            )
         data = _overlaid(load_scene(base).model_dump(), data)
     return _validated(data)
 

@@ -9,6 +9,7 @@ import numpy as np
 from pydantic.fields import FieldInfo
 
 from ..scene import OperatingPoint, Scene
+from ..units import has_unit, is_number
 
 LOGARITHMIC = "log"
 MOST_VALUES = 100_000
@@ -42,7 +43,8 @@ def read_axis(scene: Scene, field: str, text: str) -> Axis | Span:
     """What `text` says of `field`.
 
     ``a,b,c`` lists values, ``a:b:n`` gives n of them from a to b and ``a:b:n:log`` in equal ratios;
-    ``a:b`` and ``a:b:log`` are ranges to draw from. Values may carry units, as in a scene.
+    ``a:b`` and ``a:b:log`` are ranges to draw from. Values may carry units, as in a scene: all of
+    them or none.
 
     Raises:
         ValueError: `scene` has no such field, it does not take such a value, or the text is none
@@ -50,7 +52,9 @@ def read_axis(scene: Scene, field: str, text: str) -> Axis | Span:
     """
     ends = [part.strip() for part in text.split(":")]
     if len(ends) == 1:
-        values = (read_value(scene, field, part.strip()) for part in text.split(","))
+        points = [part.strip() for part in text.split(",")]
+        _check_units(field, text, points)
+        values = (read_value(scene, field, point) for point in points)
         return Axis(field, tuple(dict.fromkeys(values)))
     logarithmic = ends[-1] == LOGARITHMIC
     numbers = ends[:-1] if logarithmic else ends
@@ -76,7 +80,17 @@ def look_up(scene: Scene, field: str) -> tuple[FieldInfo, Any]:
     return type(node).model_fields[path[-1]], getattr(node, path[-1])
 
 
+def _check_units(field: str, text: str, values: list[str]) -> None:
+    """Refuse a unit for some of them: "1,2 rpm" is 1.2 rpm to one, to another 1 rpm and 2 rpm."""
+    bare = [value for value in values if is_number(value)]
+    if bare and any(map(has_unit, values)):
+        raise _refusal(
+            field, text, f"{bare[0]} is without a unit, write one with each; decimals have a point"
+        )
+
+
 def _span(scene: Scene, field: str, text: str, ends: list[str], logarithmic: bool) -> Span:
+    _check_units(field, text, ends[:2])
     low, high = (read_value(scene, field, end) for end in ends[:2])
     if isinstance(low, bool) or not isinstance(low, (int, float)):
         raise _refusal(field, text, "is no number; list its values")

@@ -57,7 +57,17 @@ CRACK = {"kind": "crack", "gear": "sun", "tooth": 0, "stiffness_loss": 0.2}
     "changes, words",
     [
         ({"mesh__stifness": 1.0}, ["mesh.stifness", "no such field"]),
-        ({"operating_point__backlash": "0.2 kg"}, ["backlash", "0.2 kg", "within 0 and 0.001 m"]),
+        (
+            {"operating_point__backlash": "0.2 kg"},
+            ["backlash", "0.2 kg", "[kg] is no unit that goes into m"],
+        ),
+        ({"operating_point__backlash": "0,3 um"}, ["backlash = '0,3 um': write a decimal point"]),
+        (
+            {"gearset__planet_angles": ["0,5 deg", "120 deg", "240 deg"]},
+            ["gearset.planet_angles", "'0,5 deg'", "write a decimal point"],
+        ),
+        ({"operating_point__oil_temperature": "70 C"}, ["oil_temperature = '70 C'", "write degC"]),
+        ({"gearset__equivalent_mass__sun": "5e-4 kg m^2"}, ["equivalent_mass.sun", "J/r^2"]),
         ({"operating_point__backlash": "a hair"}, ["backlash", "a hair", "within 0 and 0.001 m"]),
         ({"operating_point__input_speed": math.nan}, ["input_speed", "nan", "100000 rad/s"]),
         ({"operating_point__lambda_ratio": -1.0}, ["lambda_ratio", "-1", "within 0 and 10"]),
@@ -107,6 +117,45 @@ def test_a_missing_section_is_named():
     del data["gearset"]["module"]
     with pytest.raises(pt.SceneError, match=r"^gearset\.module: missing$"):
         pt.parse_scene(yaml.safe_dump(data))
+
+
+def test_a_mistyped_name_is_told_rather_than_the_right_one_it_leaves_out():
+    data = yaml.safe_load(text())
+    data["gearset"]["modul"] = data["gearset"].pop("module")
+    with pytest.raises(pt.SceneError) as refusal:
+        pt.parse_scene(yaml.safe_dump(data))
+    assert str(refusal.value) == "gearset.modul: no such field; did you mean module?"
+
+
+@pytest.mark.parametrize(
+    ("name", "meant"),
+    [
+        ("viscosity", "; did you mean lubrication.viscosity?"),
+        ("composite_roughness", "; did you mean lubrication.composite_roughness?"),
+        ("viscosty", "; did you mean lubrication.viscosity?"),
+        ("mesh.viscosity", "; did you mean lubrication.viscosity?"),
+        ("mesh.rump", "; did you mean mesh.ramp?"),
+        ("backlas", "; did you mean backlash or mesh.backlash?"),
+        ("supports.sun.mass", ""),  # not given in this scene, and far from the phases of a mesh
+        ("mesh.colour", ""),
+        ("nosuch", ""),
+        ("x", ""),
+    ],
+)
+def test_a_name_that_is_not_a_fields_is_told_with_the_nearest_if_one_is_near(name, meant):
+    with pytest.raises(pt.SceneError) as refusal:
+        PAPER.replace(**{name: 1.0})
+    assert str(refusal.value) == f"{name}: no such field{meant}"
+
+
+@pytest.mark.parametrize(("name", "end"), [("papr", "; did you mean paper?"), ("zzz", "_stage")])
+def test_a_scene_that_there_is_not_is_told_with_the_nearest_if_one_is_near(name, end):
+    with pytest.raises(pt.SceneError, match="'" + name) as refusal:
+        pt.load_scene(name)
+    assert str(refusal.value).endswith(end)
+    with pytest.raises(pt.SceneError, match="^base = '" + name) as refusal:
+        pt.parse_scene(f"base: {name}")
+    assert str(refusal.value).endswith(end)
 
 
 @pytest.mark.parametrize("name", ["colour", "mesh.colour", "mesh.ramp.colour", "nothing.here"])

@@ -57,6 +57,10 @@ def test_a_range_without_a_count_is_one_to_draw_from():
         ("backlash", "0:1e-7:3:log", r"must have one sign, and not be 0"),
         ("dynamics", "torsional:quasi_static:2", r"is no number; list its values"),
         ("input_speed", "1000 kg", r"input_speed"),
+        ("input_torque", "40,5 N m,50 N m", r"'40,5 N m,50 N m': 40 is without a unit, write one"),
+        ("input_speed", "1000,2000 rpm", r"'1000,2000 rpm': 1000 is without a unit, write one"),
+        ("input_speed", "1000:2000 rpm:5", r"'1000:2000 rpm:5': 1000 is without a unit, write one"),
+        ("input_torque", "40,5 N m:50 N m:3", r"'40,5 N m': write a decimal point"),
     ],
 )
 def test_what_cannot_be_is_refused_in_one_line_that_names_the_field(field, text, told):

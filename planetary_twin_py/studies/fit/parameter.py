@@ -7,6 +7,7 @@ from collections.abc import Mapping, Sequence
 from typing import Any, NamedTuple
 
 from ...scene import Scene
+from ...scene.names import no_such_field
 from ...scene.quantity import bounds, unit_of
 from ..axes import look_up, read_value
 
@@ -50,7 +51,7 @@ def _parameter(scene: Scene, name: str, start: Any) -> Parameter:
     try:
         info, value = look_up(scene, name)
     except (AttributeError, KeyError):
-        raise ValueError(f"{name}: no such field") from None
+        raise ValueError(no_such_field(name, scene.field_names)) from None
     if unit_of(info) is None or not isinstance(value, float):
         raise ValueError(f"{name} = {value!r}: only a continuous quantity can be estimated")
     if reason := _not_in_use(scene, name):

@@ -100,6 +100,7 @@ def test_far_into_a_run_the_simulation_begins_at_the_recorded_angles(tmp_path, m
         (Search(()), "nothing is free"),
         (Search(("nosuch",)), "nosuch: no such field"),
         (Search(("mesh.nosuch",)), "mesh.nosuch: no such field"),
+        (Search(("viscosity",)), "viscosity: no such field; did you mean lubrication.viscosity?"),
         (Search(("gearset.teeth.sun",)), "gearset.teeth.sun = 30: only a continuous quantity"),
         (Search(("mesh.stiffness",)), "mesh.stiffness = 'given': only a continuous quantity"),
         (Search(("second_input_speed",)), "the scene has no second input"),

@@ -1,0 +1,71 @@
+"""Quantities as people write them: each is read right, or refused with what is wrong about it."""
+
+import math
+
+import numpy as np
+import pytest
+
+from planetary_twin_py.units import UnitError, column_to_si, to_si
+
+
+@pytest.mark.parametrize(
+    ("written", "unit", "meant"),
+    [
+        ("40.5 N m", "N m", 40.5),
+        ("40 Nm", "N m", 40.0),
+        ("-.5e-3 mm", "m", -5e-7),
+        ("70 °C", "K", 343.15),
+        ("46 W/(m degC)", "W/(m K)", 46.0),
+        ("206 kN/mm2", "Pa", 206e9),
+        ("890 kg m-3", "kg/m^3", 890.0),
+        ("20 %", "", 0.2),
+    ],
+)
+def test_a_number_with_a_unit_is_what_it_says(written, unit, meant):
+    assert to_si(written, unit) == pytest.approx(meant, rel=1e-12)
+
+
+@pytest.mark.parametrize("written", ["1500 rpm", "1500 rev/min", "25 rev/s", "25 turn/s"])
+def test_a_revolution_is_a_full_turn(written):
+    assert to_si(written, "rad/s") == pytest.approx(50.0 * math.pi, rel=1e-12)
+
+
+@pytest.mark.parametrize("written", ["40,5 N m", "1.000,5 N m", "40,5", "1,000 N m", "(4,5) N m"])
+def test_a_comma_is_never_dropped(written):
+    with pytest.raises(UnitError, match="write a decimal point, not a comma"):
+        to_si(written, "N m")
+
+
+@pytest.mark.parametrize("written", ["1'000 N m", "1 300 N m", "2*3 N m", "1.000.5 N m", "−5 N m"])
+def test_no_sign_that_is_not_understood_is_dropped(written):
+    with pytest.raises(ValueError, match=r"is no unit|is not a number with a unit"):
+        to_si(written, "N m")
+
+
+@pytest.mark.parametrize(
+    ("given", "unit", "advice"),
+    [
+        ("1/min", "rad/s", "; turns are told in rpm or rev/s"),
+        ("min-1", "rad/s", "; turns are told in rpm or rev/s"),
+        ("Hz", "rad/s", "; turns are told in rpm or rev/s"),
+        ("U/min", "rad/s", "; write rpm"),
+        ("C", "K", "; write degC"),
+        ("deg C", "K", "; write degC"),
+        ("F", "K", "; write degF"),
+        ("cSt", "Pa s", "; dynamic viscosity = kinematic viscosity x density"),
+        ("mm2/s", "Pa s", "; dynamic viscosity = kinematic viscosity x density"),
+        ("kg m^2", "kg", "; it is J/r^2 of a moment of inertia J"),
+        ("kN", "N m", ""),
+        ("C", "m", ""),
+        ("furlongz", "m", ""),
+    ],
+)
+def test_another_unit_is_named_with_that_wanted_and_what_to_write(given, unit, advice):
+    told = f"[{given}] is no unit that goes into {unit}{advice}"
+    for read in (
+        lambda: to_si(f"70 {given}", unit),
+        lambda: column_to_si(np.array([70.0]), given, unit),
+    ):
+        with pytest.raises(UnitError) as refusal:
+            read()
+        assert str(refusal.value) == told
