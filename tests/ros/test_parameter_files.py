@@ -119,5 +119,5 @@ def test_a_start_parameter_that_no_node_has_is_warned_of_and_no_other(
     _, log = process.communicate(timeout=20)
     told = [line for line in log.splitlines() if "no such parameter" in line]
     assert len(told) == 2
-    assert told[0].endswith("backlsh: no such parameter, the nearest is backlash")
+    assert told[0].endswith("backlsh: no such parameter; did you mean backlash?")
     assert told[1].endswith("zzz: no such parameter")

@@ -55,6 +55,13 @@ def test_where_there_is_no_twin_those_elsewhere_are_named(points: list[Operating
     assert "there is one in /planetary_twin: --namespace chooses" in answer.stderr
 
 
+def test_a_mistyped_name_is_told_with_the_one_it_is_near_to(points: list[OperatingPoint]) -> None:
+    assert points
+    answer = command("param", "set", "backlas", "1")
+    assert answer.returncode != 0 and answer.stderr.count("\n") == 1
+    assert "backlas: no such parameter; did you mean backlash?" in answer.stderr
+
+
 def test_values_may_be_negative(points: list[OperatingPoint]) -> None:
     for typed in ("-104 rad/s", "-104", "-1e2"):
         answer = command("param", "set", "input_speed", typed)

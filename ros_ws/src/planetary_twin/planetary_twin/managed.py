@@ -7,7 +7,6 @@ import threading
 import time
 import traceback
 from collections.abc import Callable, Iterable, Mapping
-from difflib import get_close_matches
 from typing import Any
 
 import rclpy
@@ -20,6 +19,8 @@ from rclpy.lifecycle import LifecycleNode, LifecycleState, TransitionCallbackRet
 from rclpy.parameter import Parameter
 from rclpy.qos import QoSProfile
 from rclpy.service import Service
+
+from planetary_twin_py.scene.names import did_you_mean
 
 from .parameters import ParameterServices, brief, check_settable, declare_fixed, fixed_at
 from .signals import SIGNALS
@@ -290,7 +291,7 @@ def _warn_of_unknown(nodes: Iterable[ManagedNode]) -> None:
         for name in sorted(node._parameter_overrides.keys() - told):
             told.add(name)
             if not name.startswith(_QOS):
-                near = "".join(f", the nearest is {n}" for n in get_close_matches(name, known, 1))
+                near = did_you_mean(name, known)
                 node.get_logger().warning(f"{name}: no such parameter{near}")
 
 

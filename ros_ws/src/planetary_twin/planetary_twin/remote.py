@@ -19,6 +19,7 @@ from rclpy.client import Client as Service
 from rclpy.parameter import parameter_value_to_python
 
 from planetary_twin_py import TUNABLES
+from planetary_twin_py.scene.names import did_you_mean
 from planetary_twin_py.units import to_si
 
 from .client import PATIENCE, Client
@@ -54,9 +55,7 @@ class Remote(Client):
 
     def settings(self) -> list[Setting]:
         """All parameters of the twin, by name."""
-        listed = self._ask(ListParameters, "list_parameters", ListParameters.Request())
-        names = sorted(n for n in listed.result.names if not n.startswith(_MACHINERY))
-        return self._described(names)
+        return self._described([n for n in self._names() if not n.startswith(_MACHINERY)])
 
     def setting(self, name: str) -> Setting:
         """One of them."""
@@ -67,6 +66,9 @@ class Remote(Client):
 
     def set(self, name: str, typed: str) -> None:
         """Set a parameter to what a user has typed, with or without a unit."""
+        names = self._names()
+        if name not in names:
+            raise ValueError(f"{name}: no such parameter{did_you_mean(name, names)}")
         request = SetParametersAtomically.Request(
             parameters=[ParameterMessage(name=name, value=_message(in_si(name, typed)))]
         )
@@ -89,6 +91,10 @@ class Remote(Client):
         if not answer.success:
             raise ValueError(answer.message)
         return float(answer.simulated_time)
+
+    def _names(self) -> list[str]:
+        listed = self._ask(ListParameters, "list_parameters", ListParameters.Request())
+        return sorted(listed.result.names)
 
     def _described(self, names: list[str]) -> list[Setting]:
         got = self._ask(GetParameters, "get_parameters", GetParameters.Request(names=names))
