@@ -12,7 +12,7 @@ import typer
 from ._arguments import SceneArgument, ToleranceOption
 from ._fail import fail, need, remark
 from ._settings import settings
-from ._study import PICTURES, TABLES, check_suffix, progress, put
+from ._study import PICTURES, TABLES, check_suffix, progress, put, warn
 
 if TYPE_CHECKING:
     from ..studies.plan import Study
@@ -80,6 +80,7 @@ def sweep(
         journal.unlink()
     except (ValueError, OSError) as error:
         fail(error)
+    warn(table)
     failed = len(table) - table["failure"].null_count
     typer.echo(f"{out}: {len(table)} points, {failed or 'none'} failed")
 

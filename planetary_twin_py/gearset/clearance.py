@@ -58,12 +58,13 @@ def check_clearance(size: Size, angles: Sequence[float]) -> None:
     if are_clear(size, angles):
         return
     first, second = _closest(size, angles)
-    distance, most = size.distance(angles[second] - angles[first]), most_planets(size)
+    distance = round(1e3 * size.distance(angles[second] - angles[first]), 4)
+    most = most_planets(size)
     room = f"; at most {most} planets fit, equally spaced" if len(angles) > most else ""
     raise ValueError(
-        f"planet_angles = {', '.join(f'{math.degrees(angle):g}' for angle in angles)} deg: planets "
-        f"{first + 1} and {second + 1} are {round(1e3 * distance, 4):.6g} mm apart, which must be more than "
-        f"their tip diameter of {1e3 * size.tip_diameter:.6g} mm{room}"
+        f"planet_angles = {', '.join(f'{math.degrees(angle):g}' for angle in angles)} deg: "
+        f"planets {first + 1} and {second + 1} are {distance:.6g} mm apart, which must be more "
+        f"than their tip diameter of {1e3 * size.tip_diameter:.6g} mm{room}"
     )
 
 

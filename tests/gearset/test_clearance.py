@@ -56,7 +56,7 @@ def test_as_many_planets_fit_as_is_told_and_one_more_does_not(size):
     ids=str,
 )
 def test_planets_that_touch_are_refused_in_one_line(angles, words):
-    with pytest.raises(pt.SceneError, match="^gearset: planet_angles = ") as error:
+    with pytest.raises(pt.SceneError, match=r"^gearset: planet_angles = ") as error:
         PAPER.replace(**{"gearset.planet_angles": [f"{angle} deg" for angle in angles]})
     message = str(error.value)
     assert "\n" not in message and "nearest" not in message
@@ -66,7 +66,7 @@ def test_planets_that_touch_are_refused_in_one_line(angles, words):
 def test_too_many_planets_for_their_size_are_told_how_many_fit():
     """Centres 40 sqrt(2) = 56.6 mm apart, tip circles of 65.6 mm."""
     right = [math.pi / 2 * n for n in range(4)]
-    with pytest.raises(ValueError, match="56.5685 mm.* 65.6 mm; at most 3 planets fit"):
+    with pytest.raises(ValueError, match=r"56\.5685 mm.* 65\.6 mm; at most 3 planets fit"):
         check_clearance(Size(Teeth(20, 80, 180), 0.8e-3, 1.0), right)
 
 
