@@ -14,8 +14,8 @@ from planetary_twin_py.cli import build_app
 from planetary_twin_py.recording.events import read_events
 from planetary_twin_py.recording.index import Index
 from planetary_twin_py.recording.info import Changed, read_info
-from planetary_twin_py.recording.records import records_of
 from planetary_twin_py.recording.ramps import ramps
+from planetary_twin_py.recording.records import records_of
 
 
 @pytest.fixture(scope="module")
