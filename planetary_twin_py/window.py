@@ -139,8 +139,11 @@ def mesh_statistics(stretch: Stretch) -> dict[str, np.ndarray]:
     Means are over time, by trapezoids from instant to instant: they do not depend on how many
     samples happen to fall into the stretch. rms is that of the deviation from the mean, peak the
     largest magnitude; film and lambda ratio are means over the time in contact, NaN without any.
+    `without_viscous` is the share of the time in which teeth are in contact but have no viscous
+    friction.
     """
     dte, force = stretch.mesh[DTE], stretch.mesh[MESH_FORCE]
+    touching, viscous = force != 0.0, stretch.mesh[VISCOUS]
     weights = _trapezoids(stretch.instants)
     dte_mean = _mean(dte, weights)
     return {
@@ -149,11 +152,12 @@ def mesh_statistics(stretch: Stretch) -> dict[str, np.ndarray]:
         "dte_peak": np.abs(dte).max(axis=0),
         "mesh_force_mean": _mean(force, weights),
         "mesh_force_peak": np.abs(force).max(axis=0),
-        "contact_fraction": _mean((force != 0.0).astype(float), weights),
+        "contact_fraction": _mean(touching.astype(float), weights),
+        "without_viscous": _mean((touching & (viscous == 0.0)).astype(float), weights),
         "film_thickness": _mean_in_contact(stretch.mesh[FILM], weights),
         "lambda_ratio": _mean_in_contact(stretch.mesh[LAMBDA], weights),
         "boundary_friction": _mean(stretch.mesh[BOUNDARY], weights),
-        "viscous_friction": _mean(stretch.mesh[VISCOUS], weights),
+        "viscous_friction": _mean(viscous, weights),
         "power_loss": _mean(stretch.mesh[POWER_LOSS], weights),
     }
 

@@ -8,6 +8,8 @@ from hypothesis import HealthCheck, Phase, given, settings
 from hypothesis import strategies as st
 
 import planetary_twin_py as pt
+from planetary_twin_py.gearset.clearance import Size, least_places, most_planets
+from planetary_twin_py.gearset.kinematics import Teeth
 
 PAPER = pt.load_scene("paper")
 MEMBERS = ("sun", "ring", "carrier")
@@ -27,11 +29,15 @@ def logarithmic(low, high):
 
 @st.composite
 def gears(draw):
-    """Tooth numbers, and planets at any places that can be assembled."""
+    """Tooth numbers, and planets at any places that can be assembled and leave room for all."""
     sun, planet = draw(st.integers(18, 60)), draw(st.integers(18, 45))
     ring = sun + 2 * planet
-    places = draw(st.lists(st.integers(0, sun + ring - 1), min_size=2, max_size=7, unique=True))
-    angles = tuple(2 * math.pi * n / (sun + ring) for n in sorted(places))
+    size = Size(Teeth(sun, planet, ring), PAPER.gearset.module, PAPER.gearset.addendum)
+    count, least = draw(st.integers(2, min(7, most_planets(size)))), least_places(size)
+    spare = st.integers(0, sun + ring - count * least)
+    shifts = sorted(draw(st.lists(spare, min_size=count, max_size=count)))
+    places = [shift + n * least for n, shift in enumerate(shifts)]
+    angles = tuple(2 * math.pi * n / (sun + ring) for n in places)
     return {
         "gearset.teeth": {"sun": sun, "planet": planet, "ring": ring},
         "gearset.planet_angles": angles,

@@ -7,7 +7,7 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from ._fail import fail, need
+from ._fail import fail, need, remark
 
 if TYPE_CHECKING:
     import pyarrow as pa
@@ -49,6 +49,14 @@ def put(
         from ..studies.table import write
 
         write(table, out)
+
+
+def warn(table: pa.Table) -> None:
+    """Tell, in a line, what limits the figures of a study."""
+    from ..studies.clipping import clipping_of_study
+
+    if told := clipping_of_study(table):
+        remark(f"warning: {told}")
 
 
 @contextmanager

@@ -38,12 +38,14 @@ def bifurcation(
     """
     check_suffix(out, TABLES + PICTURES)
     from ..scene import load_scene
+    from ..scene.unused import without_effect
     from ..studies.axes import Axis, read_axis
     from ..studies.bifurcation import Holding
     from ..studies.bifurcation import bifurcation as run
 
     try:
-        loaded = load_scene(scene).replace(**settings(set_ or []))
+        changes = settings(set_ or [])
+        loaded = load_scene(scene).replace(**changes)
         axis = read_axis(loaded, "input_speed", input_speed)
         if not isinstance(axis, Axis):
             fail(f"--input-speed = {input_speed!r}: must be FROM:TO:COUNT")
@@ -59,4 +61,6 @@ def bifurcation(
         put(table, out)
     except (ValueError, OSError) as error:
         fail(error)
+    for line in without_effect(loaded, changes):
+        remark(f"warning: {line}")
     typer.echo(f"{out}: {len(axis.values)} speeds up and down")

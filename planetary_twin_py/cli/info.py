@@ -16,6 +16,7 @@ if TYPE_CHECKING:
 
     from ..recording.events import Event
     from ..recording.info import Info
+    from ..recording.ramps import Ramp
 
 
 def info(
@@ -70,7 +71,7 @@ def _events(file: Path, found: Info) -> list[tuple[str, Event]]:
 def _tell(console: Console, found: Info) -> None:
     from rich.table import Table
 
-    from ..scene import TUNABLES
+    from ..recording.ramps import ramps
 
     table = Table(box=None, pad_edge=False)
     table.add_column("topic", no_wrap=True)
@@ -92,14 +93,28 @@ def _tell(console: Console, found: Info) -> None:
         size = path.stat().st_size / 1e6
         console.print(f"file          {path}, {size:.1f} MB", highlight=False, soft_wrap=True)
     console.print(f"gearbox time  {found.simulated:.3f} s", highlight=False)
-    for number, change in enumerate(found.changes):
-        values = ", ".join(
-            f"{name} = {value:.6g} {TUNABLES[name].unit}".rstrip()
-            for name, value in change.values.items()
-        )
+    for number, ramp in enumerate(ramps(found.changes)):
         title = "" if number else "changes"
         console.print(
-            f"{title:13} {change.time:10.4f} s  {values or 'as before'}",
-            highlight=False,
-            soft_wrap=True,
+            f"{title:13} {ramp.times[0]:10.4f} s  {_told(ramp)}", highlight=False, soft_wrap=True
         )
+
+
+def _told(ramp: Ramp) -> str:
+    """What has changed, in words."""
+    steps = len(ramp.times)
+    if not ramp.last:
+        return "as before"
+    if steps == 1:
+        return ", ".join(f"{k} = {value:.6g} {_unit(k)}".rstrip() for k, value in ramp.last.items())
+    ways = ", ".join(
+        f"{k} from {ramp.first[k]:.6g} to {value:.6g} {_unit(k)}".rstrip()
+        for k, value in ramp.last.items()
+    )
+    return f"{ways} in {steps} steps over {ramp.duration:.6g} s"
+
+
+def _unit(name: str) -> str:
+    from ..scene import TUNABLES
+
+    return TUNABLES[name].unit

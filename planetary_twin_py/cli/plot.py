@@ -12,7 +12,9 @@ from ._study import PICTURES, check_suffix, put
 
 
 def plot(
-    study: Annotated[Path, typer.Argument(metavar="STUDY.parquet", help="Table of a study.")],
+    study: Annotated[
+        Path, typer.Argument(metavar="STUDY", help="Table of a study, .parquet or .csv.")
+    ],
     out: Annotated[Path, typer.Option(help="Picture: .png, .svg or .pdf.")],
     x: Annotated[str | None, typer.Option("--x", metavar="FIELD", help="Horizontal axis.")] = None,
     y: Annotated[
@@ -36,14 +38,12 @@ def plot(
     Example: planetary-twin plot study.parquet --y efficiency,power_loss --out study.svg
     """
     check_suffix(out, PICTURES)
-    import pyarrow as pa
-    import pyarrow.parquet
-
     from ..plots.study import failures
+    from ..studies.table import read
 
     try:
-        table = pyarrow.parquet.read_table(study)
-    except (OSError, pa.ArrowInvalid) as error:
+        table = read(study)
+    except (ValueError, OSError) as error:
         fail(f"{study}: {str(error).splitlines()[0]}")
     measures = y.split(",") if y else ()
     try:

@@ -39,6 +39,7 @@ def simulate(
 
     from ..explanation.remarks import remarks
     from ..scene import load_scene
+    from ..scene.unused import without_effect
     from ..simulation import simulate as run
 
     console = console_beside(json_)
@@ -47,7 +48,8 @@ def simulate(
             fail(f"--out = {str(out)!r}: must end in {', '.join(_WRITERS)} or .mcap, or in nothing")
         if out is not None and out.suffix in _RECORDINGS:
             need("recording", "mcap", "rosbags")
-        loaded = load_scene(scene).replace(**settings(set_ or []))
+        changes = settings(set_ or [])
+        loaded = load_scene(scene).replace(**changes)
         with console.status(f"simulating {duration:g} s of {loaded.name}"):
             result = interruptible(lambda: run(loaded, duration, sample_rate, tolerance=tolerance))
         if out is not None and out.suffix in _RECORDINGS:
@@ -60,7 +62,7 @@ def simulate(
     for name, value in train.items():
         console.print(f"{_TRAIN[name]:42} {value:.6g}", markup=False)
     console.print(_table(meshes))
-    told = list(remarks(loaded, result))
+    told = [*without_effect(loaded, changes), *remarks(loaded, result)]
     for line in told:
         remark(f"warning: {line}")
     put_figures(train | meshes | {"remarks": told}, json_)

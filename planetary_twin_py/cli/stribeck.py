@@ -10,7 +10,7 @@ import typer
 from ._arguments import SceneArgument, SetOption
 from ._fail import fail, remark
 from ._settings import settings
-from ._study import PICTURES, TABLES, check_suffix, progress, put
+from ._study import PICTURES, TABLES, check_suffix, progress, put, warn
 
 
 def stribeck(
@@ -50,4 +50,5 @@ def stribeck(
         put(table, out, kind="stribeck")
     except (ValueError, OSError) as error:
         fail(error)
+    warn(table)
     typer.echo(f"{out}: {count} speeds")

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
@@ -12,7 +12,7 @@ import typer
 from ._arguments import SceneArgument, ToleranceOption
 from ._fail import fail, need, remark
 from ._settings import settings
-from ._study import PICTURES, TABLES, check_suffix, progress, put
+from ._study import PICTURES, TABLES, check_suffix, progress, put, warn
 
 if TYPE_CHECKING:
     from ..studies.plan import Study
@@ -81,6 +81,9 @@ def sweep(
         journal.unlink()
     except (ValueError, OSError) as error:
         fail(error)
+    for line in _without_effect(study, fixed):
+        remark(f"warning: {line}")
+    warn(table)
     failed = len(table) - table["failure"].null_count
     typer.echo(f"{out}: {len(table)} points, {failed or 'none'} failed")
 
@@ -97,6 +100,15 @@ def _fields(given: list[str]) -> Iterator[tuple[str, str]]:
         if not text:
             raise ValueError(f"{option}: has no values")
         yield name.replace("-", "_"), text
+
+
+def _without_effect(study: Study, fixed: Iterable[str]) -> Iterator[str]:
+    """A line for each field that is given in vain, wherever the study goes."""
+    from ..scene.unused import without_effect
+
+    chosen = "lubrication.lambda_ratio"  # which decides of one of them, may vary, too
+    names = (*fixed, *study.fields)
+    return iter(()) if chosen in study.fields else without_effect(study.scene, names)
 
 
 @contextmanager

@@ -10,6 +10,7 @@ import math
 from collections.abc import Sequence
 from fractions import Fraction
 
+from .clearance import Size, are_clear
 from .kinematics import Teeth
 
 ASSEMBLY_TOLERANCE = 1e-6  # [-] of the spacing between two positions that can be assembled
@@ -31,21 +32,28 @@ def _places(teeth: Teeth, angles: Sequence[float]) -> list[int]:
     return [round((angle - angles[0]) / least_mesh_angle(teeth)) for angle in angles]
 
 
-def check_assembly(teeth: Teeth, angles: Sequence[float]) -> None:
+def check_assembly(teeth: Teeth, angles: Sequence[float], addendum: float = 1.0) -> None:
     """Check that planets at `angles` [rad] fit between sun and ring.
 
     Raises:
-        ValueError: some planet's teeth miss the spaces; the message offers what fits.
+        ValueError: some planet's teeth miss the spaces; the message offers what fits, unless
+            planets with this `addendum`, in modules, would then touch each other.
     """
     fitting = nearest_assembly(teeth, angles)
     step = least_mesh_angle(teeth)
     misses = [abs(a - b) / step for a, b in zip(angles, fitting, strict=True)]
     if max(misses) > ASSEMBLY_TOLERANCE:
-        offer = ", ".join(f"{math.degrees(angle):g}" for angle in fitting)
+        offer = f"nearest: {_degrees(fitting)}"
+        if not are_clear(Size(teeth, 1.0, addendum), fitting):
+            offer = "at the nearest that can, planets touch each other"
         raise ValueError(
-            f"planets at {', '.join(f'{math.degrees(a):g}' for a in angles)} deg cannot be "
-            f"assembled with {teeth.sun}/{teeth.planet}/{teeth.ring} teeth; nearest: {offer} deg"
+            f"planets at {_degrees(angles)} cannot be assembled with "
+            f"{teeth.sun}/{teeth.planet}/{teeth.ring} teeth; {offer}"
         )
+
+
+def _degrees(angles: Sequence[float]) -> str:
+    return f"{', '.join(f'{math.degrees(angle):g}' for angle in angles)} deg"
 
 
 def mesh_phases(teeth: Teeth, angles: Sequence[float]) -> tuple[list[Fraction], list[Fraction]]:

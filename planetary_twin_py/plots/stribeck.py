@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 from matplotlib.figure import Figure
 
+from .clipped import clipped_points, mark
 from .quantity import SIDES, Column, find
 from .style import BLUE, GREEN, ORANGE, logarithmic, panels
 
@@ -33,6 +34,8 @@ def stribeck_diagram(known: dict[str, Column]) -> Figure:
             total += friction
             axes.plot(ratio[order], friction[order], dash, color=colour, label=part)
         axes.plot(ratio[order], total[order], color=BLUE, label="total", zorder=1.9)
+        hollow = clipped_points(known, len(ratio), [side])
+        mark(axes, ratio[hollow], total[hollow], BLUE)
         logarithmic(axes, "x")
         axes.set_title(f"{words} meshes")
         axes.set_xlabel("Lambda ratio [-]")

@@ -8,15 +8,17 @@ from typing import TYPE_CHECKING, NamedTuple
 import matplotlib
 import numpy as np
 from matplotlib.axes import Axes
+from matplotlib.colors import to_hex
 from matplotlib.figure import Figure
 
 from ..studies.bifurcation import STUDY as BIFURCATION
 from ..studies.measures import MEASURES
 from .bifurcation import bifurcation_diagram
+from .clipped import LEGEND, clipped_points, mark
 from .maps import draw_map
 from .quantity import Column, columns, find
 from .stribeck import stribeck_diagram
-from .style import CYCLE, applied, logarithmic, panels, remark
+from .style import CYCLE, GREY, applied, logarithmic, panels, remark
 
 if TYPE_CHECKING:
     import pyarrow as pa
@@ -36,6 +38,7 @@ class Choice(NamedTuple):
     by: Column | None
     panel: Column | None  # small multiples over its values
     is_map: bool
+    clipped: np.ndarray  # points whose viscous friction is clipped to zero (bool)
 
 
 def plot_study(
@@ -78,8 +81,10 @@ def plot_study(
         else:
             varying = [name for name in fields(table) if len(known[name].distinct) > 1]
             figure = _draw(_choose(known, varying, (x, tuple(measures), by), kind))
-        if failed:
-            remark(figure, f"{failed} of {len(table)} points failed and are left out")
+        notes = [f"{failed} of {len(table)} points failed and are left out"] if failed else []
+        notes += [LEGEND] if clipped_points(known, len(whole)).any() else []
+        if notes:
+            remark(figure, "; ".join(notes))
     return figure
 
 
@@ -120,7 +125,8 @@ def _choose(
     is_map = kind == "map" or (kind is None and _fill_a_map(known[x], second))
     if is_map and (second is None or not (known[x].is_number and second.is_number)):
         raise ValueError("a map needs two fields that are numbers and vary")
-    return Choice(known[x], chosen, second, known[panel] if panel else None, is_map)
+    clipped = clipped_points(known, len(known[x].values))
+    return Choice(known[x], chosen, second, known[panel] if panel else None, is_map, clipped)
 
 
 def _taken(free: list[str], lack: str) -> str:
@@ -155,6 +161,8 @@ def _draw(choice: Choice) -> Figure:
             axes.set_title(f"{choice.panel.quantity.title} {choice.panel.told(part)}")
         if choice.is_map and choice.by is not None:
             draw_map(axes, (choice.x, choice.by, measure), rows, limits[measure.name])
+            hollow = rows & choice.clipped
+            mark(axes, choice.x.values[hollow], choice.by.values[hollow], GREY)
         else:
             _curves(axes, choice, measure, rows)
     if choice.panel is not None and not choice.is_map:
@@ -189,14 +197,17 @@ def _curves(axes: Axes, choice: Choice, measure: Column, rows: np.ndarray) -> No
     for n, value in enumerate(groups):
         own = rows if by is None else rows & (by.values == value)
         order = np.argsort(x.values[own], kind="stable") if x.is_number else slice(None)
+        colour = CYCLE[n] if len(groups) <= len(CYCLE) else _shade(n, len(groups))
+        hollow = own & choice.clipped
         axes.plot(
             x.values[own][order],
             measure.values[own][order],
             "o-" if x.is_number else "o",
-            color=CYCLE[n] if len(groups) <= len(CYCLE) else _shade(n, len(groups)),
+            color=colour,
             label="" if by is None else by.told(value).removesuffix(f" {by.quantity.unit}"),
             markersize=3.0 if x.is_number else None,
         )
+        mark(axes, x.values[hollow], measure.values[hollow], colour)
     if x.is_logarithmic:
         logarithmic(axes, "x")
     axes.set_xlabel(x.label)
@@ -204,6 +215,5 @@ def _curves(axes: Axes, choice: Choice, measure: Column, rows: np.ndarray) -> No
     axes.margins(x=0.03)
 
 
-def _shade(n: int, count: int) -> tuple[float, float, float, float]:
-    red, green, blue, alpha = matplotlib.colormaps[SHADES](0.9 * n / (count - 1))
-    return red, green, blue, alpha
+def _shade(n: int, count: int) -> str:
+    return to_hex(matplotlib.colormaps[SHADES](0.9 * n / (count - 1)))

@@ -6,6 +6,7 @@ from typing import Literal, Self
 
 from pydantic import Field, model_validator
 
+from ..gearset.clearance import Size, check_clearance
 from ..gearset.kinematics import Teeth
 from ..gearset.phasing import check_assembly
 from .quantity import Section, quantity
@@ -75,5 +76,7 @@ class Gearset(Section):
                 f"teeth = {sun}/{planet}/{ring}: standard gears share their axes only if "
                 f"ring = sun + 2 planet = {sun + 2 * planet}"
             )
-        check_assembly(self.tooth_numbers, self.planet_angles)
+        size = Size(self.tooth_numbers, self.module, self.addendum)
+        check_clearance(size, self.planet_angles)
+        check_assembly(self.tooth_numbers, self.planet_angles, self.addendum)
         return self

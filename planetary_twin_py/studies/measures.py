@@ -56,6 +56,7 @@ MESH = {
     "power_loss": MeshMeasure("W", "tooth friction of all these meshes, mean", np.sum),
 }
 SIDES = ("sun_planet", "planet_ring")
+CLIPPED = "viscous_friction_clipped"  # column of a table, after the kind of mesh
 
 MEASURES: dict[str, Measure] = TRAIN | {
     f"{side}_{name}": Measure(
@@ -63,6 +64,14 @@ MEASURES: dict[str, Measure] = TRAIN | {
     )
     for side in SIDES
     for name, measure in MESH.items()
+}
+MEASURES |= {
+    f"{side}_{CLIPPED}": Measure(
+        "",
+        f"{side.replace('_', '-')} meshes: share of the time in contact in which viscous friction "
+        "is clipped to zero, as the pressure is too low for its law",
+    )
+    for side in SIDES
 }
 """Every figure of a row, in its order."""
 
@@ -77,7 +86,7 @@ def measure(scene: Scene, settings: Settings) -> Row:
     twin = Twin(scene, settings.sample_rate, settings.tolerance)
     if settings.settling:
         twin.advance(settings.settling)
-    return row(twin.advance(settings.duration))
+    return row(scene, twin.advance(settings.duration))
 
 
 class Glance(NamedTuple):
@@ -99,12 +108,28 @@ def glance(result: Result) -> Glance:
     return Glance(power_loss=result.mean_power_loss, **means, **peaks)
 
 
-def row(window: Window) -> Row:
-    """The figures of a window."""
+def row(scene: Scene, window: Window) -> Row:
+    """The figures of a window of a run of `scene`."""
     figures = {name: float(getattr(window, name)) for name in TRAIN}
     for side, values in mesh_rows(window.mesh).items():
         figures |= {f"{side}_{name}": value for name, value in values.items()}
-    return figures
+    shares = clipped_friction(scene, window)
+    return figures | {f"{side}_{CLIPPED}": share for side, share in shares.items()}
+
+
+def clipped_friction(scene: Scene, run: Result | Window) -> dict[str, float]:
+    """Share of the time in contact in which viscous friction is clipped to zero, by `SIDES`.
+
+    Then no tooth pair of a mesh has any though they carry load. That friction fades out at the
+    pitch point does not count: `viscous_friction` is that of the plateau there, too. 0 of a scene
+    without friction, or a run without contact.
+    """
+    planets, mesh, shares = len(run.meshes) // 2, run.mesh, []
+    for meshes in (slice(planets), slice(planets, None)):
+        touching = float(mesh["contact_fraction"][meshes].sum())
+        clipped = float(mesh["without_viscous"][meshes].sum())
+        shares.append(clipped / touching if scene.lubrication.friction and touching else 0.0)
+    return dict(zip(SIDES, shares, strict=True))
 
 
 def mesh_rows(mesh: dict[str, np.ndarray]) -> dict[str, Row]:

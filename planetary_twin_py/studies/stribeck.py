@@ -38,7 +38,7 @@ class Cycle:
         """The figures of one mesh cycle, or why there are none."""
         try:
             scene = self.scene.replace(**point.changes)
-            return row(self._run(scene))
+            return row(scene, self._run(scene))
         except (ValueError, ArithmeticError) as reason:
             return Failure(f"{told(point.changes)}: {reason}")
 

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 from .._compile import cache_folder
 from .journal import Journal
+from .measures import MEASURES
 from .plan import Study
 from .work import Crew, Failure, Found, Work
 
@@ -37,7 +38,7 @@ def sweep(
     """
     from .table import tabulate
 
-    makers = cache_folder().name
+    makers = "/".join((cache_folder().name, *MEASURES))  # a journal of other figures is of no use
     keys = {point.place: study.key(point, makers) for point in study.points}
     book = Journal(journal) if journal else None
     known = book.done if book else {}

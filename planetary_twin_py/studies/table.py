@@ -17,6 +17,7 @@ import pyarrow.parquet
 
 from ..scene.quantity import unit_of
 from .axes import look_up
+from .bifurcation import STUDY as BIFURCATION
 from .measures import MEASURES
 from .plan import Study
 from .work import Failure, Found
@@ -59,6 +60,35 @@ def write(table: pa.Table, path: Path) -> None:
     else:
         pyarrow.parquet.write_table(table, part)
     part.replace(path)
+
+
+def read(path: Path) -> pa.Table:
+    """A table that `write` has written; of .csv without the meanings and what it follows from.
+
+    Raises:
+        OSError: it cannot be read.
+        ValueError: it is no such table.
+    """
+    return _read_csv(path) if path.suffix == ".csv" else pyarrow.parquet.read_table(path)
+
+
+def _read_csv(path: Path) -> pa.Table:
+    # An empty cell is a lack, NaN a number.
+    options = pyarrow.csv.ConvertOptions(null_values=[""], strings_can_be_null=True)
+    table = pyarrow.csv.read_csv(path, convert_options=options)
+    marks = {"point": {}, "direction": {"study": BIFURCATION}}  # by the first column
+    about = marks.get(table.column_names[0])
+    if about is None:
+        raise ValueError(f"no table of a study: begins with none of {', '.join(marks)}")
+    fields = [_field(old) for old in table.schema]
+    return table.rename_columns([field.name for field in fields]).cast(pa.schema(fields, about))
+
+
+def _field(old: pa.Field) -> pa.Field:
+    """With what `_heading` has made the name of; whole numbers are real ones without a fraction."""
+    name, _, unit = old.name.removesuffix("]").partition(" [")
+    kind = pa.float64() if pa.types.is_integer(old.type) else old.type
+    return pa.field(name, kind, metadata={"unit": unit, "description": ""})
 
 
 def _heading(field: pa.Field) -> str:

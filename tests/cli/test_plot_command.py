@@ -5,6 +5,7 @@ import pytest
 from typer.testing import CliRunner
 
 from planetary_twin_py.cli import build_app
+from planetary_twin_py.studies.table import write
 
 PNG, SVG, PDF = b"\x89PNG", b"<?xml", b"%PDF"
 
@@ -64,6 +65,26 @@ def test_a_bifurcation_is_kept_as_a_table_and_drawn_from_it(tmp_path):
     assert picture.read_bytes().startswith(PNG)
 
 
+def test_a_table_in_csv_is_drawn_as_the_same_table_in_parquet_is(study, tmp_path):
+    """Whole numbers, units, words and points that failed, in curves and in bifurcations."""
+    ways = ["--input-speed", "3000rpm:3100rpm:2", "--settling", 0.01, "--cycles", 4]
+    way = tmp_path / "way.parquet"
+    assert run("bifurcation", "paper", *ways, "--tolerance", "1e-3", "--out", way).exit_code == 0
+    speeds = ["--input-speed", "1000rpm,2000rpm", "--dynamics", "torsional,quasi_static"]
+    of_words = tmp_path / "words.parquet"
+    quick = ["--duration", "0.02", "--settling", "0", "--lubrication.friction", "false"]
+    assert run("sweep", "paper", *speeds, *quick, "--out", of_words).exit_code == 0
+    for parquet in (study, way, of_words):
+        csv = tmp_path / f"{parquet.stem}.csv"
+        write(pyarrow.parquet.read_table(parquet), csv)
+        pictures = []
+        for table in (parquet, csv):
+            done = run("plot", table, "--out", tmp_path / "picture.svg")
+            assert done.exit_code == 0, done.output
+            pictures.append((tmp_path / "picture.svg").read_bytes())
+        assert pictures[0] == pictures[1]
+
+
 @pytest.mark.parametrize(
     ("arguments", "told"),
     [
@@ -71,6 +92,8 @@ def test_a_bifurcation_is_kept_as_a_table_and_drawn_from_it(tmp_path):
         (["plot", "STUDY", "--out", "/nowhere/a.png"], "/nowhere/a.png"),
         (["plot", "STUDY", "--y", "eficiency", "--out", "a.png"], "y = 'eficiency'"),
         (["plot", "nosuch.parquet", "--out", "a.png"], "nosuch.parquet"),
+        (["plot", "other.csv", "--out", "a.png"], "other.csv: no table of a study"),
+        (["plot", "empty.csv", "--out", "a.png"], "empty.csv: "),
         (["plot", __file__, "--out", "a.png"], "test_plot_command.py"),
         (["stribeck", "paper", "--input-speed", "1:2", "--out", "a.png"], "without a count"),
         (["bifurcation", "paper", "--input-speed", "1:2", "--out", "a.png"], "FROM:TO:COUNT"),
@@ -81,6 +104,8 @@ def test_a_bifurcation_is_kept_as_a_table_and_drawn_from_it(tmp_path):
 )
 def test_what_cannot_be_ends_in_one_line(arguments, told, study, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
+    (tmp_path / "other.csv").write_text("a,b\n1,2\n")
+    (tmp_path / "empty.csv").touch()
     done = run(*(study if argument == "STUDY" else argument for argument in arguments))
     assert done.exit_code == 2
     assert told in last_line(done)

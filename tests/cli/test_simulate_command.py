@@ -8,6 +8,7 @@ from typer.testing import CliRunner
 
 import planetary_twin_py as pt
 from planetary_twin_py.cli import build_app
+from planetary_twin_py.studies.fit.parameter import read_parameters
 
 SHORT = ["--duration", "0.004", "--set", "lambda_ratio=1.5", "--set", "mesh.ramp=0.05"]
 
@@ -125,3 +126,25 @@ def test_what_cannot_be_ends_in_one_line(arguments, word):
     result = invoke(*arguments)
     assert result.exit_code == 2
     assert word in result.stderr and result.stderr.count("\n") == 1
+
+
+COMPUTED = ["--set", "lubrication.lambda_ratio=computed"]
+
+
+def test_a_lambda_ratio_that_the_scene_computes_is_told_to_have_no_effect_as_fit_tells_it():
+    done = invoke("paper", *COMPUTED, *SHORT, "--json", "-")
+    assert done.exit_code == 0, done.output
+    (line,) = [line for line in done.stderr.splitlines() if "lambda_ratio" in line]
+    told, reason = line.split(": has no effect: ")
+    assert told == "planetary-twin: warning: lambda_ratio"
+    assert "set lubrication.lambda_ratio = prescribed" in reason
+    assert f"lambda_ratio: has no effect: {reason}" in json.loads(done.stdout)["remarks"]
+    scene = pt.load_scene("paper").replace(**{"lubrication.lambda_ratio": "computed"})
+    with pytest.raises(ValueError, match="cannot be estimated") as refusal:
+        read_parameters(scene, ["lambda_ratio"], {})
+    assert str(refusal.value).endswith(reason)
+
+
+@pytest.mark.parametrize("given", [SHORT, [*SHORT[:2], *COMPUTED]])
+def test_what_has_an_effect_or_is_not_given_is_not_told(given):
+    assert "no effect" not in invoke("paper", *given).stderr

@@ -66,6 +66,23 @@ def test_what_cannot_be_ends_in_one_line(arguments, told, tmp_path, monkeypatch)
     assert told in line
 
 
+@pytest.mark.parametrize(
+    ("given", "lines"),
+    [
+        (["--lambda-ratio", "1,2", "--set", "lubrication.lambda_ratio=computed"], 1),
+        (["--input-torque", "63", "--set", "lubrication.lambda_ratio=computed",
+          "--set", "lambda_ratio=2"], 1),
+        (["--lambda-ratio", "1,2", "--lubrication.lambda_ratio", "computed,prescribed"], 0),
+        (["--lambda-ratio", "1,2"], 0),
+    ],
+)  # fmt: skip
+def test_a_field_that_has_no_effect_at_any_point_is_told_once(given, lines, tmp_path):
+    done = run("paper", *given, "--out", tmp_path / "a.csv", *QUICK)
+    assert done.exit_code == 0, done.output
+    told = [line for line in done.stderr.splitlines() if "lambda_ratio: has no effect" in line]
+    assert len(told) == lines
+
+
 @pytest.mark.slow
 def test_a_killed_study_goes_on_where_it_was(tmp_path):
     out, journal = tmp_path / "study.parquet", tmp_path / "study.parquet.journal"

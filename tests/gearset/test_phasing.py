@@ -45,3 +45,10 @@ def test_equal_spacing_fits_where_it_divides_the_teeth_of_sun_and_ring(planets):
 
 def test_what_is_offered_fits():
     check_assembly(PAPER, nearest_assembly(PAPER, [0.3, 2.0, 4.4, 5.1]))
+
+
+def test_no_places_are_offered_at_which_planets_touch():
+    """52.7 deg apart they pass, by 0.2 modules; at 50.4 deg, where they can be put in, not."""
+    with pytest.raises(ValueError, match="planets touch each other") as error:
+        check_assembly(PAPER, np.radians([0.0, 52.7, 105.4]))
+    assert "nearest:" not in str(error.value)

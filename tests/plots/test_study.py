@@ -4,6 +4,7 @@ import itertools
 
 import numpy as np
 import pytest
+from matplotlib.collections import PathCollection
 from plots.tables import study
 
 import planetary_twin_py as pt
@@ -108,6 +109,54 @@ def test_values_in_equal_ratios_have_a_logarithmic_axis():
     table = study({"lubrication.viscosity": viscosities}, {"efficiency": lambda v: 0.9})
     (axes,) = pt.plot_study(table).axes
     assert axes.get_xscale() == "log" and axes.get_xlabel() == "Viscosity [-]"
+
+
+CLIPPED = {
+    "efficiency": efficiency,
+    "sun_planet_viscous_friction_clipped": lambda speed, *_: 0.5 if speed < SPEEDS[1] else 0.005,
+    "planet_ring_viscous_friction_clipped": lambda *_: 0.0,
+}
+
+
+def hollow(axes):
+    """Points that are drawn hollow."""
+    marks = [each for each in axes.collections if isinstance(each, PathCollection)]
+    return [tuple(place) for each in marks for place in each.get_offsets()]
+
+
+@pytest.mark.parametrize("kind", ["curves", "map"])
+def test_points_whose_viscous_friction_is_clipped_are_hollow_and_that_is_said(kind):
+    fields = {"input_speed": SPEEDS, "input_torque": (20.0, 40.0)}
+    figure = pt.plot_study(study(fields, CLIPPED), kind=kind)
+    speed = 30.0 / np.pi * SPEEDS[0]
+    places = {
+        "map": [(speed, 20.0), (speed, 40.0)],
+        "curves": [(speed, 100.0 * efficiency(SPEEDS[0], torque)) for torque in (20.0, 40.0)],
+    }
+    assert hollow(figure.axes[0]) == [pytest.approx(place) for place in places[kind]]
+    assert "hollow: viscous friction is clipped" in figure.get_supxlabel()
+
+
+def test_a_stribeck_curve_is_hollow_on_the_side_that_is_clipped():
+    figures = {
+        f"{side}_{name}": (lambda speed, value=value: value * speed)
+        for side in ("sun_planet", "planet_ring")
+        for name, value in {
+            "lambda_ratio": 0.01,
+            "mesh_force_mean": 10.0,
+            "boundary_friction": 0.1,
+            "viscous_friction": 0.2,
+        }.items()
+    }
+    sun, ring = pt.plot_study(
+        study({"input_speed": SPEEDS}, CLIPPED | figures), kind="stribeck"
+    ).axes
+    assert hollow(sun) == [pytest.approx((0.01 * SPEEDS[0], 0.03))] and hollow(ring) == []
+
+
+def test_nothing_is_hollow_where_nothing_is_clipped():
+    figure = pt.plot_study(study({"input_speed": SPEEDS[1:]}, CLIPPED))
+    assert hollow(figure.axes[0]) == [] and figure.get_supxlabel() == ""
 
 
 @pytest.mark.parametrize(

@@ -5,13 +5,16 @@ import json
 import numpy as np
 import pytest
 from mcap.records import Message
-from twin_recording import NAMESPACE, record
+from synthetic_recording import START_NS
+from twin_recording import NAMESPACE, TwinRecording, record
 from typer.testing import CliRunner
 
+import planetary_twin_py as pt
 from planetary_twin_py.cli import build_app
 from planetary_twin_py.recording.events import read_events
 from planetary_twin_py.recording.index import Index
-from planetary_twin_py.recording.info import read_info
+from planetary_twin_py.recording.info import Changed, read_info
+from planetary_twin_py.recording.ramps import ramps
 from planetary_twin_py.recording.records import records_of
 
 
@@ -155,3 +158,72 @@ APART = np.array([1.0, 0.9, 1.0, *[np.nan] * 4])
 def _kept(row):
     names = ("sun_planet_contact_fraction", "planet_ring_contact_fraction")
     return {name: np.where(np.isnan(row[name]), np.nan, 1.0) for name in names}
+
+
+def ramped(folder, *legs):
+    """A recording of ramps, as the node makes them: a step before each interval of 10 ms."""
+    recording, twin = TwinRecording(folder), pt.Twin(pt.load_scene("paper"), 1000.0, 1e-3)
+    recording.begin(twin, START_NS)
+    for steps, values in legs:
+        first = {name: getattr(twin.operating_point, name) for name in values}
+        for n in range(1, steps + 1):
+            twin.set(**{k: first[k] + (v - first[k]) * n / steps for k, v in values.items()})
+            recording.point(twin)
+            recording.advance(twin, 0.01)
+        recording.advance(twin, 0.05)
+    recording.finish()
+    return recording.file
+
+
+def changes_told(file):
+    printed = CliRunner().invoke(build_app(), ["info", str(file)]).output.splitlines()
+    lines = printed[[line.startswith("changes") for line in printed].index(True) :]
+    return [line.removeprefix("changes").strip() for line in lines]
+
+
+def test_a_ramp_is_one_line(tmp_path):
+    legs = (50, {"input_torque": 30.0}), (20, {"backlash": 4e-7, "lambda_ratio": 2.0})
+    start, *ways = changes_told(ramped(tmp_path / "bag", *legs))
+    assert start.startswith("0.0000 s  backlash = 2e-07 m")
+    assert ways == [
+        "0.0000 s  input_torque from 63 to 30 N m in 50 steps over 0.5 s",
+        "0.5500 s  backlash from 2e-07 to 4e-07 m, lambda_ratio from 1 to 2 in 20 steps over 0.2 s",
+    ]
+
+
+def test_a_ramp_to_where_it_begins_is_at_most_one_line(tmp_path):
+    assert len(changes_told(ramped(tmp_path / "bag", (50, {"input_torque": 63.0})))) <= 2
+
+
+def test_the_figures_of_a_ramp_are_still_those_of_every_step(tmp_path):
+    file, out = ramped(tmp_path / "bag", (50, {"input_torque": 30.0})), tmp_path / "figures.json"
+    CliRunner().invoke(build_app(), ["info", str(file), "--events", "--json", str(out)])
+    assert len(json.loads(out.read_text())["changes"]) == 51
+
+
+def turned(*points, name="input_torque", namespace="/one"):
+    return [Changed(time, namespace, {name: value}) for time, value in points]
+
+
+def test_only_what_goes_on_at_the_same_pace_is_one_ramp():
+    """What turns back, pauses, begins anew or is of another field or gearbox is told on its own."""
+    begin = turned((0.0, 1.0))
+    up = turned((1.0, 2.0), (1.01, 3.0), (1.02, 4.0))
+    assert [len(ramp.times) for ramp in ramps(begin + up)] == [1, 3]
+    for other in (
+        turned((1.03, 3.0)),
+        turned((1.05, 5.0)),
+        turned((0.0, 5.0)),
+        turned((1.03, 5.0), name="backlash"),
+        turned((1.03, 5.0), namespace="/two"),
+    ):
+        assert [len(ramp.times) for ramp in ramps(begin + up + other)] == [1, 3, 1]
+    by_hand = turned((1.0, 2.0), (3.0, 3.0), (5.0, 4.0))
+    assert [len(ramp.times) for ramp in ramps(begin + by_hand)] == [1, 1, 1, 1]
+
+
+def test_ramps_of_two_gearboxes_at_once_are_one_each():
+    both = [turned((0.0, 1.0), namespace=n)[0] for n in ("/one", "/two")]
+    for step in range(1, 11):
+        both += turned((step / 100, 1.0 + step)) + turned((step / 100, 1 - step), namespace="/two")
+    assert [len(ramp.times) for ramp in ramps(both)] == [1, 1, 10, 10]

@@ -9,6 +9,7 @@ from typing import Any, NamedTuple
 from ...scene import Scene
 from ...scene.names import no_such_field
 from ...scene.quantity import bounds, unit_of
+from ...scene.unused import not_in_use
 from ..axes import look_up, read_value
 
 SHARE_OF_RANGE = 1e-3  # that is the scale of a parameter whose search begins at 0
@@ -54,17 +55,9 @@ def _parameter(scene: Scene, name: str, start: Any) -> Parameter:
         raise ValueError(no_such_field(name, scene.field_names)) from None
     if unit_of(info) is None or not isinstance(value, float):
         raise ValueError(f"{name} = {value!r}: only a continuous quantity can be estimated")
-    if reason := _not_in_use(scene, name):
+    if reason := not_in_use(scene, name):
         raise ValueError(f"{name}: cannot be estimated: {reason}")
     tunable = scene.tunables.get(name)
     low, high = (tunable.minimum, tunable.maximum) if tunable else bounds(info)
     begin = value if start is None else read_value(scene, name, start)
     return Parameter(name, unit_of(info) or "", low, high, begin)
-
-
-def _not_in_use(scene: Scene, name: str) -> str | None:
-    if name == "lambda_ratio" and scene.lubrication.lambda_ratio != "prescribed":
-        return "the scene computes it (lubrication.lambda_ratio = computed)"
-    if name == "second_input_speed" and scene.drive.second_input is None:
-        return "the scene has no second input"
-    return None

@@ -1,0 +1,67 @@
+"""Changes of an operating point that belong together: the steps of a ramp, one per interval."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
+
+from .info import Changed
+
+LONGEST_STEP = 0.11  # [s] of simulated time between two steps; intervals are up to a tenth
+_ROUNDING = 1e-6  # [s]
+
+
+@dataclass
+class Ramp:
+    """Changes of the same fields of one gearbox; a single one is a ramp of one step."""
+
+    times: list[float]
+    """Of the changes [s]."""
+    first: Mapping[str, float]
+    """Values before them of the fields that change, as far as they are known."""
+    last: Mapping[str, float]
+
+    @property
+    def duration(self) -> float:
+        """Of all steps [s]; the last one lasts as long as the others."""
+        steps = len(self.times)
+        return (self.times[-1] - self.times[0]) * steps / max(steps - 1, 1)
+
+    def take(self, change: Changed) -> bool:
+        """Whether `change` is the next step, which is then taken."""
+        same = change.values.keys() == self.last.keys() == self.first.keys()
+        if not (same and self._in_time(change.time) and self._onwards(change.values)):
+            return False
+        self.times.append(change.time)
+        self.last = change.values
+        return True
+
+    def _in_time(self, time: float) -> bool:
+        """Whether a change at `time` comes as soon after the last one as that after its own."""
+        gap = time - self.times[-1]
+        before = self.times[-1] - self.times[-2] if len(self.times) > 1 else gap
+        return 0.0 < gap < LONGEST_STEP and math.isclose(gap, before, abs_tol=_ROUNDING)
+
+    def _onwards(self, values: Mapping[str, float]) -> bool:
+        """Whether `values` lie beyond the last ones as these do beyond the first."""
+        last = self.last
+        return all(
+            (values[k] - last[k]) * (last[k] - first) > 0.0 for k, first in self.first.items()
+        )
+
+
+def ramps(changes: Iterable[Changed]) -> list[Ramp]:
+    """What `changes` are, in their order."""
+    found: list[Ramp] = []
+    newest: dict[str, Ramp] = {}
+    values: dict[str, dict[str, float]] = {}
+    for change in changes:
+        known = values.setdefault(change.namespace, {})
+        under_way = newest.get(change.namespace)
+        if under_way is None or not under_way.take(change):
+            first = {name: known[name] for name in change.values if name in known}
+            newest[change.namespace] = Ramp([change.time], first, change.values)
+            found.append(newest[change.namespace])
+        known |= change.values
+    return found

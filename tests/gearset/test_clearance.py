@@ -1,0 +1,78 @@
+"""Planets pass each other: distances from the coordinates of their centres."""
+
+import itertools
+import math
+
+import numpy as np
+import pytest
+
+import planetary_twin_py as pt
+from planetary_twin_py.gearset.clearance import Size, are_clear, check_clearance, most_planets
+from planetary_twin_py.gearset.kinematics import Teeth
+from planetary_twin_py.gearset.phasing import nearest_assembly
+
+PAPER = pt.load_scene("paper")
+SIZES = [
+    Size(Teeth(sun, planet, sun + 2 * planet), 1e-3, addendum)
+    for sun, planet in ((30, 20), (20, 80), (60, 18), (43, 17), (12, 60), (24, 12))
+    for addendum in (0.8, 1.0)
+]
+on_all = pytest.mark.parametrize("size", SIZES, ids=str)
+
+
+def gap(size, angles):
+    """Least distance of two centres less the tip diameter [m]."""
+    radius = size.module * (size.teeth.sun + size.teeth.planet) / 2
+    centres = radius * np.exp(1j * np.asarray(angles))
+    least = min(abs(a - b) for a, b in itertools.combinations(centres, 2))
+    return least - size.module * (size.teeth.planet + 2 * size.addendum)
+
+
+@on_all
+def test_planets_pass_each_other_where_their_centres_are_far_enough_apart(size):
+    rng = np.random.default_rng(1)
+    for count in (2, 3, 4):
+        for angles in rng.uniform(-10.0, 10.0, (50, count)):
+            assert are_clear(size, angles) == (gap(size, angles) > 0.0)
+
+
+@on_all
+def test_as_many_planets_fit_as_is_told_and_one_more_does_not(size):
+    most = most_planets(size)
+    for count, fits in ((most, True), (most + 1, False)):
+        even = [2 * math.pi * n / count for n in range(count)]
+        assert (gap(size, nearest_assembly(size.teeth, even)) > 0.0) == fits
+
+
+@pytest.mark.parametrize(
+    ("angles", "words"),
+    [
+        ((0, 90, 90, 270), ["planets 2 and 3", "are 0 mm apart", "tip diameter of 17.6 mm"]),
+        ((0, 90, 91, 270), ["planets 2 and 3", "0.3491 mm"]),
+        ((0, 120, 480), ["planets 2 and 3", "are 0 mm"]),
+        ((0, 90, 180, 345.6), ["planets 1 and 4"]),
+        ([360 * n / 7 for n in range(7)], ["17.35", "at most 6 planets fit, equally spaced"]),
+    ],
+    ids=str,
+)
+def test_planets_that_touch_are_refused_in_one_line(angles, words):
+    with pytest.raises(pt.SceneError, match=r"^gearset: planet_angles = ") as error:
+        PAPER.replace(**{"gearset.planet_angles": [f"{angle} deg" for angle in angles]})
+    message = str(error.value)
+    assert "\n" not in message and "nearest" not in message
+    assert [word for word in words if word not in message] == []
+
+
+def test_too_many_planets_for_their_size_are_told_how_many_fit():
+    """Centres 40 sqrt(2) = 56.6 mm apart, tip circles of 65.6 mm."""
+    right = [math.pi / 2 * n for n in range(4)]
+    with pytest.raises(ValueError, match=r"56\.5685 mm.* 65\.6 mm; at most 3 planets fit"):
+        check_clearance(Size(Teeth(20, 80, 180), 0.8e-3, 1.0), right)
+
+
+def test_planets_that_pass_by_a_shorter_addendum_are_admitted():
+    seven = nearest_assembly(Teeth(30, 20, 70), [2 * math.pi * n / 7 for n in range(7)])
+    with pytest.raises(pt.SceneError, match="at most 6 planets"):
+        PAPER.replace(**{"gearset.planet_angles": seven})
+    short = {"gearset.planet_angles": seven, "gearset.addendum": 0.4}
+    assert PAPER.replace(**short).gearset.planets == 7
