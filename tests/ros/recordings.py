@@ -5,6 +5,7 @@ from __future__ import annotations
 import contextlib
 import zlib
 from collections import Counter
+from itertools import pairwise
 from pathlib import Path
 from typing import NamedTuple
 
@@ -23,6 +24,14 @@ def counts(folder: Path) -> dict[str, int]:
         read = Counter(connection.topic for connection, _, _ in reader.messages())
         assert reader.message_count == sum(read.values())
         return {connection.topic: read[connection.topic] for connection in reader.connections}
+
+
+def disorder(file: Path) -> float:
+    """Share of messages that stand behind one that was received later."""
+    with file.open("rb") as stream:
+        records = StreamReader(stream, emit_chunks=False).records
+        times = [record.log_time for record in records if isinstance(record, Message)]
+    return sum(later < earlier for earlier, later in pairwise(times)) / len(times)
 
 
 def torn_states(file: Path) -> list[GearboxState]:

@@ -26,7 +26,7 @@ from planetary_twin_py.scene import load_scene, parse_scene
 
 from .peer import TWIN, Peer
 from .processes import working_in
-from .recordings import counts, torn_states
+from .recordings import counts, disorder, torn_states
 
 COMMAND = (
     "-c", "import typer; from planetary_twin.commands import run; app = typer.Typer(); "
@@ -79,6 +79,15 @@ def test_a_run_records_every_message_it_publishes(
     assert attached["robot_description.urdf"].strip().endswith("</robot>")
     assert Path(tmp_path / figures["file"]).exists()
     assert working_in(tmp_path) == []
+
+
+def test_messages_stand_in_the_order_in_which_they_were_received_while_it_keeps_up(
+    run: Callable[..., subprocess.Popen[str]], tmp_path: Path
+) -> None:
+    process = run("--duration", "2", "--no-tour", "--record", "bag")
+    _, errors = process.communicate(timeout=120)
+    assert process.returncode == 0, errors
+    assert disorder(tmp_path / "recordings/bag/bag_0.mcap") < 0.1
 
 
 def test_a_run_without_end_is_shown_around_as_a_usual_one() -> None:

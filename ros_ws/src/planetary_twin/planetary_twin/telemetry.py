@@ -106,7 +106,12 @@ class Telemetry:
         return self._stamps.of(simulated)
 
     def prepare(self, window: Window) -> None:
-        """Fill the messages that describe `window`."""
+        """
+        Fill the messages that describe `window`.
+
+        They are sent in the order of their topics' names, in which recorders look for messages:
+        so they stand in a recording by the time at which they were received.
+        """
         if self._joints_message is None:
             self._joints_message = JointsMessage(window.bodies)
         self._end = window.end
@@ -117,14 +122,14 @@ class Telemetry:
         state, joints = self._state_message.fill(window), self._joints_message.fill(window)
         self._prepared.append((self._state, state, [state.header.stamp], window.end))
         self._prepared.append((self._joints, joints, [joints.header.stamp], window.end))
+        if len(window.waveform.time):  # a single step may be shorter than the sample period
+            wave = self._waveform_message.fill(window)
+            self._prepared.append((self._waveform, wave, [wave.header.stamp], wave.start_time))
         if self._tf is not None and self._transforms_message is not None:
             transforms = self._transforms_message
             self._prepared.append(
                 (self._tf, transforms.fill(window), transforms.stamps, window.end)
             )
-        if len(window.waveform.time):  # a single step may be shorter than the sample period
-            wave = self._waveform_message.fill(window)
-            self._prepared.append((self._waveform, wave, [wave.header.stamp], wave.start_time))
 
     def publish(self) -> None:
         """Send what is prepared."""
