@@ -68,7 +68,7 @@ def test_the_level_says_how_far_behind_it_is(
 def test_who_waits_from_one_report_to_the_next_is_warned_of() -> None:
     reports = Reports()
     at_start = reports(0.0, 0.0, state=State.WAITING).status[0]
-    assert at_start.level == DiagnosticStatus.OK
+    assert at_start.level == DiagnosticStatus.OK and at_start.message == "waits"
     still = reports(0.0, 0.0, state=State.WAITING).status[0]
     assert still.level == DiagnosticStatus.WARN
     assert still.message.startswith("waits: for the first message on /clock")

@@ -31,7 +31,8 @@ class Verdict(NamedTuple):
 RUNS_FREELY = Verdict(DiagnosticStatus.OK, "runs as fast as it goes")
 KEEPS_UP = Verdict(DiagnosticStatus.OK, "keeps up")
 PAUSED = Verdict(DiagnosticStatus.OK, "paused")
-WAITS = Verdict(DiagnosticStatus.WARN, "waits")
+WAITS = Verdict(DiagnosticStatus.OK, "waits")
+WAITS_LONG = Verdict(DiagnosticStatus.WARN, "waits")
 THINNED = Verdict(DiagnosticStatus.WARN, "keeps up with a thinned waveform")
 FALLS_BEHIND = Verdict(DiagnosticStatus.WARN, "falls behind")
 FALLS_FAR_BEHIND = Verdict(DiagnosticStatus.ERROR, "falls far behind")
@@ -91,7 +92,7 @@ class RealTimeReport:
             THINNED: f"{self._log[-1].sample_rate:g} of {affordable.full_sample_rate:g} Hz",
             FALLS_BEHIND: f"real time x {recent:.3f}, {overruns} overruns",
             FALLS_FAR_BEHIND: f"real time x {recent:.3f}, {overruns} overruns",
-            WAITS: "for the first message on /clock, or for the node that wait_for names",
+            WAITS_LONG: "for the first message on /clock, or for the node that wait_for names",
             STANDS: f"the interval in progress has not ended for {silence:.1f} s",
         }
         told = [self.verdict.text, details.get(self.verdict, "")]
@@ -130,8 +131,8 @@ class RealTimeReport:
         if now.state == State.PAUSED:
             return PAUSED
         waited, self._waited = self._waited, now.state == State.WAITING
-        if waited and self._waited:  # and not only on its way to running
-            return WAITS
+        if self._waited:
+            return WAITS_LONG if waited else WAITS  # on its way to running
         if not self._rate_factor:
             return RUNS_FREELY
         lasted = now.lasted - self._last.lasted

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 from typing import Any, NamedTuple
 
 from planetary_twin_msgs.srv import SetOperatingPoint
@@ -42,6 +42,11 @@ class Setting(NamedTuple):
     limits: str
 
 
+def _unknown(refusal: str, name: str, known: Collection[str]) -> str:
+    """Add to a refusal the name that is near, or else all there are."""
+    return refusal + (did_you_mean(name, known) or f"; there are {', '.join(known)}")
+
+
 class Remote(Client):
     """
     Asks the simulation in `namespace`.
@@ -61,14 +66,14 @@ class Remote(Client):
         """One of them."""
         found = {setting.name: setting for setting in self.settings()}
         if name not in found:
-            raise ValueError(f"{name}: no such parameter; there are {', '.join(found)}")
+            raise ValueError(_unknown(f"{name}: no such parameter", name, found))
         return found[name]
 
     def set(self, name: str, typed: str) -> None:
         """Set a parameter to what a user has typed, with or without a unit."""
         names = self._names()
         if name not in names:
-            raise ValueError(f"{name}: no such parameter{did_you_mean(name, names)}")
+            raise ValueError(_unknown(f"{name}: no such parameter", name, names))
         request = SetParametersAtomically.Request(
             parameters=[ParameterMessage(name=name, value=_message(in_si(name, typed)))]
         )
@@ -84,7 +89,7 @@ class Remote(Client):
         """
         for name in typed:
             if name not in TUNABLES:
-                raise ValueError(f"{name}: no such quantity; there are {', '.join(TUNABLES)}")
+                raise ValueError(_unknown(f"{name}: no such quantity", name, TUNABLES))
         values = [in_si(name, value) for name, value in typed.items()]
         request = SetOperatingPoint.Request(names=list(typed), values=values, ramp=ramp)
         answer = self._ask(SetOperatingPoint, "set_operating_point", request)
