@@ -7,6 +7,7 @@ at: `python tests/synthetic_recording.py OUT.mcap [SECONDS]`.
 import itertools
 import math
 import sys
+from collections.abc import Iterator
 from pathlib import Path
 
 import numpy as np
@@ -132,6 +133,45 @@ def padded(values: np.ndarray) -> list[float]:
     return [*values.tolist(), *[math.nan] * (7 - len(values))]
 
 
+def operating_points() -> Iterator[tuple[float, dict]]:
+    """Each with the instant [s] from which it holds."""
+    changed = ("", "lambda_ratio", "backlash", "lambda_ratio,input_speed")
+    for number, (time, backlash, lam, rpm, torque, ripple) in enumerate(TOUR, start=1):
+        yield (
+            time,
+            {
+                "header": header(time),
+                "sequence": number,
+                "simulated_time": time,
+                "changed": changed[number - 1],
+                "backlash": backlash,
+                "lambda_ratio": lam,
+                "input_speed": rpm * math.pi / 30,
+                "oil_temperature": 343.15,
+                "second_input_speed": 0.0,
+                "input_torque": torque,
+                "torque_ripple": ripple,
+            },
+        )
+
+
+def block(begin: float, number: int) -> dict:
+    """The waveform of the interval from `begin` [s] on."""
+    grid = begin + SAMPLE_PERIOD * np.arange(1, BLOCK + 1)
+    dte, force, friction = waveform(grid)
+    return {
+        "header": header(grid[0]),
+        "sequence": number,
+        "start_time": grid[0],
+        "sample_period": SAMPLE_PERIOD,
+        "planets": PLANETS,
+        "samples": BLOCK,
+        "dte": dte.T.ravel().tolist(),
+        "mesh_force": force.T.ravel().tolist(),
+        "friction": friction.T.ravel().tolist(),
+    }
+
+
 def write_recording(
     path: Path,
     duration: float = 1.0,
@@ -148,58 +188,19 @@ def write_recording(
             for name in ("GearboxState", "MeshWaveform", "OperatingPoint")
         }
         if scene_yaml is not None:
-            writer.add_attachment(
-                0, START_NS, "scene.yaml", "application/yaml", scene_yaml.encode()
-            )
+            scene = scene_yaml.encode()
+            writer.add_attachment(0, START_NS, "scene.yaml", "application/yaml", scene)
 
         def write(topic: str, kind: str, row: dict, time: float) -> None:
-            stamp = START_NS + round(time * 1e9)
-            writer.write_message(
-                f"{namespace}/{topic}", schemas[kind], row, stamp, stamp, row["sequence"]
-            )
+            stamp, name = START_NS + round(time * 1e9), f"{namespace}/{topic}"
+            writer.write_message(name, schemas[kind], row, stamp, stamp, row["sequence"])
 
-        for number, (time, backlash, lam, rpm, torque, ripple) in enumerate(TOUR, start=1):
-            write(
-                "operating_point",
-                "OperatingPoint",
-                {
-                    "header": header(time),
-                    "sequence": number,
-                    "simulated_time": time,
-                    "changed": ""
-                    if number == 1
-                    else ["", "lambda_ratio", "backlash", "lambda_ratio,input_speed"][number - 1],
-                    "backlash": backlash,
-                    "lambda_ratio": lam,
-                    "input_speed": rpm * math.pi / 30,
-                    "oil_temperature": 343.15,
-                    "second_input_speed": 0.0,
-                    "input_torque": torque,
-                    "torque_ripple": ripple,
-                },
-                time,
-            )
+        for time, point in operating_points():
+            write("operating_point", "OperatingPoint", point, time)
         interval = SAMPLE_PERIOD * BLOCK
         for k in range(round(duration / interval)):
             begin, end = k * interval, (k + 1) * interval
-            grid = begin + SAMPLE_PERIOD * np.arange(1, BLOCK + 1)
-            dte, force, friction = waveform(grid)
-            write(
-                "mesh_waveform",
-                "MeshWaveform",
-                {
-                    "header": header(grid[0]),
-                    "sequence": k + 1,
-                    "start_time": grid[0],
-                    "sample_period": SAMPLE_PERIOD,
-                    "planets": PLANETS,
-                    "samples": BLOCK,
-                    "dte": dte.T.ravel().tolist(),
-                    "mesh_force": force.T.ravel().tolist(),
-                    "friction": friction.T.ravel().tolist(),
-                },
-                end,
-            )
+            write("mesh_waveform", "MeshWaveform", block(begin, k + 1), end)
             write("gearbox_state", "GearboxState", state(end, interval, k + 1), end)
         if finish:
             writer.finish()
