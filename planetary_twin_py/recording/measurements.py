@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Callable, Mapping, Sequence
-from difflib import get_close_matches
 from pathlib import Path
 from typing import Any, BinaryIO, NamedTuple
 
@@ -14,6 +13,7 @@ import pyarrow as pa
 from numpy.typing import NDArray
 from pyarrow import csv, parquet
 
+from ..scene.names import did_you_mean
 from ..units import column_to_si
 
 Array = NDArray[np.float64]
@@ -23,6 +23,10 @@ LABEL = "operating_point"
 UNREAD = ("stamp", "sequence", "interval", "planets")
 """Columns of an export that count messages; an import counts its own."""
 UNEVEN = 0.1  # of a step, by which a time stamp may be off: loggers round them
+_NAMES = (
+    "; a column has the name of a field of gearbox_state or operating_point, with a unit in "
+    "brackets where it is not SI"
+)
 _HEADING = re.compile(r"(.*?)\s*(?:\[(.*)\])?")
 
 
@@ -117,11 +121,8 @@ def _named(heading: str, units: Mapping[str, str]) -> tuple[str, str | None]:
         return TIME[0], unit
     if name in units or name in (LABEL, *UNREAD):
         return name, unit
-    near = get_close_matches(name, [TIME[0], LABEL, *units], 1, 0.0)
-    raise ValueError(
-        f"column {heading!r}: no such quantity, the nearest is {near[0]}; a column has the name of "
-        "a field of gearbox_state or operating_point, with a unit in brackets where it is not SI"
-    )
+    near = did_you_mean(name, [TIME[0], LABEL, *units])
+    raise ValueError(f"column {heading!r}: no such quantity{near or _NAMES}")
 
 
 def _in_si(name: str, column: pa.ChunkedArray, given: str | None, unit: str) -> Array:
