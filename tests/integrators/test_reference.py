@@ -11,6 +11,8 @@ from planetary_twin_py.dynamics.bodies import body_names, mesh_names
 from planetary_twin_py.dynamics.observe import DTE
 from planetary_twin_py.engine import Engine
 
+pytestmark = pytest.mark.slow
+
 RATE = 50_000.0
 RATTLE = {"input_torque": 0.3, "torque_ripple": 3.0, "drive.speed_control.ripple_order": 6}
 

@@ -23,6 +23,8 @@ from planetary_twin_py.recording.records import files_of
 from planetary_twin_py.recording.recover import recover
 from planetary_twin_py.recording.storage import Storage
 
+pytestmark = pytest.mark.slow
+
 FLUSH_PERIODS = (0.01, 0.05, 0.2)  # [s]
 CHUNK_SIZES = (0.002, 1.0)  # [MB]
 SPLITS = (0.0, 0.08)  # [s]
