@@ -37,6 +37,7 @@ MESHES_LAYOUT: dict[str, Any] = {
     "damping_cycles": REAL,  # tau times meshing frequency [-]
     "lowest_frequency": REAL,  # [Hz]
     "base_pitch": REAL,  # [m]
+    "rolling_advance": REAL,  # of the flanks at the pitch point in a mesh cycle [m]
     "pitch_curvature": (REAL, (2, 2)),  # radii of curvature at the pitch point, both gears [m]
     "external": (REAL, (2,)),  # +1: external, -1: internal
     "segments": (WHOLE, (2,)),  # number of segments in a mesh cycle
@@ -95,6 +96,7 @@ def build_meshes(scene: Scene, bodies: Bodies) -> dict[str, Any]:
         "damping_cycles": damping_cycles(scene),
         "lowest_frequency": damping.lowest_frequency,
         "base_pitch": base_pitch(gearset.module, angle),
+        "rolling_advance": math.tan(angle) * base_pitch(gearset.module, angle),
         "pitch_curvature": np.array([[curvature[gear] for gear in pair] for pair in GEARS]),
         "external": np.array([1.0, -1.0]),
         "segments": np.array([table.segments for table in tables]),

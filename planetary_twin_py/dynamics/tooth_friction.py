@@ -11,6 +11,7 @@ import numpy as np
 
 from .._compile import kernel, law
 from .._records import MESHES, REAL, REGISTER, WHOLE, Record, layout
+from ..lubrication.film import SLOWEST_SPEED
 from ..mesh.tooth_pairs import PAIRS
 from .tooth_contact import choices, tooth_contact
 
@@ -56,6 +57,16 @@ def turn_pairs(train: Record, moment: Record, v: np.ndarray, pairs: Record) -> N
         for p in range(train.slots):
             pairs.speed1[p * meshes + i] = speed1
             pairs.speed2[p * meshes + i] = speed2
+
+
+@law
+def friction_layer(train: Record, oil: Record, cycle_rate: float) -> float:
+    """Sliding speed [m/s] within which friction reverses at the pitch point.
+
+    Both flanks roll there at r sin(alpha) w = tan(alpha) p_b f_m, at either kind of mesh.
+    """
+    rolling = train.rolling_advance * abs(cycle_rate)
+    return oil.sliding_threshold * max(rolling, SLOWEST_SPEED)
 
 
 @kernel

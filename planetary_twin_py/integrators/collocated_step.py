@@ -80,7 +80,7 @@ def _outdone(control: Record, h: float, settled: bool, restless: int) -> bool:
         return False
     if not settled and (restless > 1 or h < control.next_stiff):
         return True
-    return h < OUTDONE * control.next_stiff
+    return h < (1.0 if control.slow else OUTDONE) * control.next_stiff
 
 
 @kernel

@@ -139,8 +139,23 @@ def _tail(model: Record, march: Record) -> float:
         # Steps within the memory of a mode make errors that add up at random.
         lasting = math.sqrt(1.0 + 2.0 / (run.damper[m] * h + 1e-6))
         lasting = 1.0 if run.spring[m] == 0.0 else lasting
-        run.now_q[m] = tail * tail / (tail + below + 1e-300) * share * static * lasting
+        missed = tail * tail / (tail + below + 1e-300) * share * lasting
+        run.now_q[m], run.now_p[m] = missed * static, missed * math.sqrt(static)
     combine(run.known.reach[run.motion.modes], run.now_q, train.bodies, run.now_d)
     for i in range(train.meshes):
         largest = max(largest, run.now_d[i])
-    return largest / march.control.tolerance_x
+    error = largest / march.control.tolerance_x
+    return max(error, _tail_of_speeds(train, march)) if march.control.slow else error
+
+
+@kernel
+def _tail_of_speeds(train: Record, march: Record) -> float:
+    """The same for the speeds of the bodies, from that of the modes in `now_p`."""
+    run, largest = march.run, 0.0
+    form = run.known.form[run.motion.modes]
+    for j in range(train.bodies):
+        speed = 0.0
+        for m in range(train.bodies):
+            speed += abs(form[m, j]) * run.now_p[m]
+        largest = max(largest, speed)
+    return largest / march.control.tolerance_v

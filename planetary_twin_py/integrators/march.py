@@ -16,6 +16,7 @@ from .._overwrite import overwrite
 from .._records import Record
 from ..dynamics.contact_events import change_contact
 from ..dynamics.moment import set_moment
+from ..dynamics.tooth_friction import friction_layer
 from .clock import Instant, Sampling, after, delay, due, sampling
 from .collocated_step import DETOUR, FAILED, collocated_step
 from .edges import next_event, pass_edges
@@ -25,6 +26,8 @@ from .progress import COLLOCATION, NO_MESH, ROSENBROCK, SHORTEST_STEP
 from .repetition import forget, play, watch
 from .stiff_step import stiff_step
 
+LAYER_SHARE = 100.0  # of the tolerance: error of a speed over the layer in which friction reverses
+
 
 @kernel
 def begin_step(model: Record, march: Record) -> None:
@@ -32,18 +35,27 @@ def begin_step(model: Record, march: Record) -> None:
     overwrite(march.begin, march.end)
     rebase(model.train, march.begin)
     set_moment(model, march.begin, march.moment)
-    _set_tolerances(model.train, march)
+    _set_tolerances(model, march)
 
 
 @kernel
-def _set_tolerances(train: Record, march: Record) -> None:
-    """Allow errors in proportion to what the meshes yield, be it to torques or to inertia."""
-    control = march.control
+def _set_tolerances(model: Record, march: Record) -> None:
+    """Allow errors in proportion to what the meshes yield, be it to torques or to inertia.
+
+    Friction turns round within a narrow layer of sliding speeds: where the gears turn slowly, this
+    is what an error of a speed is measured by.
+    """
+    train, control = model.train, march.control
     deflection = control.deflection
     for a in range(train.axes):
         deflection += control.yielding[a] * abs(march.moment.slew[a])
     control.tolerance_x = control.tolerance * deflection
     control.tolerance_v = control.tolerance_x * control.quickness
+    if train.friction:
+        layer = friction_layer(train, model.oil, march.moment.cycle_rate)
+        layer *= LAYER_SHARE * control.tolerance
+        control.slow = layer < control.tolerance_v
+        control.tolerance_v = min(control.tolerance_v, layer)
 
 
 @kernel
