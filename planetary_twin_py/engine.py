@@ -73,6 +73,7 @@ class Engine:
     def _compile(self) -> None:
         """Have every kernel ready before the clock runs; at time zero none changes anything."""
         begin_step(self.model, self.march)
+        self.march.end = self.march.begin  # tooth pairs may have begun to hold
         self.advance(0.0, 1, 1.0, 0)
         self.stored()
         cut(self.model, self.march, instant(0.0))

@@ -12,6 +12,7 @@ import numpy as np
 
 from .._compile import kernel, law
 from .._records import Record
+from .bristles import clear_bristles, pass_bristles
 from .cycle import find_segment, mesh_cycle
 from .mesh_force import deflection, stored_energy
 from .moment import damping_time, passing_rate
@@ -75,6 +76,7 @@ def change_contact(model: Record, state: Record, moment: Record, i: int) -> None
         state.side[i] = side
     else:
         state.side[i] = OPEN
+    clear_bristles(train, state.bristle, i)
     state.energy[DAMPING] += before - stored_energy(model, state, moment, i)
 
 
@@ -83,5 +85,6 @@ def change_segment(model: Record, state: Record, moment: Record, i: int, directi
     """Move mesh i to the next segment; a jump of the stiffness does work on the train."""
     count = model.train.segments[model.train.kind[i]]
     before = stored_energy(model, state, moment, i)
+    pass_bristles(model.train, state.bristle, i, state.segment[i], direction)
     state.segment[i] = (state.segment[i] + direction) % count
     state.energy[STIFFNESS_WORK] += stored_energy(model, state, moment, i) - before

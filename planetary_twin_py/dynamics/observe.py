@@ -58,5 +58,6 @@ def observe(
             if train.friction:
                 out[BOUNDARY, i] += pairs.boundary[k]
                 out[VISCOUS, i] += pairs.viscous[k]
-                taken = pairs.friction[k] * pairs.sliding[k] + pairs.rolling_power[k]
+                slip = pairs.slip[k] if pairs.held else pairs.sliding[k]
+                taken = pairs.friction[k] * slip + pairs.rolling_power[k]
                 out[POWER_LOSS, i] += taken

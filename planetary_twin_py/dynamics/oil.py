@@ -35,6 +35,7 @@ OIL = layout(
     boundary_coefficient=REAL,  # [-], of the former
     rolling=FLAG,  # whether rolling resists
     sliding_threshold=REAL,  # [-]
+    presliding=REAL,  # displacement by which flanks yield before they slide [m]
 )
 
 
@@ -73,6 +74,7 @@ def build_oil(scene: Scene, point: OperatingPoint) -> Record:
         boundary_coefficient=data.boundary_coefficient,
         rolling=data.rolling == "goksem_hargreaves",
         sliding_threshold=data.sliding_threshold,
+        presliding=data.presliding_displacement,
     )
 
 

@@ -13,17 +13,22 @@ import numpy as np
 
 from .._cholesky import factorise, solve
 from .._compile import kernel
+from .._overwrite import copy_array
 from .._records import AXES, BODIES, MACHINES, REAL, Record, layout, new_record
 from ..scene import OperatingPoint, Scene
 from .bodies import LOAD_MACHINE, MOTOR, SECOND_MOTOR
+from .bristles import creeps
 from .cycle import find_segment, mesh_cycle
 from .equations import EVALUATION, forces
 from .mesh_force import deflection, mesh_stiffness
 from .moment import MOMENT, frame_cycle_rate, set_moment
 from .state import COAST_SIDE, DRIVE_SIDE, LOAD, OPEN, STATE
 from .static_load import mesh_force, static_torques
+from .tooth_friction import add_outer
 
+ENDS = np.array([1.0, -1.0])  # of a coupling
 CYCLE_POINTS = 64  # positions within the mesh cycle over which friction is averaged
+BALANCING_PASSES = 12  # each leaves some per cent of what friction was off by
 SETTLING_PASSES = 3  # the first winds up the couplings, the others find the tooth pairs there
 
 
@@ -92,6 +97,10 @@ def start_state(scene: Scene, model: Record) -> Record:
     bodies = train.coupling[: train.machines, 0]
     effect = train.ratio[bodies, :axes].T @ load.trim_gain[: train.machines, :axes]
     state.trim[:axes] = np.linalg.solve(effect, drag[:axes])
+    if creeps(train, frame_cycle_rate(train, state)):
+        for _ in range(BALANCING_PASSES):
+            _balance_friction(steady, state, moment, room, drag)
+            state.trim[:axes] += np.linalg.solve(effect, drag[:axes])
     return state
 
 
@@ -178,29 +187,57 @@ def _balance(model: Record, state: Record, moment: Record, mean: float, room: Re
     The motors stand still. More meshes than bodies are to carry the mean force: all of them do
     only if all are equally stiff at this angle.
     """
-    train, load, stiffness, force = model.train, model.load, room.stiffness, room.force
-    stiffness[:] = 0.0
+    train, load, force = model.train, model.load, room.force
     force[:] = 0.0
     for i in range(train.meshes):
         k = mesh_stiffness(train, train.kind[i], state.segment[i], moment.start[i])
         d = deflection(train, moment, i, state.x, state.v, 0.0, 0.0)[0]
         push, copies = mean + k * (state.side[i] * load.offset - d), train.copies[i]
         for a in range(3):
-            body, sign = train.body[i, a], train.sign[i, a]
-            force[body] += copies * sign * push
-            for b in range(3):
-                stiffness[body, train.body[i, b]] += copies * k * sign * train.sign[i, b]
+            force[train.body[i, a]] += copies * train.sign[i, a] * push
     for c in range(train.machines):
         machine, member = train.coupling[c, 0], train.coupling[c, 1]
-        k = train.coupling_stiffness[c]
         pull = load.torque[c] / train.radius[machine]
-        pull -= k * (state.x[machine] - state.x[member])
+        pull -= train.coupling_stiffness[c] * (state.x[machine] - state.x[member])
         force[machine] += pull
         force[member] -= pull
-        stiffness[machine, machine] += k
-        stiffness[member, member] += k
-        stiffness[machine, member] -= k
-        stiffness[member, machine] -= k
+    _yield_to(train, state, moment, room)
+
+
+@kernel
+def _balance_friction(
+    model: Record, state: Record, moment: Record, room: Record, drag: np.ndarray
+) -> None:
+    """Move x to where all forces balance, those of friction too, as where the gears creep.
+
+    The motors stand still. Fills the torques that are missing along the motion of each (AXES,).
+    """
+    train, work = model.train, room.evaluation
+    moment.slew[:] = 0.0
+    forces(model, state, moment, state.x, state.v, 0.0, state.trim, work)
+    copy_array(room.force, work.force)
+    _yield_to(train, state, moment, room)
+    _place_pairs(model, state, moment)
+    moment.slew[:] = 0.0
+    forces(model, state, moment, state.x, state.v, 0.0, state.trim, work)
+    for a in range(train.axes):
+        drag[a] = 0.0
+        for j in range(train.bodies):
+            drag[a] -= train.ratio[j, a] * work.force[j] * train.radius[j]
+
+
+@kernel
+def _yield_to(train: Record, state: Record, moment: Record, room: Record) -> None:
+    """Move x by what springs of meshes and couplings yield to `room.force`, the motors held."""
+    stiffness, force = room.stiffness, room.force
+    stiffness[:] = 0.0
+    for i in range(train.meshes):
+        if state.side[i] == OPEN:
+            continue
+        k = mesh_stiffness(train, train.kind[i], state.segment[i], moment.start[i])
+        add_outer(stiffness, train.body[i], train.sign[i], train.copies[i] * k)
+    for c in range(train.machines):
+        add_outer(stiffness, train.coupling[c], ENDS, train.coupling_stiffness[c])
     for a in range(train.axes):
         _hold(stiffness, force, train.coupling[2 * a, 0])
     factorise(stiffness, train.bodies)

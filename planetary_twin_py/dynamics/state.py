@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 from .._records import AXES, BODIES, MACHINES, MESHES, REAL, WHOLE, layout
+from ..mesh.tooth_pairs import PAIRS
 
 DRIVE_SIDE, OPEN, COAST_SIDE = 1, 0, -1
+ROOM = (PAIRS + 1) * MESHES  # for all tooth pairs, and what whole registers write beyond
 
 # Entries of `energy`, integrals since the start, and of the powers they grow by: work [J] and
 # angular impulse [N m s] that each machine has put in, then what tooth friction, damping, bearings
@@ -28,6 +30,7 @@ STATE = layout(
     trim=(REAL, (AXES,)),  # integral of the speed error [rad]
     set_speed=(REAL, (AXES,)),  # slewed set-point [rad/s]
     energy=(REAL, (LEDGER,)),  # [J], [N m s]
+    bristle=(REAL, (ROOM,)),  # of the tooth pairs, while they hold: share of full friction [-]
 )
 
 # What acts on the train: the operating point and the constants of the drive.

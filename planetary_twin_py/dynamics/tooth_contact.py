@@ -13,6 +13,7 @@ from ..lubrication.rolling import rolling_resistance
 from ..lubrication.traction import sliding_sense, viscous_friction
 
 LIGHTEST_LOAD = 1e-6  # [N] keeps logarithms finite
+SLOWEST_ROLLING = 1e-9  # [m/s] below it the sense of sliding fades out; see also `bristles`
 
 
 @law
@@ -51,10 +52,11 @@ def tooth_contact(
     rho1, rho2, external, speed1, speed2, load = pair
     u1, u2 = rho1 * speed1, -external * rho2 * speed2
     sliding = u1 - u2
-    speed = max(abs(0.5 * (u1 + u2)), SLOWEST_SPEED)
+    rolling_speed = abs(0.5 * (u1 + u2))
+    speed = max(rolling_speed, SLOWEST_SPEED)
     # Three divisions in one, as they take longest of all in a loop over pairs.
     distance, loaded = rho2 + external * rho1, load + LIGHTEST_LOAD
-    threshold = oil.sliding_threshold * speed
+    threshold = oil.sliding_threshold * max(rolling_speed, SLOWEST_ROLLING)
     inverse = 1.0 / (distance * loaded * threshold)
     radius = rho1 * rho2 * (loaded * threshold * inverse)
     steepness = distance * loaded * inverse

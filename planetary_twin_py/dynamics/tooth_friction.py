@@ -10,13 +10,14 @@ from __future__ import annotations
 import numpy as np
 
 from .._compile import kernel, law
-from .._records import MESHES, REAL, REGISTER, WHOLE, Record, layout
-from ..lubrication.film import SLOWEST_SPEED
-from ..mesh.tooth_pairs import PAIRS
+from .._overwrite import copy_array
+from .._records import FLAG, MESHES, REAL, REGISTER, WHOLE, Record, layout
+from .bristles import hold
+from .creep import CREEPING
+from .state import ROOM
 from .tooth_contact import choices, tooth_contact
 
 SLOWEST_TURN = 1e-3  # [rad/s] below which the printed torque fades out
-ROOM = (PAIRS + 1) * MESHES  # for all tooth pairs, and what whole registers write beyond
 
 # Entry p * meshes + i is pair p of mesh i; one that is absent, or parted, has no load.
 TOOTH_PAIRS = layout(
@@ -36,6 +37,13 @@ TOOTH_PAIRS = layout(
     slope=(REAL, (ROOM,)),  # of friction over sliding [N s/m]
     rolling=(REAL, (ROOM,)),  # rolling resistance, signed [N]
     rolling_power=(REAL, (ROOM,)),  # that it takes [W]
+    held=FLAG,  # whether bristles join the flanks, see `bristles`; then, of each pair:
+    bristle=(REAL, (ROOM,)),  # share of the full friction [-]
+    full=(REAL, (ROOM,)),  # that friction [N]
+    bristle_rate=(REAL, (ROOM,)),  # of the share [1/s]
+    bristle_decay=(REAL, (ROOM,)),  # by which that falls as the share grows [1/s]
+    bristle_gain=(REAL, (ROOM,)),  # by which it grows with the sliding [1/m]
+    slip=(REAL, (ROOM,)),  # part of the sliding that dissipates [m/s]
 )
 
 # What the friction of a mesh does to its gears and the carrier.
@@ -66,7 +74,7 @@ def friction_layer(train: Record, oil: Record, cycle_rate: float) -> float:
     Both flanks roll there at r sin(alpha) w = tan(alpha) p_b f_m, at either kind of mesh.
     """
     rolling = train.rolling_advance * abs(cycle_rate)
-    return oil.sliding_threshold * max(rolling, SLOWEST_SPEED)
+    return oil.sliding_threshold * max(rolling, CREEPING)
 
 
 @kernel
@@ -80,6 +88,8 @@ def evaluate(model: Record, pairs: Record) -> None:
         _evaluate(model, (True, False, False, False), pairs)
     else:
         _evaluate(model, (False, False, False, False), pairs)
+    if pairs.held:
+        hold(model.oil, pairs)
 
 
 @law
@@ -146,6 +156,16 @@ def collect_printed(
         out.torque[2, i], out.power[i] = 0.0, power
 
 
+@law
+def sliding_row(train: Record, pairs: Record, k: int, row: np.ndarray) -> None:
+    """Fill dVs/dv (3,) of pair k for the coordinates of its gears and the carrier."""
+    i = k % train.meshes
+    rho1, rho2 = pairs.rho1[k], pairs.external[k] * pairs.rho2[k]
+    row[0] = rho1 * train.lever[0, i]
+    row[1] = rho2 * train.lever[1, i]
+    row[2] = -(rho1 + rho2) * train.lever[2, i]
+
+
 @kernel
 def friction_damping(
     train: Record, pairs: Record, force: np.ndarray, h: float, row: np.ndarray, matrix: np.ndarray
@@ -159,10 +179,7 @@ def friction_damping(
     """
     for k in range(pairs.count):
         i = k % train.meshes
-        rho1, rho2 = pairs.rho1[k], pairs.external[k] * pairs.rho2[k]
-        row[0] = rho1 * train.lever[0, i]
-        row[1] = rho2 * train.lever[1, i]
-        row[2] = -(rho1 + rho2) * train.lever[2, i]
+        sliding_row(train, pairs, k, row)
         sliding, slope, gain = pairs.sliding[k], pairs.slope[k], 0.0
         for j in range(3):
             body = train.body[i, j]
@@ -191,3 +208,9 @@ def copy_friction(source: Record, target: Record) -> None:
         target.friction[k] = source.friction[k]
         target.sliding[k] = source.sliding[k]
         target.slope[k] = source.slope[k]
+    if source.held:
+        copy_array(target.bristle, source.bristle)
+        copy_array(target.full, source.full)
+        copy_array(target.bristle_rate, source.bristle_rate)
+        copy_array(target.bristle_decay, source.bristle_decay)
+        copy_array(target.bristle_gain, source.bristle_gain)

@@ -11,6 +11,7 @@ from .._compile import kernel
 from .._overwrite import copy_array
 from .._records import AXES, Record
 from ..dynamics.body_speed import body_speed
+from ..dynamics.bristles import place_bristles
 from ..dynamics.drag import apply_drag
 from ..dynamics.observe import MESH_FORCE, QUANTITIES, observe
 from ..dynamics.state import BEARING, CHURNING
@@ -29,12 +30,11 @@ def interpolate(model: Record, march: Record, delay: float) -> None:
     begin, end, dense, h = march.begin, march.end, march.dense, march.control.step
     if march.control.collocated:
         propagate(model, march, delay, dense.x, dense.v)
-    elif delay <= SHORTEST_STEP:
-        copy_array(dense.x, begin.x)
-        copy_array(dense.v, begin.v)
-    elif delay >= h - SHORTEST_STEP:
-        copy_array(dense.x, end.x)
-        copy_array(dense.v, end.v)
+    elif delay <= SHORTEST_STEP or delay >= h - SHORTEST_STEP:
+        nearest = begin if delay <= SHORTEST_STEP else end
+        copy_array(dense.x, nearest.x)
+        copy_array(dense.v, nearest.v)
+        copy_array(dense.bristle, nearest.bristle)
     else:
         step(model, begin, march.moment, delay, march.first, dense, march.work)
 
@@ -67,6 +67,7 @@ def sample(model: Record, march: Record, delay: float, out: Samples, row: int) -
     train, begin = model.train, march.begin
     interpolate(model, march, delay)
     work = march.work.evaluation
+    place_bristles(work.pairs, march.dense.bristle)
     observe(model, begin, march.moment, march.dense.x, march.dense.v, delay, work, out.mesh[row])
     if train.bearings + train.discs > 0:
         for i in range(train.meshes):

@@ -19,6 +19,7 @@ from ..dynamics.moment import set_moment
 from ..dynamics.tooth_friction import friction_layer
 from .clock import Instant, Sampling, after, delay, due, sampling
 from .collocated_step import DETOUR, FAILED, collocated_step
+from .creep import hold_or_slide
 from .edges import next_event, pass_edges
 from .frame import rebase
 from .interpolant import Samples, new_samples, sample
@@ -36,6 +37,7 @@ def begin_step(model: Record, march: Record) -> None:
     rebase(model.train, march.begin)
     set_moment(model, march.begin, march.moment)
     _set_tolerances(model, march)
+    hold_or_slide(model, march)
 
 
 @kernel
@@ -64,7 +66,8 @@ def one_step(model: Record, march: Record, longest: float) -> None:
     control = march.control
     event, mesh = next_event(model, march)
     longest, changing = min(longest, control.longest), FAILED
-    if control.method != ROSENBROCK and (control.detour == 0 or control.method == COLLOCATION):
+    collocates = control.method != ROSENBROCK and not control.creeping
+    if collocates and (control.detour == 0 or control.method == COLLOCATION):
         changing = collocated_step(model, march, longest, event, mesh)
         if changing == FAILED:
             control.detour = DETOUR

@@ -23,6 +23,7 @@ CONTROL = layout(
     quickness=REAL,  # speed of a body per deflection [1/s]
     tolerance_x=REAL,  # local error this step may make in a transmission error [m]
     tolerance_v=REAL,  # and in the speed of a body [m/s]
+    creeping=FLAG,  # tooth pairs hold, see `dynamics.bristles`
     slow=FLAG,  # the layer in which friction reverses limits the errors of speeds
     next_step=REAL,  # [s]
     step=REAL,  # the last one taken [s]

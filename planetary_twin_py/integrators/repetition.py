@@ -16,6 +16,7 @@ from .._compile import kernel
 from .._overwrite import copy_array, overwrite
 from .._records import BODIES, FLAG, REAL, WHOLE, Record, layout
 from ..dynamics.body_speed import body_speed
+from ..dynamics.bristles import place_bristles
 from ..dynamics.equations import forces
 from ..dynamics.mesh_force import mesh_motion
 from ..dynamics.moment import set_moment
@@ -145,6 +146,8 @@ def _distance(model: Record, march: Record, a: Record, b: Record) -> float:
             return math.inf
         late = (a.trim[k] - b.trim[k]) * train.cycles[k] / (2.0 * math.pi)
         largest = max(largest, abs(late) * PHASE * control.deflection)
+    for k in range(train.slots * train.meshes if control.creeping else 0):
+        largest = max(largest, abs(a.bristle[k] - b.bristle[k]) * control.deflection)
     return largest / control.deflection
 
 
@@ -220,6 +223,7 @@ def play(model: Record, march: Record, until: Instant) -> None:
     begin, moment = march.begin, march.moment
     set_moment(model, begin, moment)
     if not step.collocated:  # dense output makes the step anew
+        place_bristles(march.first.pairs, begin.bristle)
         forces(model, begin, moment, begin.x, begin.v, 0.0, begin.trim, march.first)
 
 

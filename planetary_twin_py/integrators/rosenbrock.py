@@ -22,8 +22,9 @@ from ..dynamics.body_speed import body_speed
 from ..dynamics.cycle import cycle_shift
 from ..dynamics.equations import EVALUATION, forces
 from ..dynamics.mesh_force import mesh_stiffness, push_drift
-from ..dynamics.state import IMPULSE, LEDGER, OPEN, WORK
+from ..dynamics.state import IMPULSE, LEDGER, OPEN, ROOM, WORK
 from ..dynamics.tooth_friction import add_outer, friction_damping
+from .bristle_stage import bend_bristles, bristle_damping, pull_bristles, solve_bristles
 
 ORDER = 3
 STAGES = 4
@@ -81,6 +82,8 @@ WORKSPACE = layout(
     evaluation=EVALUATION,  # of the stage at hand
     error_x=(REAL, (BODIES,)),  # local error of x [m]
     error_v=(REAL, (BODIES,)),  # local error of v [m/s]
+    bend=(REAL, (STAGES, ROOM)),  # stages of the shares of friction of pairs that hold
+    error_bristle=(REAL, (ROOM,)),  # local error of those
     energy=(REAL, (LEDGER,)),  # growth of the ledger in this step [J]
     way=(REAL, (MACHINES,)),  # of the machines, by the quadrature that fills the ledger [m]
 )
@@ -118,7 +121,10 @@ def _assemble(
         add_outer(work.stiffness, train.coupling[c], _ENDS, k)
         add_outer(work.system, train.coupling[c], _ENDS, train.coupling_damping[c] + step * k)
     if train.friction:
-        friction_damping(train, first.pairs, first.force, h, work.row, work.system)
+        if first.pairs.held:
+            bristle_damping(train, first.pairs, step, work.row, work.system)
+        else:
+            friction_damping(train, first.pairs, first.force, h, work.row, work.system)
     for j in range(train.bodies + 1):
         work.system[j, j] += train.mass[j] / step
 
@@ -153,6 +159,7 @@ def _stage(
             work.trim[a] += h * ALPHA[i, s] * work.trim_rate[s, a]
     out = first if i == 0 else work.evaluation
     if i > 0:
+        bend_bristles(out.pairs, state.bristle, A[i], work.bend, i)
         forces(model, state, moment, work.x, work.v, ABSCISSA[i] * h, work.trim, out)
     for a in range(train.axes):
         speed = body_speed(train, state, work.v, train.coupling[2 * a, 0])
@@ -168,11 +175,15 @@ def _stage(
         for k in range(bodies):
             value -= work.stiffness[j, k] * work.rx[k] / g
         right[j] = value
+    if first.pairs.held:
+        pull_bristles(train, first.pairs, out.pairs, (h, GAMMA * h), C[i], i, right, work)
     solve(work.system, bodies - 1, right)
     right[bodies - 1] = 0.0
     for j in range(bodies):
         work.ux[i, j] = (work.rx[j] + right[j]) / g
     work.ux[i, bodies - 1] = 0.0
+    if first.pairs.held:
+        solve_bristles(train, first.pairs, GAMMA * h, right, i, work)
 
 
 @kernel
@@ -197,6 +208,8 @@ def step(
     copy_array(new.v, state.v)
     work.error_x[:] = 0.0
     work.error_v[:] = 0.0
+    work.error_bristle[:] = 0.0
+    copy_array(new.bristle, state.bristle)
     copy_array(new.trim, state.trim)
     for i in range(STAGES):
         _stage(model, state, moment, h, i, first, work)
@@ -207,6 +220,10 @@ def step(
             new.v[j] += WEIGHT[i] * work.uv[i, j]
             work.error_x[j] += ERROR_WEIGHT[i] * work.ux[i, j]
             work.error_v[j] += ERROR_WEIGHT[i] * work.uv[i, j]
+        if first.pairs.held:
+            for k in range(first.pairs.count):
+                new.bristle[k] += WEIGHT[i] * work.bend[i, k]
+                work.error_bristle[k] += ERROR_WEIGHT[i] * work.bend[i, k]
     _work_over_the_way(model.train, state, h, new, work)
 
 

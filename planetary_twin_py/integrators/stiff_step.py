@@ -11,6 +11,7 @@ import math
 from .._compile import kernel
 from .._overwrite import copy_array, overwrite
 from .._records import Record
+from ..dynamics.bristles import place_bristles
 from ..dynamics.equations import forces
 from ..dynamics.mesh_force import mesh_motion
 from ..dynamics.state import LEDGER
@@ -22,6 +23,7 @@ from .progress import GROW, NO_MESH, SAFETY, SHORTEST_STEP, SHRINK
 from .rosenbrock import ORDER, step
 
 STIFF = 3.0  # by which errors count more
+BRISTLE_SHARE = 10.0  # of the tolerance: error of the share of friction of a pair that holds
 ROUNDING = 1e-15  # [m/s] errors of a speed below it are none
 
 
@@ -30,6 +32,7 @@ def stiff_step(model: Record, march: Record, longest: float, event: float) -> in
     """A step by Rosenbrock's method; the mesh whose flanks meet or part at its end, or NO_MESH."""
     control, begin = march.control, march.begin
     if control.changed or control.collocated:
+        place_bristles(march.first.pairs, begin.bristle)
         forces(model, begin, march.moment, begin.x, begin.v, 0.0, begin.trim, march.first)
         control.evaluations += 1
         control.changed = False
@@ -72,6 +75,7 @@ def _try(model: Record, march: Record, h: float) -> None:
     pass_time(model, march, h)
     for e in range(LEDGER):
         end.energy[e] = begin.energy[e] + march.work.energy[e]
+    place_bristles(march.last.pairs, end.bristle)
     forces(model, begin, march.moment, end.x, end.v, h, end.trim, march.last)
     march.control.evaluations += 4
 
@@ -94,6 +98,11 @@ def _error_norm(model: Record, march: Record) -> float:
     for j in range(model.train.bodies):
         largest = max(largest, abs(work.error_v[j]) / control.tolerance_v)
         total += work.error_v[j]
+    if control.creeping:
+        for k in range(model.train.slots * model.train.meshes):
+            error = abs(work.error_bristle[k])
+            largest = max(largest, error / (BRISTLE_SHARE * control.tolerance))
+            total += error
     return largest if math.isfinite(total) else math.inf
 
 

@@ -13,7 +13,7 @@ from .._compile import law
 
 THINNEST_FILM = 1e-9  # [m] a molecule or two of oil: keeps h positive where nothing is entrained
 _LOG_THINNEST = math.log(THINNEST_FILM)
-SLOWEST_SPEED = 1e-3  # [m/s] below it entrainment and the sense of sliding fade out
+SLOWEST_SPEED = 1e-3  # [m/s] below it films get no thinner
 
 
 class FilmLaw(NamedTuple):

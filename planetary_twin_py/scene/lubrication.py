@@ -93,3 +93,10 @@ class Lubrication(Section):
         gt=0.0,
         le=1.0,
     )
+    presliding_displacement: float = quantity(
+        "m",
+        "by which flanks that stand still yield before they slide (static friction)",
+        5e-7,
+        ge=1e-9,
+        le=1e-4,
+    )

@@ -1,0 +1,3 @@
+"""How slowly gears creep."""
+
+CREEPING = 1e-3  # [m/s] rolling speed at the pitch point below which tooth pairs hold
