@@ -97,7 +97,8 @@ def start_state(scene: Scene, model: Record) -> Record:
     bodies = train.coupling[: train.machines, 0]
     effect = train.ratio[bodies, :axes].T @ load.trim_gain[: train.machines, :axes]
     state.trim[:axes] = np.linalg.solve(effect, drag[:axes])
-    if creeps(train, frame_cycle_rate(train, state)):
+    loaded = bool((state.side[: train.meshes] != OPEN).all())
+    if loaded and creeps(train, frame_cycle_rate(train, state)):
         for _ in range(BALANCING_PASSES):
             _balance_friction(steady, state, moment, room, drag)
             state.trim[:axes] += np.linalg.solve(effect, drag[:axes])
@@ -232,8 +233,6 @@ def _yield_to(train: Record, state: Record, moment: Record, room: Record) -> Non
     stiffness, force = room.stiffness, room.force
     stiffness[:] = 0.0
     for i in range(train.meshes):
-        if state.side[i] == OPEN:
-            continue
         k = mesh_stiffness(train, train.kind[i], state.segment[i], moment.start[i])
         add_outer(stiffness, train.body[i], train.sign[i], train.copies[i] * k)
     for c in range(train.machines):

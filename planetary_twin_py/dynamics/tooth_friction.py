@@ -17,6 +17,7 @@ from .creep import CREEPING
 from .state import ROOM
 from .tooth_contact import choices, tooth_contact
 
+NARROWEST = 5e-3  # slide-to-roll ratio: friction that reverses within less is passed as a step
 SLOWEST_TURN = 1e-3  # [rad/s] below which the printed torque fades out
 
 # Entry p * meshes + i is pair p of mesh i; one that is absent, or parted, has no load.
@@ -74,7 +75,7 @@ def friction_layer(train: Record, oil: Record, cycle_rate: float) -> float:
     Both flanks roll there at r sin(alpha) w = tan(alpha) p_b f_m, at either kind of mesh.
     """
     rolling = train.rolling_advance * abs(cycle_rate)
-    return oil.sliding_threshold * max(rolling, CREEPING)
+    return max(oil.sliding_threshold, NARROWEST) * max(rolling, CREEPING)
 
 
 @kernel

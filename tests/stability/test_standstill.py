@@ -83,17 +83,14 @@ def friction_of_jammed_teeth(tolerances, method):
 
 
 def test_teeth_jammed_by_an_error_of_form_come_to_rest_at_the_live_tolerance():
-    """What friction takes on the way is that of a tight tolerance."""
-    *live, tight = friction_of_jammed_teeth((4.9e-3, 5e-3, 5.1e-3, 1e-6), "auto")
-    assert live == pytest.approx([tight] * 3, rel=0.5)
+    """What friction takes on the way is that of a tight tolerance: bristles hold the flanks."""
+    *live, tight = friction_of_jammed_teeth((1e-2, 4.9e-3, 5e-3, 5.1e-3, 1e-6), "auto")
+    assert live == pytest.approx([tight] * 4, rel=2e-3)
 
 
-def test_stiff_steps_bring_jammed_teeth_to_rest_instead_of_throwing_them_to_and_fro():
-    *loose, tight = friction_of_jammed_teeth((2e-2, 1e-2, 5e-3, 1e-3, 1e-6), "rosenbrock")
-    assert loose == pytest.approx([tight] * 4, rel=0.05)
-    assert (
-        pt.simulate(JAMMED, 0.02, 20_000.0, tolerance=5e-3, method="rosenbrock").stats.steps < 1000
-    )
+def test_jammed_teeth_come_to_rest_in_few_steps_for_each_flank_that_meets_or_parts():
+    stats = pt.simulate(JAMMED, 0.02, 20_000.0, tolerance=5e-3).stats
+    assert stats.steps < 20 * stats.flank_events
 
 
 def test_damping_without_bound_at_standstill_lets_go_as_the_gears_begin_to_turn():
