@@ -1,3 +1,3 @@
 """How slowly gears creep."""
 
-CREEPING = 1e-3  # [m/s] rolling speed at the pitch point below which tooth pairs hold
+CREEPING = 5e-3  # [m/s] rolling speed at the pitch point below which tooth pairs hold

@@ -140,7 +140,8 @@ def _tail(model: Record, march: Record) -> float:
         lasting = math.sqrt(1.0 + 2.0 / (run.damper[m] * h + 1e-6))
         lasting = 1.0 if run.spring[m] == 0.0 else lasting
         missed = tail * tail / (tail + below + 1e-300) * share * lasting
-        run.now_q[m], run.now_p[m] = missed * static, missed * math.sqrt(static)
+        brief = 1.0 / max(1.0 / math.sqrt(static), run.damper[m])
+        run.now_q[m], run.now_p[m] = missed * static, missed * brief
     combine(run.known.reach[run.motion.modes], run.now_q, train.bodies, run.now_d)
     for i in range(train.meshes):
         largest = max(largest, run.now_d[i])
