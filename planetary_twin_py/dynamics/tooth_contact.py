@@ -18,7 +18,6 @@ from ..lubrication.traction import EYRING, SCHLENK, sliding_sense, viscous_frict
 
 LIGHTEST_LOAD = 1e-6  # [N] keeps logarithms finite
 _LOG_SLOWEST = math.log(SLOWEST_SPEED)
-LEAST_FRICTION = 1e-9  # friction coefficient below which the sense of sliding is as steep as at it
 
 Laws = tuple[bool, bool, bool, bool, int]  # what `choices` returns
 
@@ -74,20 +73,22 @@ def tooth_contact(
     log_load_group = log_load - log_radius + oil.log_load_group  # of W
     film = log_film_thickness(oil.film, log_radius, log_group, oil.log_material, log_load_group)
     area = 2.0 * oil.face_width * half_width(load, radius, oil.face_width, oil.contact_modulus)
+    shear = max(abs(sliding), STANDSTILL)
     boundary, viscous, growth = _friction(
-        oil, laws, (load, area, abs(sliding)), (log_radius, log_speed, log_load, film)
+        oil, laws, (load, area, shear), (log_radius, log_speed, log_load, film)
     )
+    softer = 0.0  # by what the friction grows with the sliding, its sense is less steep
     if traction == EYRING:
-        # Up to the friction, flanks and film yield elastically: little friction needs little.
-        least = boundary + viscous + LEAST_FRICTION * load
-        steepness *= max(oil.shear_thinning.limiting_stress * load / least, 1.0)
-    sense = sliding_sense(sliding * steepness)
+        # Up to the friction, flanks and film yield elastically: less friction needs less sliding.
+        scale = oil.shear_thinning.limiting_stress * load / (boundary + viscous)
+        steepness *= max(scale, 1.0)
+        softer = growth * shear if scale > 1.0 else 0.0
+    sense = sliding_sense(shear * steepness)
     boundary *= fade
     viscous *= fade
-    growth *= fade
     full = boundary + viscous
-    slope = (full - growth * abs(sliding)) * (1.0 - sense * sense) * steepness
-    slope += growth * abs(sense)
+    slope = (full - fade * softer) * (1.0 - sense * sense) * steepness + fade * growth * sense
+    sense *= min(max(sliding * (1.0 / STANDSTILL), -1.0), 1.0)
     rolling = taken = 0.0
     if resists:
         size = radius * oil.face_width / oil.traction.pressure_viscosity

@@ -21,6 +21,7 @@ from .._vector_math import exp, log
 
 # Bounds eta/(tau0 h) to e^200 s/m; long before that the stress is the limiting one.
 LARGEST_EXPONENT = 200.0
+NEWTONIAN = 1e-5  # asinh(x) is x below, more exactly than by a logarithm
 
 
 def _hertz_rule() -> tuple[tuple[float, float], tuple[float, float]]:
@@ -99,5 +100,6 @@ def _stress(
     x = gain * speed
     root = math.sqrt(1.0 + x * x)
     inverse = film.shear_stress / (root + softening * x)
-    stress, limit = log(x + root) * root * inverse, film.limiting_stress * pressure
+    angle = log(x + root) if x > NEWTONIAN else x
+    stress, limit = angle * root * inverse, film.limiting_stress * pressure
     return min(stress, limit), gain * inverse if stress < limit else 0.0

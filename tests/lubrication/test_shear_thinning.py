@@ -1,4 +1,4 @@
-"""The shear-thinning film against its limits, the integral over the contact and its heat balance."""
+"""The shear-thinning film: its limits, the integral over the contact, its balance of heat."""
 
 import math
 
@@ -92,7 +92,7 @@ def test_under_a_heavy_load_it_is_near_the_plateau_of_evans_and_johnson(mesh, rp
 def test_the_warm_film_is_in_balance_with_its_heat(speed):
     """sinh(s) = x exp(-beta dT), walls heated as by a band source over its transit of 2b/V."""
     point = pitch_point("sp", 1000)
-    area, log_film, log_heat = contact()
+    area, log_film, _ = contact()
     thickness, half = math.exp(log_film), point.half_width
     transit = 2 * half / point.speed
     # Mean over the transit of 2 q sqrt(t/pi)/e, half of the heat into each flank.
@@ -101,9 +101,7 @@ def test_the_warm_film_is_in_balance_with_its_heat(speed):
 
     def balance(p):
         x = VISCOSITY * math.exp(ALPHA * p) * speed / (thickness * EYRING_STRESS)
-        s = brentq(
-            lambda s: s - math.asinh(x * math.exp(-rise * EYRING_STRESS * s)), 0.0, 100.0
-        )
+        s = brentq(lambda s: s - math.asinh(x * math.exp(-rise * EYRING_STRESS * s)), 0.0, 100.0)
         return min(EYRING_STRESS * s, LIMIT * p)
 
     expected = over_the_contact(balance, LOAD, area)
@@ -147,5 +145,5 @@ def test_limiting_stress_bounds_the_coefficient_in_any_contact():
 
 def test_pitch_points_have_the_modulus_and_width_of_the_scene():
     """So that the areas here are those of the law."""
-    assert MODULUS == pytest.approx(2 * OIL.contact_modulus)
+    assert pytest.approx(2 * OIL.contact_modulus) == MODULUS
     assert OIL.face_width == FACE_WIDTH
