@@ -124,12 +124,12 @@ def _friction(
     prescribed, printed, sharing, _, traction = laws
     load, area, speed = contact
     log_radius, log_speed, log_load, film = logarithms
+    log_moving = max(log_speed, _LOG_SLOWEST)  # both laws that divide by it are of moving flanks
     if traction == SCHLENK:  # a regression that has boundary friction in it
-        mu = schlenk_coefficient(oil.log_schlenk, log_load, log_speed, log_radius)
+        mu = schlenk_coefficient(oil.log_schlenk, log_load, log_moving, log_radius)
         return 0.0, mu * load, 0.0
     # sqrt(R F/(A V)) of (13), A being proportional to sqrt(R F)
-    log_heat = 0.25 * (log_radius + log_load)
-    log_heat -= 0.5 * (max(log_speed, _LOG_SLOWEST) + oil.log_area)
+    log_heat = 0.25 * (log_radius + log_load) - 0.5 * (log_moving + oil.log_area)
     if traction == EYRING:
         viscous, growth = film_shear(oil.shear_thinning, load, area, film, log_heat, speed)
     else:

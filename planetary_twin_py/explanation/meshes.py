@@ -16,6 +16,7 @@ from ..gearset.geometry import pitch_radius, planet_ring_path, sun_planet_path
 from ..losses.ohlendorf import tooth_loss_factor
 from ..lubrication.hertz import contact_modulus, half_width
 from ..scene import Scene
+from .friction import friction_figures
 
 
 class MeshFigures(NamedTuple):
@@ -31,6 +32,12 @@ class MeshFigures(NamedTuple):
     pitch_pressure: float  # largest, of that force on one pair at the pitch point (Hertz) [Pa]
     loss_factor: float  # H_v (Ohlendorf 1958): a loss of friction coefficient times it [-]
     backlash: float  # total play on the line of action [m]
+    friction: float  # coefficient by the laws of the scene, of that force on one pair [-]
+    friction_eyring: float  # with each law of viscous friction in place of the scene's [-]
+    friction_evans_johnson: float
+    friction_schlenk: float  # a regression of the losses of test gears, boundary friction included
+    shear_number: float  # eta Vs/(h tau0) of the film at its mean pressure [-]
+    film_laws_in_range: tuple[str, ...]  # eyring always, evans_johnson on its plateau
 
 
 class Meshes(NamedTuple):
@@ -70,6 +77,7 @@ def describe_meshes(scene: Scene) -> Meshes:
             pitch_pressure=_pitch_pressure(scene, force, kind),
             loss_factor=tooth_loss_factor(paths[kind], teeth[first], teeth[second], kind == 1),
             backlash=2.0 * float(load.half_backlash),
+            **friction_figures(scene, kind, force, frequency),
         )
         for kind, (first, second) in enumerate(GEARS)
     )
