@@ -98,7 +98,7 @@ _MESH_ROWS = (
     "the same with evans_johnson [-]",
     "the same with schlenk [-]",
     "shear number of the film, 1: from Newtonian to shear-thinning [-]",
-    "laws of the film in their range",
+    "laws of the film in their range [-]",
 )
 
 

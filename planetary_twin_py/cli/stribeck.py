@@ -54,7 +54,8 @@ def stribeck(
     oil = loaded.lubrication
     if oil.boundary == "greenwood_tripp" and oil.traction != "schlenk":
         remark(
-            "warning: lubrication.boundary = greenwood_tripp: asperities carry a few per cent of the "
-            "load, so friction hardly rises as the film vanishes; load_sharing has a boundary regime"
+            "warning: lubrication.boundary = greenwood_tripp: asperities carry a few per cent of "
+            "the load, so friction hardly rises as the film vanishes; load_sharing has a boundary "
+            "regime"
         )
     typer.echo(f"{out}: {count} speeds")
