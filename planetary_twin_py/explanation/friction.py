@@ -9,7 +9,6 @@ from ..dynamics.oil import build_oil
 from ..dynamics.stiffness_laws import GEARS
 from ..dynamics.tooth_contact import choices, tooth_contact
 from ..gearset.geometry import pitch_radius
-from ..lubrication.hertz import contact_modulus, half_width
 from ..lubrication.shear_thinning import LARGEST_EXPONENT
 from ..scene import Scene
 
@@ -33,19 +32,21 @@ class TypicalPair(NamedTuple):
         return self.rho1, self.rho2, self.external, *turns, self.load
 
 
-def friction_figures(scene: Scene, kind: int, load: float, frequency: float) -> dict[str, Any]:
+def friction_figures(
+    scene: Scene, kind: int, loaded: tuple[float, float], frequency: float
+) -> dict[str, Any]:
     """Friction of a typical tooth pair at the operating point of `scene`.
 
     Args:
         scene: the scene.
         kind: 0 for sun-planet meshes, 1 for planet-ring meshes.
-        load: of the pair [N].
+        loaded: load of the pair [N], and the largest pressure it makes there (Hertz) [Pa].
         frequency: at which teeth pass the mesh [Hz].
 
     Returns:
         The fields of `MeshFigures` on friction, by name.
     """
-    gearset = scene.gearset
+    gearset, (load, peak) = scene.gearset, loaded
     sine = math.sin(gearset.pressure_angle)
     rho1, rho2 = (
         pitch_radius(getattr(gearset.teeth, gear), gearset.module) * sine for gear in GEARS[kind]
@@ -53,7 +54,7 @@ def friction_figures(scene: Scene, kind: int, load: float, frequency: float) -> 
     speed = frequency * math.pi * gearset.module * sine
     pair = TypicalPair(rho1, rho2, 1.0 if kind == 0 else -1.0, speed, load)
     by_law = {law: _friction(scene, law, pair) for law in ("eyring", "evans_johnson", "schlenk")}
-    shear = _shear_number(scene, pair)
+    shear = _shear_number(scene, pair, 0.25 * math.pi * peak)
     # The plateau has no sliding speed in it, and is clipped to zero where it would be negative.
     plateau = shear >= 1.0 and by_law["evans_johnson"][1] > 0.0
     return {
@@ -71,15 +72,10 @@ def _friction(scene: Scene, traction: str, pair: TypicalPair) -> tuple[float, fl
     return (boundary / pair.load, viscous / pair.load) if pair.load else (0.0, 0.0)
 
 
-def _shear_number(scene: Scene, pair: TypicalPair) -> float:
-    """eta Vs/(h tau0) [-], viscosity at the mean pressure; a film is Newtonian well below 1."""
-    oil, data = build_oil(scene, scene.operating_point), scene.lubrication
+def _shear_number(scene: Scene, pair: TypicalPair, pressure: float) -> float:
+    """eta Vs/(h tau0) [-], viscosity at the mean pressure [Pa]; Newtonian well below 1."""
+    oil = build_oil(scene, scene.operating_point)
     log_film = tooth_contact(oil, choices(oil), pair.motion)[3]
-    radius = 1.0 / (1.0 / pair.rho1 + pair.external / pair.rho2)
-    width = scene.gearset.face_width
-    modulus = contact_modulus(data.youngs_modulus, data.poisson_ratio)
-    area = 2.0 * width * half_width(pair.load, radius, width, modulus)
-    pressure = pair.load / area if area else 0.0
-    sliding = SLIDE_TO_ROLL * pair.speed
-    exponent = data.pressure_viscosity * pressure + oil.shear_thinning.log_shear_time - log_film
-    return sliding * math.exp(min(exponent, LARGEST_EXPONENT))
+    exponent = scene.lubrication.pressure_viscosity * pressure
+    exponent += oil.shear_thinning.log_shear_time - log_film
+    return SLIDE_TO_ROLL * pair.speed * math.exp(min(exponent, LARGEST_EXPONENT))
