@@ -25,7 +25,7 @@ def log_schlenk_factor(
         face_width: length of the contact b [m].
         viscosity: dynamic viscosity of the oil eta [Pa s].
         roughness: composite root mean square roughness sigma of both flanks [m]. The printed Ra is
-            the arithmetic mean of both flanks'; for Gaussian heights, alike on both, it is
+            the arithmetic mean of both flanks'; for Gaussian heights, the same on both, it is
             sigma/sqrt(pi).
         oil_factor: X_L [-], 1 for mineral oil.
     """
