@@ -20,7 +20,9 @@ from .window import Stretch, Waveform, Window, mesh_statistics
 
 TICKS = 10**12  # of the clock, in a second
 LEEWAY = Fraction(1, 10**6)  # of a sample period, by which a sample may lie beyond its window
-LONGEST_WINDOW = 60.0  # [s] of samples held in memory at once
+LONGEST_WINDOW = 60.0  # [s] of samples held in memory at once, or
+MOST_SAMPLES = 4096  # if that is longer
+LOWEST_SAMPLE_RATE = 1.0  # [Hz]
 
 
 class Change(NamedTuple):
@@ -136,12 +138,11 @@ class Twin:
         """Run for `duration` [s] of simulated time.
 
         Raises:
-            ValueError: the duration is not within 0 and 60 s.
+            ValueError: the duration is not within 0 and 60 s, or the time of 4096 samples.
         """
-        if not 0.0 < duration <= LONGEST_WINDOW:
-            raise ValueError(
-                f"duration = {duration!r} s: must be above 0 and at most {LONGEST_WINDOW:g}"
-            )
+        longest = max(LONGEST_WINDOW, MOST_SAMPLES / self.sample_rate)
+        if not 0.0 < duration <= longest:
+            raise ValueError(f"duration = {duration!r} s: must be above 0 and at most {longest:g}")
         # Windows of 10 ms end on whole samples; their sum must not drift off them.
         step = Fraction(round(duration * TICKS), TICKS)
         if not step:
@@ -247,5 +248,5 @@ class _WholeTurns(NamedTuple):
 
 
 def _check_sample_rate(sample_rate: float) -> None:
-    if not 1.0 <= sample_rate <= 1e7:
+    if not LOWEST_SAMPLE_RATE <= sample_rate <= 1e7:
         raise ValueError(f"sample_rate = {sample_rate!r} Hz: must be within 1 and 1e7")

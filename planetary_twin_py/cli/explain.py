@@ -93,6 +93,12 @@ _MESH_ROWS = (
     "Hertz pressure of that force on one pair at the pitch point [Pa]",
     "tooth loss factor H_v [-]",
     "backlash on the line of action [m]",
+    "friction coefficient, that force on one pair at a slide-to-roll ratio of 0.1 [-]",
+    "the same with eyring [-]",
+    "the same with evans_johnson [-]",
+    "the same with schlenk [-]",
+    "shear number of the film, 1: from Newtonian to shear-thinning [-]",
+    "laws of the film in their range [-]",
 )
 
 

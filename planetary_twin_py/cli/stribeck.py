@@ -51,4 +51,11 @@ def stribeck(
     except (ValueError, OSError) as error:
         fail(error)
     warn(table)
+    oil = loaded.lubrication
+    if oil.boundary == "greenwood_tripp" and oil.traction != "schlenk":
+        remark(
+            "warning: lubrication.boundary = greenwood_tripp: asperities carry a few per cent of "
+            "the load, so friction hardly rises as the film vanishes; load_sharing has a boundary "
+            "regime"
+        )
     typer.echo(f"{out}: {count} speeds")

@@ -4,20 +4,33 @@ from __future__ import annotations
 
 import math
 
-from .._records import FLAG, REAL, Record, fields_of, layout, new_record
+from .._records import FLAG, REAL, WHOLE, Record, fields_of, layout, new_record
 from ..lubrication.boundary import Asperities, boundary_shear
 from ..lubrication.film import FILM_LAWS, FilmLaw
 from ..lubrication.hertz import contact_modulus, half_width
-from ..lubrication.traction import Traction
+from ..lubrication.load_sharing import THINNEST
+from ..lubrication.schlenk import log_schlenk_factor
+from ..lubrication.shear_thinning import ShearThinning
+from ..lubrication.traction import EYRING, PLATEAU, SCHLENK, Traction
 from ..lubrication.viscosity import viscosity_at
 from ..scene import OperatingPoint, Scene
 from ..scene.lubrication import Lubrication
+
+_TRACTION_LAWS = {
+    "eyring": EYRING,
+    "evans_johnson": PLATEAU,
+    "printed": PLATEAU,
+    "schlenk": SCHLENK,
+}
 
 # Laws and constants of the tooth contacts.
 OIL = layout(
     film=fields_of(FilmLaw),
     asperities=fields_of(Asperities),
+    traction_law=WHOLE,  # PLATEAU, EYRING or SCHLENK
     traction=fields_of(Traction),
+    shear_thinning=fields_of(ShearThinning),
+    log_schlenk=REAL,  # see `log_schlenk_factor`
     contact_modulus=REAL,  # E* [Pa]
     face_width=REAL,  # L [m]
     log_speed_group=REAL,  # logarithm of U R/V = eta0/E' in SI units
@@ -29,6 +42,7 @@ OIL = layout(
     kinematic=REAL,  # eta0/density [m^2/s]
     prescribed=FLAG,  # lambda ratio: prescribed, or film/roughness
     lambda_ratio=REAL,  # [-], where it is prescribed
+    log_lambda=REAL,  # its logarithm
     asperity_shear=REAL,  # boundary friction per area at that ratio [Pa]
     printed_asperities=FLAG,
     sharing=FLAG,  # boundary friction: by load sharing, or of Greenwood and Tripp's asperities
@@ -44,6 +58,7 @@ def build_oil(scene: Scene, point: OperatingPoint) -> Record:
     data = scene.lubrication
     modulus = contact_modulus(data.youngs_modulus, data.poisson_ratio)
     width = scene.gearset.face_width
+    contact_factor = 2.0 * width * half_width(1.0, 1.0, width, modulus)  # A/sqrt(R F)
     viscosity = viscosity_at(
         point.oil_temperature,
         (data.reference_temperature, data.viscosity),
@@ -56,18 +71,22 @@ def build_oil(scene: Scene, point: OperatingPoint) -> Record:
         OIL,
         film=FILM_LAWS[data.film],
         asperities=asperities,
+        traction_law=_TRACTION_LAWS[data.traction],
         traction=_traction(data, modulus, viscosity),
+        shear_thinning=_shear_thinning(data, viscosity, contact_factor, width),
+        log_schlenk=log_schlenk_factor(width, viscosity, data.composite_roughness, data.oil_factor),
         contact_modulus=modulus,
         face_width=width,
         log_speed_group=math.log(viscosity / (2.0 * modulus)),
         log_material=math.log(data.pressure_viscosity * 2.0 * modulus),
         log_load_group=-math.log(2.0 * modulus * width),
-        log_area=math.log(2.0 * width * half_width(1.0, 1.0, width, modulus)),
+        log_area=math.log(contact_factor),
         log_roughness=math.log(data.composite_roughness),
         density=data.oil_density,
         kinematic=viscosity / data.oil_density,
         prescribed=data.lambda_ratio == "prescribed",
         lambda_ratio=point.lambda_ratio,
+        log_lambda=math.log(max(point.lambda_ratio, THINNEST)),
         asperity_shear=boundary_shear(asperities, printed_asperities, point.lambda_ratio),
         printed_asperities=printed_asperities,
         sharing=data.boundary == "load_sharing",
@@ -109,4 +128,23 @@ def _traction(data: Lubrication, modulus: float, viscosity: float) -> Traction:
         log_root=math.log(root),
         least=-math.inf if printed else 0.0,
         log_heating=math.log(heating),
+    )
+
+
+def _shear_thinning(
+    data: Lubrication, viscosity: float, contact_factor: float, width: float
+) -> ShearThinning:
+    """Constants of the film, from eta0 [Pa s], A/sqrt(R F) [(m/N)^0.5 m] and the face width [m]."""
+    stress = data.shear_stress
+    effusivity = math.sqrt(data.solid_conductivity * data.solid_density * data.solid_heat_capacity)
+    softening = data.temperature_viscosity * stress
+    # sqrt(b/V) is sqrt(R p/V) A/sqrt(R F)/sqrt(2 L).
+    width_over_heat = contact_factor / math.sqrt(2.0 * width)
+    return ShearThinning(
+        shear_stress=stress,
+        pressure_viscosity=data.pressure_viscosity,
+        log_shear_time=math.log(viscosity / stress),
+        limiting_stress=data.limiting_stress,
+        film_heating=softening / (8.0 * data.oil_conductivity),
+        flash_heating=softening * 0.5 * 1.06 / effusivity * width_over_heat,
     )

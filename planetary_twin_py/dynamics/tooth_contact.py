@@ -2,24 +2,32 @@
 
 from __future__ import annotations
 
+import math
+
 from .._compile import law
 from .._records import Record
 from .._vector_math import exp, logs
 from ..lubrication.boundary import boundary_shear
-from ..lubrication.film import SLOWEST_SPEED, log_film_thickness
+from ..lubrication.film import LOG_THINNEST, SLOWEST_SPEED, STANDSTILL, log_film_thickness
 from ..lubrication.hertz import half_width
 from ..lubrication.load_sharing import film_share
 from ..lubrication.rolling import rolling_resistance
-from ..lubrication.traction import sliding_sense, viscous_friction
+from ..lubrication.schlenk import schlenk_coefficient
+from ..lubrication.shear_thinning import film_shear
+from ..lubrication.traction import EYRING, SCHLENK, sliding_sense, viscous_friction
+from .creep import CREEPING
 
 LIGHTEST_LOAD = 1e-6  # [N] keeps logarithms finite
 SLOWEST_ROLLING = 1e-9  # [m/s] below it the sense of sliding fades out; see also `bristles`
+_LOG_SLOWEST = math.log(SLOWEST_SPEED)
+
+Laws = tuple[bool, bool, bool, bool, int]  # what `choices` returns
 
 
 @law
-def choices(oil: Record) -> tuple[bool, bool, bool, bool]:
-    """Prescribed lambda ratio, printed asperity functions, load sharing, rolling resistance."""
-    return oil.prescribed, oil.printed_asperities, oil.sharing, oil.rolling
+def choices(oil: Record) -> Laws:
+    """Prescribed lambda ratio, printed asperities, load sharing, rolling resistance, traction."""
+    return oil.prescribed, oil.printed_asperities, oil.sharing, oil.rolling, oil.traction_law
 
 
 @law
@@ -31,7 +39,7 @@ def lambda_ratio_of(oil: Record, prescribed: bool, log_film: float) -> float:
 @law
 def tooth_contact(
     oil: Record,
-    laws: tuple[bool, bool, bool, bool],
+    laws: Laws,
     pair: tuple[float, float, float, float, float, float],
 ) -> tuple[float, float, float, float, float, float, float, float]:
     """Friction of a tooth pair, positive against the sliding of the first flank on the second.
@@ -48,43 +56,43 @@ def tooth_contact(
         sliding speed [m/s], growth of the friction with the sliding speed [N s/m], rolling
         resistance [N] against the mean motion of both flanks, and the power that takes [W].
     """
-    prescribed, printed, sharing, resists = laws
+    resists, traction = laws[3], laws[4]
     rho1, rho2, external, speed1, speed2, load = pair
     u1, u2 = rho1 * speed1, -external * rho2 * speed2
     sliding = u1 - u2
-    rolling_speed = abs(0.5 * (u1 + u2))
-    speed = max(rolling_speed, SLOWEST_SPEED)
+    speed = abs(0.5 * (u1 + u2))
     # Three divisions in one, as they take longest of all in a loop over pairs.
     distance, loaded = rho2 + external * rho1, load + LIGHTEST_LOAD
-    threshold = oil.sliding_threshold * max(rolling_speed, SLOWEST_ROLLING)
+    threshold = oil.sliding_threshold * max(speed, SLOWEST_ROLLING)
     inverse = 1.0 / (distance * loaded * threshold)
     radius = rho1 * rho2 * (loaded * threshold * inverse)
     steepness = distance * loaded * inverse
     # Friction vanishes with the load: a jump where flanks meet would have them chatter.
     fade = load * (distance * threshold * inverse)
     load = max(load, LIGHTEST_LOAD)
-    log_radius, log_speed, log_load = logs(radius, speed, load)
+    log_radius, log_speed, log_load = logs(radius, max(speed, STANDSTILL), load)
     log_group = log_speed - log_radius + oil.log_speed_group  # of U
     log_load_group = log_load - log_radius + oil.log_load_group  # of W
     film = log_film_thickness(oil.film, log_radius, log_group, oil.log_material, log_load_group)
     area = 2.0 * oil.face_width * half_width(load, radius, oil.face_width, oil.contact_modulus)
-    sense = sliding_sense(sliding * steepness)
-    # sqrt(R F/(A V)) of (13), A being proportional to sqrt(R F)
-    log_heat = 0.25 * (log_radius + log_load) - 0.5 * (log_speed + oil.log_area)
-    viscous = viscous_friction(oil.traction, load, area, film, log_heat)
-    if sharing:
-        share = film_share(lambda_ratio_of(oil, prescribed, film))
-        boundary = (1.0 - share) * oil.boundary_coefficient * load
-        viscous *= share
-    else:
-        # At a prescribed ratio it is the same for all pairs.
-        ratio = lambda_ratio_of(oil, prescribed, film)
-        shear = oil.asperity_shear if prescribed else boundary_shear(oil.asperities, printed, ratio)
-        boundary = shear * area
+    # Where gears creep, bristles decide how much of the friction of a sliding contact acts.
+    slowest = oil.sliding_threshold * CREEPING if speed < CREEPING else STANDSTILL
+    shear = max(abs(sliding), slowest)
+    boundary, viscous, growth = _friction(
+        oil, laws, (load, area, shear), (log_radius, log_speed, log_load, film)
+    )
+    softer = 0.0  # by what the friction grows with the sliding, its sense is less steep
+    if traction == EYRING:
+        # Up to the friction, flanks and film yield elastically: less friction needs less sliding.
+        scale = oil.shear_thinning.limiting_stress * load / (boundary + viscous)
+        steepness *= max(scale, 1.0)
+        softer = growth * shear if scale > 1.0 else 0.0
+    sense = sliding_sense(max(abs(sliding), STANDSTILL) * steepness)
     boundary *= fade
     viscous *= fade
     full = boundary + viscous
-    slope = full * (1.0 - sense * sense) * steepness
+    slope = (full - fade * softer) * (1.0 - sense * sense) * steepness + fade * growth * sense
+    sense *= min(max(sliding * (1.0 / STANDSTILL), -1.0), 1.0)
     rolling = taken = 0.0
     if resists:
         size = radius * oil.face_width / oil.traction.pressure_viscosity
@@ -93,4 +101,48 @@ def tooth_contact(
         rolling /= 1.0 + rolling / load
         rolling *= fade * sliding_sense((u1 + u2) / SLOWEST_SPEED)
         taken = rolling * (u1 + u2)
+    film = max(film, LOG_THINNEST)
     return full * sense, boundary, viscous, film, sliding, slope, rolling, taken
+
+
+@law
+def _friction(
+    oil: Record,
+    laws: Laws,
+    contact: tuple[float, float, float],
+    logarithms: tuple[float, float, float, float],
+) -> tuple[float, float, float]:
+    """Magnitudes of the friction of a tooth pair by the laws chosen, at its sliding speed.
+
+    Args:
+        oil: constants of the laws.
+        laws: what `choices` reads from it.
+        contact: normal load [N], apparent area [m^2], magnitude of the sliding speed [m/s].
+        logarithms: of the reduced radius of curvature in m, of the mean surface speed in m/s, of
+            the load in N, of the film in m.
+
+    Returns:
+        Boundary friction [N], viscous friction [N], growth of the latter with the sliding speed
+        [N s/m].
+    """
+    prescribed, printed, sharing, _, traction = laws
+    load, area, speed = contact
+    log_radius, log_speed, log_load, film = logarithms
+    log_moving = max(log_speed, _LOG_SLOWEST)  # both laws that divide by it are of moving flanks
+    if traction == SCHLENK:  # a regression that has boundary friction in it
+        mu = schlenk_coefficient(oil.log_schlenk, log_load, log_moving, log_radius)
+        return 0.0, mu * load, 0.0
+    # sqrt(R F/(A V)) of (13), A being proportional to sqrt(R F)
+    log_heat = 0.25 * (log_radius + log_load) - 0.5 * (log_moving + oil.log_area)
+    if traction == EYRING:
+        viscous, growth = film_shear(oil.shear_thinning, load, area, film, log_heat, speed)
+    else:
+        film_left = max(film, LOG_THINNEST)
+        viscous, growth = viscous_friction(oil.traction, load, area, film_left, log_heat), 0.0
+    if sharing:
+        share = film_share(oil.log_lambda if prescribed else film - oil.log_roughness)
+        return (1.0 - share) * oil.boundary_coefficient * load, share * viscous, share * growth
+    # At a prescribed ratio it is the same for all pairs.
+    ratio = lambda_ratio_of(oil, prescribed, max(film, LOG_THINNEST))
+    shear = oil.asperity_shear if prescribed else boundary_shear(oil.asperities, printed, ratio)
+    return shear * area, viscous, growth

@@ -12,10 +12,11 @@ import numpy as np
 from .._compile import kernel, law
 from .._overwrite import copy_array
 from .._records import FLAG, MESHES, REAL, REGISTER, WHOLE, Record, layout
+from ..lubrication.traction import EYRING, PLATEAU
 from .bristles import hold
 from .creep import CREEPING
 from .state import ROOM
-from .tooth_contact import choices, tooth_contact
+from .tooth_contact import Laws, choices, tooth_contact
 
 NARROWEST = 5e-3  # slide-to-roll ratio: friction that reverses within less is passed as a step
 SLOWEST_TURN = 1e-3  # [rad/s] below which the printed torque fades out
@@ -83,18 +84,20 @@ def evaluate(model: Record, pairs: Record) -> None:
     """Film and friction of all pairs."""
     laws = choices(model.oil)
     # Constants take the laws not chosen out of the loop, which halves its time.
-    if laws[1] or laws[2] or laws[3]:
-        _evaluate(model, laws, pairs)
-    elif laws[0]:
-        _evaluate(model, (True, False, False, False), pairs)
+    if laws == (True, False, False, False, PLATEAU):
+        _evaluate(model, (True, False, False, False, PLATEAU), pairs)
+    elif laws == (False, False, False, False, PLATEAU):
+        _evaluate(model, (False, False, False, False, PLATEAU), pairs)
+    elif laws == (False, False, True, False, EYRING):
+        _evaluate(model, (False, False, True, False, EYRING), pairs)
     else:
-        _evaluate(model, (False, False, False, False), pairs)
+        _evaluate(model, laws, pairs)
     if pairs.held:
         hold(model.oil, pairs)
 
 
 @law
-def _evaluate(model: Record, laws: tuple[bool, bool, bool, bool], pairs: Record) -> None:
+def _evaluate(model: Record, laws: Laws, pairs: Record) -> None:
     """Whole registers of pairs, so that lanes beyond `count` are idle."""
     for p in range(-(-pairs.count // REGISTER) * REGISTER):
         signed, boundary, viscous, log_film, sliding, slope, rolling, taken = tooth_contact(

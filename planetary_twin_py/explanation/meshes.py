@@ -16,6 +16,7 @@ from ..gearset.geometry import pitch_radius, planet_ring_path, sun_planet_path
 from ..losses.ohlendorf import tooth_loss_factor
 from ..lubrication.hertz import contact_modulus, half_width
 from ..scene import Scene
+from .friction import friction_figures
 
 
 class MeshFigures(NamedTuple):
@@ -31,6 +32,12 @@ class MeshFigures(NamedTuple):
     pitch_pressure: float  # largest, of that force on one pair at the pitch point (Hertz) [Pa]
     loss_factor: float  # H_v (Ohlendorf 1958): a loss of friction coefficient times it [-]
     backlash: float  # total play on the line of action [m]
+    friction: float  # coefficient by the laws of the scene, of that force on one pair [-]
+    friction_eyring: float  # with each law of viscous friction in place of the scene's [-]
+    friction_evans_johnson: float
+    friction_schlenk: float  # a regression of the losses of test gears, boundary friction included
+    shear_number: float  # eta Vs/(h tau0) of the film at its mean pressure [-]
+    film_laws_in_range: tuple[str, ...]  # eyring always, evans_johnson on its plateau
 
 
 class Meshes(NamedTuple):
@@ -53,6 +60,7 @@ def describe_meshes(scene: Scene) -> Meshes:
     frequency = abs(float(train.cycles @ load.target_speed)) / (2.0 * math.pi)
     natural, mean = natural_frequencies(scene, train.stiffness), mean_stiffness(train)
     force = abs(mesh_force(scene, point.input_torque))
+    pressure = [_pitch_pressure(scene, force, kind) for kind in range(len(GEARS))]
     gearset, teeth = scene.gearset, scene.gearset.tooth_numbers._asdict()
     paths = [
         path(gearset.tooth_numbers, gearset.pressure_angle, gearset.addendum)
@@ -67,9 +75,10 @@ def describe_meshes(scene: Scene) -> Meshes:
             natural_frequency=float(natural[kind]) / (2.0 * math.pi),
             damping_ratio=0.5 * damping_time(train, kind, frequency) * float(natural[kind]),
             static_force=force,
-            pitch_pressure=_pitch_pressure(scene, force, kind),
+            pitch_pressure=pressure[kind],
             loss_factor=tooth_loss_factor(paths[kind], teeth[first], teeth[second], kind == 1),
             backlash=2.0 * float(load.half_backlash),
+            **friction_figures(scene, kind, (force, pressure[kind]), frequency),
         )
         for kind, (first, second) in enumerate(GEARS)
     )
@@ -79,7 +88,7 @@ def describe_meshes(scene: Scene) -> Meshes:
 def _pitch_pressure(scene: Scene, force: float, kind: int) -> float:
     """Largest pressure [Pa] where one pair touches at the pitch point under `force` [N].
 
-    p = 2 F/(pi b L) (Johnson 1985, eq. 4.46). A flank's radius of curvature there is r sin(alpha).
+    p = E* b/(2 R) (Johnson 1985, sec. 4.2(c)). A flank's radius of curvature there is r sin(alpha).
     """
     gearset, oil = scene.gearset, scene.lubrication
     first, second = (getattr(gearset.teeth, gear) for gear in GEARS[kind])
@@ -88,4 +97,4 @@ def _pitch_pressure(scene: Scene, force: float, kind: int) -> float:
     radius = math.sin(gearset.pressure_angle) / curvature
     modulus = contact_modulus(oil.youngs_modulus, oil.poisson_ratio)
     width = gearset.face_width
-    return 2.0 * force / (math.pi * width * half_width(force, radius, width, modulus))
+    return 0.5 * modulus * half_width(force, radius, width, modulus) / radius

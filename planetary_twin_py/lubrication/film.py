@@ -12,8 +12,9 @@ from typing import NamedTuple
 from .._compile import law
 
 THINNEST_FILM = 1e-9  # [m] a molecule or two of oil: keeps h positive where nothing is entrained
-_LOG_THINNEST = math.log(THINNEST_FILM)
-SLOWEST_SPEED = 1e-3  # [m/s] below it films get no thinner
+LOG_THINNEST = math.log(THINNEST_FILM)
+SLOWEST_SPEED = 1e-3  # [m/s] of flanks that count as moving
+STANDSTILL = 1e-12  # [m/s] mean surface speed that entrains nothing
 
 
 class FilmLaw(NamedTuple):
@@ -51,8 +52,11 @@ def log_film_thickness(
     log_material_group: float,
     log_load_group: float,
 ) -> float:
-    """log(h/m) from the logarithms of the reduced radius in metres and of the groups U, G, W."""
+    """log(h/m) from the logarithms of the reduced radius in metres and of the groups U, G, W.
+
+    It falls below LOG_THINNEST, where no film is left, as the speed vanishes.
+    """
     groups = (
         law.speed * log_speed_group + law.material * log_material_group + law.load * log_load_group
     )
-    return max(law.log_coefficient + log_radius + groups, _LOG_THINNEST)
+    return law.log_coefficient + log_radius + groups

@@ -9,13 +9,13 @@ vanishes.
 from __future__ import annotations
 
 from .._compile import law
-from .._vector_math import exp, log
+from .._vector_math import exp
 
 COEFFICIENT, EXPONENT = 0.82, 0.28
-THINNEST = 1e-12  # lambda ratio below which the share is that of this one: 0.04 %
+THINNEST = 1e-12  # lambda ratio that stands for none at all: a share of 0.04 %
 
 
 @law
-def film_share(lambda_ratio: float) -> float:
-    """Share X of the load that the film carries [-]."""
-    return min(COEFFICIENT * exp(EXPONENT * log(max(lambda_ratio, THINNEST))), 1.0)
+def film_share(log_lambda: float) -> float:
+    """Share X of the load that the film carries [-], from the logarithm of the lambda ratio."""
+    return min(COEFFICIENT * exp(EXPONENT * log_lambda), 1.0)

@@ -13,6 +13,9 @@ from typing import NamedTuple
 from .._compile import law
 from .._vector_math import exp, log
 
+# Which law gives viscous friction: this plateau, `shear_thinning`, or `schlenk`.
+PLATEAU, EYRING, SCHLENK = range(3)
+
 
 class Traction(NamedTuple):
     """Constants of the traction plateau."""

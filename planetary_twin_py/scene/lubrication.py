@@ -32,10 +32,13 @@ class Lubrication(Section):
         "exact", description="functions F_2, F_5/2; printed: the polynomials of the appendix"
     )
     boundary: Literal["greenwood_tripp", "load_sharing"] = Field(
-        "greenwood_tripp", description="law of boundary friction"
+        "load_sharing", description="law of boundary friction"
     )
-    traction: Literal["evans_johnson", "printed"] = Field(
-        "evans_johnson", description="law of viscous friction; printed: their (12)"
+    traction: Literal["eyring", "evans_johnson", "printed", "schlenk"] = Field(
+        "eyring",
+        description="law of viscous friction; eyring: shear-thinning film up to its limiting "
+        "stress; evans_johnson: plateau under a heavy load; printed: their (12); "
+        "schlenk: regression of gear losses, boundary friction included",
     )
     modulus: Literal["by_equation", "printed"] = Field(
         "by_equation", description="by_equation: E* in (11), 2 E* in (13) and (15)"
@@ -65,6 +68,12 @@ class Lubrication(Section):
     )
     temperature_viscosity: float = quantity("1/K", "thermal coefficient", 0.04, gt=0.0, le=1.0)
     shear_stress: float = quantity("Pa", "Eyring stress", gt=0.0, le=1e9)
+    limiting_stress: float = quantity(
+        "", "limiting shear stress of the oil over pressure, for eyring", 0.047, gt=0.0, le=0.2
+    )
+    oil_factor: float = quantity(
+        "", "X_L of the oil, 1 for mineral oil, for schlenk", 1.0, gt=0.0, le=2.0
+    )
     oil_conductivity: float = quantity(
         "W/(m K)", "thermal conductivity of the oil", 0.137, gt=0.0, le=1e4
     )

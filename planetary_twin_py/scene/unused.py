@@ -6,6 +6,13 @@ from collections.abc import Iterable, Iterator
 
 from .scene import Scene
 
+_SCHLENK_LEAVES_OUT = (
+    "lubrication.boundary",
+    "lubrication.boundary_coefficient",
+    "lubrication.limiting_stress",
+    "lubrication.shear_stress",
+)
+
 
 def not_in_use(scene: Scene, name: str) -> str | None:
     """Why the field `name` has no effect in `scene`, and what gives it one; None if it has."""
@@ -15,6 +22,8 @@ def not_in_use(scene: Scene, name: str) -> str | None:
             "the scene computes it (lubrication.lambda_ratio = computed); "
             "set lubrication.lambda_ratio = prescribed to give it"
         )
+    if scene.lubrication.traction == "schlenk" and plain in _SCHLENK_LEAVES_OUT:
+        return "lubrication.traction = schlenk has boundary friction in it, whatever the film"
     if plain == "second_input_speed" and scene.drive.second_input is None:
         return "the scene has no second input"
     return None

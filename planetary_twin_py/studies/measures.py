@@ -122,13 +122,14 @@ def clipped_friction(scene: Scene, run: Result | Window) -> dict[str, float]:
 
     Then no tooth pair of a mesh has any though they carry load. That friction fades out at the
     pitch point does not count: `viscous_friction` is that of the plateau there, too. 0 of a scene
-    without friction, or a run without contact.
+    without friction or with a law that does not clip it, or a run without contact.
     """
-    planets, mesh, shares = len(run.meshes) // 2, run.mesh, []
+    oil, planets, mesh, shares = scene.lubrication, len(run.meshes) // 2, run.mesh, []
+    clips = oil.friction and oil.traction == "evans_johnson"
     for meshes in (slice(planets), slice(planets, None)):
         touching = float(mesh["contact_fraction"][meshes].sum())
         clipped = float(mesh["without_viscous"][meshes].sum())
-        shares.append(clipped / touching if scene.lubrication.friction and touching else 0.0)
+        shares.append(clipped / touching if clips and touching else 0.0)
     return dict(zip(SIDES, shares, strict=True))
 
 

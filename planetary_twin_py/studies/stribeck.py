@@ -10,7 +10,7 @@ from dataclasses import asdict, dataclass
 from typing import TYPE_CHECKING
 
 from ..scene import Scene
-from ..twin import Twin
+from ..twin import LOWEST_SAMPLE_RATE, Twin
 from ..window import Window
 from .axes import Axis, Span
 from .measures import row
@@ -31,7 +31,7 @@ class Cycle:
 
     scene: Scene
     samples: int = 256
-    """In the mesh cycle."""
+    """In the mesh cycle; more where it is slower than a second for each."""
     tolerance: float = 1e-4
 
     def __call__(self, point: Point) -> Found:
@@ -46,7 +46,8 @@ class Cycle:
         frequency = Twin(scene, tolerance=self.tolerance).advance(_GLANCE).mesh_frequency
         if not frequency > 0.0:
             raise ValueError("the teeth do not move: must be a speed other than 0")
-        return Twin(scene, self.samples * frequency, self.tolerance).advance(1.0 / frequency)
+        rate = max(self.samples * frequency, LOWEST_SAMPLE_RATE)
+        return Twin(scene, rate, self.tolerance).advance(1.0 / frequency)
 
 
 _GLANCE = 1e-6  # [s] in which a twin says how fast teeth pass

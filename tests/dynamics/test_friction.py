@@ -100,6 +100,12 @@ LAWS = {
     "computed": {"lubrication.lambda_ratio": "computed"},
     "printed": {"lubrication.asperities": "printed", "lubrication.traction": "printed"},
     "sharing": {"lubrication.boundary": "load_sharing", "lubrication.lambda_ratio": "computed"},
+    "default": {
+        "lubrication.boundary": "load_sharing",
+        "lubrication.lambda_ratio": "computed",
+        "lubrication.traction": "eyring",
+    },
+    "schlenk": {"lubrication.traction": "schlenk"},
     "rolling": {"lubrication.rolling": "goksem_hargreaves"},
     "torque": {"lubrication.friction_torque": "printed"},
     "worn": {"faults": [{"kind": "wear", "gear": "sun", "tooth": 1, "depth": "2 um"}]},

@@ -2,6 +2,8 @@
 
 import math
 
+import numpy as np
+import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
@@ -16,7 +18,7 @@ LAWS = st.fixed_dictionaries(
         "lubrication.lambda_ratio": st.sampled_from(["prescribed", "computed"]),
         "lubrication.asperities": st.sampled_from(["exact", "printed"]),
         "lubrication.boundary": st.sampled_from(["greenwood_tripp", "load_sharing"]),
-        "lubrication.traction": st.sampled_from(["evans_johnson", "printed"]),
+        "lubrication.traction": st.sampled_from(["eyring", "evans_johnson", "printed", "schlenk"]),
         "lubrication.rolling": st.sampled_from(["none", "goksem_hargreaves"]),
         "oil_temperature": st.floats(233.15, 433.15),
         "lambda_ratio": st.floats(0.0, 10.0),
@@ -49,8 +51,77 @@ def test_finite_dissipative_and_never_negative_unless_printed_so(laws, pair):
     assert math.exp(log_film) > 0.0 and ratio >= 0.0
     u1, u2 = rho1 * rest[0], -external * factor * rho1 * rest[1]
     assert rolling * (u1 + u2) >= 0.0 and taken >= 0.0
-    if scene.lubrication.traction == "evans_johnson":
+    if scene.lubrication.traction != "printed":
         assert viscous >= 0.0
         if scene.lubrication.asperities == "exact" or scene.lubrication.boundary == "load_sharing":
             assert boundary >= 0.0
             assert signed * sliding >= 0.0 and slope >= 0.0
+
+
+FILM_ALONE = PAPER.replace(
+    **{
+        "lubrication.traction": "eyring",
+        "lubrication.boundary": "load_sharing",
+        "lubrication.lambda_ratio": "computed",
+        "lubrication.composite_roughness": 1e-9,
+    }
+)
+MIXED = FILM_ALONE.replace(**{"lubrication.composite_roughness": 1e-6})
+RHO = 0.01  # radius of curvature of both flanks [m]
+
+
+def sheared(scene, load, slide_to_roll, speed=1.0):
+    """Signed friction [N], film [m], sliding speed [m/s] and slope [N s/m] at a mean speed."""
+    oil = build_oil(scene, scene.operating_point)
+    turns = (speed * (1 + slide_to_roll / 2) / RHO, -speed * (1 - slide_to_roll / 2) / RHO)
+    signed, _, _, log_film, sliding, slope, _, _ = tooth_contact(
+        oil, choices(oil), (RHO, RHO, 1.0, *turns, load)
+    )
+    return signed, math.exp(log_film), sliding, slope
+
+
+@pytest.mark.parametrize("slide_to_roll", [-0.1, -1e-4, 1e-6, 1e-3, 0.1])
+def test_a_light_load_shears_a_newtonian_film_down_to_no_sliding(slide_to_roll):
+    """f = eta Vs/h A, A = 2 b L with Hertz's b; the sense of sliding takes nothing from it."""
+    load, modulus = 1e-3, 206e9 / (1 - 0.3**2)
+    signed, film, sliding, slope = sheared(FILM_ALONE, load, slide_to_roll)
+    width = math.sqrt(8 * load * (RHO / 2) / (math.pi * 0.02 * modulus))
+    newtonian = 0.08 / film * 2 * width * 0.02
+    # 2e-3 is alpha times the pressure; loads fade out below a millionth of a newton.
+    assert signed == pytest.approx(newtonian * sliding, rel=1e-2)
+    assert slope == pytest.approx(newtonian, rel=1e-2)
+
+
+@pytest.mark.parametrize("load", [1.0, 100.0, 1e4])
+@pytest.mark.parametrize("scene", [FILM_ALONE, MIXED], ids=["film", "mixed"])
+def test_friction_is_odd_and_smooth_through_no_sliding(scene, load):
+    ratios = np.linspace(-0.2, 0.2, 4001)
+    found = np.array([sheared(scene, load, ratio) for ratio in ratios])
+    friction, slope = found[:, 0], found[:, 3]
+    assert friction == pytest.approx(-friction[::-1], rel=1e-6, abs=1e-9 * load)
+    assert friction[2000] == pytest.approx(0.0, abs=1e-12 * load)
+    # No step of 1e-4 of slide-to-roll is more than its share of an elastic line over 0.015.
+    least = 0.11 * load * 1e-4 / 0.015
+    assert np.abs(np.diff(friction)).max() < 1.1 * least
+    assert slope.min() >= 0.0
+
+
+@pytest.mark.parametrize("slide_to_roll", [0.0, 1e-8, 1e-5, 1e-3, 0.01, 0.1])
+@pytest.mark.parametrize("load", [1e-3, 1.0, 100.0, 2e3])
+@pytest.mark.parametrize("scene", [FILM_ALONE, MIXED], ids=["film", "mixed"])
+def test_slope_is_the_derivative_of_the_friction_in_a_cool_film(scene, load, slide_to_roll):
+    cool = scene.replace(**{"lubrication.temperature_viscosity": 1e-12})
+    step = max(1e-3 * slide_to_roll, 1e-9)
+    (below, _, slow, _), (above, _, fast, _) = (
+        sheared(cool, load, slide_to_roll + s) for s in (-step, step)
+    )
+    slope = sheared(cool, load, slide_to_roll)[3]
+    assert slope == pytest.approx((above - below) / (fast - slow), rel=0.01, abs=1e-4 * load)
+
+
+def test_schlenks_coefficient_is_all_of_the_friction():
+    scene = PAPER.replace(**{"lubrication.traction": "schlenk"})
+    signed, *_ = sheared(scene, 1000.0, 0.2)
+    # 0.048 (50 N/mm / (2 m/s 5 mm))^0.2 80^-0.05 0.1128^0.25
+    expected = 0.048 * (50 / 10) ** 0.2 * 80**-0.05 * (0.2 / math.sqrt(math.pi)) ** 0.25
+    assert signed == pytest.approx(1000.0 * expected, rel=1e-8)

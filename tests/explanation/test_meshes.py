@@ -142,3 +142,33 @@ def test_mesh_frequency_is_that_of_a_run(name):
 def test_teeth_are_named_sun_first():
     found = describe_meshes(PAPER)
     assert (found.sun_planet.teeth, found.planet_ring.teeth) == ((30, 20), (20, 70))
+
+
+def test_friction_of_a_typical_pair_is_that_of_the_laws_at_the_pitch_point():
+    """Evans and Johnson's plateau at 63 N m (see tests/lubrication), and asperities at lambda 1."""
+    boundary = {"sun_planet": 1.217, "planet_ring": 1.217 * math.sqrt(7 / 3)}  # as the area
+    for kind, plateau in (("sun_planet", 0.04251), ("planet_ring", 0.04105)):
+        found = of(kind)
+        expected = plateau + boundary[kind] / found.static_force
+        assert found.friction == pytest.approx(expected, abs=2e-5)
+        assert found.friction == found.friction_evans_johnson
+        eyring = of(kind, **{"lubrication.traction": "eyring"})
+        assert eyring.friction == found.friction_eyring != found.friction
+
+
+def test_the_plateau_is_in_range_under_a_heavy_load_alone():
+    both, film = ("eyring", "evans_johnson"), ("eyring",)
+    assert describe_meshes(PAPER).sun_planet.film_laws_in_range == both
+    assert of("sun_planet", input_torque=1e-4).film_laws_in_range == film
+    stage = describe_meshes(pt.load_scene("wind_turbine_stage"))
+    assert stage.sun_planet.film_laws_in_range == both
+    assert stage.planet_ring.film_laws_in_range == film
+    assert stage.planet_ring.shear_number < 1.0 < stage.sun_planet.shear_number
+
+
+@BOTH
+@pytest.mark.parametrize("change", [{"input_speed": 0.0}, {"input_torque": 0.0}])
+def test_friction_at_standstill_and_without_load_is_a_number(kind, change):
+    found = of(kind, **change)
+    for value in (found.friction, found.friction_eyring, found.friction_schlenk):
+        assert 0.0 <= value < 0.5

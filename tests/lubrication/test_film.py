@@ -11,11 +11,13 @@ from lubrication.pitch_point import (
     PRESSURE_VISCOSITY,
     VISCOSITY,
     film,
-    log_film,
+    oil_of,
     pitch_point,
 )
 
+from planetary_twin_py.dynamics.tooth_contact import choices, tooth_contact
 from planetary_twin_py.lubrication.film import THINNEST_FILM
+from planetary_twin_py.scene import load_scene
 
 FILMS = {  # [um] at the pitch point
     "salagianni": (0.160, 0.260, 0.345, 0.230, 0.374, 0.497),
@@ -51,5 +53,8 @@ def test_film_grows_with_speed_and_radius_and_thins_with_load(law):
     assert film(law, "sp", 1000, 3 * LOAD) / thinnest == pytest.approx(3**-0.13)
 
 
-def test_film_never_vanishes():
-    assert log_film("salagianni", "sp", 1e-9) == math.log(THINNEST_FILM)
+@pytest.mark.parametrize("speed", [0.0, 1e-9, 1e-6])
+def test_film_of_a_tooth_pair_never_vanishes(speed):
+    oil = oil_of(load_scene("paper"))
+    log_film = tooth_contact(oil, choices(oil), (0.01, 0.01, 1.0, speed, -speed, LOAD))[3]
+    assert log_film == math.log(THINNEST_FILM)

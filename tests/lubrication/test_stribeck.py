@@ -1,14 +1,17 @@
 """The Stribeck curve: friction of one tooth contact from no film to a thick one."""
 
+import math
+
 import numpy as np
 import pytest
 from lubrication.pitch_point import LOAD, oil_of, pitch_point
 
 from planetary_twin_py.dynamics.tooth_contact import choices, lambda_ratio_of, tooth_contact
-from planetary_twin_py.lubrication.load_sharing import film_share
+from planetary_twin_py.lubrication.load_sharing import THINNEST, film_share
 from planetary_twin_py.scene import load_scene
 
 SLIDING = 0.2  # slide-to-roll ratio
+FULL_FILM = (1 / 0.82) ** (1 / 0.28)  # lambda ratio from which the film carries all
 MIXED = load_scene("paper").replace(
     **{
         "lubrication.boundary": "load_sharing",
@@ -40,7 +43,7 @@ def test_boundary_mixed_and_full_film_follow_one_another():
     assert np.all(np.diff(ratio) > 0.0)
     assert mu[0] == pytest.approx(0.1, abs=0.015)  # boundary lubrication
     lowest = int(np.argmin(mu))
-    assert ratio[lowest] > (1 / 0.82) ** (1 / 0.28)  # the film carries all
+    assert ratio[lowest] > FULL_FILM
     assert mu[lowest] < 0.5 * mu[0]
     assert np.all(np.diff(mu[: lowest + 1]) < 0.0)
     assert np.all(np.diff(mu[lowest:]) > 0.0)  # the film's own resistance
@@ -60,4 +63,33 @@ SHARES = [(0.0, 0.0), (1.0, 0.82), (2.0, 0.82 * 2**0.28), (2.1, 1.0)]
 
 @pytest.mark.parametrize("ratio, share", SHARES)
 def test_share_of_the_film(ratio, share):
-    assert film_share(ratio) == pytest.approx(share, abs=1e-3)
+    assert film_share(math.log(max(ratio, THINNEST))) == pytest.approx(share, abs=1e-3)
+
+
+# Scenes that do not name their laws get these: a shear-thinning film and load sharing.
+DEFAULT = load_scene("wind_turbine_stage")
+
+
+@pytest.mark.parametrize("roughness", [5e-8, 2e-7, 8e-7])
+@pytest.mark.parametrize("share", [1e-3, 1e-2, 0.1, 1.0])
+def test_default_laws_rise_to_the_left_of_the_full_film_down_to_none(share, roughness):
+    """Boundary and viscous friction; beyond, a cool film rises, and a warm one falls again."""
+    scene = load_scene("paper").replace(
+        **{
+            "lubrication.boundary": DEFAULT.lubrication.boundary,
+            "lubrication.traction": DEFAULT.lubrication.traction,
+            "lubrication.lambda_ratio": DEFAULT.lubrication.lambda_ratio,
+            "lubrication.composite_roughness": roughness,
+        }
+    )
+    oil, rho, load = oil_of(scene), 2.0 * pitch_point("sp", 1000).radius, share * LOAD
+    speeds = np.logspace(-9, 1.5, 211)
+    turns = np.outer(speeds / rho, [1 + SLIDING / 2, -1 + SLIDING / 2])
+    pairs = [tooth_contact(oil, choices(oil), (rho, rho, 1.0, *w, load)) for w in turns]
+    mu = np.array([boundary + viscous for _, boundary, viscous, *_ in pairs]) / load
+    film = np.exp([log_film for _, _, _, log_film, *_ in pairs])
+    mixed = film < FULL_FILM * roughness
+    assert mixed[0] and not mixed[-1]
+    assert np.all(np.diff(mu[mixed]) < 0.0)
+    assert mu[0] > 0.105  # of 0.11 without a film
+    assert mu[mixed][-1] < 0.06

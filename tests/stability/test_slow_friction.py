@@ -1,4 +1,4 @@
-"""Gears that turn slowly: friction is stiff, and the loss is right to the tolerance all the same."""
+"""Gears that turn slowly: friction is stiff, and the loss still keeps to the tolerance."""
 
 from functools import cache
 

@@ -82,3 +82,14 @@ def test_a_window_that_cannot_be_is_refused_in_one_line_and_no_time_passes(durat
     with pytest.raises(ValueError, match=r"^duration = .*at most 60$"):
         twin.advance(duration)
     assert twin.time == 0.0
+
+
+def test_a_window_of_few_samples_may_be_longer():
+    """4096 samples at most: as a mesh cycle at a thousandth of a turn a minute needs."""
+    scene = PAPER.replace(dynamics="quasi_static", input_speed=pt.rpm(0.001))
+    twin = pt.Twin(scene, 1.0)
+    with pytest.raises(ValueError, match=r"^duration = 4097\.0 s: .*at most 4096$"):
+        twin.advance(4097.0)
+    window = twin.advance(2000.0)
+    assert len(window.waveform.time) == 2000
+    assert window.mesh_frequency == pytest.approx(5e-4, rel=1e-6)

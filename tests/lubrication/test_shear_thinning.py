@@ -1,0 +1,149 @@
+"""The shear-thinning film: its limits, the integral over the contact, its balance of heat."""
+
+import math
+
+import numpy as np
+import pytest
+from lubrication.pitch_point import CASES, FACE_WIDTH, LOAD, MODULUS, film, oil_of, pitch_point
+from scipy.integrate import quad
+from scipy.optimize import brentq
+
+from planetary_twin_py.lubrication.shear_thinning import film_shear
+from planetary_twin_py.lubrication.traction import viscous_friction
+from planetary_twin_py.scene import load_scene
+
+VISCOSITY, ALPHA, EYRING_STRESS, LIMIT = 0.08, 2.1e-8, 2.3e6, 0.047
+SCENE = load_scene("paper").replace(
+    **{"lubrication.traction": "eyring", "lubrication.limiting_stress": LIMIT}
+)
+OIL = oil_of(SCENE)
+COOL = oil_of(SCENE.replace(**{"lubrication.temperature_viscosity": 1e-12}))
+
+
+def contact(load=LOAD, mesh="sp", rpm=1000):
+    """Area [m^2], logarithms of film and heat as the law takes them."""
+    point = pitch_point(mesh, rpm)
+    area = point.area * math.sqrt(load / LOAD)
+    log_heat = 0.5 * math.log(point.radius * load / (area * point.speed))
+    return area, math.log(film("salagianni", mesh, rpm, load)), log_heat
+
+
+def friction(speed, load=LOAD, oil=OIL, **place):
+    area, log_film, log_heat = contact(load, **place)
+    return film_shear(oil.shear_thinning, load, area, log_film, log_heat, speed)[0]
+
+
+def over_the_contact(stress, load, area):
+    """Mean of a stress that depends on the elliptic pressure, times the area [N]."""
+    peak = 4.0 / math.pi * load / area
+    return area * quad(lambda x: stress(peak * math.sqrt(1.0 - x * x)), 0.0, 1.0, limit=200)[0]
+
+
+def test_little_shear_under_a_light_load_is_that_of_a_newtonian_film():
+    """f = eta0 Vs/h A where alpha p vanishes; the pressure adds its mean alpha p."""
+    load, speed = 1e-6, 1e-7
+    area, log_film, _ = contact(load)
+    newtonian = VISCOSITY * speed / math.exp(log_film) * area
+    assert friction(speed, load) == pytest.approx(newtonian, rel=1.1 * ALPHA * load / area)
+    assert friction(2 * speed, load) == pytest.approx(2 * friction(speed, load), rel=1e-5)
+
+
+def test_little_shear_under_pressure_has_the_mean_viscosity_of_the_contact():
+    """Two Gauss points are exact to the third power of alpha p."""
+    load, speed = LOAD / 3000, 1e-6
+    area, log_film, _ = contact(load)
+    expected = over_the_contact(
+        lambda p: VISCOSITY * math.exp(ALPHA * p) * speed / math.exp(log_film), load, area
+    )
+    assert friction(speed, load) == pytest.approx(expected, rel=1e-4)
+
+
+def test_heavy_load_and_fast_sliding_end_at_the_limiting_stress():
+    load = 20 * LOAD
+    assert friction(1.0, load, COOL) == pytest.approx(LIMIT * load, rel=1e-12)
+
+
+@pytest.mark.parametrize("mesh, rpm", CASES)
+@pytest.mark.parametrize("share", [1e-3, 1e-2, 0.1, 1.0])
+@pytest.mark.parametrize("slide_to_roll", [0.01, 0.1, 0.5])
+def test_two_points_stand_for_the_pressure_over_the_contact(mesh, rpm, share, slide_to_roll):
+    load, speed = share * LOAD, slide_to_roll * pitch_point(mesh, rpm).speed
+    area, log_film, _ = contact(load, mesh, rpm)
+
+    def stress(p):
+        x = VISCOSITY * math.exp(ALPHA * p - log_film) * speed / EYRING_STRESS
+        return min(EYRING_STRESS * math.asinh(x), LIMIT * p)
+
+    expected = over_the_contact(stress, load, area)
+    found = friction(speed, load, COOL, mesh=mesh, rpm=rpm)
+    assert found == pytest.approx(expected, rel=0.1, abs=2e-3 * load)
+
+
+@pytest.mark.parametrize("mesh, rpm", CASES)
+def test_under_a_heavy_load_it_is_near_the_plateau_of_evans_and_johnson(mesh, rpm):
+    """Their law is a fit of its own to discs; it has no sliding speed in it."""
+    area, log_film, log_heat = contact(LOAD, mesh, rpm)
+    plateau = viscous_friction(OIL.traction, LOAD, area, log_film, log_heat)
+    found = friction(0.2 * pitch_point(mesh, rpm).speed, mesh=mesh, rpm=rpm)
+    assert found == pytest.approx(plateau, rel=0.15)
+
+
+@pytest.mark.parametrize("speed", [0.01, 1.0, 5.0, 20.0])
+def test_the_warm_film_is_in_balance_with_its_heat(speed):
+    """sinh(s) = x exp(-beta dT), walls heated as by a band source over its transit of 2b/V."""
+    point = pitch_point("sp", 1000)
+    area, log_film, _ = contact()
+    thickness, half = math.exp(log_film), point.half_width
+    transit = 2 * half / point.speed
+    # Mean over the transit of 2 q sqrt(t/pi)/e, half of the heat into each flank.
+    wall = 0.5 * 4.0 / 3.0 * math.sqrt(transit / math.pi) / math.sqrt(46 * 7800 * 470)
+    rise = 0.04 * speed * (thickness / (8 * 0.137) + wall)  # beta dT/tau
+
+    def balance(p):
+        x = VISCOSITY * math.exp(ALPHA * p) * speed / (thickness * EYRING_STRESS)
+        s = brentq(lambda s: s - math.asinh(x * math.exp(-rise * EYRING_STRESS * s)), 0.0, 100.0)
+        return min(EYRING_STRESS * s, LIMIT * p)
+
+    expected = over_the_contact(balance, LOAD, area)
+    assert friction(speed) == pytest.approx(expected, rel=0.02)
+    if speed > 1.0:
+        assert friction(speed) < 0.95 * friction(speed, oil=COOL)
+
+
+def test_friction_grows_with_load_and_cool_with_speed_and_never_jumps():
+    loads = np.logspace(-6, 6, 4001)
+    by_load = np.array([friction(0.1, load) for load in loads])
+    assert np.all(np.diff(by_load) > 0.0)
+    assert np.diff(np.log(by_load)).max() < 3 * np.diff(np.log(loads))[0]
+    speeds = np.logspace(-9, 2, 4001)
+    by_speed = np.array([friction(speed, oil=COOL) for speed in speeds])
+    assert np.all(np.diff(by_speed) >= 0.0)
+    assert np.diff(np.log(by_speed)).max() <= 1.001 * np.diff(np.log(speeds))[0]
+
+
+@pytest.mark.parametrize("load", [1e-3, 1.0, LOAD])
+@pytest.mark.parametrize("speed", [1e-6, 1e-3, 0.3])
+def test_growth_is_the_derivative_at_constant_temperature(load, speed):
+    area, log_film, log_heat = contact(load)
+    oil = COOL.shear_thinning
+    _, growth = film_shear(oil, load, area, log_film, log_heat, speed)
+    step = 1e-4 * speed
+    below, above = (
+        film_shear(oil, load, area, log_film, log_heat, v)[0] for v in (speed - step, speed + step)
+    )
+    error = 2e-12 * EYRING_STRESS * area / (2 * step)  # of the logarithm
+    assert growth == pytest.approx((above - below) / (2 * step), rel=1e-6, abs=error)
+
+
+def test_limiting_stress_bounds_the_coefficient_in_any_contact():
+    random = np.random.default_rng(0)
+    for _ in range(300):
+        load, speed = 10 ** random.uniform(-6, 7), 10 ** random.uniform(-9, 3)
+        found = friction(speed, load)
+        assert 0.0 <= found <= LIMIT * load * (1 + 1e-12)
+
+
+def test_pitch_points_have_the_modulus_and_width_of_the_scene():
+    """So that the areas here are those of the law."""
+    assert pytest.approx(2 * OIL.contact_modulus) == MODULUS
+    assert OIL.face_width == FACE_WIDTH

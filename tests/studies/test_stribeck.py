@@ -1,0 +1,36 @@
+"""The Stribeck curve of a scene with the default laws, from standstill on."""
+
+import numpy as np
+import pytest
+from typer.testing import CliRunner
+
+import planetary_twin_py as pt
+from planetary_twin_py.cli import build_app
+from planetary_twin_py.studies.axes import Axis
+from planetary_twin_py.studies.local import Threads
+from planetary_twin_py.studies.stribeck import stribeck
+
+
+@pytest.mark.parametrize("side", ["sun_planet", "planet_ring"])
+def test_friction_rises_as_the_film_vanishes_down_to_a_thousandth_of_a_turn_a_minute(side):
+    speeds = tuple(pt.rpm(rpm) for rpm in np.logspace(-3, 1, 21))
+    scene = pt.load_scene("wind_turbine_stage")
+    table = stribeck(scene, Axis("input_speed", speeds), Threads())
+    figures = {name: np.array(table[name].to_pylist()) for name in table.column_names}
+    parts = ("boundary_friction", "viscous_friction")
+    friction = sum(figures[f"{side}_{part}"] for part in parts)
+    mu = friction / np.abs(figures[f"{side}_mesh_force_mean"])
+    mixed = figures[f"{side}_lambda_ratio"] < 2.0
+    assert mixed.sum() > 15
+    assert np.all(np.diff(mu[mixed]) < 0.0)
+    assert mu[0] > 0.09 > 0.065 > mu[mixed][-1]
+
+
+@pytest.mark.parametrize("boundary, lines", [("greenwood_tripp", 1), ("load_sharing", 0)])
+def test_the_command_says_where_asperities_have_no_boundary_regime(boundary, lines, tmp_path):
+    arguments = ["stribeck", "paper", "--set", f"lubrication.boundary={boundary}"]
+    out = ["--input-speed", "10rpm,100rpm", "--out", str(tmp_path / "curve.csv")]
+    done = CliRunner().invoke(build_app(), [*arguments, *out])
+    assert done.exit_code == 0, done.output
+    warnings = [line for line in done.stderr.splitlines() if "has a boundary regime" in line]
+    assert len(warnings) == lines
