@@ -14,6 +14,7 @@ from .dynamics.state import BEARING, CHURNING, FRICTION, IMPULSE, WORK
 from .gearset.kinematics import mesh_frequency
 from .integrators.interpolant import Samples
 from .run import start
+from .runaway import RunError
 from .scene import TUNABLES, OperatingPoint, Scene, SceneError
 from .tolerance import LIVE_TOLERANCE, check_tolerance
 from .window import Stretch, Waveform, Window, mesh_statistics
@@ -137,6 +138,7 @@ class Twin:
 
         Raises:
             ValueError: the duration is not within 0 and 60 s.
+            RunError: the train shows what no gearbox can; the twin stays at `time` for good.
         """
         if not 0.0 < duration <= LONGEST_WINDOW:
             raise ValueError(
@@ -150,7 +152,11 @@ class Twin:
         self._clock += step
         room = self._samples() - first + 1
         repeated = self._engine.repeats
-        samples = self._engine.advance(self._clock, first, self.sample_rate, room)
+        try:
+            samples = self._engine.advance(self._clock, first, self.sample_rate, room)
+        except RunError:
+            self._clock -= step  # what was reached before stands
+            raise
         return self._window(step, first, samples, repeated)
 
     def _change(self, point: OperatingPoint, tolerance: float) -> float:

@@ -47,8 +47,8 @@ ROUNDING = 1e-12  # growth rates below it, over the largest eigenvalue, are roun
 class Gains(NamedTuple):
     """What the speed loop of a train is made of."""
 
-    inertia: np.ndarray  # of the whole train at the motors [kg m^2], (axes, axes)
-    proportional: np.ndarray  # of each motor [N m s/rad], (axes,)
+    inertia: np.ndarray  # of the whole train at the motors [kg m^2], (AXES, AXES)
+    proportional: np.ndarray  # of each motor [N m s/rad], (AXES,)
     trim: np.ndarray  # torque per integral of a speed error [N m/rad], (MACHINES, AXES)
 
 
