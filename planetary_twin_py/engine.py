@@ -27,7 +27,7 @@ from .integrators.interpolant import Samples, new_samples
 from .integrators.march import advance, begin_step, cut
 from .integrators.progress import AUTO, COLLOCATION, MARCH, ROSENBROCK
 from .integrators.radau import radau
-from .runaway import Limits, RunError, squeeze
+from .runaway import Limits, RunawayError, squeeze
 from .scene import OperatingPoint, Scene
 from .tolerance import check_tolerance
 
@@ -69,7 +69,7 @@ class Engine:
         self._ledgers = tuple(state.energy for state in standing)
         self._shown: tuple[float | Fraction, Samples] | None = None
         self._limits = Limits(scene, self.train)
-        self._failure: RunError | None = None
+        self._failure: RunawayError | None = None
         control = self.march.control
         control.step = control.next_step = control.next_stiff = FIRST_STEP
         control.longest = LONGEST_STEP
@@ -133,7 +133,7 @@ class Engine:
         however late it is.
 
         Raises:
-            RunError: no step leads on, or to what no gearbox can show, see `runaway`.
+            RunawayError: no step leads on, or to what no gearbox can show, see `runaway`.
         """
         samples, done = new_samples(self.train, room + 1), 0
         for stop in self._stops(until):
@@ -161,7 +161,7 @@ class Engine:
             advance(self.model, self.march, instant(until), NEVER, at, samples)
             self._check(samples)
         except ArithmeticError as reason:
-            self._failure = RunError(f"the run stops near {float(self.reached):g} s: {reason}")
+            self._failure = RunawayError(f"the run stops near {float(self.reached):g} s: {reason}")
             raise self._failure from None
         self._shown = until, _rows(samples, len(samples.turns) - 1, None)
 
@@ -185,7 +185,7 @@ class Engine:
 
         Raises:
             ValueError: the speed loop would not be stable there; nothing has changed.
-            RunError: the run has been stopped.
+            RunawayError: the run has been stopped.
         """
         if self._failure is not None:
             raise self._failure

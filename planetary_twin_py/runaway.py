@@ -22,7 +22,7 @@ from .scene import Scene
 EXCESS = 10.0  # what speeds and torques may be, over what the limits of the drive make of them
 
 
-class RunError(ArithmeticError):
+class RunawayError(ArithmeticError):
     """A run that cannot go on; its line says when and why."""
 
 

@@ -14,7 +14,7 @@ from .dynamics.state import BEARING, CHURNING, FRICTION, IMPULSE, WORK
 from .gearset.kinematics import mesh_frequency
 from .integrators.interpolant import Samples
 from .run import start
-from .runaway import RunError
+from .runaway import RunawayError
 from .scene import TUNABLES, OperatingPoint, Scene, SceneError
 from .tolerance import LIVE_TOLERANCE, check_tolerance
 from .window import Stretch, Waveform, Window, mesh_statistics
@@ -138,7 +138,7 @@ class Twin:
 
         Raises:
             ValueError: the duration is not within 0 and 60 s.
-            RunError: the train shows what no gearbox can; the twin stays at `time` for good.
+            RunawayError: the train shows what no gearbox can; the twin stays at `time` for good.
         """
         if not 0.0 < duration <= LONGEST_WINDOW:
             raise ValueError(
@@ -154,7 +154,7 @@ class Twin:
         repeated = self._engine.repeats
         try:
             samples = self._engine.advance(self._clock, first, self.sample_rate, room)
-        except RunError:
+        except RunawayError:
             self._clock -= step  # what was reached before stands
             raise
         return self._window(step, first, samples, repeated)

@@ -18,7 +18,7 @@ from ..dynamics.train import build_train
 from ..integrators.clock import delay, instant, sampling
 from ..integrators.interpolant import Samples, new_samples
 from ..integrators.progress import CONTROL
-from ..runaway import Limits, RunError, squeeze
+from ..runaway import Limits, RunawayError, squeeze
 from ..scene import OperatingPoint, Scene
 from ..tolerance import check_tolerance
 from .ledger import Ledger, first_guess
@@ -85,7 +85,7 @@ class QuasiStaticEngine:
         however late it is.
 
         Raises:
-            RunError: the teeth yield more than they can, see `runaway`.
+            RunawayError: the teeth yield more than they can, see `runaway`.
         """
         samples = new_samples(self.train, room)
         at = sampling(first_sample, sample_rate)
@@ -93,7 +93,7 @@ class QuasiStaticEngine:
         try:
             self._limits.squeeze.check(squeeze(samples, self.train, self.model.load))
         except ArithmeticError as reason:
-            raise RunError(f"the run stops before {float(until):g} s: {reason}") from None
+            raise RunawayError(f"the run stops before {float(until):g} s: {reason}") from None
         roll(self.model, self._origin, instant(until))
         self.reached = Fraction(until)
         return samples

@@ -53,7 +53,9 @@ class RigidGears:
     @staticmethod
     def _gears(gears, member):
         mass, teeth, count = gears.equivalent_mass, gears.teeth, gears.planets
-        radius = {name: 0.5 * gears.module * getattr(teeth, name) for name in ("sun", "planet", "ring")}
+        radius = {
+            name: 0.5 * gears.module * getattr(teeth, name) for name in ("sun", "planet", "ring")
+        }
         orbit = radius["sun"] + radius["planet"]
         spin = member["carrier"] - teeth.sun / teeth.planet * (member["sun"] - member["carrier"])
         turning = {

@@ -15,6 +15,7 @@ from rclpy.parameter import Parameter
 import planetary_twin_py as pt
 from planetary_twin_py.affordable import Affordable, Setting
 from planetary_twin_py.robot import frames, robot_description
+from planetary_twin_py.runaway import RunawayError
 
 from .audience import Audience
 from .live import LiveTwin, Progress
@@ -74,7 +75,10 @@ class Simulation(ManagedNode):
     def activate(self) -> None:
         """Run from where the twin stands, with what was set while it stood."""
         twin = self._running_twin()
-        twin.set(**self._given.point())
+        try:
+            twin.set(**self._given.point())
+        except RunawayError as reason:
+            raise NodeError(f"{reason}; clean up and configure the node for a new run") from None
         given, affordable = self._given, self._given.affordable(twin)
         self._audience.begin()
         self._live = LiveTwin(twin, 1.0 / given.rate, given.rate_factor, affordable, self)
@@ -188,10 +192,21 @@ class Simulation(ManagedNode):
         if any(p.name == TOLERANCE.name for p in parameters):
             self._live.affordable = self._given.affordable(self._running_twin())
         values = tunables(parameters)
-        if values and self._ramp > 0.0:
+        if not values:
+            return
+        before = self._submitted
+        if self._ramp > 0.0:
             self._submitted = self._live.ramp(values, self._ramp)
-        elif values:
+        else:
             self._submitted = self._live.submit(values)
+        if self._submitted is not before:  # changes between two intervals are one
+            self._submitted.add_done_callback(self._report_refusal)
+
+    def _report_refusal(self, submitted: Future[float]) -> None:
+        """Say why the twin does not follow its parameters though they are within their ranges."""
+        refusal = submitted.exception()
+        if refusal is not None and self._live is not None:
+            self.get_logger().warning(f"the twin does not follow its parameters: {refusal}")
 
     def _set_operating_point(
         self, request: SetOperatingPoint.Request, response: SetOperatingPoint.Response
@@ -281,7 +296,10 @@ class Simulation(ManagedNode):
             self.get_logger().error(status.message)
 
     def _new_twin(self) -> pt.Twin:
-        return pt.Twin(self._given.scene_now(), sample_rate=self._given.sample_rate)
+        try:
+            return pt.Twin(self._given.scene_now(), sample_rate=self._given.sample_rate)
+        except RunawayError as reason:
+            raise ValueError(str(reason)) from None
 
     def _new_report(self, twin: pt.Twin, begun: Progress) -> RealTimeReport:
         return RealTimeReport(
