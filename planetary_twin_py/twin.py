@@ -10,7 +10,7 @@ import numpy as np
 
 from .dynamics.bodies import Ratios, body_names, mesh_names
 from .dynamics.observe import BOUNDARY, DTE, MESH_FORCE, VISCOUS
-from .dynamics.state import BEARING, CHURNING, FRICTION, IMPULSE, WORK
+from .dynamics.state import BEARING, CHURNING, DAMPING, FRICTION, IMPULSE, STIFFNESS_WORK, WORK
 from .gearset.kinematics import mesh_frequency
 from .integrators.interpolant import Samples
 from .run import start
@@ -216,6 +216,8 @@ class Twin:
             machine_power=rate[WORK : WORK + self._machines],
             power_loss=float(rate[FRICTION] + rate[BEARING] + rate[CHURNING]),
             stored_power=stored,
+            stored_energy=self._books[2],
+            residual_power=_residual(rate, self._machines) - stored,
         )
 
     def _stretch(self, step: Fraction, first: int, parts: tuple[Samples, ...]) -> Stretch:
@@ -232,6 +234,12 @@ class Twin:
         relative = np.append(self._end.angle[0], 0.0)[self._names.place]
         whole = [body.part(turns) for body in self._whole_turns]
         return np.mod(2.0 * math.pi * np.array(whole) + relative, 2.0 * math.pi)
+
+
+def _residual(rate: np.ndarray, machines: int) -> float:
+    """Power [W] put in and neither lost nor damped, of the growth `rate` of the ledger."""
+    lost = rate[FRICTION] + rate[DAMPING] + rate[BEARING] + rate[CHURNING]
+    return float(rate[WORK : WORK + machines].sum() + rate[STIFFNESS_WORK] - lost)
 
 
 class _WholeTurns(NamedTuple):

@@ -52,11 +52,13 @@ def put(
 
 
 def warn(table: pa.Table) -> None:
-    """Tell, in a line, what limits the figures of a study."""
+    """Tell, in lines, what limits the figures of a study."""
     from ..studies.clipping import clipping_of_study
+    from ..studies.unclosed import unclosed_ledgers
 
-    if told := clipping_of_study(table):
-        remark(f"warning: {told}")
+    for told in (clipping_of_study(table), unclosed_ledgers(table)):
+        if told:
+            remark(f"warning: {told}")
 
 
 @contextmanager

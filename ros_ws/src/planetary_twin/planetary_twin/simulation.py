@@ -6,9 +6,10 @@ import gc
 import math
 import sys
 import traceback
+from collections.abc import Mapping
 from concurrent.futures import Future
 
-from diagnostic_msgs.msg import DiagnosticStatus
+from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
 from planetary_twin_msgs.srv import NaturalModes, SetOperatingPoint
 from rclpy.parameter import Parameter
 
@@ -18,6 +19,7 @@ from planetary_twin_py.robot import frames, robot_description
 from planetary_twin_py.runaway import RunawayError
 
 from .audience import Audience
+from .ledger_report import LedgerReport
 from .live import LiveTwin, Progress
 from .managed import ManagedNode, NodeError, run_node
 from .parameters import brief
@@ -49,6 +51,7 @@ class Simulation(ManagedNode):
         self._submitted: Future[float] | None = None
         self._ramp = 0.0  # [s] in which what is being set is to be reached
         self._given = given = SimulationParameters(self)
+        self._ledger = LedgerReport(self.get_namespace())
         self.add_post_set_parameters_callback(self._submit)
         self._telemetry = Telemetry(
             self,
@@ -107,6 +110,7 @@ class Simulation(ManagedNode):
     def prepare(self, window: pt.Window) -> None:
         """Turn an interval into messages ahead of its wall instant."""
         self._telemetry.prepare(window)
+        self._ledger.add(window)
 
     def publish(self) -> None:
         """Send them at that instant."""
@@ -272,9 +276,13 @@ class Simulation(ManagedNode):
         live, report = live or self._live, self._report
         if live is None or report is None:
             return
-        message = self._telemetry.diagnose(
-            lambda published: report.message(live.progress, live.affordable, published, last=last)
-        )
+
+        def told(published: Mapping[str, int]) -> DiagnosticArray:
+            message = report.message(live.progress, live.affordable, published, last=last)
+            message.status.append(self._ledger.status())
+            return message
+
+        message = self._telemetry.diagnose(told)
         self._look_for_company()
         if report.verdict != self._verdict:
             self._verdict = report.verdict
