@@ -64,8 +64,8 @@ def simulate(
     samples = engine.advance(duration, 1, sample_rate, room)
     wall = time.perf_counter() - begin
     result = _result(scene, engine, samples, sample_rate, stored, wall)
-    if told := ledger_warning(balance_of_run(result.energy), tolerance):
-        warnings.warn(told, LedgerWarning, stacklevel=2)
+    if text := ledger_warning(balance_of_run(result.energy), tolerance):
+        warnings.warn(text, LedgerWarning, stacklevel=2)
     return result
 
 

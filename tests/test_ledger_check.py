@@ -15,7 +15,6 @@ from planetary_twin_py.cli import build_app
 from planetary_twin_py.explanation.remarks import remarks
 from planetary_twin_py.ledger_check import (
     Balance,
-    LedgerWarning,
     advice,
     balance_of_run,
     balance_of_window,
@@ -102,7 +101,7 @@ def test_the_advice_is_a_tolerance_there_is(excess, tolerance, text):
 def test_packaged_scenes_are_silent(name, tolerance):
     """At the tolerance of `simulate` and at that of a live twin."""
     with warnings.catch_warnings():
-        warnings.simplefilter("error", LedgerWarning)
+        warnings.simplefilter("error", pt.LedgerWarning)
         pt.simulate(pt.load_scene(name), 0.1, 5000.0, tolerance=tolerance)
 
 
@@ -116,7 +115,7 @@ SMOOTH = {"lubrication.friction": False}
 def test_where_nothing_is_driven_or_lost_nothing_is_warned_of(changes, dynamics):
     scene = PAPER.replace(dynamics=dynamics, **changes)
     with warnings.catch_warnings():
-        warnings.simplefilter("error", LedgerWarning)
+        warnings.simplefilter("error", pt.LedgerWarning)
         pt.simulate(scene, 0.05, 5000.0, tolerance=3e-3)
 
 
@@ -135,12 +134,12 @@ BAD = {"tolerance": 0.1, "method": "rosenbrock"}
 
 
 def test_a_bad_integration_is_warned_of_and_a_tight_one_is_not():
-    with pytest.warns(LedgerWarning, match="tighten the tolerance from 0.1 to"):
+    with pytest.warns(pt.LedgerWarning, match="tighten the tolerance from 0.1 to"):
         bad = pt.simulate(HARD, 0.05, 5000.0, **BAD)
     (line,) = remarks(HARD, bad, BAD["tolerance"])
     assert line == ledger_warning(balance_of_run(bad.energy), 0.1)
     with warnings.catch_warnings():
-        warnings.simplefilter("error", LedgerWarning)
+        warnings.simplefilter("error", pt.LedgerWarning)
         good = pt.simulate(HARD, 0.05, 5000.0, tolerance=1e-5)
     assert balance_of_run(good.energy).excess < 0.1
 

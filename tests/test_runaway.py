@@ -8,7 +8,6 @@ from stability.sound import PAPER, static_force
 import planetary_twin_py as pt
 from planetary_twin_py.dynamics.speed_loop import FIELD, speed_loop_gains
 from planetary_twin_py.engine import Engine
-from planetary_twin_py.runaway import RunawayError
 
 # Teeth of rubber, into which 63 N m press one another by 0.94 mm; a base pitch is 2.34 mm.
 SOFT = {"mesh.sun_planet_stiffness": 2e6, "mesh.planet_ring_stiffness": 2e6}
@@ -26,7 +25,7 @@ def test_teeth_that_yield_by_a_base_pitch_stop_the_run(dynamics):
     scene = scene.replace(**{"lubrication.friction": False}) if dynamics == "torsional" else scene
     torque = breaking_torque(scene)
     assert np.abs(pt.simulate(scene.replace(input_torque=0.95 * torque), 0.01).dte).max() < PITCH
-    with pytest.raises(RunawayError, match=r"squeeze of .* base pitch"):
+    with pytest.raises(pt.RunawayError, match=r"squeeze of .* base pitch"):
         pt.simulate(scene.replace(input_torque=1.05 * torque), 0.01)
 
 
@@ -37,12 +36,12 @@ def test_a_drive_that_runs_away_is_stopped_before_its_numbers_overflow():
     gains = speed_loop_gains(scene, engine.train, 20.0)
     engine.model.load.proportional = gains.proportional
     engine.model.load.trim_gain = gains.trim
-    with pytest.raises(RunawayError) as error:
+    with pytest.raises(pt.RunawayError) as error:
         engine.advance(60.0, 1, 100.0, 6000)
     assert "must be at most" in str(error.value) and "\n" not in str(error.value)
     assert engine.reached < 10
     for again in (lambda: engine.advance(61.0, 1, 1.0, 0), lambda: engine.sample(60.0)):
-        with pytest.raises(RunawayError):
+        with pytest.raises(pt.RunawayError):
             again()
 
 
@@ -50,10 +49,10 @@ def test_a_twin_stays_where_it_was_when_its_train_breaks():
     twin = pt.Twin(PAPER.replace(**SOFT))
     twin.advance(0.01)
     twin.set(input_torque=500.0)
-    with pytest.raises(RunawayError):
+    with pytest.raises(pt.RunawayError):
         twin.advance(0.01)
     assert twin.time == 0.01
-    with pytest.raises(RunawayError):
+    with pytest.raises(pt.RunawayError):
         twin.set(input_torque=63.0)
     assert twin.operating_point.input_torque == 500.0
 
@@ -89,7 +88,7 @@ def test_the_command_ends_with_exit_code_1_and_one_line():
 
 def test_a_point_of_a_sweep_that_runs_away_has_a_reason_instead_of_figures():
     found = list(pt.simulate_many([PAPER.replace(**SOFT, input_torque=500.0)], 0.01))
-    assert isinstance(found[0].found, RunawayError)
+    assert isinstance(found[0].found, pt.RunawayError)
 
 
 def test_a_loop_that_is_not_stable_ends_a_command_with_exit_code_2():

@@ -13,7 +13,7 @@ from ..studies.measures import clipped_friction
 
 def remarks(scene: Scene, run: Result, tolerance: float) -> Iterator[str]:
     """What limits the figures of a `run` of `scene` at a `tolerance`."""
-    if told := ledger_warning(balance_of_run(run.energy), tolerance):
-        yield told
+    if line := ledger_warning(balance_of_run(run.energy), tolerance):
+        yield line
     if told := clipping_of_run(clipped_friction(scene, run)):
         yield told

@@ -1,4 +1,4 @@
-"""Tells in /diagnostics whether the energy ledger of the twin closes."""
+"""Reports in /diagnostics whether the energy ledger of the twin closes."""
 
 from __future__ import annotations
 
@@ -14,9 +14,9 @@ LEDGER = "simulation: energy ledger"
 
 class LedgerReport:
     """
-    Judges all intervals since the report before together.
+    Checks the intervals since the last report as one run.
 
-    Intervals come from the twin's thread, reports are made in the node's.
+    The twin's thread adds intervals, the node's thread takes reports.
     """
 
     def __init__(self, hardware: str) -> None:
@@ -25,21 +25,21 @@ class LedgerReport:
         self._balance, self._loosest = Balance(), 0.0
 
     def add(self, window: Window) -> None:
-        """Count an interval in."""
+        """Add an interval."""
         with self._lock:
             self._balance = self._balance.joined(balance_of_window(window))
             self._loosest = max(self._loosest, window.tolerance)
 
     def status(self) -> DiagnosticStatus:
-        """Return the report; a new one begins."""
+        """Return the report of what was added since the last one."""
         with self._lock:
             balance, loosest = self._balance, self._loosest
             self._balance, self._loosest = Balance(), 0.0
-        told = ledger_warning(balance, loosest)
+        warning = ledger_warning(balance, loosest)
         return DiagnosticStatus(
-            level=DiagnosticStatus.WARN if told else DiagnosticStatus.OK,
+            level=DiagnosticStatus.WARN if warning else DiagnosticStatus.OK,
             name=LEDGER,
-            message=told or "closes",
+            message=warning or "closes",
             hardware_id=self._hardware,
             values=[
                 KeyValue(key="residual", value=f"{balance.residual:.6g}"),

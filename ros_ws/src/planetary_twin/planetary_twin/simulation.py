@@ -277,12 +277,12 @@ class Simulation(ManagedNode):
         if live is None or report is None:
             return
 
-        def told(published: Mapping[str, int]) -> DiagnosticArray:
+        def report_now(published: Mapping[str, int]) -> DiagnosticArray:
             message = report.message(live.progress, live.affordable, published, last=last)
             message.status.append(self._ledger.status())
             return message
 
-        message = self._telemetry.diagnose(told)
+        message = self._telemetry.diagnose(report_now)
         self._look_for_company()
         if report.verdict != self._verdict:
             self._verdict = report.verdict
