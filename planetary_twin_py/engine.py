@@ -37,7 +37,7 @@ POINTS = ((3e-3, 3), (3e-4, 4), (0.0, 5))
 LONGEST_STEP = 1e-3  # [s]
 FIRST_STEP = 1e-6  # [s]
 SETTLING = 1.0  # of the period of the speed loop, for which steady running must last to count
-WATCHED = Fraction(1, 10)  # [s] after which it is looked whether a run goes wrong
+WATCHED = Fraction(1, 10)  # [s] from one check of a run against its limits to the next
 LIGHTEST_MESH_LOAD = 1.0  # [N] smaller mesh forces do not tighten the tolerance further
 
 
@@ -74,7 +74,10 @@ class Engine:
         control.step = control.next_step = control.next_stiff = FIRST_STEP
         control.longest = LONGEST_STEP
         control.method = METHODS[method]
-        check_speed_loop(scene, self.train, scene.operating_point)
+        for speed in (scene.drive.speed_control.start_speed, scene.operating_point.input_speed):
+            if speed is not None:
+                where = scene.operating_point.model_copy(update={"input_speed": speed})
+                check_speed_loop(scene, self.train, where)
         self._load(scene.operating_point)
         self.march.begin = self.march.end = start_state(scene, self.model)
         self._compile()
@@ -146,7 +149,7 @@ class Engine:
         return _rows(samples, 0, room)
 
     def _stops(self, until: float | Fraction) -> Iterator[float | Fraction]:
-        """Instants [s] on the way to `until` at which it is looked whether the run goes wrong."""
+        """Instants [s] up to `until` at which the run is checked against its limits."""
         stop = self.reached + WATCHED
         while stop < until:
             yield stop

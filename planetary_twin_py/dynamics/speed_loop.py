@@ -78,7 +78,7 @@ class Loop(NamedTuple):
         return bool(found.real.max() <= ROUNDING * np.abs(found).max())
 
     def limit(self, highest: float) -> float:
-        """Bandwidth [Hz] at which the loop ceases to be stable, or `highest` [Hz] if that is."""
+        """Largest stable bandwidth [Hz] up to `highest` [Hz]."""
         if self.is_stable(highest):
             return highest
         low, high = math.log(SLOWEST), math.log(highest)
@@ -121,10 +121,13 @@ def speed_loop_gains(scene: Scene, train: Record, bandwidth: float) -> Gains:
         scene: whose drive it is.
         train: of `build_train`.
         bandwidth: of the loop [Hz].
+
+    Returns:
+        The gains, which make the loop critically damped on a rigid train.
     """
     w, axes = 2.0 * math.pi * bandwidth, int(train.axes)
     inertia = np.einsum("j,ja,jb->ab", train.mass * train.radius**2, train.ratio, train.ratio)
-    integral = np.diag(inertia) * w**2 / 4.0  # critically damped
+    integral = np.diag(inertia) * w**2 / 4.0
     trim = np.zeros((MACHINES, AXES))
     # The first motor gives just its torque; the load is trimmed so that its speed holds.
     trim[LOAD_MACHINE, 0] = -static_torques(scene)[LOAD_MACHINE] * integral[0]
@@ -140,6 +143,9 @@ def linear_loop(scene: Scene, train: Record, mesh_frequency: float) -> Loop:
         scene: whose drive it is.
         train: of `build_train`.
         mesh_frequency: rate at which teeth pass [Hz], which mesh damping may follow.
+
+    Returns:
+        Its matrices, from which the eigenvalues at any bandwidth follow.
     """
     meshes, machines = int(train.meshes), int(train.machines)
     kind, found = train.kind[:meshes], mean_stiffness(train)

@@ -169,6 +169,8 @@ def test_a_speed_at_which_the_loop_is_unstable_is_refused_and_nothing_changes():
     limits = [loop_of(soft, frequency).limit(100.0) for frequency in (5.0, 500.0)]
     assert limits[0] > 2.0 * limits[1]
     scene = soft.replace(**{FIELD: math.sqrt(0.5 * limits[0] * limits[1])})
+    with pytest.raises(pt.SceneError, match=FIELD):
+        pt.Twin(scene.replace(**{"drive.speed_control.start_speed": pt.rpm(1000.0)}))
     twin, other = pt.Twin(scene), pt.Twin(scene)
     with pytest.raises(pt.SceneError, match=FIELD):
         twin.set(input_speed=pt.rpm(1000.0))
