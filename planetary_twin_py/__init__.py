@@ -29,10 +29,12 @@ if TYPE_CHECKING:
         strongest_lines,
     )
     from .batch import Outcome, simulate_many
+    from .ledger_check import LedgerWarning
     from .modal.modes import NaturalModes
     from .modal.natural import natural_modes
     from .plots.study import plot_study
     from .result import Energy, Result, Stats
+    from .runaway import RunawayError
     from .scene import (
         TUNABLES,
         OperatingPoint,
@@ -58,10 +60,12 @@ _HOME = {
         "strongest_lines",
     ),
     "batch": ("Outcome", "simulate_many"),
+    "ledger_check": ("LedgerWarning",),
     "modal.modes": ("NaturalModes",),
     "modal.natural": ("natural_modes",),
     "plots.study": ("plot_study",),
     "result": ("Energy", "Result", "Stats"),
+    "runaway": ("RunawayError",),
     "scene": (
         "TUNABLES", "OperatingPoint", "Scene", "SceneError", "Tunable", "load_scene",
         "packaged_scenes", "parse_scene",
@@ -78,6 +82,7 @@ __all__ = [
     "ByAngle",
     "Change",
     "Energy",
+    "LedgerWarning",
     "Line",
     "NaturalModes",
     "OperatingPoint",
@@ -86,6 +91,7 @@ __all__ = [
     "Outcome",
     "PowerDensity",
     "Result",
+    "RunawayError",
     "Scene",
     "SceneError",
     "Spectrum",

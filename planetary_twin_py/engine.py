@@ -6,7 +6,9 @@ arrays only; names and messages are for those above it.
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from fractions import Fraction
+from math import floor
 
 import numpy as np
 
@@ -15,7 +17,9 @@ from .dynamics.cycle import common_cycles, turns_per_cycle
 from .dynamics.energy import stored
 from .dynamics.equations import MODEL
 from .dynamics.oil import build_oil
+from .dynamics.speed_loop import bandwidth, check_speed_loop
 from .dynamics.start import build_load, start_state
+from .dynamics.state import IMPULSE
 from .dynamics.static_load import mesh_force, static_torques
 from .dynamics.train import build_train, lightest_body
 from .integrators.clock import NEVER, Sampling, instant, sampling
@@ -23,6 +27,7 @@ from .integrators.interpolant import Samples, new_samples
 from .integrators.march import advance, begin_step, cut
 from .integrators.progress import AUTO, COLLOCATION, MARCH, ROSENBROCK
 from .integrators.radau import radau
+from .runaway import Limits, RunawayError, squeeze
 from .scene import OperatingPoint, Scene
 from .tolerance import check_tolerance
 
@@ -32,6 +37,7 @@ POINTS = ((3e-3, 3), (3e-4, 4), (0.0, 5))
 LONGEST_STEP = 1e-3  # [s]
 FIRST_STEP = 1e-6  # [s]
 SETTLING = 1.0  # of the period of the speed loop, for which steady running must last to count
+WATCHED = Fraction(1, 10)  # [s] from one check of a run against its limits to the next
 LIGHTEST_MESH_LOAD = 1.0  # [N] smaller mesh forces do not tighten the tolerance further
 
 
@@ -62,10 +68,16 @@ class Engine:
         standing = (self.march.begin, self.march.end, self.march.repetition.start)
         self._ledgers = tuple(state.energy for state in standing)
         self._shown: tuple[float | Fraction, Samples] | None = None
+        self._limits = Limits(scene, self.train)
+        self._failure: RunawayError | None = None
         control = self.march.control
         control.step = control.next_step = control.next_stiff = FIRST_STEP
         control.longest = LONGEST_STEP
         control.method = METHODS[method]
+        for speed in (scene.drive.speed_control.start_speed, scene.operating_point.input_speed):
+            if speed is not None:
+                where = scene.operating_point.model_copy(update={"input_speed": speed})
+                check_speed_loop(scene, self.train, where)
         self._load(scene.operating_point)
         self.march.begin = self.march.end = start_state(scene, self.model)
         self._compile()
@@ -104,7 +116,7 @@ class Engine:
             turns = abs(cycles * turns_per_cycle(self.train))
             repetition.numerator, repetition.denominator = turns.numerator, turns.denominator
         repetition.cycles = cycles
-        repetition.pause = SETTLING / self.scene.drive.speed_control.bandwidth
+        repetition.pause = SETTLING / bandwidth(self.scene)
 
     def _accelerating_torque(self) -> np.ndarray:
         """Torque of the first motor [N m] that loads the meshes as each input's acceleration does,
@@ -123,25 +135,66 @@ class Engine:
 
         Returns `room` samples from number `first_sample` on. A time given as a fraction is exact
         however late it is.
-        """
-        samples = self._advance(until, sampling(first_sample, sample_rate), room)
-        return Samples(*(each[:room] for each in samples))
 
-    def _advance(self, until: float | Fraction, at: Sampling, room: int) -> Samples:
-        """The same, and a last sample at `until`."""
-        samples = new_samples(self.train, room + 1)
-        advance(self.model, self.march, instant(until), NEVER, at, samples)
-        self._shown = until, Samples(*(each[room:] for each in samples))
-        return samples
+        Raises:
+            RunawayError: no step leads on, or to what no gearbox can show, see `runaway`.
+        """
+        samples, done = new_samples(self.train, room + 1), 0
+        for stop in self._stops(until):
+            # All that are due by then, and one at the stop, which the next of them overwrites.
+            due = floor(Fraction(stop) * Fraction(sample_rate)) + 1 - first_sample
+            part = room if stop == until else min(max(due, done), room)
+            at = sampling(first_sample + done, sample_rate)
+            self._run(stop, at, _rows(samples, done, part + 1))
+            done = part
+        return _rows(samples, 0, room)
+
+    def _stops(self, until: float | Fraction) -> Iterator[float | Fraction]:
+        """Instants [s] up to `until` at which the run is checked against its limits."""
+        stop = self.reached + WATCHED
+        while stop < until:
+            yield stop
+            stop += WATCHED
+        yield until
+
+    def _run(self, until: float | Fraction, at: Sampling, samples: Samples) -> None:
+        """Fill all `samples` but the last, which is at `until`."""
+        if self._failure is not None:
+            raise self._failure
+        try:
+            advance(self.model, self.march, instant(until), NEVER, at, samples)
+            self._check(samples)
+        except ArithmeticError as reason:
+            self._failure = RunawayError(f"the run stops near {float(self.reached):g} s: {reason}")
+            raise self._failure from None
+        self._shown = until, _rows(samples, len(samples.turns) - 1, None)
+
+    def _check(self, samples: Samples) -> None:
+        """Raise an `ArithmeticError` where the train shows what no gearbox can."""
+        limits = self._limits
+        limits.squeeze.check(squeeze(samples, self.train, self.model.load))
+        limits.speed.check(samples.speed)
+        limits.torque.check(self.powers[None, IMPULSE : IMPULSE + int(self.train.machines)])
 
     def sample(self, time: float | Fraction) -> Samples:
         """One sample at `time` [s], the end of the last window."""
         if self._shown is not None and self._shown[0] == time:
             return self._shown[1]
-        return self._advance(time, sampling(1, 1.0), 0)
+        samples = new_samples(self.train, 1)
+        self._run(time, sampling(1, 1.0), samples)
+        return samples
 
     def change(self, point: OperatingPoint, tolerance: float, time: float | Fraction) -> None:
-        """Run on with these from `time` [s], the end of the last window."""
+        """Run on with these from `time` [s], the end of the last window.
+
+        Raises:
+            ValueError: the speed loop would not be stable there; nothing has changed.
+            RunawayError: the run has been stopped.
+        """
+        if self._failure is not None:
+            raise self._failure
+        if self.scene.mesh.damping.follows_speed:
+            check_speed_loop(self.scene, self.train, point)
         cut(self.model, self.march, instant(time))
         self._shown = None
         self.tolerance = tolerance
@@ -182,3 +235,8 @@ class Engine:
         """Kinetic and elastic energy at `reached` [J]."""
         moving, strained = stored(self.model, self._end, self._aside)
         return float(moving), float(strained)
+
+
+def _rows(samples: Samples, begin: int, end: int | None) -> Samples:
+    """Some of the samples; what is written there is written into them."""
+    return Samples(*(each[begin:end] for each in samples))

@@ -41,6 +41,8 @@ class Energy:
     """Taken by churned oil."""
     stiffness_work: float
     """Put in by the meshes as their stiffness changes with the tooth pairs in contact."""
+    stored: float
+    """Kinetic and elastic energy at the end."""
 
     @property
     def input(self) -> float:

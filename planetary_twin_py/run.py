@@ -8,6 +8,8 @@ from typing import Protocol
 import numpy as np
 
 from ._records import Record
+from .dynamics.speed_loop import check_speed_loop
+from .dynamics.train import build_train
 from .engine import Engine
 from .integrators.interpolant import Samples
 from .quasi_static.engine import QuasiStaticEngine
@@ -71,3 +73,17 @@ def start(scene: Scene, tolerance: float, method: str = "auto") -> Run:
             f"dynamics = {scene.dynamics!r} takes no steps"
         )
     return QuasiStaticEngine(scene, tolerance)
+
+
+def check_point(scene: Scene, point: OperatingPoint) -> None:
+    """Refuse an operating point at which a run of `scene` would not be stable.
+
+    Args:
+        scene: what runs.
+        point: where it is to run.
+
+    Raises:
+        ValueError: the speed loop of the drive is not stable there.
+    """
+    if scene.dynamics == "torsional":
+        check_speed_loop(scene, build_train(scene), point)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import time
+import warnings
 
 import numpy as np
 
@@ -21,12 +22,14 @@ from .dynamics.observe import (
 from .dynamics.state import BEARING, CHURNING, DAMPING, FRICTION, STIFFNESS_WORK, WORK
 from .engine import METHODS
 from .integrators.interpolant import Samples
+from .ledger_check import LedgerWarning, balance_of_run, ledger_warning
 from .result import Energy, Result, Stats
 from .run import Run, start
 from .scene import Scene
 from .tolerance import check_tolerance
 
 MOST_SAMPLES = 20_000_000
+TOLERANCE = 1e-4  # unless one is given
 
 
 def simulate(
@@ -34,7 +37,7 @@ def simulate(
     duration: float,
     sample_rate: float = 50_000.0,
     method: str = "auto",
-    tolerance: float = 1e-4,
+    tolerance: float = TOLERANCE,
 ) -> Result:
     """Simulate `duration` seconds of a scene from steady running.
 
@@ -47,7 +50,11 @@ def simulate(
         tolerance: relative local error of a step.
 
     Raises:
-        ValueError: an argument is out of range.
+        ValueError: an argument is out of range, or the scene cannot be run.
+        RunawayError: the train shows what no gearbox can, see `runaway`.
+
+    Warns:
+        LedgerWarning: the energy ledger does not close, see `ledger_check`.
     """
     check_run(duration, sample_rate, method, tolerance)
     engine = start(scene, tolerance, method)
@@ -56,7 +63,10 @@ def simulate(
     begin = time.perf_counter()
     samples = engine.advance(duration, 1, sample_rate, room)
     wall = time.perf_counter() - begin
-    return _result(scene, engine, samples, sample_rate, stored, wall)
+    result = _result(scene, engine, samples, sample_rate, stored, wall)
+    if text := ledger_warning(balance_of_run(result.energy), tolerance):
+        warnings.warn(text, LedgerWarning, stacklevel=2)
+    return result
 
 
 def check_run(duration: float, sample_rate: float, method: str, tolerance: float) -> None:
@@ -126,4 +136,5 @@ def _energy(engine: Run, stored: tuple[float, float]) -> Energy:
         bearing=float(ledger[BEARING]),
         churning=float(ledger[CHURNING]),
         stiffness_work=float(ledger[STIFFNESS_WORK]),
+        stored=sum(now),
     )

@@ -10,10 +10,11 @@ import numpy as np
 
 from .dynamics.bodies import Ratios, body_names, mesh_names
 from .dynamics.observe import BOUNDARY, DTE, MESH_FORCE, VISCOUS
-from .dynamics.state import BEARING, CHURNING, FRICTION, IMPULSE, WORK
+from .dynamics.state import BEARING, CHURNING, DAMPING, FRICTION, IMPULSE, STIFFNESS_WORK, WORK
 from .gearset.kinematics import mesh_frequency
 from .integrators.interpolant import Samples
 from .run import start
+from .runaway import RunawayError
 from .scene import TUNABLES, OperatingPoint, Scene, SceneError
 from .tolerance import LIVE_TOLERANCE, check_tolerance
 from .window import Stretch, Waveform, Window, mesh_statistics
@@ -139,6 +140,7 @@ class Twin:
 
         Raises:
             ValueError: the duration is not within 0 and 60 s, or the time of 4096 samples.
+            RunawayError: the train shows what no gearbox can; the twin stays at `time` for good.
         """
         longest = max(LONGEST_WINDOW, MOST_SAMPLES / self.sample_rate)
         if not 0.0 < duration <= longest:
@@ -151,7 +153,11 @@ class Twin:
         self._clock += step
         room = self._samples() - first + 1
         repeated = self._engine.repeats
-        samples = self._engine.advance(self._clock, first, self.sample_rate, room)
+        try:
+            samples = self._engine.advance(self._clock, first, self.sample_rate, room)
+        except RunawayError:
+            self._clock -= step  # what was reached before stands
+            raise
         return self._window(step, first, samples, repeated)
 
     def _change(self, point: OperatingPoint, tolerance: float) -> float:
@@ -211,6 +217,8 @@ class Twin:
             machine_power=rate[WORK : WORK + self._machines],
             power_loss=float(rate[FRICTION] + rate[BEARING] + rate[CHURNING]),
             stored_power=stored,
+            stored_energy=self._books[2],
+            residual_power=_residual(rate, self._machines) - stored,
         )
 
     def _stretch(self, step: Fraction, first: int, parts: tuple[Samples, ...]) -> Stretch:
@@ -227,6 +235,12 @@ class Twin:
         relative = np.append(self._end.angle[0], 0.0)[self._names.place]
         whole = [body.part(turns) for body in self._whole_turns]
         return np.mod(2.0 * math.pi * np.array(whole) + relative, 2.0 * math.pi)
+
+
+def _residual(rate: np.ndarray, machines: int) -> float:
+    """Power [W] put in and neither lost nor damped, of the growth `rate` of the ledger."""
+    lost = rate[FRICTION] + rate[DAMPING] + rate[BEARING] + rate[CHURNING]
+    return float(rate[WORK : WORK + machines].sum() + rate[STIFFNESS_WORK] - lost)
 
 
 class _WholeTurns(NamedTuple):

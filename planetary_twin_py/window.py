@@ -72,6 +72,10 @@ class Window:
     """Tooth friction of all meshes, bearings and churning [W]."""
     stored_power: float
     """Rate at which kinetic and elastic energy grow [W]."""
+    stored_energy: float
+    """Kinetic and elastic energy at the end [J]."""
+    residual_power: float
+    """What does not add up of the energy ledger [W]: the error of the integration."""
 
     @property
     def input_speed(self) -> float:

@@ -1,7 +1,7 @@
 """The gearbox of a scene once more, in absolute angles and plain NumPy, to check the compiled one.
 
 Equations of motion as in Salagianni et al. 2017, (18)-(20), with friction as a generalised force;
-nothing here comes from the package but the numbers of the scene. Integrated by DOP853 at a
+nothing here comes from the package but the numbers of the scene and of its speed loop. DOP853 at a
 tolerance near rounding, restarted wherever a tooth pair or a flank changes.
 """
 
@@ -9,6 +9,8 @@ import math
 
 import numpy as np
 from scipy.integrate import solve_ivp
+
+from planetary_twin_py.dynamics.speed_loop import bandwidth
 
 DRIVE, OPEN, COAST = 1, 0, -1
 PAIRS = np.arange(-2, 3)  # tooth pairs considered, by their distance in base pitches
@@ -80,7 +82,7 @@ class Reference:
         ratio /= ratio[self.shafts[0]]
         self.ratio = np.append(ratio, ratio[self.shafts])
         self.total = self.inertia @ self.ratio**2
-        self.bandwidth = 2 * math.pi * self.scene.drive.speed_control.bandwidth
+        self.bandwidth = 2 * math.pi * bandwidth(self.scene)
         self.point, self.half = point, 0.5 * point.backlash
 
     def damping_time(self, motor_speed):

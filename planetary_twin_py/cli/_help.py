@@ -1,4 +1,4 @@
-"""How help is written: plainly, with units in brackets, and examples as one types them."""
+"""What all commands share: plain help with examples as one types them, and how runs fail."""
 
 from __future__ import annotations
 
@@ -6,6 +6,8 @@ import inspect
 from typing import Any
 
 from typer.core import TyperCommand
+
+from ._fail import fail
 
 PLAIN = None  # Rich would take "[s]" for markup
 _EXAMPLE = "\n\nExample: "
@@ -18,6 +20,17 @@ class Command(TyperCommand):
         told, _, example = inspect.cleandoc(help or "").partition(_EXAMPLE)
         self.example = example.splitlines()
         super().__init__(name, help=told, **attributes)
+
+    def invoke(self, ctx: Any) -> Any:
+        """Run the command; a run that cannot go on ends it with one line."""
+        try:
+            return super().invoke(ctx)
+        except ArithmeticError as error:
+            from ..runaway import RunawayError  # loads the compiler, which has run by now
+
+            if not isinstance(error, RunawayError):
+                raise
+            fail(error, 1)
 
     def format_epilog(self, ctx: Any, formatter: Any) -> None:
         """Write the example."""

@@ -52,11 +52,12 @@ def put(
 
 
 def warn(table: pa.Table) -> None:
-    """Tell, in a line, what limits the figures of a study."""
+    """Print what limits the figures of a study, a line each."""
     from ..studies.clipping import clipping_of_study
+    from ..studies.unclosed import unclosed_ledgers
 
-    if told := clipping_of_study(table):
-        remark(f"warning: {told}")
+    for line in filter(None, (clipping_of_study(table), unclosed_ledgers(table))):
+        remark(f"warning: {line}")
 
 
 @contextmanager

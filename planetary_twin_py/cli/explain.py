@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import warnings
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
@@ -32,9 +33,11 @@ def explain(
 
     from ..explanation.measure import explain as measure
     from ..explanation.meshes import describe_meshes
+    from ..ledger_check import LedgerWarning
     from ..scene import load_scene
 
     console = console_beside(json_)
+    warnings.simplefilter("ignore", LedgerWarning)  # it is among the remarks
     try:
         loaded = load_scene(scene)
         meshes = describe_meshes(loaded)

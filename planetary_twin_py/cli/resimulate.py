@@ -62,7 +62,7 @@ def resimulate(
         fail(f"out = {folder}: exists; choose a free name")
     except OSError as error:
         fail(f"{error.filename}: {error.strerror}")
-    except (ValueError, ArithmeticError) as error:
+    except ValueError as error:
         fail(error)
     for line in made.remarks:
         remark(line)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import warnings
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -38,11 +39,13 @@ def simulate(
     """
 
     from ..explanation.remarks import remarks
+    from ..ledger_check import LedgerWarning
     from ..scene import load_scene
     from ..scene.unused import without_effect
     from ..simulation import simulate as run
 
     console = console_beside(json_)
+    warnings.simplefilter("ignore", LedgerWarning)  # it is among the remarks
     try:
         if out is not None and out.suffix not in (*_WRITERS, *_RECORDINGS):
             fail(f"--out = {str(out)!r}: must end in {', '.join(_WRITERS)} or .mcap, or in nothing")
@@ -62,7 +65,7 @@ def simulate(
     for name, value in train.items():
         console.print(f"{_TRAIN[name]:42} {value:.6g}", markup=False)
     console.print(_table(meshes))
-    told = [*without_effect(loaded, changes), *remarks(loaded, result)]
+    told = [*without_effect(loaded, changes), *remarks(loaded, result, tolerance)]
     for line in told:
         remark(f"warning: {line}")
     put_figures(train | meshes | {"remarks": told}, json_)

@@ -14,14 +14,15 @@ import numpy as np
 from .._cholesky import factorise, solve
 from .._compile import kernel
 from .._overwrite import copy_array
-from .._records import AXES, BODIES, MACHINES, REAL, Record, layout, new_record
+from .._records import AXES, BODIES, REAL, Record, layout, new_record
 from ..scene import OperatingPoint, Scene
-from .bodies import LOAD_MACHINE, MOTOR, SECOND_MOTOR
+from .bodies import MOTOR
 from .bristles import creeps
 from .cycle import find_segment, mesh_cycle
 from .equations import EVALUATION, forces
 from .mesh_force import deflection, mesh_stiffness
 from .moment import MOMENT, frame_cycle_rate, set_moment
+from .speed_loop import bandwidth, speed_loop_gains
 from .state import COAST_SIDE, DRIVE_SIDE, LOAD, OPEN, STATE
 from .static_load import mesh_force, static_torques
 from .tooth_friction import add_outer
@@ -35,15 +36,7 @@ SETTLING_PASSES = 3  # the first winds up the couplings, the others find the too
 def build_load(scene: Scene, point: OperatingPoint, train: Record) -> Record:
     """What acts on the train at an operating point."""
     control, axes = scene.drive.speed_control, int(train.axes)
-    torques = static_torques(scene)
-    inertia = np.einsum("j,ja,jb->ab", train.mass * train.radius**2, train.ratio, train.ratio)
-    bandwidth = 2.0 * math.pi * control.bandwidth
-    integral = np.diag(inertia) * bandwidth**2 / 4.0  # critically damped
-    trim_gain = np.zeros((MACHINES, AXES))
-    # The first motor gives just its torque; the load is trimmed so that its speed holds.
-    trim_gain[LOAD_MACHINE, 0] = -torques[LOAD_MACHINE] * integral[0]
-    if axes > 1:
-        trim_gain[SECOND_MOTOR, 1] = integral[1]
+    gains = speed_loop_gains(scene, train, bandwidth(scene))
     half, offset = _play(scene, point)
     return new_record(
         LOAD,
@@ -53,12 +46,12 @@ def build_load(scene: Scene, point: OperatingPoint, train: Record) -> Record:
         release=1.0 if scene.mesh.backlash == "dead_zone" else 0.0,
         target_speed=np.array([point.input_speed, point.second_input_speed][:axes]),
         slew_rate=control.slew_rate,
-        torque=point.input_torque * torques,
+        torque=point.input_torque * static_torques(scene),
         ripple=point.torque_ripple,
         ripple_order=float(control.ripple_order),
-        inertia=inertia,
-        proportional=np.diag(inertia) * bandwidth,
-        trim_gain=trim_gain,
+        inertia=gains.inertia,
+        proportional=gains.proportional,
+        trim_gain=gains.trim,
     )
 
 

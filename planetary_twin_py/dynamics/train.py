@@ -71,10 +71,15 @@ def build_train(scene: Scene) -> Record:
     Raises:
         ValueError: the teeth leave a moment without contact (see `pair_table`).
     """
+    train: Record = _built(unloaded(scene)).copy()
+    return train
+
+
+def unloaded(scene: Scene) -> Scene:
+    """The scene with nothing in its operating point but what the train itself follows from."""
     torque = scene.operating_point.input_torque if stiffness_follows_load(scene) else 0.0
     point = OperatingPoint(backlash=0.0, input_speed=0.0, input_torque=torque)
-    train: Record = _built(scene.model_copy(update={"operating_point": point})).copy()
-    return train
+    return scene.model_copy(update={"operating_point": point})
 
 
 @lru_cache(maxsize=TRAINS_KEPT)

@@ -8,7 +8,7 @@ from typing import NamedTuple
 
 from ..result import Result
 from ..scene import Scene
-from ..simulation import simulate
+from ..simulation import TOLERANCE, simulate
 from ..studies.measures import Glance, glance
 from .remarks import remarks
 from .terms import Term, terms
@@ -41,7 +41,7 @@ def explain(
     for term in terms(scene):
         progress(term.name)
         effects.append(_effect(scene, term, duration))
-    return Explanation(glance(whole), tuple(effects), tuple(remarks(scene, whole)))
+    return Explanation(glance(whole), tuple(effects), tuple(remarks(scene, whole, TOLERANCE)))
 
 
 def _effect(scene: Scene, term: Term, duration: float) -> Effect:

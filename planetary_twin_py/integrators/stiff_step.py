@@ -23,7 +23,7 @@ from .progress import GROW, NO_MESH, SAFETY, SHORTEST_STEP, SHRINK
 from .rosenbrock import ORDER, step
 
 STIFF = 3.0  # by which errors count more
-BRISTLE_SHARE = 10.0  # of the tolerance: error of the share of friction of a pair that holds
+BRISTLE_SHARE = 1.0  # of the tolerance: error of the share of friction of a pair that holds
 ROUNDING = 1e-15  # [m/s] errors of a speed below it are none
 
 

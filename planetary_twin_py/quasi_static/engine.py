@@ -18,6 +18,7 @@ from ..dynamics.train import build_train
 from ..integrators.clock import delay, instant, sampling
 from ..integrators.interpolant import Samples, new_samples
 from ..integrators.progress import CONTROL
+from ..runaway import Limits, RunawayError, squeeze
 from ..scene import OperatingPoint, Scene
 from ..tolerance import check_tolerance
 from .ledger import Ledger, first_guess
@@ -42,6 +43,7 @@ class QuasiStaticEngine:
         # Nothing vibrates, so damping has nothing to do.
         still = scene.replace(**{"mesh.damping.law": "viscous", "mesh.damping.damping_ratio": 0.0})
         self.train = build_train(still)
+        self._limits = Limits(scene, self.train)
         self.control: Record = new_record(CONTROL)
         self.reached = Fraction(0)
         self.repeats = False  # there is nothing to compute again
@@ -81,10 +83,17 @@ class QuasiStaticEngine:
 
         Returns `room` samples from number `first_sample` on. A time given as a fraction is exact
         however late it is.
+
+        Raises:
+            RunawayError: the teeth yield more than they can, see `runaway`.
         """
         samples = new_samples(self.train, room)
         at = sampling(first_sample, sample_rate)
         sample_all(self.model, self.tolerance, self._origin, self._run, at, samples)
+        try:
+            self._limits.squeeze.check(squeeze(samples, self.train, self.model.load))
+        except ArithmeticError as reason:
+            raise RunawayError(f"the run stops before {float(until):g} s: {reason}") from None
         roll(self.model, self._origin, instant(until))
         self.reached = Fraction(until)
         return samples

@@ -6,6 +6,7 @@ import math
 from collections.abc import Iterator
 from pathlib import Path
 
+from ..dynamics.speed_loop import bandwidth
 from ..twin import TICKS
 from .namespaces import choose_namespace
 from .records import RecordingError
@@ -52,7 +53,7 @@ def settling(run: Run, place: int) -> float:
     else:
         before = values | {"input_speed": control.start_speed}
     ramp = max(abs(values[k] - before[k]) for k in ("input_speed", "second_input_speed"))
-    return ramp / control.slew_rate + SETTLING / control.bandwidth
+    return ramp / control.slew_rate + SETTLING / bandwidth(run.origin.scene)
 
 
 def between(run: Run, begin: float, end: float) -> list[Interval]:

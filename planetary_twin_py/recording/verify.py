@@ -10,6 +10,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from ..ledger_check import Balance, balance_of_window, ledger_warning
 from ..window import Window
 from .again import Again
 from .fields import joint_fields, state_fields, waveform_fields
@@ -49,6 +50,8 @@ class Verdict:
     largest: float = 0.0
     """Largest difference of a value, relative to the largest of its array times the tolerance."""
     remarks: list[str] = field(default_factory=list)
+    ledger: str | None = None
+    """Where the energy ledger of what was compared does not close: what that means."""
 
     @property
     def identical(self) -> bool:
@@ -76,13 +79,17 @@ def verify(
     here = makers_here()
     verdict.same_makers = all(run.origin.makers == here for run in runs)
     verdict.not_recorded = sum(_missing(run) for run in runs)
-    again, strays = Again(runs, verdict.remarks), Counter[str]()
+    again, strays, balance, loosest = Again(runs, verdict.remarks), Counter[str](), Balance(), 0.0
     for topic, message in messages_of(path, namespace, (STATE, WAVEFORM, JOINTS), []):
         if found := again.interval_of(topic, message):
             _compare(verdict, topic, message, *found)
+            if topic == STATE:
+                balance = balance.joined(balance_of_window(found[1]))
+                loosest = max(loosest, found[0].tolerance)
             progress(found[1].end)
         else:
             strays[topic] += 1
+    verdict.ledger = ledger_warning(balance, loosest)
     verdict.left_out = strays.total()
     verdict.remarks += [
         f"{count} messages of {topic} belong to no interval that is simulated again"

@@ -26,7 +26,14 @@ class Machine(Section):
 class SpeedControl(Section):
     """How the drive reaches and keeps the speed, and how its torque fluctuates."""
 
-    bandwidth: float = quantity("Hz", "bandwidth of the speed loop", 3.0, gt=0.0, le=100.0)
+    bandwidth: float | None = quantity(
+        "Hz",
+        "bandwidth of the speed loop; not given: 3 Hz, or less where soft couplings or large "
+        "inertias ask for it",
+        None,
+        gt=0.0,
+        le=100.0,
+    )
     slew_rate: float = quantity(
         "rad/s^2", "slew rate of the speed set-point", 500.0, gt=0.0, le=1e6
     )

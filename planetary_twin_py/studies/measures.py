@@ -7,6 +7,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from ..ledger_check import balance_of_window
 from ..result import Result
 from ..scene import Scene
 from ..twin import Twin
@@ -56,6 +57,7 @@ MESH = {
     "power_loss": MeshMeasure("W", "tooth friction of all these meshes, mean", np.sum),
 }
 SIDES = ("sun_planet", "planet_ring")
+EXCESS = "ledger_excess"  # column of a table, see `ledger_check`
 CLIPPED = "viscous_friction_clipped"  # column of a table, after the kind of mesh
 
 MEASURES: dict[str, Measure] = TRAIN | {
@@ -72,6 +74,12 @@ MEASURES |= {
         "is clipped to zero, as the pressure is too low for its law",
     )
     for side in SIDES
+}
+MEASURES |= {
+    EXCESS: Measure(
+        "",
+        "residual of the energy ledger over what is allowed; above 1, losses are uncertain",
+    )
 }
 """Every figure of a row, in its order."""
 
@@ -114,7 +122,8 @@ def row(scene: Scene, window: Window) -> Row:
     for side, values in mesh_rows(window.mesh).items():
         figures |= {f"{side}_{name}": value for name, value in values.items()}
     shares = clipped_friction(scene, window)
-    return figures | {f"{side}_{CLIPPED}": share for side, share in shares.items()}
+    figures |= {f"{side}_{CLIPPED}": share for side, share in shares.items()}
+    return figures | {EXCESS: balance_of_window(window).excess}
 
 
 def clipped_friction(scene: Scene, run: Result | Window) -> dict[str, float]:

@@ -25,7 +25,7 @@ def heavy():
 
 def test_a_heavy_load_has_viscous_friction_throughout(heavy):
     assert clipped_friction(HEAVY, heavy) == {"sun_planet": 0.0, "planet_ring": 0.0}
-    assert list(remarks(HEAVY, heavy)) == []
+    assert list(remarks(HEAVY, heavy, 1e-4)) == []
 
 
 @pytest.mark.parametrize("dynamics", ["torsional", "quasi_static"])
@@ -34,7 +34,7 @@ def test_a_light_load_has_none_and_that_is_told(dynamics):
     run = pt.simulate(scene, 0.01)
     assert run.boundary_friction.max() > 0.0
     assert clipped_friction(scene, run) == {"sun_planet": 1.0, "planet_ring": 1.0}
-    (line,) = remarks(scene, run)
+    (line,) = remarks(scene, run, 1e-4)
     assert "for 100 % (sun-planet meshes) and 100 % (planet-ring meshes) of the time" in line
 
 
@@ -46,7 +46,7 @@ def test_only_the_kind_of_mesh_that_is_clipped_is_told(heavy):
     shares = clipped_friction(scene, run)
     assert shares["sun_planet"] == 0.0
     assert shares["planet_ring"] == pytest.approx(99.5 / 499 / 3, rel=1e-9)
-    (line,) = remarks(scene, run)
+    (line,) = remarks(scene, run, 1e-4)
     assert "sun-planet" not in line and "6.65 %" in line
 
 
@@ -62,7 +62,7 @@ def test_teeth_that_have_parted_are_not_clipped(heavy):
 def test_neither_a_scene_without_friction_nor_the_printed_law_is_told():
     for change in ({"lubrication.friction": False}, {"lubrication.traction": "printed"}):
         scene = LIGHT.replace(**change)
-        assert list(remarks(scene, pt.simulate(scene, 0.005))) == []
+        assert list(remarks(scene, pt.simulate(scene, 0.005), 1e-4)) == []
 
 
 def test_a_film_that_carries_all_of_the_load_is_told_too():

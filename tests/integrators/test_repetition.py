@@ -9,6 +9,7 @@ from stability.sound import PAPER
 import planetary_twin_py as pt
 from planetary_twin_py.dynamics.cycle import common_cycles
 from planetary_twin_py.dynamics.observe import DTE, MESH_FORCE
+from planetary_twin_py.dynamics.speed_loop import bandwidth
 from planetary_twin_py.dynamics.start import build_load
 from planetary_twin_py.dynamics.state import (
     BEARING,
@@ -41,7 +42,7 @@ class Settled:
     """A run of a scene until it has settled, and what is seen just before."""
 
     def __init__(self, scene, method):
-        end = PERIODS / scene.drive.speed_control.bandwidth
+        end = PERIODS / bandwidth(scene)
         first = math.floor(end * 20_000) - 19
         self.engine = Engine(scene, TOLERANCE, method)
         stored = sum(self.engine.stored())
@@ -94,7 +95,7 @@ def test_ten_minutes_later_the_gears_are_where_the_set_point_says():
 @pytest.mark.parametrize("change", [{"lambda_ratio": 2.0}, {"input_torque": 20.0}])
 def test_a_change_acts_at_its_instant_on_what_repeats(change):
     """Its path is that of a run in which nothing ever repeats."""
-    seen, end = [], PERIODS / PAPER.drive.speed_control.bandwidth
+    seen, end = [], PERIODS / bandwidth(PAPER)
     for method in ("auto", "march"):
         engine = Engine(PAPER, TOLERANCE, method)
         engine.advance(end, 1, 1.0, 0)

@@ -53,6 +53,7 @@ class Reports:
         (10.0, 0.0, {"overruns": 3}, DiagnosticStatus.WARN, "falls behind: real time x 1.000, 3 "),
         (4.0, 0.0, {}, DiagnosticStatus.ERROR, "falls far behind: real time x 0.400"),
         (4.0, 0.0, {"state": State.PAUSED}, DiagnosticStatus.OK, "paused"),
+        (4.0, 3.0, {"state": State.FAILED}, DiagnosticStatus.ERROR, "failed: "),
         (7.0, 3.0, {}, DiagnosticStatus.STALE, "stands still: the interval in progress has"),
         (7.0, 3.0, {"last": True}, DiagnosticStatus.OK, "keeps up"),
     ],

@@ -7,7 +7,11 @@ from stability.sound import PAPER
 import planetary_twin_py as pt
 
 STIFF = {"mesh.sun_planet_stiffness": 1e13, "mesh.planet_ring_stiffness": 1e13}
-UNEQUAL = {"mesh.sun_planet_stiffness": 1e11, "mesh.planet_ring_stiffness": 1e5}
+UNEQUAL = {  # the soft teeth yield by more than a millimetre
+    "mesh.sun_planet_stiffness": 1e11,
+    "mesh.planet_ring_stiffness": 1e5,
+    "input_torque": 5.0,
+}
 OVERDAMPED = {
     "input_speed": 0.1,
     "mesh.damping.loss_factor": 1.0,

@@ -71,7 +71,7 @@ JAMMED = PAPER.replace(
     **{
         "mesh.damping.law": "natural_frequency",
         "mesh.sun_planet_error": {"amplitudes": [1e-4]},
-        "drive.speed_control.bandwidth": 100.0,
+        "drive.speed_control.bandwidth": 30.0,
     },
 )
 

@@ -12,6 +12,7 @@ from typing import NamedTuple, Protocol
 
 from planetary_twin_py import OperatingPoint, Twin, Window
 from planetary_twin_py.affordable import Affordable, Setting
+from planetary_twin_py.runaway import RunawayError
 
 from .orders import Orders
 from .pacing import Pace
@@ -55,6 +56,7 @@ class State(StrEnum):
     RUNNING = "running"
     PAUSED = "paused"
     WAITING = "waits"
+    FAILED = "failed"
 
 
 class Progress(NamedTuple):
@@ -68,6 +70,7 @@ class Progress(NamedTuple):
     overruns: int
     repeats: bool  # steady running, which is not computed again
     state: State
+    failure: str = ""  # why it has failed
 
 
 class LiveTwin:
@@ -96,6 +99,7 @@ class LiveTwin:
         self._orders = Orders(self._set)
         self._ramps = Ramps()
         self._paused = False
+        self._failure = ""  # why the twin stays where it is until a restart
         self._stands = True
         self._untold = True  # an operating point that is in force
         self._thread = threading.Thread(target=self._run, name="twin", daemon=True)
@@ -148,8 +152,7 @@ class LiveTwin:
                 self._announce()
                 for answer in answers:
                     answer()
-                if not self._stands:
-                    self._pass(self._interval, self._pace.wait)
+                if not self._stands and self._pass(self._interval, self._pace.wait):
                     before, self._mark = self._mark, time.monotonic()
                     self._ran += self._interval
                     self._lasted += self._mark - before
@@ -167,16 +170,20 @@ class LiveTwin:
                 self._listener.goes_on(self._twin)
             self._listener.changed(self._twin.operating_point, self._twin.time)
 
-    def _pass(self, duration: float, wait: Callable[[], None]) -> None:
+    def _pass(self, duration: float, wait: Callable[[], None]) -> bool:
         """
-        Compute one interval, and publish it after `wait`.
+        Compute one interval, and publish it after `wait`; returns whether the twin could.
 
         The setting is the affordable one as far as is known; only the wait costs nothing.
         """
         affordable = self.affordable
         self._tune(affordable)
         begin = time.monotonic()
-        window = self._twin.advance(duration)
+        try:
+            window = self._twin.advance(duration)
+        except RunawayError as reason:  # nothing of the interval is published
+            self._failure = str(reason)
+            return False
         self._listener.prepare(window)
         prepared = time.monotonic()
         wait()
@@ -184,6 +191,7 @@ class LiveTwin:
         self._listener.publish()
         affordable.observe(time.monotonic() - begin - waited, window.repeated)
         self._repeated = window.repeated
+        return True
 
     def _tune(self, affordable: Affordable) -> None:
         twin, setting = self._twin, affordable.setting
@@ -198,12 +206,14 @@ class LiveTwin:
         return self._change(values)
 
     def _change(self, values: Mapping[str, float]) -> float:
+        self._refuse_after_failure()
         instant = self._twin.set(**values)
         self.affordable.relearn()
         self._untold = True
         return instant
 
     def _ramp(self, values: Mapping[str, float], duration: float) -> float:
+        self._refuse_after_failure()
         point = self._twin.operating_point
         first = {name: getattr(point, name) for name in values}
         self._ramps.start(self._twin.time, duration, first, values)
@@ -220,11 +230,17 @@ class LiveTwin:
             self._ramps.clear()
             self._listener.refused(str(refusal))
 
+    def _refuse_after_failure(self) -> None:
+        if self._failure:
+            raise ValueError(f"{self._failure}; ~/reset starts a new run with the parameters")
+
     def _pause(self, paused: bool) -> float:
+        self._refuse_after_failure()
         self._paused = paused
         return self._twin.time
 
     def _step(self, duration: float) -> float:
+        self._refuse_after_failure()
         if not self._paused:
             raise ValueError(f"duration = {duration:g} s: the twin runs; pause it first")
         if not 0.0 < duration <= LONGEST_STEP:
@@ -239,6 +255,7 @@ class LiveTwin:
             self._announce()
             self._pass(min(self._interval, left), lambda: None)
             self.progress = self._standing()
+            self._refuse_after_failure()
         return self._twin.time
 
     def _restart(self, twin: Twin) -> float:
@@ -246,15 +263,22 @@ class LiveTwin:
         twin.set_tolerance(self._twin.tolerance)
         twin.set_sample_rate(self._twin.sample_rate)
         self._twin = twin
+        self._failure = ""
         self._stands = self._untold = True
         self.progress = self._standing()
         return twin.time
 
     def _halted(self) -> bool:
-        return self._paused or not self._listener.ready()
+        return bool(self._failure) or self._paused or not self._listener.ready()
+
+    def _state(self) -> State:
+        if self._failure:
+            return State.FAILED
+        if self._paused:
+            return State.PAUSED
+        return State.WAITING if self._stands else State.RUNNING
 
     def _standing(self) -> Progress:
-        waits = State.WAITING if self._stands else State.RUNNING
         return Progress(
             self._twin.time,
             time.monotonic(),
@@ -263,5 +287,6 @@ class LiveTwin:
             time.thread_time(),
             self._pace.overruns,
             self._repeated,
-            State.PAUSED if self._paused else waits,
+            self._state(),
+            self._failure,
         )

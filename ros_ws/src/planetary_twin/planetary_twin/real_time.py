@@ -36,6 +36,7 @@ WAITS_LONG = Verdict(DiagnosticStatus.WARN, "waits")
 THINNED = Verdict(DiagnosticStatus.WARN, "keeps up with a thinned waveform")
 FALLS_BEHIND = Verdict(DiagnosticStatus.WARN, "falls behind")
 FALLS_FAR_BEHIND = Verdict(DiagnosticStatus.ERROR, "falls far behind")
+FAILED = Verdict(DiagnosticStatus.ERROR, "failed")
 STANDS = Verdict(DiagnosticStatus.STALE, "stands still")
 
 
@@ -93,6 +94,7 @@ class RealTimeReport:
             FALLS_BEHIND: f"real time x {recent:.3f}, {overruns} overruns",
             FALLS_FAR_BEHIND: f"real time x {recent:.3f}, {overruns} overruns",
             WAITS_LONG: "for the first message on /clock, or for the node that wait_for names",
+            FAILED: f"{now.failure}; ~/reset starts a new run with the parameters",
             STANDS: f"the interval in progress has not ended for {silence:.1f} s",
         }
         told = [self.verdict.text, details.get(self.verdict, "")]
@@ -104,6 +106,7 @@ class RealTimeReport:
         )
         figures: dict[str, object] = {
             "state": "stopped" if last else now.state,
+            "failure": now.failure,
             "real_time_factor": f"{recent:.4f}",
             "real_time_factor_mean": f"{self._mean(now):.4f}",
             "rate_factor": f"{self._rate_factor:g}",
@@ -126,6 +129,8 @@ class RealTimeReport:
     def _judge(
         self, now: Progress, affordable: Affordable, recent: float, silence: float
     ) -> Verdict:
+        if now.state == State.FAILED:
+            return FAILED
         if silence > self._period + _STALL:
             return STANDS
         if now.state == State.PAUSED:

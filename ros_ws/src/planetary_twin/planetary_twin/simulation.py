@@ -6,17 +6,20 @@ import gc
 import math
 import sys
 import traceback
+from collections.abc import Mapping
 from concurrent.futures import Future
 
-from diagnostic_msgs.msg import DiagnosticStatus
+from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
 from planetary_twin_msgs.srv import NaturalModes, SetOperatingPoint
 from rclpy.parameter import Parameter
 
 import planetary_twin_py as pt
 from planetary_twin_py.affordable import Affordable, Setting
 from planetary_twin_py.robot import frames, robot_description
+from planetary_twin_py.runaway import RunawayError
 
 from .audience import Audience
+from .ledger_report import LedgerReport
 from .live import LiveTwin, Progress
 from .managed import ManagedNode, NodeError, run_node
 from .parameters import brief
@@ -48,6 +51,7 @@ class Simulation(ManagedNode):
         self._submitted: Future[float] | None = None
         self._ramp = 0.0  # [s] in which what is being set is to be reached
         self._given = given = SimulationParameters(self)
+        self._ledger = LedgerReport(self.get_namespace())
         self.add_post_set_parameters_callback(self._submit)
         self._telemetry = Telemetry(
             self,
@@ -74,7 +78,10 @@ class Simulation(ManagedNode):
     def activate(self) -> None:
         """Run from where the twin stands, with what was set while it stood."""
         twin = self._running_twin()
-        twin.set(**self._given.point())
+        try:
+            twin.set(**self._given.point())
+        except RunawayError as reason:
+            raise NodeError(f"{reason}; clean up and configure the node for a new run") from None
         given, affordable = self._given, self._given.affordable(twin)
         self._audience.begin()
         self._live = LiveTwin(twin, 1.0 / given.rate, given.rate_factor, affordable, self)
@@ -103,6 +110,7 @@ class Simulation(ManagedNode):
     def prepare(self, window: pt.Window) -> None:
         """Turn an interval into messages ahead of its wall instant."""
         self._telemetry.prepare(window)
+        self._ledger.add(window)
 
     def publish(self) -> None:
         """Send them at that instant."""
@@ -188,10 +196,21 @@ class Simulation(ManagedNode):
         if any(p.name == TOLERANCE.name for p in parameters):
             self._live.affordable = self._given.affordable(self._running_twin())
         values = tunables(parameters)
-        if values and self._ramp > 0.0:
+        if not values:
+            return
+        before = self._submitted
+        if self._ramp > 0.0:
             self._submitted = self._live.ramp(values, self._ramp)
-        elif values:
+        else:
             self._submitted = self._live.submit(values)
+        if self._submitted is not before:  # changes between two intervals are one
+            self._submitted.add_done_callback(self._report_refusal)
+
+    def _report_refusal(self, submitted: Future[float]) -> None:
+        """Say why the twin does not follow its parameters though they are within their ranges."""
+        refusal = submitted.exception()
+        if refusal is not None and self._live is not None:
+            self.get_logger().warning(f"the twin does not follow its parameters: {refusal}")
 
     def _set_operating_point(
         self, request: SetOperatingPoint.Request, response: SetOperatingPoint.Response
@@ -257,9 +276,13 @@ class Simulation(ManagedNode):
         live, report = live or self._live, self._report
         if live is None or report is None:
             return
-        message = self._telemetry.diagnose(
-            lambda published: report.message(live.progress, live.affordable, published, last=last)
-        )
+
+        def report_now(published: Mapping[str, int]) -> DiagnosticArray:
+            message = report.message(live.progress, live.affordable, published, last=last)
+            message.status.append(self._ledger.status())
+            return message
+
+        message = self._telemetry.diagnose(report_now)
         self._look_for_company()
         if report.verdict != self._verdict:
             self._verdict = report.verdict
@@ -281,7 +304,10 @@ class Simulation(ManagedNode):
             self.get_logger().error(status.message)
 
     def _new_twin(self) -> pt.Twin:
-        return pt.Twin(self._given.scene_now(), sample_rate=self._given.sample_rate)
+        try:
+            return pt.Twin(self._given.scene_now(), sample_rate=self._given.sample_rate)
+        except RunawayError as reason:
+            raise ValueError(str(reason)) from None
 
     def _new_report(self, twin: pt.Twin, begun: Progress) -> RealTimeReport:
         return RealTimeReport(

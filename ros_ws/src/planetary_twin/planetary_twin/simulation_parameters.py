@@ -8,6 +8,7 @@ from rclpy.parameter import Parameter
 
 import planetary_twin_py as pt
 from planetary_twin_py.affordable import Affordable, Setting, settings_of
+from planetary_twin_py.run import check_point
 from planetary_twin_py.tolerance import AUTOMATIC, LIVE_TOLERANCE, TOLERANCES, ladder_of
 
 from .audience import PATIENCE
@@ -27,6 +28,7 @@ TOLERANCE = pt.Tunable(
     AUTOMATIC,
     TOLERANCES[1],
 )
+_SPEEDS = ("input_speed", "second_input_speed")
 
 
 class SimulationParameters:
@@ -76,6 +78,7 @@ class SimulationParameters:
             default = getattr(self.scene.operating_point, tunable.name)
             declare_tunable(node, tunable, default, "operating_point")
         self.scene = self.scene_now()
+        check_point(self.scene, self.scene.operating_point)
         numbers = {*pt.TUNABLES, TOLERANCE.name}
         node.add_pre_set_parameters_callback(lambda given: coerce(given, numbers))
         node.add_on_set_parameters_callback(self._validate)
@@ -105,7 +108,9 @@ class SimulationParameters:
 
     def _validate(self, parameters: list[Parameter]) -> SetParametersResult:
         try:
-            self.scene.replace(**self.point() | tunables(parameters))
+            changed = self.scene.replace(**self.point() | tunables(parameters))
+            if any(p.name in _SPEEDS for p in parameters):
+                check_point(self.scene, changed.operating_point)
             for wanted in (p.value for p in parameters if p.name == TOLERANCE.name):
                 ladder_of(wanted)
         except ValueError as refusal:

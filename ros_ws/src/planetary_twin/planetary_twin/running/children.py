@@ -94,3 +94,8 @@ class Child:
         """Return the last line the process printed, or nothing."""
         lines = self.words().strip().splitlines()
         return lines[-1] if lines else ""
+
+    def complaint(self) -> str:
+        """Return what the node has last logged as an error, or nothing."""
+        lines = [line for line in self.words().splitlines() if line.startswith("[ERROR]")]
+        return lines[-1].partition("]: ")[2] if lines else ""

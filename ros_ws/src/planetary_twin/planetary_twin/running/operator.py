@@ -58,7 +58,8 @@ class Operator(Client):
         """
         Return the newest state whose number is above `after`; None while simulated time stands.
 
-        Raises `RunError` after `seconds` without one in which the twin runs.
+        Raises `RunError` where the twin has failed, or after `seconds` without a state in which
+        it runs.
         """
         deadline = time.monotonic() + seconds
 
@@ -66,6 +67,8 @@ class Operator(Client):
             return self.state is not None and self.state.sequence > after
 
         while not self.wait(later, _POLL):
+            if failure := self.figures.get("failure"):
+                raise RunError(f"simulation: {failure}")
             if self.stands():
                 return None
             if time.monotonic() > deadline:

@@ -69,7 +69,7 @@ def _run(plan: Plan, console: Console) -> Outcome:
             Show(console, plan.duration) as show,
         ):
             with _nothing_left(logger, plan.folder):
-                _begin(operator)
+                _begin(operator, simulation)
             with contextlib.suppress(KeyboardInterrupt), _told_where(plan.folder):
                 _drive(operator, plan, show)
             with _undisturbed():
@@ -99,13 +99,13 @@ def _simulation_parameters(plan: Plan) -> dict[str, object]:
     }
 
 
-def _begin(operator: Operator) -> None:
+def _begin(operator: Operator, simulation: Child) -> None:
     """Bring the twin up; what goes wrong may be that another run's simulation answered."""
     try:
         _bring_up(operator)
-    except RunError:
+    except RunError as failure:
         _refuse_company(operator)
-        raise
+        raise RunError(": ".join(filter(None, (str(failure), simulation.complaint())))) from None
 
 
 def _bring_up(operator: Operator) -> None:

@@ -1,0 +1,49 @@
+"""Reports in /diagnostics whether the energy ledger of the twin closes."""
+
+from __future__ import annotations
+
+import threading
+
+from diagnostic_msgs.msg import DiagnosticStatus, KeyValue
+
+from planetary_twin_py import Window
+from planetary_twin_py.ledger_check import Balance, balance_of_window, ledger_warning
+
+LEDGER = "simulation: energy ledger"
+
+
+class LedgerReport:
+    """
+    Checks the intervals since the last report as one run.
+
+    The twin's thread adds intervals, the node's thread takes reports.
+    """
+
+    def __init__(self, hardware: str) -> None:
+        self._hardware = hardware
+        self._lock = threading.Lock()
+        self._balance, self._loosest = Balance(), 0.0
+
+    def add(self, window: Window) -> None:
+        """Add an interval."""
+        with self._lock:
+            self._balance = self._balance.joined(balance_of_window(window))
+            self._loosest = max(self._loosest, window.tolerance)
+
+    def status(self) -> DiagnosticStatus:
+        """Return the report of what was added since the last one."""
+        with self._lock:
+            balance, loosest = self._balance, self._loosest
+            self._balance, self._loosest = Balance(), 0.0
+        warning = ledger_warning(balance, loosest)
+        return DiagnosticStatus(
+            level=DiagnosticStatus.WARN if warning else DiagnosticStatus.OK,
+            name=LEDGER,
+            message=warning or "closes",
+            hardware_id=self._hardware,
+            values=[
+                KeyValue(key="residual", value=f"{balance.residual:.6g}"),
+                KeyValue(key="loss", value=f"{balance.loss:.6g}"),
+                KeyValue(key="excess", value=f"{balance.excess:.6g}"),
+            ],
+        )
