@@ -8,6 +8,8 @@ from typing import Annotated
 
 import typer
 
+from ._output import output_file
+
 RECORDINGS = Path("recordings")
 _PACKAGED = Path(__file__).parents[1] / "scene" / "packaged"
 
@@ -66,7 +68,10 @@ SetOption = Annotated[
     ),
 ]
 JsonOption = Annotated[
-    str | None, typer.Option("--json", metavar="FILE", help="Write figures; - prints them.")
+    str | None,
+    typer.Option(
+        "--json", metavar="FILE", help="Write figures; - prints them.", callback=output_file
+    ),
 ]
 NamespaceOption = Annotated[
     str | None, typer.Option("--namespace", help="Which gearbox, if the recording holds several.")

@@ -10,7 +10,8 @@ import typer
 from ._arguments import JsonOption, SceneArgument, SetOption
 from ._fail import fail, need
 from ._figures import console_beside, put_figures
-from ._settings import settings
+from ._output import output_file
+from ._settings import changed_scene, settings
 
 if TYPE_CHECKING:
     from rich.table import Table
@@ -27,7 +28,8 @@ def modal(
     ] = "torsional",
     set_: SetOption = None,
     campbell: Annotated[
-        Path | None, typer.Option(metavar="FILE.png", help="Draw the Campbell diagram.")
+        Path | None,
+        typer.Option(metavar="FILE.png", help="Draw the Campbell diagram.", callback=output_file),
     ] = None,
     json_: JsonOption = None,
 ) -> None:
@@ -43,10 +45,9 @@ def modal(
     from ..modal.campbell import resonances
     from ..modal.modes import modes_of
     from ..modal.natural import natural_modes, spring_model
-    from ..scene import load_scene
 
     try:
-        loaded = load_scene(scene).replace(**settings(set_ or []))
+        loaded = changed_scene(scene, settings(set_ or []))
         single = natural_modes(loaded, model)
         springs = spring_model(loaded, model, "mean")
     except ValueError as error:

@@ -10,6 +10,7 @@ import typer
 from ._arguments import FileArgument, NamespaceOption, SetOption
 from ._console import make_console
 from ._fail import fail, need, remark
+from ._output import check_recording
 from ._settings import settings
 
 
@@ -45,6 +46,7 @@ def resimulate(
     from ..recording.tape import Tape
 
     folder = out or file.with_name(f"{file.stem}_again")
+    check_recording("--out", folder)
     console = make_console()
     try:
         branch = Branch(settings(set_ or []), from_, duration, run)
@@ -58,8 +60,6 @@ def resimulate(
                 folder,
                 lambda time, end: progress.update(task, completed=time, total=end),
             )
-    except FileExistsError:
-        fail(f"out = {folder}: exists; choose a free name")
     except OSError as error:
         fail(f"{error.filename}: {error.strerror}")
     except (ValueError, ArithmeticError) as error:

@@ -15,6 +15,7 @@ import typer
 from ._arguments import complete_recording, complete_scene
 from ._fail import fail, need, remark
 from ._live import look_at_twin, tell
+from ._output import output_file
 
 if TYPE_CHECKING:
     from ..recording.reader import Recording
@@ -35,9 +36,14 @@ def view(
             "another. Without: the twin that runs.",
         ),
     ] = None,
-    save: Annotated[Path | None, typer.Option(help="Write a Rerun file (.rrd) instead.")] = None,
+    save: Annotated[
+        Path | None, typer.Option(help="Write a Rerun file (.rrd) instead.", callback=output_file)
+    ] = None,
     screenshot: Annotated[
-        Path | None, typer.Option(help="Write a picture (.png) instead; needs no display.")
+        Path | None,
+        typer.Option(
+            help="Write a picture (.png) instead; needs no display.", callback=output_file
+        ),
     ] = None,
     at: Annotated[
         float | None, typer.Option(help="Time cursor of the picture: simulated time in seconds.")
