@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from ._arguments import JsonOption, SceneArgument
+from ._console import put_together
 from ._fail import fail, remark
 from ._figures import console_beside, put_figures
 from ._interrupt import interruptible
@@ -33,7 +34,7 @@ def explain(
     from ..explanation.measure import explain as measure
     from ..explanation.meshes import describe_meshes
     from ..scene import load_scene
-    from ..scene.summary import summary
+    from ..scene.summary import gears
 
     console = console_beside(json_)
     try:
@@ -49,10 +50,9 @@ def explain(
         fail(error)
     told = f": {loaded.description}" if loaded.description else ""
     console.print(f"[bold]{loaded.name}[/bold]{told}\n")
-    for line in summary(loaded):
-        console.print(line, highlight=False, markup=False)
+    put_together(console, "gears", gears(loaded))
     console.print()
-    console.print(_mesh_table(meshes))
+    console.print(_mesh_table(loaded, meshes))
     console.print(_table(loaded, found))
     console.print(_limits(loaded))
     for line in found.remarks:
@@ -60,13 +60,23 @@ def explain(
     put_figures(_as_figures(found) | _mesh_figures(meshes), json_)
 
 
-def _mesh_table(meshes: Meshes) -> Table:
+def _mesh_table(scene: Scene, meshes: Meshes) -> Table:
     from rich.table import Table
 
+    from ..units import rpm
+
+    point = scene.operating_point
+    inputs = (point.input_speed, point.second_input_speed)[: len(scene.drive.inputs)]
+    speed = " and ".join(f"{speed / rpm(1.0):.6g} rpm" for speed in inputs)
+    figures = (  # a line each, as a table folds its caption between a value and its unit, too
+        f"mesh frequency f_m {meshes.mesh_frequency:.4g} Hz",
+        f"input speed {speed}",
+        f"input torque {point.input_torque:.4g} N m",
+    )
     table = Table(
         "",
         title="Meshes at the operating point",
-        caption=f"mesh frequency f_m {meshes.mesh_frequency:.4g} Hz",
+        caption="\n".join(figures),
     )
     for side in ("sun-planet", "planet-ring"):
         table.add_column(side, justify="right")

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from ._arguments import JsonOption, SceneArgument, SetOption, ToleranceOption
+from ._console import put_together
 from ._fail import fail, need, remark
 from ._figures import console_beside, put_figures
 from ._interrupt import interruptible
@@ -39,7 +40,7 @@ def simulate(
     """
 
     from ..explanation.remarks import remarks
-    from ..scene.summary import summary
+    from ..scene.summary import gears, operating_point
     from ..scene.unused import without_effect
     from ..simulation import simulate as run
 
@@ -58,8 +59,8 @@ def simulate(
     except (ValueError, OSError) as error:
         fail(error)
     train, meshes = _train(loaded, result), _meshes(result)
-    for line in summary(loaded):
-        console.print(line, highlight=False, markup=False)
+    put_together(console, "gears", gears(loaded))
+    put_together(console, "operating point", operating_point(loaded))
     for name, value in train.items():
         console.print(f"{_TRAIN[name]:42} {value:.6g}", markup=False)
     console.print(_table(meshes))

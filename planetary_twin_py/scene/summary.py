@@ -1,40 +1,34 @@
-"""A scene in two lines, in the units that engineers use: a wrong unit shows here first."""
+"""A scene in a few words, in the units that engineers use: a wrong unit shows here first."""
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterator
 
 from ..units import customary
 from .scene import Scene
 
 
-def summary(scene: Scene) -> Iterator[str]:
-    """The gears and the operating point of a scene.
-
-    Args:
-        scene: to describe.
-
-    Yields:
-        A line for each of them.
-    """
-    gearset, point = scene.gearset, scene.operating_point
+def gears(scene: Scene) -> Iterator[str]:
+    """What the gears of a scene are, thing by thing, each with its unit."""
+    gearset = scene.gearset
     teeth = gearset.teeth
-    positions = ", ".join(f"{math.degrees(angle):.4g}" for angle in gearset.planet_angles)
-    lengths = (
-        f"{name} {customary(value, 'm')}"
-        for name, value in (("module", gearset.module), ("face width", gearset.face_width))
-    )
-    angles = [f"pressure angle {customary(gearset.pressure_angle, 'rad')}"]
+    yield f"{teeth.sun}/{teeth.planet}/{teeth.ring} teeth"
+    yield f"module {customary(gearset.module, 'm')}"
+    yield f"face width {customary(gearset.face_width, 'm')}"
+    yield f"pressure angle {customary(gearset.pressure_angle, 'rad')}"
     if gearset.helix_angle:
-        angles.append(f"helix angle {customary(gearset.helix_angle, 'rad')}")
-    yield (
-        f"gears: {teeth.sun}/{teeth.planet}/{teeth.ring} teeth, {', '.join(lengths)}, "
-        f"{', '.join(angles)}, planets at {positions} deg, {gearset.held} held"
-    )
-    inputs = (point.input_speed, point.second_input_speed)[: len(scene.drive.inputs)]
-    speeds = " and ".join(customary(speed, "rad/s") for speed in inputs)
-    yield (
-        f"operating point: input speed {speeds}, input torque {point.input_torque:.4g} N m, "
-        f"backlash {customary(point.backlash, 'm')}, oil {customary(point.oil_temperature, 'K')}"
-    )
+        yield f"helix angle {customary(gearset.helix_angle, 'rad')}"
+    for number, angle in enumerate(gearset.planet_angles, 1):
+        yield f"planet {number} at {customary(angle, 'rad')}"
+    yield f"{gearset.held} held"
+
+
+def operating_point(scene: Scene) -> Iterator[str]:
+    """What a scene runs at, thing by thing, each with its unit."""
+    point = scene.operating_point
+    yield f"input speed {customary(point.input_speed, 'rad/s')}"
+    if scene.drive.second_input is not None:
+        yield f"second input speed {customary(point.second_input_speed, 'rad/s')}"
+    yield f"input torque {point.input_torque:.4g} N m"
+    yield f"backlash {customary(point.backlash, 'm')}"
+    yield f"oil {customary(point.oil_temperature, 'K')}"
