@@ -15,13 +15,13 @@ _ENDLESS = 100_000  # characters: more than any row of a table has
 
 
 def make_console(stderr: bool = False, markup: bool = True) -> Console:
-    """Return a console that folds lines for a terminal, or to the COLUMNS that are asked for.
+    """Return a console that fits lines and tables to a terminal, or to the COLUMNS asked for.
 
     In a pipe or a file a row stays one line, so that it can be searched for.
     """
-    from rich.console import Console
+    from ._tables import TableConsole
 
-    console = Console(stderr=stderr, markup=markup)
+    console = TableConsole(stderr=stderr, markup=markup)
     if not (console.file.isatty() or os.environ.get("COLUMNS")):
         console.width = _ENDLESS
     return console
