@@ -35,7 +35,9 @@ def settings(given: Sequence[str]) -> dict[str, Any]:
             raise ValueError(f"--set {setting!r}: must be NAME=VALUE")
         if name in values:
             raise ValueError(f"--set {name}: given twice, as {values[name]} and as {value}")
-        values[name] = read_yaml(value) if value.lstrip().startswith(_COLLECTIONS) else value
+        values[name] = value
+        if value.lstrip().startswith(_COLLECTIONS):
+            values[name] = read_yaml(value, f"--set {name}")
     return values
 
 

@@ -74,11 +74,14 @@ def view(
 
     Example: planetary-twin view recordings/NAME --during 2:3
     """
+    for option, path, suffix in (("--save", save, ".rrd"), ("--screenshot", screenshot, ".png")):
+        if path is not None and path.suffix != suffix:
+            fail(f"{option} = {str(path)!r}: must end in {suffix}")
     with _one_line_errors():
         asked = _read_stretch(during)
         if not files:
             if screenshot is not None:
-                fail("screenshot: is of a recording; name one")
+                fail("--screenshot needs a recording: name one")
             lasting = None if asked is None else asked[1] - max(asked[0], 0.0)
             look_at_twin(namespace, scene, save, serve, lasting)
             return
@@ -115,7 +118,7 @@ def _one_line_errors() -> Iterator[None]:
     except (RecordingError, SceneError, ViewerError) as error:
         fail(error)
     except OSError as error:
-        fail(f"{error.filename}: {error.strerror}")
+        fail(error if error.filename is None else f"{error.filename}: {error.strerror}")
 
 
 def _read(file: Path, namespace: str | None) -> Recording:

@@ -14,6 +14,14 @@ from ..units import UnitError
 from .names import nearest, no_such_field
 from .quantity import Section, bounds, listed, sections_in, unit_of, within
 
+_REASONS = {  # by the type of a defect, where pydantic's words are those of Python
+    "model_type": "must be a section",
+    "tuple_type": "must be a list",
+    "string_type": "must be a text",
+    **dict.fromkeys(("int_type", "int_parsing", "int_from_float"), "must be a whole number"),
+    **dict.fromkeys(("bool_type", "bool_parsing"), "must be true or false"),
+}
+
 
 class _Place(NamedTuple):
     """Where a defect is: its dotted name, the section it is in and the field, if they are known."""
@@ -77,11 +85,16 @@ def _lines(defect: ErrorDetails, place: _Place) -> Iterator[str]:
     if defect["type"] == "missing":
         yield f"{place.name}: missing"
         return
-    if "expected_tags" in (given := defect.get("ctx", {})):
-        kind = f" = {given['tag']!r}" if "tag" in given else ""
-        yield f"{place.name}.kind{kind}: must be one of {given['expected_tags']}"
+    if defect["type"] == "union_tag_invalid":
+        tags = defect["ctx"]
+        yield f"{place.name}.kind = {tags['tag']!r}: must be one of {tags['expected_tags']}"
         return
-    reason = defect["msg"].removeprefix("Value error, ").replace("Input should be", "must be", 1)
+    if defect["type"] == "union_tag_not_found":
+        yield f"{place.name}: must be a section with a kind"
+        return
+    reason = _REASONS.get(defect["type"]) or defect["msg"].removeprefix("Value error, ").replace(
+        "Input should be", "must be", 1
+    )
     if not place.name:
         yield from reason.splitlines()
     elif isinstance(defect["input"], dict):

@@ -119,10 +119,13 @@ class Scene(Section):
             SceneError: a name is unknown, or a value is out of its range.
         """
         data, errors = self.model_dump(), []
+        given: dict[tuple[str, ...], str] = {}
         for name, value in changes.items():
-            path = name.split(".")
+            path = tuple(name.split("."))
             if name in OperatingPoint.model_fields:
-                path = ["operating_point", name]
+                path = ("operating_point", name)
+            if given.setdefault(path, name) != name:
+                errors.append(f"{path[-1]}: given twice, as {given[path]} and as {name}")
             try:
                 data = put(data, [Scene], path, value)
             except NoSuchPath as error:

@@ -10,11 +10,12 @@ import yaml
 from .quantity import SceneError, listed
 
 
-def read_yaml(text: str) -> Any:
+def read_yaml(text: str, what: str = "scene") -> Any:
     """Plain data of a YAML text.
 
     Args:
         text: YAML.
+        what: the text is of, for the message of an error.
 
     Returns:
         Mappings, lists and scalars.
@@ -29,7 +30,7 @@ def read_yaml(text: str) -> Any:
             raise SceneError(listed(repeated))
         return None if root is None else loader.construct_document(root)
     except yaml.YAMLError as error:
-        raise SceneError(f"scene is not YAML: {' '.join(str(error).split())}") from None
+        raise SceneError(f"{what} is not YAML: {' '.join(str(error).split())}") from None
 
 
 def _repeated(node: yaml.Node | None, path: str, seen: set[int]) -> Iterator[str]:
