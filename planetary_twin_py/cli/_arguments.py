@@ -63,8 +63,8 @@ SetOption = Annotated[
     typer.Option(
         "--set",
         metavar="NAME=VALUE",
-        help="Change a field, in SI or with a unit: mesh.ramp=0, backlash=0.3um; repeatable. "
-        "`planetary-twin fields` lists them.",
+        help="Change a field, in SI or with a unit: mesh.ramp=0, backlash=0.3um, faults.0.tooth=3; "
+        "lists as in a scene file; repeatable. `planetary-twin fields` lists them.",
     ),
 ]
 JsonOption = Annotated[

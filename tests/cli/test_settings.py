@@ -70,6 +70,11 @@ def test_a_setting_that_is_given_twice_is_refused():
         settings(["backlash=1um", "backlash=2um"])
 
 
+def test_a_list_that_does_not_end_is_refused_with_the_name_of_its_field():
+    with pytest.raises(ValueError, match=r"^--set faults is not YAML: [^\n]*$"):
+        settings(["faults=[1"])
+
+
 @pytest.mark.parametrize(
     ("field", "scene", "fixed"),
     [

@@ -88,6 +88,11 @@ CRACK = {"kind": "crack", "gear": "sun", "tooth": 0, "stiffness_loss": 0.2}
         ({"faults": [CRACK | {"stiffness_loss": 2.0}]}, ["faults.0", "stiffness_loss", "2.0"]),
         ({"faults": [CRACK | {"kind": "hole"}]}, ["faults.0", "hole", "crack"]),
         ({"faults": [CRACK] * 5}, ["faults", "4"]),
+        ({"faults": "crack"}, ["faults = 'crack': must be a list"]),
+        ({"faults": ["crack"]}, ["faults.0: must be a section with a kind"]),
+        ({"gearset__teeth": 3}, ["gearset.teeth = 3: must be a section"]),
+        ({"gearset__teeth__sun": 30.5}, ["gearset.teeth.sun = 30.5: must be a whole number"]),
+        ({"lubrication__friction": "maybe"}, ["lubrication.friction = 'maybe': must be true or"]),
         ({"drive__output__member": "sun"}, ["output.member", "sun"]),
         ({"mesh__ramp": 0.5}, ["mesh.ramp", "0.5", "within 0 and 0.2"]),
     ],
@@ -197,6 +202,14 @@ def test_a_scene_that_there_is_not_is_told_with_the_nearest_if_one_is_near(name,
 def test_replacing_what_there_is_not_is_refused(name):
     with pytest.raises(pt.SceneError, match="no such field"):
         PAPER.replace(**{name: 1.0})
+
+
+def test_a_field_that_is_given_by_both_of_its_names_is_refused():
+    with pytest.raises(pt.SceneError) as refusal:
+        PAPER.replace(**{"operating_point.backlash": 1e-6, "backlash": 2e-6})
+    assert (
+        str(refusal.value) == "backlash: given twice, as operating_point.backlash and as backlash"
+    )
 
 
 def test_replace_leaves_the_original():
