@@ -76,11 +76,25 @@ def _understood(scene: Scene, changes: Mapping[str, Any]) -> Iterator[str]:
     from ..scene.paths import leaves
     from ..scene.quantity import unit_of
     from ..studies.axes import look_up
-    from ..units import customary, is_number
+    from ..units import is_number
 
     for name, value in leaves(changes):
-        if not is_number(str(value)):
-            continue
-        if unit := unit_of(look_up(scene, name)[0]):
-            usual = customary(float(value), unit)
-            yield f"{name} = {float(value):g} {unit}" + (f" ({usual})" if usual else "")
+        if is_number(str(value)) and (unit := unit_of(look_up(scene, name)[0])):
+            yield in_words(name, float(value), unit)
+
+
+def in_words(name: str, value: float, unit: str) -> str:
+    """A quantity with its SI unit and, in brackets, in the unit that engineers use.
+
+    Args:
+        name: of the quantity.
+        value: in SI.
+        unit: the SI unit; empty for a pure number.
+
+    Returns:
+        For example "input_speed = 1000 rad/s (9549 rpm)".
+    """
+    from ..units import customary
+
+    usual = customary(value, unit)
+    return f"{name} = {value:g} {unit}".rstrip() + (f" ({usual})" if usual else "")

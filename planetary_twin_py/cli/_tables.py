@@ -38,43 +38,50 @@ def readable(table: Table, console: Console) -> RenderableType:
     Returns:
         What to print in its place.
     """
-    needed = [_longest(column, by_word=not column.no_wrap) for column in table.columns]
-    wanted = [_longest(column, by_word=False) for column in table.columns]
+    columns = [_texts(column, console) for column in table.columns]
+    wanted = [_longest(texts, by_word=False) for texts in columns]
+    needed = [
+        most if column.no_wrap else _longest(texts, by_word=True)
+        for column, texts, most in zip(table.columns, columns, wanted, strict=True)
+    ]
     wide = console.options.update(width=_UNBOUND, max_width=_UNBOUND)
     frame = Measurement.get(console, wide, table).maximum - sum(wanted)
     room = console.width - frame
     if sum(wanted) <= room:
         return table
     if sum(needed) > room:
-        return Group(*_entries(table))
+        return Group(*_entries(table, columns))
     share = (room - sum(needed)) / (sum(wanted) - sum(needed))
     for column, least, most in zip(table.columns, needed, wanted, strict=True):
         column.width = least + int(share * (most - least))
     return table
 
 
-def _longest(column: Column, by_word: bool) -> int:
-    """Cells that the longest line of a column takes, or its longest word."""
-    texts = [_text(column.header), *map(_text, column.cells)]
+def _texts(column: Column, console: Console) -> list[Text]:
+    """Heading and cells, as `console` would print them."""
+    return [
+        cell if isinstance(cell, Text) else console.render_str(str(cell), highlight=False)
+        for cell in (column.header, *column.cells)
+    ]
+
+
+def _longest(texts: list[Text], by_word: bool) -> int:
+    """Cells that the longest line takes, or the longest word."""
     parts = (text.plain.split() if by_word else text.plain.splitlines() for text in texts)
     return max((Text(part).cell_len for own in parts for part in own), default=0)
 
 
-def _text(cell: RenderableType) -> Text:
-    return cell if isinstance(cell, Text) else Text.from_markup(str(cell))
-
-
-def _entries(table: Table) -> Iterator[RenderableType]:
+def _entries(table: Table, columns: list[list[Text]]) -> Iterator[RenderableType]:
     """Title; of every row its first cell, and below it the others with their headings; caption."""
     if table.title:
-        yield Text.from_markup(str(table.title), style="italic")
-    columns = [list(map(_text, column.cells)) for column in table.columns]
-    headings = [" ".join(_text(column.header).plain.split()) for column in table.columns]
-    for row, cells in zip(table.rows, zip(*columns, strict=True), strict=True):
+        yield table.title
+    headings = [" ".join(texts[0].plain.split()) for texts in columns]
+    cells_by_row = zip(*(texts[1:] for texts in columns), strict=True)
+    for row, cells in zip(table.rows, cells_by_row, strict=True):
         style = row.style or ""
         yield Text.assemble(cells[0], style=style)
         others = zip(headings[1:], cells[1:], strict=True)
         told = [Text.assemble(f"{name}: " if name else "", cell) for name, cell in others if cell]
         yield Padding(Text("; ", style=style).join(told), (0, 0, 0, _INDENT))
     if table.caption:
-        yield Text.from_markup(str(table.caption), style="italic")
+        yield table.caption
