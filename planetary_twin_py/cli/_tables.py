@@ -81,7 +81,7 @@ def _entries(table: Table, columns: list[list[Text]]) -> Iterator[RenderableType
         style = row.style or ""
         yield Text.assemble(cells[0], style=style)
         others = zip(headings[1:], cells[1:], strict=True)
-        told = [Text.assemble(f"{name}: " if name else "", cell) for name, cell in others if cell]
-        yield Padding(Text("; ", style=style).join(told), (0, 0, 0, _INDENT))
+        pieces = [Text.assemble(f"{name}: " if name else "", cell) for name, cell in others if cell]
+        yield Padding(Text("; ", style=style).join(pieces), (0, 0, 0, _INDENT))
     if table.caption:
         yield table.caption
