@@ -23,6 +23,14 @@ _INSTEAD = (  # a unit often given, that which is wanted, and what to write
 )
 
 
+_CUSTOMARY = {  # by the SI unit: unit, how many of it one of SI is, and its zero in them
+    "rad/s": ("rpm", 30.0 / math.pi, 0.0),
+    "rad": ("deg", 180.0 / math.pi, 0.0),
+    "K": ("degC", 1.0, 273.15),
+    "Pa": ("MPa", 1e-6, 0.0),
+}
+
+
 class UnitError(ValueError):
     """A number in a unit that is none here, or with a comma: no range would explain it."""
 
@@ -63,6 +71,22 @@ def to_si(value: object, unit: str) -> object:
     if parts is None or not is_number(parts[1]):
         raise ValueError(f"{value!r} is not a number with a unit")
     return float(column_to_si(np.array(float(parts[1])), parts[2], unit))
+
+
+def customary(value: float, unit: str) -> str:
+    """A quantity in the unit that engineers use: 1000 rad/s is "9549 rpm"; empty without one.
+
+    Args:
+        value: in SI.
+        unit: the SI unit of `value`.
+
+    Returns:
+        Number and unit, in four digits.
+    """
+    if unit == "m":
+        return f"{1e6 * value:.4g} um" if abs(value) < 1e-4 else f"{1e3 * value:.4g} mm"
+    name, factor, zero = _CUSTOMARY.get(unit, ("", 1.0, 0.0))
+    return f"{factor * value - zero:.4g} {name}" if name else ""
 
 
 def is_number(text: str) -> bool:

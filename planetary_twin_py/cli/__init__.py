@@ -3,7 +3,7 @@
 Each public module here holds one command, a function of the module's name. Other packages add
 theirs through the entry-point group `planetary_twin.commands`, so that what needs ROS comes with
 the ROS package; what they share with the commands here is `_arguments`, `_console`, `_fail`,
-`_figures` and `_interrupts`.
+`_figures`, `_interrupts` and `_settings`.
 A command is loaded when it is asked for, and imports what is heavy only when it runs, so that
 `--help` and completion are quick.
 """

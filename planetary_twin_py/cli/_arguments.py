@@ -8,6 +8,8 @@ from typing import Annotated
 
 import typer
 
+from ._output import output_file
+
 RECORDINGS = Path("recordings")
 _PACKAGED = Path(__file__).parents[1] / "scene" / "packaged"
 
@@ -61,12 +63,15 @@ SetOption = Annotated[
     typer.Option(
         "--set",
         metavar="NAME=VALUE",
-        help="Change a field, in SI or with a unit: mesh.ramp=0, backlash=0.3um; repeatable. "
-        "`planetary-twin fields` lists them.",
+        help="Change a field, in SI or with a unit: mesh.ramp=0, backlash=0.3um, faults.0.tooth=3; "
+        "lists as in a scene file; repeatable. `planetary-twin fields` lists them.",
     ),
 ]
 JsonOption = Annotated[
-    str | None, typer.Option("--json", metavar="FILE", help="Write figures; - prints them.")
+    str | None,
+    typer.Option(
+        "--json", metavar="FILE", help="Write figures; - prints them.", callback=output_file
+    ),
 ]
 NamespaceOption = Annotated[
     str | None, typer.Option("--namespace", help="Which gearbox, if the recording holds several.")

@@ -19,6 +19,11 @@ def remark(message: str) -> None:
     _say(f"planetary-twin: {message}", "yellow")
 
 
+def note(message: str) -> None:
+    """Print a line that says how something was understood."""
+    _say(f"planetary-twin: {message}", "")
+
+
 def need(extra: str, *modules: str) -> None:
     """End the command where the `extra` that brings `modules` is not installed."""
     if any(find_spec(module) is None for module in modules):

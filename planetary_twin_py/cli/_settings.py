@@ -2,19 +2,99 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Mapping, Sequence
+from typing import TYPE_CHECKING, Any
+
+from ._fail import note
+
+if TYPE_CHECKING:
+    from ..scene import Scene
+
+_COLLECTIONS = ("[", "{")
 
 
-def settings(given: Sequence[str]) -> dict[str, str]:
+def settings(given: Sequence[str]) -> dict[str, Any]:
     """Names and values of settings, for `Scene.replace`.
 
+    Args:
+        given: texts NAME=VALUE. A list or a section is written as in a scene file:
+            gearset.planet_angles=[0 deg, 180 deg], losses.planet_bearing={mean_diameter: 10 mm}.
+
+    Returns:
+        Texts, lists and mappings by their names.
+
     Raises:
-        ValueError: one is not NAME=VALUE.
+        ValueError: one is not NAME=VALUE, or a name is given twice.
     """
-    values = {}
+    from ..scene.yaml_text import read_yaml
+
+    values: dict[str, Any] = {}
     for setting in given:
         name, equals, value = setting.partition("=")
         if not (name and equals):
             raise ValueError(f"--set {setting!r}: must be NAME=VALUE")
+        if name in values:
+            raise ValueError(f"--set {name}: given twice, as {values[name]} and as {value}")
         values[name] = value
+        if value.lstrip().startswith(_COLLECTIONS):
+            values[name] = read_yaml(value, f"--set {name}")
     return values
+
+
+def changed_scene(name: str, changes: Mapping[str, Any]) -> Scene:
+    """Load the scene that a command asks for, and say in which unit a bare number was taken.
+
+    Args:
+        name: packaged scene, or path of a YAML file.
+        changes: what `settings` has read.
+
+    Returns:
+        The scene with the changes.
+
+    Raises:
+        SceneError: there is no such scene, or a field in it is wrong.
+    """
+    from ..scene import load_scene
+
+    scene = load_scene(name).replace(**changes)
+    say_units(scene, changes)
+    return scene
+
+
+def say_units(scene: Scene, changes: Mapping[str, Any]) -> None:
+    """Say of each quantity that is given as a bare number how it was understood.
+
+    Args:
+        scene: that has all fields of `changes`.
+        changes: values by dotted names, as they were typed.
+    """
+    for line in _understood(scene, changes):
+        note(line)
+
+
+def _understood(scene: Scene, changes: Mapping[str, Any]) -> Iterator[str]:
+    from ..scene.paths import leaves
+    from ..scene.quantity import unit_of
+    from ..studies.axes import look_up
+    from ..units import is_number
+
+    for name, value in leaves(changes):
+        if is_number(str(value)) and (unit := unit_of(look_up(scene, name)[0])):
+            yield in_words(name, float(value), unit)
+
+
+def in_words(name: str, value: float, unit: str) -> str:
+    """A quantity with its SI unit and, in brackets, in the unit that engineers use.
+
+    Args:
+        name: of the quantity.
+        value: in SI.
+        unit: the SI unit; empty for a pure number.
+
+    Returns:
+        For example "input_speed = 1000 rad/s (9549 rpm)".
+    """
+    from ..units import customary
+
+    usual = customary(value, unit)
+    return f"{name} = {value:g} {unit}".rstrip() + (f" ({usual})" if usual else "")

@@ -8,9 +8,14 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from ._fail import fail, need, remark
+from ._output import check_file
+from ._settings import say_units
 
 if TYPE_CHECKING:
     import pyarrow as pa
+
+    from ..scene import Scene
+    from ..studies.axes import Axis, Span
 
 TABLES = (".parquet", ".csv")
 PICTURES = (".png", ".svg", ".pdf")
@@ -18,12 +23,40 @@ PRINTED = 150  # dots per inch
 
 
 def check_suffix(out: Path, admitted: Sequence[str]) -> None:
-    """End the command where `out` is none of these, or what writes it is not installed."""
+    """End the command where `out` is none of these, cannot be written, or lacks what writes it."""
     if out.suffix not in admitted:
         fail(f"--out = {str(out)!r}: must end in {', '.join(admitted)}")
+    check_file("--out", out)
     need("studies", "pyarrow")
     if out.suffix in PICTURES:
         need("plots", "matplotlib")
+
+
+def axis(scene: Scene, field: str, text: str) -> Axis | Span:
+    """Read the values of a field, and say in which unit bare numbers were taken.
+
+    Args:
+        scene: that has the field.
+        field: dotted name.
+        text: values or a range, see `read_axis`.
+
+    Returns:
+        The values, or the range.
+
+    Raises:
+        ValueError: see `read_axis`.
+    """
+    from ..studies.axes import Axis, read_axis
+    from ..units import is_number
+
+    found = read_axis(scene, field, text)
+    ends = (
+        (found.values[0], found.values[-1]) if isinstance(found, Axis) else (found.low, found.high)
+    )
+    if is_number(text.replace(":", ",").split(",")[0]):
+        for value in dict.fromkeys(ends):
+            say_units(scene.replace(**{field: value}), {field: value})
+    return found
 
 
 def put(

@@ -12,15 +12,18 @@ import typer
 from ._arguments import JsonOption
 from ._fail import fail, need
 from ._figures import console_beside, put_figures
+from ._output import output_file
 
 
 def bench(
     json_: JsonOption = None,
     markdown: Annotated[
-        Path | None, typer.Option(help="Write the table as a page of the documentation.")
+        Path | None,
+        typer.Option(help="Write the table as a page of the documentation.", callback=output_file),
     ] = None,
     plot: Annotated[
-        Path | None, typer.Option(metavar="FILE.png", help="Draw error against time.")
+        Path | None,
+        typer.Option(metavar="FILE.png", help="Draw error against time.", callback=output_file),
     ] = None,
     costs: Annotated[
         bool,

@@ -9,8 +9,8 @@ import typer
 
 from ._arguments import SceneArgument, SetOption, ToleranceOption
 from ._fail import fail, remark
-from ._settings import settings
-from ._study import PICTURES, TABLES, check_suffix, progress, put
+from ._settings import changed_scene, settings
+from ._study import PICTURES, TABLES, axis, check_suffix, progress, put
 
 
 def bifurcation(
@@ -37,30 +37,29 @@ def bifurcation(
     --input-speed 8000rpm:10000rpm:41 --out jumps.png
     """
     check_suffix(out, TABLES + PICTURES)
-    from ..scene import load_scene
     from ..scene.unused import without_effect
-    from ..studies.axes import Axis, read_axis
+    from ..studies.axes import Axis
     from ..studies.bifurcation import Holding
     from ..studies.bifurcation import bifurcation as run
 
     try:
         changes = settings(set_ or [])
-        loaded = load_scene(scene).replace(**changes)
-        axis = read_axis(loaded, "input_speed", input_speed)
-        if not isinstance(axis, Axis):
+        loaded = changed_scene(scene, changes)
+        speeds = axis(loaded, "input_speed", input_speed)
+        if not isinstance(speeds, Axis):
             fail(f"--input-speed = {input_speed!r}: must be FROM:TO:COUNT")
         holding = Holding(settling, cycles, phase, tolerance)
-        with progress("speeds held", 2 * len(axis.values)) as advance:
+        with progress("speeds held", 2 * len(speeds.values)) as advance:
 
             def hear(failure: str | None) -> None:
                 advance(1)
                 if failure:
                     remark(failure)
 
-            table = run(loaded, axis.values, holding, hear)
+            table = run(loaded, speeds.values, holding, hear)
         put(table, out)
     except (ValueError, OSError) as error:
         fail(error)
     for line in without_effect(loaded, changes):
         remark(f"warning: {line}")
-    typer.echo(f"{out}: {len(axis.values)} speeds up and down")
+    typer.echo(f"{out}: {len(speeds.values)} speeds up and down")

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from ._arguments import JsonOption, SceneArgument
+from ._console import put_together
 from ._fail import fail, remark
 from ._figures import console_beside, put_figures
 from ._interrupt import interruptible
@@ -35,6 +36,7 @@ def explain(
     from ..explanation.meshes import describe_meshes
     from ..ledger_check import LedgerWarning
     from ..scene import load_scene
+    from ..scene.summary import gears
 
     console = console_beside(json_)
     warnings.simplefilter("ignore", LedgerWarning)  # it is among the remarks
@@ -51,6 +53,8 @@ def explain(
         fail(error)
     told = f": {loaded.description}" if loaded.description else ""
     console.print(f"[bold]{loaded.name}[/bold]{told}\n")
+    put_together(console, "gears", gears(loaded))
+    console.print()
     console.print(_mesh_table(loaded, meshes))
     console.print(_table(loaded, found))
     console.print(_limits(loaded))

@@ -11,7 +11,8 @@ import typer
 from ._arguments import SetOption, complete_scene
 from ._console import make_console
 from ._fail import fail, need
-from ._settings import settings
+from ._output import check_recording
+from ._settings import changed_scene, settings
 
 if TYPE_CHECKING:
     from ..recording.measured import Imported
@@ -41,12 +42,12 @@ def import_(
 
     Example: planetary-twin import rig.csv --scene paper --out recordings/rig
     """
+    check_recording("--out", out)
     need("analysis", "mcap", "rosbags", "pyarrow")
     from ..recording.measured import write_measured
-    from ..scene import load_scene
 
     try:
-        done = write_measured(table, load_scene(scene).replace(**settings(set_ or [])), out)
+        done = write_measured(table, changed_scene(scene, settings(set_ or [])), out)
     except ValueError as error:
         fail(error)
     except OSError as error:

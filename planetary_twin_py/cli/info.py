@@ -74,10 +74,10 @@ def _tell(console: Console, found: Info) -> None:
     from ..recording.ramps import ramps
 
     table = Table(box=None, pad_edge=False)
-    table.add_column("topic", no_wrap=True)
+    table.add_column("topic")
     for title in ("recorded", "lost", "before", "rate [Hz]", r"gap \[s]"):
-        table.add_column(title, justify="right", no_wrap=True)
-    table.add_column("type", overflow="fold")
+        table.add_column(title, justify="right")
+    table.add_column("type")
     for name, topic in sorted(found.topics.items()):
         lost = "unknown" if topic.lost is None else str(topic.lost - topic.before)
         rate, gap = f"{topic.rate:.2f}", f"{topic.longest_gap * 1e-9:.3f}"

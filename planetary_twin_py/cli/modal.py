@@ -10,7 +10,8 @@ import typer
 from ._arguments import JsonOption, SceneArgument, SetOption
 from ._fail import fail, need
 from ._figures import console_beside, put_figures
-from ._settings import settings
+from ._output import output_file
+from ._settings import changed_scene, settings
 
 if TYPE_CHECKING:
     from rich.table import Table
@@ -18,6 +19,8 @@ if TYPE_CHECKING:
     from ..modal.campbell import Resonance
     from ..modal.modes import NaturalModes
     from ..modal.springs import SpringModel
+
+LEAST_CHANGE = 0.005  # [Hz]
 
 
 def modal(
@@ -27,7 +30,8 @@ def modal(
     ] = "torsional",
     set_: SetOption = None,
     campbell: Annotated[
-        Path | None, typer.Option(metavar="FILE.png", help="Draw the Campbell diagram.")
+        Path | None,
+        typer.Option(metavar="FILE.png", help="Draw the Campbell diagram.", callback=output_file),
     ] = None,
     json_: JsonOption = None,
 ) -> None:
@@ -43,10 +47,9 @@ def modal(
     from ..modal.campbell import resonances
     from ..modal.modes import modes_of
     from ..modal.natural import natural_modes, spring_model
-    from ..scene import load_scene
 
     try:
-        loaded = load_scene(scene).replace(**settings(set_ or []))
+        loaded = changed_scene(scene, settings(set_ or []))
         single = natural_modes(loaded, model)
         springs = spring_model(loaded, model, "mean")
     except ValueError as error:
@@ -95,17 +98,31 @@ def _mode_table(
     table = Table(
         title=title,
         caption="f with one tooth pair in every mesh, f with the mean stiffness over the mesh "
-        "cycle; change of the latter [Hz] by 1 % of each stiffness",
+        "cycle, and its change by 1 % of the stiffness of each kind of spring; changes below "
+        f"{LEAST_CHANGE:g} Hz are left out",
     )
-    for heading in ("mode", r"f, one pair \[Hz]", r"f, mean \[Hz]", "kind", *slopes):
-        table.add_column(heading.replace("_", " "), justify="right")
+    for heading in ("mode", r"f, one pair \[Hz]", r"f, mean \[Hz]", "kind"):
+        table.add_column(heading, justify="right")
+    table.add_column(r"change by 1 % of a stiffness \[Hz]")
     for m, kinds in enumerate(zip(single.kinds, mean.kinds, strict=True)):
-        changes = [slopes[name][m] * 0.01 * stiffness[name] for name in slopes]
-        shown = ["-" if change != change else f"{change:+.2f}" for change in changes]
+        changes = {name: slopes[name][m] * 0.01 * stiffness[name] for name in slopes}
         frequencies = (f"{modes.frequencies[m]:.2f}" for modes in (single, mean))
         # Where kinds of mesh stiffen unequally, one mode may overtake another.
-        table.add_row(str(m + 1), *frequencies, ", then ".join(dict.fromkeys(kinds)), *shown)
+        table.add_row(
+            str(m + 1), *frequencies, ", then ".join(dict.fromkeys(kinds)), _shown(changes)
+        )
     return table
+
+
+def _shown(changes: dict[str, float]) -> str:
+    """Changes [Hz] by kind of spring, the largest first; those that are rounded to 0 left out."""
+    ordered = sorted(changes.items(), key=lambda change: -abs(change[1]))
+    felt = (
+        f"{name.replace('_', ' ')} {change:+.2f}"
+        for name, change in ordered
+        if abs(change) >= LEAST_CHANGE
+    )
+    return ", ".join(felt) or "-"
 
 
 def _heading(limit: float) -> str:

@@ -8,7 +8,7 @@ from typing import Annotated
 import typer
 
 from ._fail import fail, remark
-from ._study import PICTURES, check_suffix, put
+from ._study import PICTURES, TABLES, check_suffix, put
 
 
 def plot(
@@ -38,6 +38,10 @@ def plot(
     Example: planetary-twin plot study.parquet --y efficiency,power_loss --out study.svg
     """
     check_suffix(out, PICTURES)
+    if study.suffix not in TABLES:
+        fail(f"STUDY = {str(study)!r}: must end in {', '.join(TABLES)}")
+    if not study.is_file():
+        fail(f"STUDY = {str(study)!r}: no such file")
     from ..plots.study import failures
     from ..studies.table import read
 

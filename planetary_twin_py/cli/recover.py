@@ -10,6 +10,7 @@ import typer
 from ._arguments import FileArgument
 from ._console import make_console
 from ._fail import fail, need, remark
+from ._output import check_recording
 
 
 def recover(
@@ -29,10 +30,9 @@ def recover(
     from ..recording.recover import recover as save
 
     folder = out or file.with_name(f"{file.stem}_whole")
+    check_recording("OUT", folder)
     try:
         saved = save(file, folder)
-    except FileExistsError:
-        fail(f"out = {folder}: exists; choose a free name")
     except RecordingError as error:
         fail(error)
     except OSError as error:

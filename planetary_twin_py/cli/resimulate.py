@@ -10,7 +10,8 @@ import typer
 from ._arguments import FileArgument, NamespaceOption, SetOption
 from ._console import make_console
 from ._fail import fail, need, remark
-from ._settings import settings
+from ._output import check_recording
+from ._settings import say_units, settings
 
 
 def resimulate(
@@ -45,9 +46,11 @@ def resimulate(
     from ..recording.tape import Tape
 
     folder = out or file.with_name(f"{file.stem}_again")
+    check_recording("--out", folder)
     console = make_console()
     try:
-        branch = Branch(settings(set_ or []), from_, duration, run)
+        changes = settings(set_ or [])
+        branch = Branch(changes, from_, duration, run)
         chosen = choose_namespace(Tape(file).topics, namespace, file)
         with Progress(console=console, transient=True, disable=not console.is_terminal) as progress:
             task = progress.add_task("simulating", total=None)
@@ -58,12 +61,11 @@ def resimulate(
                 folder,
                 lambda time, end: progress.update(task, completed=time, total=end),
             )
-    except FileExistsError:
-        fail(f"out = {folder}: exists; choose a free name")
     except OSError as error:
         fail(f"{error.filename}: {error.strerror}")
     except ValueError as error:
         fail(error)
+    say_units(made.scene, changes)
     for line in made.remarks:
         remark(line)
     told = f"as recorded up to {made.begins:g} s, then as set up to {made.end:g} s: {made.file}"

@@ -9,10 +9,12 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from ._arguments import JsonOption, SceneArgument, SetOption, ToleranceOption
+from ._console import put_together
 from ._fail import fail, need, remark
 from ._figures import console_beside, put_figures
 from ._interrupt import interruptible
-from ._settings import settings
+from ._output import check_file, check_recording
+from ._settings import changed_scene, settings
 
 if TYPE_CHECKING:
     from rich.console import Console
@@ -40,19 +42,17 @@ def simulate(
 
     from ..explanation.remarks import remarks
     from ..ledger_check import LedgerWarning
-    from ..scene import load_scene
+    from ..scene.summary import gears, operating_point
     from ..scene.unused import without_effect
     from ..simulation import simulate as run
 
     console = console_beside(json_)
     warnings.simplefilter("ignore", LedgerWarning)  # it is among the remarks
     try:
-        if out is not None and out.suffix not in (*_WRITERS, *_RECORDINGS):
-            fail(f"--out = {str(out)!r}: must end in {', '.join(_WRITERS)} or .mcap, or in nothing")
-        if out is not None and out.suffix in _RECORDINGS:
-            need("recording", "mcap", "rosbags")
+        if out is not None:
+            _check(out)
         changes = settings(set_ or [])
-        loaded = load_scene(scene).replace(**changes)
+        loaded = changed_scene(scene, changes)
         with console.status(f"simulating {duration:g} s of {loaded.name}"):
             result = interruptible(lambda: run(loaded, duration, sample_rate, tolerance=tolerance))
         if out is not None and out.suffix in _RECORDINGS:
@@ -62,6 +62,8 @@ def simulate(
     except (ValueError, OSError) as error:
         fail(error)
     train, meshes = _train(loaded, result), _meshes(result)
+    put_together(console, "gears", gears(loaded))
+    put_together(console, "operating point", operating_point(loaded))
     for name, value in train.items():
         console.print(f"{_TRAIN[name]:42} {value:.6g}", markup=False)
     console.print(_table(meshes))
@@ -69,6 +71,17 @@ def simulate(
     for line in told:
         remark(f"warning: {line}")
     put_figures(train | meshes | {"remarks": told}, json_)
+
+
+def _check(out: Path) -> None:
+    """End the command where it cannot write what is asked for."""
+    if out.suffix in _WRITERS:
+        check_file("--out", out)
+    elif out.suffix in _RECORDINGS:
+        check_recording("--out", out)
+        need("recording", "mcap", "rosbags")
+    else:
+        fail(f"--out = {str(out)!r}: must end in {', '.join(_WRITERS)} or .mcap, or in nothing")
 
 
 def _record(console: Console, out: Path, scene: Scene, *how: float) -> None:

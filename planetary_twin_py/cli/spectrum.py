@@ -12,6 +12,7 @@ import typer
 from ._arguments import JsonOption, complete_recording
 from ._fail import fail, need, remark
 from ._figures import console_beside, put_figures
+from ._output import output_file
 
 if TYPE_CHECKING:
     from rich.console import Console
@@ -53,7 +54,8 @@ class Options:
         typer.Option(help="End. Without both: the longest time at one operating point, settled."),
     ] = None
     out: Annotated[
-        Path | None, typer.Option(help="Write all there is in the band: .png or .csv.")
+        Path | None,
+        typer.Option(help="Write all there is in the band: .png or .csv.", callback=output_file),
     ] = None
     json_: JsonOption = None
 

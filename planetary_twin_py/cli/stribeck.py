@@ -9,8 +9,8 @@ import typer
 
 from ._arguments import SceneArgument, SetOption
 from ._fail import fail, remark
-from ._settings import settings
-from ._study import PICTURES, TABLES, check_suffix, progress, put, warn
+from ._settings import changed_scene, settings
+from ._study import PICTURES, TABLES, axis, check_suffix, progress, put, warn
 
 
 def stribeck(
@@ -29,16 +29,15 @@ def stribeck(
     Example: planetary-twin stribeck paper --set lubrication.boundary=load_sharing --out curve.png
     """
     check_suffix(out, TABLES + PICTURES)
-    from ..scene import load_scene
-    from ..studies.axes import Axis, read_axis
+    from ..studies.axes import Axis
     from ..studies.local import Threads
     from ..studies.stribeck import stribeck as run
     from ..studies.work import Failure
 
     try:
-        loaded = load_scene(scene).replace(**settings(set_ or []))
-        axis = read_axis(loaded, "input_speed", input_speed)
-        count = len(axis.values) if isinstance(axis, Axis) else 0
+        loaded = changed_scene(scene, settings(set_ or []))
+        speeds = axis(loaded, "input_speed", input_speed)
+        count = len(speeds.values) if isinstance(speeds, Axis) else 0
         with progress("speeds", count) as advance:
 
             def hear(done: int, failure: Failure | None) -> None:
@@ -46,7 +45,7 @@ def stribeck(
                 if failure:
                     remark(failure.reason)
 
-            table = run(loaded, axis, Threads(), hear)
+            table = run(loaded, speeds, Threads(), hear)
         put(table, out, kind="stribeck")
     except (ValueError, OSError) as error:
         fail(error)

@@ -11,8 +11,8 @@ import typer
 
 from ._arguments import SceneArgument, ToleranceOption
 from ._fail import fail, need, remark
-from ._settings import settings
-from ._study import PICTURES, TABLES, check_suffix, progress, put, warn
+from ._settings import changed_scene, settings
+from ._study import PICTURES, TABLES, axis, check_suffix, progress, put, warn
 
 if TYPE_CHECKING:
     from ..studies.plan import Study
@@ -58,16 +58,14 @@ def sweep(
     --input-speed 1000rpm,2000rpm --out study.parquet
     """
     check_suffix(out, TABLES + PICTURES)
-    from ..scene import load_scene
-    from ..studies.axes import read_axis
     from ..studies.plan import Settings, grid, latin_hypercube
     from ..studies.sweep import sweep as run
 
     try:
         given = list(_fields(context.args))
         fixed = settings([text for name, text in given if name == FIXED])
-        loaded = load_scene(scene).replace(**fixed)
-        axes = [read_axis(loaded, field, text) for field, text in given if field != FIXED]
+        loaded = changed_scene(scene, fixed)
+        axes = [axis(loaded, field, text) for field, text in given if field != FIXED]
         how = Settings(duration, settling, tolerance=tolerance)
         study = (
             grid(loaded, axes, how)

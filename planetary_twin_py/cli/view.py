@@ -15,6 +15,7 @@ import typer
 from ._arguments import complete_recording, complete_scene
 from ._fail import fail, need, remark
 from ._live import look_at_twin, tell
+from ._output import output_file
 
 if TYPE_CHECKING:
     from ..recording.reader import Recording
@@ -35,9 +36,14 @@ def view(
             "another. Without: the twin that runs.",
         ),
     ] = None,
-    save: Annotated[Path | None, typer.Option(help="Write a Rerun file (.rrd) instead.")] = None,
+    save: Annotated[
+        Path | None, typer.Option(help="Write a Rerun file (.rrd) instead.", callback=output_file)
+    ] = None,
     screenshot: Annotated[
-        Path | None, typer.Option(help="Write a picture (.png) instead; needs no display.")
+        Path | None,
+        typer.Option(
+            help="Write a picture (.png) instead; needs no display.", callback=output_file
+        ),
     ] = None,
     at: Annotated[
         float | None, typer.Option(help="Time cursor of the picture: simulated time in seconds.")
@@ -68,11 +74,14 @@ def view(
 
     Example: planetary-twin view recordings/NAME --during 2:3
     """
+    for option, path, suffix in (("--save", save, ".rrd"), ("--screenshot", screenshot, ".png")):
+        if path is not None and path.suffix != suffix:
+            fail(f"{option} = {str(path)!r}: must end in {suffix}")
     with _one_line_errors():
         asked = _read_stretch(during)
         if not files:
             if screenshot is not None:
-                fail("screenshot: is of a recording; name one")
+                fail("--screenshot needs a recording: name one")
             lasting = None if asked is None else asked[1] - max(asked[0], 0.0)
             look_at_twin(namespace, scene, save, serve, lasting)
             return
@@ -109,7 +118,7 @@ def _one_line_errors() -> Iterator[None]:
     except (RecordingError, SceneError, ViewerError) as error:
         fail(error)
     except OSError as error:
-        fail(f"{error.filename}: {error.strerror}")
+        fail(error if error.filename is None else f"{error.filename}: {error.strerror}")
 
 
 def _read(file: Path, namespace: str | None) -> Recording:

@@ -35,12 +35,18 @@ def frame_cycle(train: Record, state: Record, modulus: int) -> float:
 
 @kernel
 def counted_cycle(train: Record, state: Record, i: int, side: int, modulus: int) -> float:
-    """Cycles since tooth pair 0 of mesh i was at the pitch point, modulo `modulus`.
+    """Cycles since tooth pair 0 of mesh i was at the pitch point, modulo `modulus`."""
+    cycle = frame_cycle(train, state, modulus) + cycle_shift(train, state.x)
+    return cycle_on_side(train, i, side, cycle, modulus)
+
+
+@kernel
+def cycle_on_side(train: Record, i: int, side: int, cycle: float, modulus: int) -> float:
+    """The same from the mesh `cycle` that the train has reached since the start.
 
     The coast flanks see the motion mirrored, half a pitch later.
     """
-    cycle = frame_cycle(train, state, modulus)
-    cycle = side * (cycle + cycle_shift(train, state.x) - train.phase[i])
+    cycle = side * (cycle - train.phase[i])
     if side == COAST_SIDE:
         cycle += 0.5
     return cycle - modulus * math.floor(cycle / modulus)

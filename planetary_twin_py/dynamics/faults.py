@@ -107,12 +107,18 @@ def find_faults(
     train: Record, state: Record, i: int, side: int, start: float, faulty: np.ndarray
 ) -> None:
     """Fill faulty[i, p, f]: whether pair p of mesh i, at `start` in its cycle, has fault f."""
-    kind, segment = train.kind[i], state.segment[i]
-    flank = 0 if side == DRIVE_SIDE else 1
     for f in range(train.faults):
-        pair, teeth = train.fault_pair[f, i, flank], train.fault_teeth[f]
-        cycle = counted_cycle(train, state, i, side, teeth)
-        whole = round(cycle - start)
-        for p in range(PAIRS):
-            number = whole - int(train.shift[kind, segment, p])
-            faulty[i, p, f] = pair != NOWHERE and (number - pair) % teeth == 0
+        cycle = counted_cycle(train, state, i, side, train.fault_teeth[f])
+        mark_fault(train, i, side, state.segment[i], f, round(cycle - start), faulty)
+
+
+@kernel
+def mark_fault(
+    train: Record, i: int, side: int, segment: int, f: int, whole: int, faulty: np.ndarray
+) -> None:
+    """Fill faulty[i, p, f] after `whole` cycles, modulo the teeth of the gear of fault f."""
+    kind, flank = train.kind[i], 0 if side == DRIVE_SIDE else 1
+    pair, teeth = train.fault_pair[f, i, flank], train.fault_teeth[f]
+    for p in range(PAIRS):
+        number = whole - int(train.shift[kind, segment, p])
+        faulty[i, p, f] = pair != NOWHERE and (number - pair) % teeth == 0

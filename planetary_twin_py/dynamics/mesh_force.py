@@ -258,6 +258,19 @@ def push_drift(model: Record, state: Record, moment: Record, i: int, pace: float
 
 
 @kernel
+def pair_stiffness(
+    train: Record, moment: Record, i: int, segment: int, pair: int, u: float
+) -> tuple[float, float]:
+    """Stiffness [N/m] of a tooth pair `u` cycles into a segment, and missing material [m]."""
+    kind = train.kind[i]
+    total = total_weight(train, kind, segment, u)[0]
+    per_weight = train.stiffness_base[kind] / total + train.stiffness_gain[kind]
+    weight = polynomial(train.weight, kind, segment, pair, u, train.terms)[0]
+    factor, _, gap = fault_effect(train, moment, i, segment, pair, u)
+    return per_weight * weight * factor, gap
+
+
+@kernel
 def stored_energy(model: Record, state: Record, moment: Record, i: int) -> float:
     """Elastic energy [J] of mesh i and its copies; `moment` is room for where it stands."""
     side = state.side[i]
@@ -268,16 +281,10 @@ def stored_energy(model: Record, state: Record, moment: Record, i: int) -> float
     place_mesh(train, state, moment, i, cycles)
     u = moment.start[i] - moment.low[i]
     d = deflection(train, moment, i, state.x, state.v, 0.0, 0.0)[0]
-    per_weight = (
-        train.stiffness_base[kind] / total_weight(train, kind, segment, u)[0]
-        + train.stiffness_gain[kind]
-    )
     energy = 0.0
     for p in range(train.present[kind, segment]):
-        weight = polynomial(train.weight, kind, segment, p, u, train.terms)[0]
-        factor, _, gap = fault_effect(train, moment, i, segment, p, u)
+        k, gap = pair_stiffness(train, moment, i, segment, p, u)
         q = side * d - model.load.offset - gap
         if gap == 0.0 or q > 0.0:
-            k = per_weight * weight * factor
             energy += 0.5 * k * (q * q - model.load.inner_squared)
     return train.copies[i] * energy

@@ -27,7 +27,9 @@ from .progress import COLLOCATION, NO_MESH, ROSENBROCK, SHORTEST_STEP
 from .repetition import forget, play, watch
 from .stiff_step import stiff_step
 
-LAYER_SHARE = 100.0  # of the tolerance: error of a speed over the layer in which friction reverses
+# Errors of speeds, over the layer in which friction reverses, in tolerances: where pairs slide, and
+# where they hold and the gears may stick and slip.
+SLIDING_SHARE, CREEPING_SHARE = 100.0, 10.0
 
 
 @kernel
@@ -36,8 +38,8 @@ def begin_step(model: Record, march: Record) -> None:
     overwrite(march.begin, march.end)
     rebase(model.train, march.begin)
     set_moment(model, march.begin, march.moment)
-    _set_tolerances(model, march)
     hold_or_slide(model, march)
+    _set_tolerances(model, march)
 
 
 @kernel
@@ -54,10 +56,11 @@ def _set_tolerances(model: Record, march: Record) -> None:
     control.tolerance_x = control.tolerance * deflection
     control.tolerance_v = control.tolerance_x * control.quickness
     if train.friction:
+        share = CREEPING_SHARE if control.creeping else SLIDING_SHARE
         layer = friction_layer(train, model.oil, march.moment.cycle_rate)
-        layer *= LAYER_SHARE * control.tolerance
-        control.slow = layer < control.tolerance_v
-        control.tolerance_v = min(control.tolerance_v, layer)
+        allowed = share * control.tolerance * layer
+        control.slow = allowed < control.tolerance_v
+        control.tolerance_v = min(control.tolerance_v, allowed)
 
 
 @kernel

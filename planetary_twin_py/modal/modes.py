@@ -11,13 +11,12 @@ from itertools import pairwise
 from typing import NamedTuple
 
 import numpy as np
-from scipy.linalg import eigh
+from scipy.linalg import null_space, qr, svd
 
 from .springs import SpringModel
 
 CENTRAL = ("sun", "ring", "carrier", "motor", "load", "second_motor")
 ALONG = ("u", "z")  # motions of a central member in a rotational mode
-RIGID = 1e-6  # of the highest frequency: below it a mode is rigid
 SAME = 1e-6  # relative difference below which frequencies are one
 STILL = 1e-6  # share of the kinetic energy that counts as rest
 
@@ -35,11 +34,28 @@ class NaturalModes(NamedTuple):
 
 
 def modes_of(model: SpringModel) -> NaturalModes:
-    """Solve (K - w^2 M) phi = 0 (Salagianni et al. 2017, eq. (36))."""
-    scale = 1.0 / np.sqrt(model.mass)
-    squares, vectors = eigh(model.stiffness * np.outer(scale, scale))
-    frequencies = np.sqrt(np.maximum(squares, 0.0)) / (2.0 * np.pi)
-    frequencies[frequencies < RIGID * frequencies[-1]] = 0.0
+    """Solve (K - w^2 M) phi = 0 (Salagianni et al. 2017, eq. (36)).
+
+    A mode is rigid if it stretches no spring, whatever the stiffnesses are. The other frequencies
+    are the singular values of B, where K = B^T B: their rounding error is relative to the highest
+    frequency, that of the eigenvalues of K to its square.
+
+    Args:
+        model: masses [kg] (coordinates,) and springs of the gearset.
+
+    Returns:
+        Frequencies [Hz] (modes,), shapes (coordinates, modes) and kinds of all modes.
+    """
+    scale, springs = 1.0 / np.sqrt(model.mass), model.acting
+    rows = np.array([spring.row for spring in springs]).reshape(-1, len(scale))
+    free = null_space(rows)
+    rigid = free.shape[1]
+    basis, _ = qr(free / scale[:, None]) if rigid else (np.eye(len(scale)), None)
+    roots = np.sqrt([spring.stiffness for spring in springs])
+    weighted = roots[:, None] * rows * scale
+    _, speeds, shapes = svd(weighted @ basis[:, rigid:], full_matrices=False)
+    vectors = np.hstack([basis[:, :rigid], basis[:, rigid:] @ shapes[::-1].T])
+    frequencies = np.append(np.zeros(rigid), speeds[::-1]) / (2.0 * np.pi)
     kinds: list[str] = []
     for cluster in clusters(frequencies):
         kinds += _kinds(model.coordinates, vectors[:, cluster], frequencies[cluster.start])

@@ -29,7 +29,8 @@ class PrintedSet(NamedTuple):
 
 
 EQUATION_37 = PrintedSet(0.272, 0.1, 0.759, 1.5)
-# Inertias from which Table 5 follows, cut to whole Hz: it was not computed from (37).
+# Four inertias fitted to the four frequencies of Table 5, which they give cut to whole Hz. The
+# ring's is neither 0.759 kg of (37) nor 0.779 kg of Table 4, rounded or not.
 FITTED_TO_TABLE_5 = PrintedSet(0.2718, 0.0999, 0.727, 1.498)
 
 

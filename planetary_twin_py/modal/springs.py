@@ -30,6 +30,11 @@ class SpringModel(NamedTuple):
     springs: tuple[Spring, ...]
 
     @property
+    def acting(self) -> tuple[Spring, ...]:
+        """The springs whose stiffness is not zero."""
+        return tuple(spring for spring in self.springs if spring.stiffness > 0.0)
+
+    @property
     def stiffness(self) -> np.ndarray:
         """Stiffness matrix [N/m], shape (coordinates, coordinates)."""
         rows = np.array([spring.row for spring in self.springs])

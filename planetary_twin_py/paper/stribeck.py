@@ -19,11 +19,8 @@ from .pitch_point import contact, static_load
 SLIDE_TO_ROLL = 0.2
 SPEEDS = np.logspace(-3.0, 2.0, 101)  # mean surface speed [m/s]
 BOUNDARY_REGIME = 0.08  # friction coefficient that asperities alone reach on steel
-MIXED = {
-    "lubrication.boundary": "load_sharing",
-    "lubrication.rolling": "goksem_hargreaves",
-    "lubrication.lambda_ratio": "computed",
-}
+COMPUTED = {"lubrication.lambda_ratio": "computed"}
+MIXED = {"lubrication.boundary": "load_sharing", "lubrication.rolling": "goksem_hargreaves"}
 
 
 class Curve(NamedTuple):
@@ -40,9 +37,12 @@ class Curve(NamedTuple):
 
 def stribeck_curve(evidence: Evidence) -> Entry:
     """Figure 6."""
-    ours = _curve(evidence.scene.replace(**MIXED))
-    printed = _curve(evidence.printed.replace(**{"lubrication.lambda_ratio": "computed"}))
-    bottom = ours.lowest
+    ours, printed = (
+        _curve(scene.replace(**COMPUTED)) for scene in (evidence.scene, evidence.printed)
+    )
+    mixed = _curve(evidence.scene.replace(**COMPUTED, **MIXED))
+    highest = max(ours.friction.max(), printed.friction.max())
+    other = "; it takes {}, which neither scene has" if _is_stribeck(mixed) else ""
     return Entry(
         number="Figure 6",
         title="Stribeck curve",
@@ -50,33 +50,39 @@ def stribeck_curve(evidence: Evidence) -> Entry:
             Claim(
                 says="three regimes: friction is high without a film and falls to a minimum as "
                 "the film separates the flanks",
-                ours=_text(ours),
-                printed=_text(printed),
+                ours=_descent(ours),
+                printed=_descent(printed),
                 holds=_has_boundary_regime(ours),
                 printed_holds=_has_boundary_regime(printed),
-                why="friction has no boundary regime",
+                why="asperities as Greenwood and Tripp have them carry a few per cent of the load "
+                f"at most, so friction stays below {highest:.3f} and there is no boundary regime"
+                + other.format("a law of load sharing"),
             ),
             Claim(
                 says="beyond the minimum it rises with eta V/W",
-                ours=f"from {ours.friction[bottom]:.3f} at lambda {ours.lambda_ratio[bottom]:.2g} "
-                f"to {ours.friction[-1]:.3f} at {ours.lambda_ratio[-1]:.2g}",
-                printed="falls to the end" if printed.lowest == len(SPEEDS) - 1 else "rises",
-                holds=bottom < len(SPEEDS) - 1 and rises(ours.friction[bottom:]),
-                printed_holds=printed.lowest < len(SPEEDS) - 1
-                and rises(printed.friction[printed.lowest :]),
-                why="friction does not rise beyond the minimum",
+                ours=_ascent(ours),
+                printed=_ascent(printed),
+                holds=_rises_at_last(ours),
+                printed_holds=_rises_at_last(printed),
+                why="Evans and Johnson's plateau only falls as the film grows"
+                + other.format("the film's rolling resistance"),
             ),
         ),
         remarks="One contact of the sun-planet mesh at a slide-to-roll ratio of "
         f"{SLIDE_TO_ROLL:g} whose speed varies over the whole range, sigma "
-        f"{1e6 * evidence.scene.lubrication.composite_roughness:g} um. The boundary regime needs a "
-        "law of load sharing (`lubrication.boundary: load_sharing`), the rise the film's rolling "
-        "resistance (`lubrication.rolling: goksem_hargreaves`). The paper's own equations have "
-        f"neither: Greenwood and Tripp's asperities carry a few per cent of the load at most, so "
-        f"friction stays below {printed.friction.max():.3f}, and Evans and Johnson's plateau only "
-        "falls with the film. The shaded range is that of the paper's study.",
-        picture=_draw(ours, printed),
-        figures={"lambda_ratio": ours.lambda_ratio, "friction_coefficient": ours.friction},
+        f"{1e6 * evidence.scene.lubrication.composite_roughness:g} um. Both scenes prescribe the "
+        "lambda ratio; here it is computed, for it is what varies. The third curve is another "
+        "model than the paper's: scene `paper` with "
+        f"{', '.join(f'`{name}: {law}`' for name, law in MIXED.items())}. It has friction of "
+        f"{_descent(mixed)}, and then {_ascent(mixed)}. The shaded range is that of the paper's "
+        "study.",
+        picture=_draw(ours, printed, mixed),
+        figures={
+            "lambda_ratio": ours.lambda_ratio,
+            "friction_coefficient": ours.friction,
+            "lambda_ratio_mixed": mixed.lambda_ratio,
+            "friction_coefficient_mixed": mixed.friction,
+        },
     )
 
 
@@ -103,24 +109,39 @@ def _has_boundary_regime(curve: Curve) -> bool:
     return bool(descent[0] > BOUNDARY_REGIME) and falls(descent)
 
 
-def _text(curve: Curve) -> str:
+def _rises_at_last(curve: Curve) -> bool:
+    return curve.lowest < len(SPEEDS) - 1 and rises(curve.friction[curve.lowest :])
+
+
+def _is_stribeck(curve: Curve) -> bool:
+    return _has_boundary_regime(curve) and _rises_at_last(curve)
+
+
+def _ascent(curve: Curve) -> str:
+    if not _rises_at_last(curve):
+        return "falls to the end"
+    return f"rises to {curve.friction[-1]:.3f} at {curve.lambda_ratio[-1]:.2g}"
+
+
+def _descent(curve: Curve) -> str:
     return (
         f"{curve.friction[0]:.3f} at lambda {curve.lambda_ratio[0]:.2g}, "
         f"{curve.friction[curve.lowest]:.3f} at {curve.lambda_ratio[curve.lowest]:.2g}"
     )
 
 
-def _draw(ours: Curve, printed: Curve) -> Figure:
+def _draw(ours: Curve, printed: Curve, mixed: Curve) -> Figure:
     figure, (axes,) = panels(1, 2.9)
     axes.axvspan(1.0, 2.0, color=GREY, alpha=0.2, lw=0)
     for curve, label in (
-        (ours, "load sharing, rolling resistance"),
-        (printed, "printed equations"),
+        (ours, "scene paper"),
+        (printed, "scene paper_printed"),
+        (mixed, "with load sharing and rolling resistance"),
     ):
         axes.plot(curve.lambda_ratio, curve.friction, label=label)
     axes.set_xscale("log")
     axes.set_ylim(0, 0.14)
     axes.set_xlabel("lambda ratio")
     axes.set_ylabel("friction coefficient")
-    axes.legend(loc="upper right")
+    axes.legend(loc="lower left")
     return figure

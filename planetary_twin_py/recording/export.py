@@ -109,7 +109,12 @@ class _Writer:
 def _format(chosen: Export) -> tuple[str, bool]:
     """The format, and whether all goes into one file."""
     ending = chosen.out.suffix.removeprefix(".")
-    kind = chosen.format or (ending if ending in FORMATS else "parquet")
+    if not chosen.format and ending and ending not in FORMATS:
+        raise ValueError(
+            f"out = {str(chosen.out)!r}: must end in {', '.join(f'.{kind}' for kind in FORMATS)}, "
+            "or give a format for a folder of this name"
+        )
+    kind = chosen.format or ending or "parquet"
     if kind not in FORMATS:
         raise ValueError(f"format = {kind!r}: must be one of {', '.join(FORMATS)}")
     return kind, ending == kind

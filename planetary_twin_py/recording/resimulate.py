@@ -32,6 +32,8 @@ class Made:
     """Simulated instant from which the settings hold: where an interval began [s]."""
     end: float
     """Of the run [s]."""
+    scene: Scene
+    """Of the new run at its start, where the settings hold from 0."""
     remarks: list[str] = field(default_factory=list)
 
 
@@ -70,7 +72,7 @@ def resimulate(
             progress(time, end)
     finally:  # what is there is true, however far it goes
         bag.close()
-    return Made(bag.file, begins, end, remarks)
+    return Made(bag.file, begins, end, run.origin.scene, remarks)
 
 
 def _chosen(runs: list[Run], number: int | None, remarks: list[str]) -> Run:

@@ -15,7 +15,13 @@ def no_such_field(name: str, known: Iterable[str]) -> str:
 
 
 def did_you_mean(name: str, known: Iterable[str]) -> str:
-    """The `known` names near to `name`, as the end of a refusal; empty where none is near.
+    """The `known` names near to `name`, as the end of a refusal; empty where none is near."""
+    near = nearest(name, known)
+    return f"; did you mean {' or '.join(near)}?" if near else ""
+
+
+def nearest(name: str, known: Iterable[str]) -> list[str]:
+    """The `known` names near to `name`.
 
     Names are compared without the sections they are in, which all fields of a section share:
     viscosity is near to lubrication.viscosity, mesh.colour to no other field of a mesh.
@@ -24,9 +30,8 @@ def did_you_mean(name: str, known: Iterable[str]) -> str:
     for path in known:
         places.setdefault(_own(path), []).append(path)
     for own in get_close_matches(_own(name), places, 1, NEAR):
-        nearest = get_close_matches(name, places[own], _MOST, 0.0)
-        return f"; did you mean {' or '.join(nearest)}?"
-    return ""
+        return get_close_matches(name, places[own], _MOST, 0.0)
+    return []
 
 
 def _own(path: str) -> str:

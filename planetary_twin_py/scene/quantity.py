@@ -3,16 +3,28 @@
 from __future__ import annotations
 
 import math
-from typing import Any, get_args
+from collections.abc import Sequence
+from typing import Any, get_args, get_origin
 
 from pydantic import BaseModel, ConfigDict, Field, ValidationInfo, field_validator
 from pydantic.fields import FieldInfo
 
-from ..units import to_si
+from ..units import UnitError, to_si
 
 
 class SceneError(ValueError):
-    """A scene that cannot be: one line that names the field, the value and the allowed range."""
+    """A scene that cannot be.
+
+    A line names the field, the value and the allowed range. Several errors are a heading and such a
+    line each.
+    """
+
+
+def listed(errors: Sequence[str]) -> str:
+    """Message of one or more errors, each a line."""
+    if len(errors) == 1:
+        return errors[0]
+    return "\n  ".join((f"the scene has {len(errors)} errors:", *errors))
 
 
 class Section(BaseModel):
@@ -28,6 +40,8 @@ class Section(BaseModel):
             return value
         if isinstance(value, (list, tuple)):
             return tuple(to_si(item, unit) for item in value)
+        if isinstance(value, str) and _is_list(cls.model_fields[info.field_name or ""]):
+            raise UnitError(f"must be a list, e.g. [1 {unit}, 2 {unit}]".replace(" ]", "]"))
         return to_si(value, unit)
 
 
@@ -40,6 +54,10 @@ def unit_of(field: FieldInfo) -> str | None:
     """Unit of a field, None for one that is not a quantity."""
     extra = field.json_schema_extra
     return str(extra["unit"]) if isinstance(extra, dict) and "unit" in extra else None
+
+
+def _is_list(field: FieldInfo) -> bool:
+    return get_origin(field.annotation) is tuple
 
 
 def sections_in(kind: Any) -> list[type[Section]]:

@@ -7,7 +7,6 @@ from importlib import resources
 from pathlib import Path
 from typing import Any, Literal, Self
 
-import yaml
 from pydantic import Field, ValidationError, model_validator
 
 from .defect import explain
@@ -19,8 +18,10 @@ from .lubrication import Lubrication
 from .mesh import Mesh
 from .names import did_you_mean, no_such_field
 from .operating_point import TUNABLES, OperatingPoint, Tunable
-from .quantity import SceneError, Section
+from .paths import NoSuchPath, paths, put
+from .quantity import SceneError, Section, listed
 from .supports import Supports
+from .yaml_text import read_yaml
 
 _LIMITS = {  # fields of the drive that bound a quantity
     "input_speed": "speed_limit",
@@ -52,42 +53,43 @@ class Scene(Section):
     faults: tuple[Fault, ...] = Field((), max_length=MOST_FAULTS, description="faulty teeth")
 
     @model_validator(mode="after")
-    def _held_member_is_free_of_machines(self) -> Self:
+    def _parts_fit_together(self) -> Self:
+        if errors := [*self._machines(), *self._limits(), *self._faulty_teeth()]:
+            raise ValueError("\n".join(errors))
+        return self
+
+    def _machines(self) -> Iterator[str]:
+        """Errors of the drive: the held member is free of machines, a differential has two."""
         held = self.gearset.held
         for side in ("input", "second_input", "output"):
             machine = getattr(self.drive, side)
             if machine is not None and machine.member == held:
-                raise ValueError(f"drive.{side}.member = {machine.member!r}: the gearset holds it")
+                yield f"drive.{side}.member = {machine.member!r}: the gearset holds it"
         if (self.drive.second_input is None) != (held != "none"):
             needed = "needs" if held == "none" else "has no place for"
-            raise ValueError(f"gearset.held = {held!r}: {needed} a drive.second_input")
+            yield f"gearset.held = {held!r}: {needed} a drive.second_input"
         if self.drive.second_input is None and self.operating_point.second_input_speed != 0.0:
             speed = self.operating_point.second_input_speed
-            raise ValueError(f"second_input_speed = {speed!r}: must be 0, there is no second input")
-        return self
+            yield f"second_input_speed = {speed!r}: must be 0, there is no second input"
 
-    @model_validator(mode="after")
-    def _within_the_limits_of_the_drive(self) -> Self:
+    def _limits(self) -> Iterator[str]:
+        """Errors of the operating point: it lies within the limits of the drive."""
         for tunable in self.tunables.values():
             value = getattr(self.operating_point, tunable.name)
             if not tunable.minimum <= value <= tunable.maximum:
                 why = f", drive.{_LIMITS[tunable.name]}" if tunable.name in _LIMITS else ""
-                raise ValueError(f"{tunable.name} = {value!r}: {tunable.range}{why}")
-        return self
+                yield f"{tunable.name} = {value!r}: {tunable.range}{why}"
 
-    @model_validator(mode="after")
-    def _faults_are_in_teeth_there_are(self) -> Self:
+    def _faulty_teeth(self) -> Iterator[str]:
+        """Errors of the faults: their teeth exist, and have a shape if that is needed."""
         for n, fault in enumerate(self.faults):
             teeth = getattr(self.gearset.teeth, fault.gear)
             for name, last in (("tooth", teeth - 1), ("planet", self.gearset.planets)):
                 if getattr(fault, name) > last:
                     value = getattr(fault, name)
-                    raise ValueError(f"faults.{n}.{name} = {value}: must be at most {last}")
+                    yield f"faults.{n}.{name} = {value}: must be at most {last}"
             if isinstance(fault, Crack) and fault.depth and self.mesh.stiffness != "involute":
-                raise ValueError(
-                    f"faults.{n}.depth: needs mesh.stiffness = involute; or give stiffness_loss"
-                )
-        return self
+                yield f"faults.{n}.depth: needs mesh.stiffness = involute; or give stiffness_loss"
 
     @property
     def tunables(self) -> dict[str, Tunable]:
@@ -100,28 +102,39 @@ class Scene(Section):
     @property
     def field_names(self) -> Iterator[str]:
         """All fields there are, as `replace` takes them."""
-        return (path.removeprefix("operating_point.") for path in _paths(self.model_dump()))
+        return (path.removeprefix("operating_point.") for path in paths(self.model_dump()))
 
     def replace(self, **changes: Any) -> Scene:
         """A copy with other values.
 
-        Names are those of the operating point (``backlash=3e-7``) or dotted paths into the
-        scene (``**{"mesh.ramp": 0.0}``); texts with a unit are converted.
+        Args:
+            changes: values by name. Names are those of the operating point (``backlash=3e-7``) or
+                dotted paths into the scene (``**{"mesh.ramp": 0.0, "faults.0.tooth": 3}``), also
+                into optional sections; texts with a unit are converted.
+
+        Returns:
+            The changed scene.
 
         Raises:
             SceneError: a name is unknown, or a value is out of its range.
         """
-        data = self.model_dump()
+        data, errors = self.model_dump(), []
+        given: dict[tuple[str, ...], str] = {}
         for name, value in changes.items():
-            path = name.split(".")
-            if len(path) == 1 and name in OperatingPoint.model_fields:
-                path = ["operating_point", name]
-            node = data
-            for part in path[:-1]:
-                node = node.get(part, {}) if isinstance(node, dict) else {}
-            if not isinstance(node, dict) or path[-1] not in node:
-                raise SceneError(no_such_field(name, self.field_names))
-            node[path[-1]] = value
+            path = tuple(name.split("."))
+            if name in OperatingPoint.model_fields:
+                path = ("operating_point", name)
+            if given.setdefault(path, name) != name:
+                errors.append(f"{path[-1]}: given twice, as {given[path]} and as {name}")
+            try:
+                data = put(data, [Scene], path, value)
+            except NoSuchPath as error:
+                reason = f"{error}"
+                errors.append(
+                    f"{name}: {reason}" if reason else no_such_field(name, self.field_names)
+                )
+        if errors:
+            raise SceneError(listed(errors))
         return _validated(data)
 
 
@@ -129,15 +142,7 @@ def _validated(data: Any) -> Scene:
     try:
         return Scene.model_validate(data)
     except ValidationError as error:
-        raise SceneError(explain(error, Scene).removeprefix("operating_point.")) from None
-
-
-def _paths(node: Any) -> Iterator[str]:
-    """Dotted names of all fields below `node`."""
-    if isinstance(node, dict):
-        for name, below in node.items():
-            yield name
-            yield from (f"{name}.{path}" for path in _paths(below))
+        raise SceneError(explain(error, Scene)) from None
 
 
 def packaged_scenes() -> tuple[str, ...]:
@@ -172,12 +177,9 @@ def parse_scene(text: str) -> Scene:
     A scene with a ``base``, the name of a packaged scene, says only where it differs from that.
 
     Raises:
-        SceneError: the text is no YAML mapping, or a field in it is wrong.
+        SceneError: the text is no YAML mapping, gives a key twice, or a field in it is wrong.
     """
-    try:
-        data = yaml.safe_load(text)
-    except yaml.YAMLError as error:
-        raise SceneError(f"scene is not YAML: {' '.join(str(error).split())}") from None
+    data = read_yaml(text)
     if not isinstance(data, dict):
         raise SceneError("scene is not a YAML mapping")
     if "base" in data:

@@ -8,7 +8,8 @@ from typing import Any
 import numpy as np
 from pydantic.fields import FieldInfo
 
-from ..scene import OperatingPoint, Scene
+from ..scene import OperatingPoint, Scene, SceneError
+from ..scene.names import no_such_field
 from ..units import has_unit, is_number
 
 LOGARITHMIC = "log"
@@ -70,14 +71,27 @@ def read_value(scene: Scene, field: str, given: Any) -> Any:
 
 
 def look_up(scene: Scene, field: str) -> tuple[FieldInfo, Any]:
-    """The field of `scene` with this dotted name, and its value."""
+    """The field of `scene` with this dotted name, and its value.
+
+    Raises:
+        SceneError: `scene` does not have it.
+    """
     path = field.split(".")
+    if field in OperatingPoint.model_fields:
+        path = ["operating_point", field]
     node: Any = scene
-    if len(path) == 1 and field in OperatingPoint.model_fields:
-        node = scene.operating_point
-    for part in path[:-1]:
-        node = getattr(node, part)
-    return type(node).model_fields[path[-1]], getattr(node, path[-1])
+    info = None
+    try:
+        for part in path:
+            if isinstance(node, tuple):
+                node = node[int(part)]
+            else:
+                info, node = type(node).model_fields[part], getattr(node, part)
+    except (AttributeError, LookupError, ValueError):
+        info = None
+    if info is None:
+        raise SceneError(no_such_field(field, scene.field_names))
+    return info, node
 
 
 def _check_units(field: str, text: str, values: list[str]) -> None:

@@ -29,8 +29,9 @@ def tabulate(study: Study, found: Mapping[int, Found]) -> pa.Table:
     columns: list[tuple[pa.Field, Any]] = [
         column("point", [point.place for point in study.points], "", "place in the study", "i8")
     ]
+    first = study.scene.replace(**study.points[0].changes)  # may have sections that others lack
     for field in study.fields:
-        info, _ = look_up(study.scene, field)
+        info, _ = look_up(first, field)
         values = [point.changes[field] for point in study.points]
         columns.append(column(field, values, unit_of(info) or "", info.description or ""))
     for name, measure in MEASURES.items():
@@ -69,7 +70,12 @@ def read(path: Path) -> pa.Table:
         OSError: it cannot be read.
         ValueError: it is no such table.
     """
-    return _read_csv(path) if path.suffix == ".csv" else pyarrow.parquet.read_table(path)
+    if path.suffix == ".csv":
+        return _read_csv(path)
+    try:
+        return pyarrow.parquet.read_table(path)
+    except pa.ArrowInvalid:
+        raise ValueError("not a readable Parquet file") from None
 
 
 def _read_csv(path: Path) -> pa.Table:

@@ -8,18 +8,16 @@ contact runs along a line that stands still.
 
 from __future__ import annotations
 
-import math
+from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
 import rerun as rr
 from numpy.typing import NDArray
 
-from ..dynamics.stiffness_laws import stiffness_laws
-from ..gearset.geometry import base_pitch, pitch_radius, planet_ring_path, sun_planet_path
+from ..dynamics.pair_loads import pair_loads
+from ..gearset.geometry import base_pitch, pitch_radius
 from ..gearset.line_of_action import COAST, DRIVE, line_of_action
-from ..gearset.phasing import mesh_phases
-from ..mesh.tooth_pairs import PAIRS, PairTable, pair_table
 from ..recording.reader import Recording
 from ..scene import Scene
 from ..scene.gearset import Gearset
@@ -54,8 +52,7 @@ def log_contacts(layer: Layer, scene: Scene, recording: Recording, motion: Motio
     """Log the tooth pairs in contact at the instants of `motion`, and the scale of their loads."""
     force = forces(recording, motion.time)
     found = [
-        contacts(scene, mesh, motion.angle["sun"] - motion.angle["carrier"], force[:, mesh])
-        for mesh in range(len(recording.meshes))
+        contacts(scene, mesh, motion.angle, force[:, mesh]) for mesh in range(len(recording.meshes))
     ]
     loads = np.concatenate([mesh.load[mesh.load > 0.0] for mesh in found])
     if not len(loads):
@@ -86,51 +83,33 @@ def forces(recording: Recording, time: Array) -> Array:
     return force
 
 
-def contacts(scene: Scene, mesh: int, sun_angle: Array, force: Array) -> Contacts:
-    """Tooth pairs of a mesh that carry its `force` [N] (n,) at `sun_angle` [rad] (n,).
+def contacts(scene: Scene, mesh: int, angle: Mapping[str, Array], force: Array) -> Contacts:
+    """Tooth pairs that carry the force of a mesh, by the model's law of stiffness and its faults.
 
-    `mesh` counts as in a recording; the angle is the sun's against the carrier. Pairs share the
-    force as the scene's law of stiffness has it; faulty teeth count as healthy ones.
+    Args:
+        scene: gears, stiffness and faults.
+        mesh: number of the mesh in the order of a recording.
+        angle: angles of the members [rad] (n,), see `pair_loads`.
+        force: force of the mesh [N] (n,), negative on the coast flanks.
+
+    Returns:
+        Where the pairs touch, in which direction they push, and their loads.
     """
-    gearset, angle = scene.gearset, scene.gearset.pressure_angle
+    gearset = scene.gearset
     ring, planet = divmod(mesh, gearset.planets)
-    phase = float(mesh_phases(gearset.tooth_numbers, gearset.planet_angles)[ring][planet])
-    cycle = gearset.teeth.sun * sun_angle / (2.0 * math.pi) - phase
     teeth = gearset.teeth.ring if ring else gearset.teeth.sun
-    radius, pitch = pitch_radius(teeth, gearset.module), base_pitch(gearset.module, angle)
-    table = _table(scene, ring)
-    shape = (len(cycle), PAIRS)
-    found = Contacts(np.zeros((*shape, 2)), np.zeros((*shape, 2)), np.zeros(shape))
+    radius = pitch_radius(teeth, gearset.module)
+    pitch = base_pitch(gearset.module, gearset.pressure_angle)
+    position, load = pair_loads(scene, mesh, angle, force)
+    point, push = np.zeros((*load.shape, 2)), np.zeros((*load.shape, 2))
     for flank in (DRIVE, COAST):
-        rows = np.flatnonzero(np.sign(force) == flank)
-        # The coast flanks see the motion mirrored, half a pitch later.
-        own = flank * cycle[rows] + (0.5 if flank == COAST else 0.0)
-        position, share = _pairs(table, own - np.floor(own))
-        line = line_of_action(gearset.planet_angles[planet], radius, angle, flank, bool(ring))
-        found.point[rows] = line.at(pitch * position)
-        found.push[rows] = line.direction
-        found.load[rows] = share * np.abs(force[rows, None])
-    return found
-
-
-def _table(scene: Scene, kind: int) -> PairTable:
-    gearset, law = scene.gearset, stiffness_laws(scene)[kind]
-    path = (sun_planet_path, planet_ring_path)[kind]
-    reach = path(gearset.tooth_numbers, gearset.pressure_angle, gearset.addendum)
-    return pair_table(reach, scene.mesh.ramp, law.strength, law.sharing)
-
-
-def _pairs(table: PairTable, cycle: Array) -> tuple[Array, Array]:
-    """Positions [base pitches] and shares in the force of the pairs at cycles in [0, 1), (n, p)."""
-    segment = np.searchsorted(table.edge[1 : table.segments], cycle, side="right")
-    into = (cycle - table.edge[segment])[:, None]
-    coefficients = table.weight[segment, :PAIRS]
-    weight = np.zeros((len(cycle), PAIRS))
-    for term in range(coefficients.shape[-1] - 1, -1, -1):
-        weight = weight * into + coefficients[..., term]
-    weight = np.where(table.present[segment], np.maximum(weight, 0.0), 0.0)
-    share = weight / weight.sum(axis=1, keepdims=True)
-    return cycle[:, None] + table.shift[segment], share
+        rows = np.sign(force) == flank
+        line = line_of_action(
+            gearset.planet_angles[planet], radius, gearset.pressure_angle, flank, bool(ring)
+        )
+        point[rows] = line.at(pitch * position[rows])
+        push[rows] = line.direction
+    return Contacts(point, push, load)
 
 
 def _strips(gearset: Gearset, mesh: Contacts, full: float) -> rr.ComponentColumnList:

@@ -43,6 +43,9 @@ def test_users_errors_are_one_line_each(file, tmp_path):
         (["view", __file__], "not an MCAP file"),
         (["view", file, file, "--scene", "paper", "--save", tmp_path / "a.rrd"], "shown twice"),
         (["view", file, "--scene", "papyrus"], "papyrus"),
+        (["view", file, "--screenshot", tmp_path / "a.jpg"], "a.jpg': must end in .png"),
+        (["view", file, "--save", tmp_path / "a.txt"], "a.txt': must end in .rrd"),
+        (["view", "--screenshot", tmp_path / "a.png"], "--screenshot needs a recording"),
         (["view", file, "--scene", "paper", "--save", tmp_path / "no" / "a.rrd"], "a.rrd"),
         (["view", file, "--scene", "paper", "--screenshot", "a.png", "--at", "9"], "at = 9"),
     ]:

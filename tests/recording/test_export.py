@@ -129,6 +129,7 @@ def test_a_torn_file_gives_what_is_sound(sound, tmp_path):
         (("--format", "xls"), ["format = 'xls'", "parquet, csv, npz"]),
         (("--topics", "tf"), ["topics = tf", "gearbox_state, operating_point, mesh_waveform"]),
         (("--out", "all.npz"), ["out = all.npz", "choose one"]),
+        (("--out", "all.txt"), ["out = 'all.txt'", ".parquet, .csv, .npz"]),
         (("--out", "there"), ["there/gearbox_state.parquet", "exists"]),
         (("--out", "/proc/tables"), ["/proc/tables"]),
         (("--namespace", "other"), ["namespace = /other"]),

@@ -152,7 +152,7 @@ def test_one_file_instead_of_a_folder(tmp_path):
     assert run("import", table, "--out", tmp_path / "rig.mcap").exit_code == 0
     assert read_runs(tmp_path / "rig.mcap", NAMESPACE, [])
     again = run("import", table, "--out", tmp_path / "rig.mcap")
-    assert again.exit_code == 2 and "rig.mcap: exists" in again.output
+    assert again.exit_code == 2 and "rig.mcap': exists" in again.output
 
 
 def with_column(name, values, **without):

@@ -137,7 +137,7 @@ def test_what_was_lost_in_recording_is_there_again(sound, tmp_path):
         (("--duration", "inf"), ["duration = inf s"]),
         (("--run", "3"), ["run = 3", "within 1 and 2"]),
         (("--namespace", "other"), ["namespace = /other", NAMESPACE]),
-        (("--out", "."), ["out = .", "exists"]),
+        (("--out", "."), ["--out = '.'", "exists"]),
     ],
 )
 def test_what_cannot_be_ends_in_one_line_and_leaves_nothing(sound, tmp_path, arguments, words):

@@ -46,6 +46,9 @@ def test_values_may_have_units_and_what_was_set_is_told(
     peer.until(lambda: points[-1].lambda_ratio == 1.5)
     assert points[-1].input_speed == pytest.approx(2000 * math.pi / 30)
     assert set(points[-1].changed.split(",")) == {"input_speed", "lambda_ratio"}
+    assert answer.stderr == ""
+    answer = command("op", "input_speed=100", "lambda_ratio=1.5")
+    assert answer.stderr.strip() == "planetary-twin: input_speed = 100 rad/s (954.9 rpm)"
 
 
 def test_where_there_is_no_twin_those_elsewhere_are_named(points: list[OperatingPoint]) -> None:

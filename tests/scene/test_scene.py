@@ -88,6 +88,11 @@ CRACK = {"kind": "crack", "gear": "sun", "tooth": 0, "stiffness_loss": 0.2}
         ({"faults": [CRACK | {"stiffness_loss": 2.0}]}, ["faults.0", "stiffness_loss", "2.0"]),
         ({"faults": [CRACK | {"kind": "hole"}]}, ["faults.0", "hole", "crack"]),
         ({"faults": [CRACK] * 5}, ["faults", "4"]),
+        ({"faults": "crack"}, ["faults = 'crack': must be a list"]),
+        ({"faults": ["crack"]}, ["faults.0: must be a section with a kind"]),
+        ({"gearset__teeth": 3}, ["gearset.teeth = 3: must be a section"]),
+        ({"gearset__teeth__sun": 30.5}, ["gearset.teeth.sun = 30.5: must be a whole number"]),
+        ({"lubrication__friction": "maybe"}, ["lubrication.friction = 'maybe': must be true or"]),
         ({"drive__output__member": "sun"}, ["output.member", "sun"]),
         ({"mesh__ramp": 0.5}, ["mesh.ramp", "0.5", "within 0 and 0.2"]),
     ],
@@ -119,6 +124,40 @@ def test_a_missing_section_is_named():
         pt.parse_scene(yaml.safe_dump(data))
 
 
+def test_all_errors_of_a_scene_are_listed_at_once_a_line_each():
+    data = yaml.safe_load(text())
+    data["mesh"] |= {"ramp": 0.5, "backlash": "gap"}
+    data["gearset"]["modul"] = data["gearset"].pop("module")
+    data["operating_point"]["input_speed"] = "3 m"
+    data["faults"] = [CRACK | {"kind": "hole"}, CRACK | {"stiffness_loss": 2.0}]
+    del data["drive"]["output"]
+    with pytest.raises(pt.SceneError) as refusal:
+        pt.parse_scene(yaml.safe_dump(data))
+    assert sorted(str(refusal.value).split("\n  ")) == sorted(
+        [
+            "the scene has 7 errors:",
+            "mesh.ramp = 0.5: must be a number within 0 and 0.2",
+            "mesh.backlash = 'gap': must be 'dead_zone' or 'regulatory_factor'",
+            "gearset.modul: no such field; did you mean module?",
+            "input_speed = '3 m': [m] is no unit that goes into rad/s",
+            "faults.0.kind = 'hole': must be one of 'crack', 'spall', 'wear'",
+            "faults.1.stiffness_loss = 2.0: must be a number within 0 and 0.9",
+            "drive.output: missing",
+        ]
+    )
+
+
+def test_what_contradicts_other_fields_is_listed_at_once_too():
+    with pytest.raises(pt.SceneError) as refusal:
+        PAPER.replace(input_speed=2e3, second_input_speed=1.0, faults=[CRACK | {"tooth": 30}])
+    assert str(refusal.value) == (
+        "the scene has 3 errors:\n"
+        "  second_input_speed = 1.0: must be 0, there is no second input\n"
+        "  input_speed = 2000.0: must be a number within -1100 and 1100 rad/s, drive.speed_limit\n"
+        "  faults.0.tooth = 30: must be at most 29"
+    )
+
+
 def test_a_mistyped_name_is_told_rather_than_the_right_one_it_leaves_out():
     data = yaml.safe_load(text())
     data["gearset"]["modul"] = data["gearset"].pop("module")
@@ -136,7 +175,8 @@ def test_a_mistyped_name_is_told_rather_than_the_right_one_it_leaves_out():
         ("mesh.viscosity", "; did you mean lubrication.viscosity?"),
         ("mesh.rump", "; did you mean mesh.ramp?"),
         ("backlas", "; did you mean backlash or mesh.backlash?"),
-        ("supports.sun.mass", ""),  # not given in this scene, and far from the phases of a mesh
+        ("suports", "; did you mean supports?"),
+        ("supports.son.mass", ""),
         ("mesh.colour", ""),
         ("nosuch", ""),
         ("x", ""),
@@ -162,6 +202,14 @@ def test_a_scene_that_there_is_not_is_told_with_the_nearest_if_one_is_near(name,
 def test_replacing_what_there_is_not_is_refused(name):
     with pytest.raises(pt.SceneError, match="no such field"):
         PAPER.replace(**{name: 1.0})
+
+
+def test_a_field_that_is_given_by_both_of_its_names_is_refused():
+    with pytest.raises(pt.SceneError) as refusal:
+        PAPER.replace(**{"operating_point.backlash": 1e-6, "backlash": 2e-6})
+    assert (
+        str(refusal.value) == "backlash: given twice, as operating_point.backlash and as backlash"
+    )
 
 
 def test_replace_leaves_the_original():

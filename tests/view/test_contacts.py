@@ -20,6 +20,15 @@ HELD_RING = load_scene("wind_turbine_stage")
 SUN_ANGLE = np.linspace(-0.7, 0.9, 301)  # against the carrier
 
 
+def turned(scene):
+    """Angles of all members since the start, the carrier held, at `SUN_ANGLE`."""
+    gearset = scene.gearset
+    ratio = speed_ratios(gearset.tooth_numbers, "carrier", "sun")
+    angle = {name: float(ratio[name]) * SUN_ANGLE for name in ("sun", "ring", "carrier")}
+    planets = range(1, gearset.planets + 1)
+    return angle | {f"planet_{i}": float(ratio["planet"]) * SUN_ANGLE for i in planets}
+
+
 def off_flank(gear, angle, point):
     """Distance [m] from points (n, p, 2) about the gear's centre to the nearest of its flanks.
 
@@ -38,15 +47,18 @@ def gears_of_mesh(scene, mesh):
     """First and second gear of a mesh: teeth, angle seen from the carrier, and centre."""
     gearset = scene.gearset
     ring, i = divmod(mesh, gearset.planets)
-    ratio = speed_ratios(gearset.tooth_numbers, "carrier", "sun")
     stand = mount(gearset.tooth_numbers, gearset.planet_angles)
     psi = gearset.planet_angles[i]
     centre = carrier_radius(gearset) * np.array([math.cos(psi), math.sin(psi)])
-    turned = {name: float(ratio[name]) * SUN_ANGLE for name in ("sun", "planet", "ring")}
-    sun = gear_of(gearset, gearset.teeth.sun), stand.sun + turned["sun"], np.zeros(2)
-    planet = gear_of(gearset, gearset.teeth.planet), stand.planets[i] + turned["planet"], centre
+    angle = turned(scene)
+    sun = gear_of(gearset, gearset.teeth.sun), stand.sun + angle["sun"], np.zeros(2)
+    planet = (
+        gear_of(gearset, gearset.teeth.planet),
+        stand.planets[i] + angle[f"planet_{i + 1}"],
+        centre,
+    )
     annulus = (
-        gear_of(gearset, gearset.teeth.ring, True), stand.ring + turned["ring"], np.zeros(2)
+        gear_of(gearset, gearset.teeth.ring, True), stand.ring + angle["ring"], np.zeros(2)
     )  # fmt: skip
     return (planet, annulus) if ring else (sun, planet)
 
@@ -56,7 +68,7 @@ def gears_of_mesh(scene, mesh):
 def test_contacts_lie_on_the_flanks_of_both_gears_that_push_each_other(scene, flank):
     """Sun and planet turn in opposite senses: both touch with flanks that face the same one."""
     for mesh in range(2 * scene.gearset.planets):
-        found = contacts(scene, mesh, SUN_ANGLE, np.full(len(SUN_ANGLE), 1000.0 * flank))
+        found = contacts(scene, mesh, turned(scene), np.full(len(SUN_ANGLE), 1000.0 * flank))
         there = found.load > 0.0
         facing = (-flank, flank) if mesh >= scene.gearset.planets else (flank, flank)
         for (gear, angle, centre), side in zip(gears_of_mesh(scene, mesh), facing, strict=True):
@@ -74,7 +86,7 @@ def test_contacts_lie_on_the_line_of_action_within_the_path_of_contact(flank):
     gearset = PAPER.gearset
     for mesh, path in ((1, sun_planet_path), (4, planet_ring_path)):
         reach = path(gearset.tooth_numbers, gearset.pressure_angle, gearset.addendum)
-        found = contacts(PAPER, mesh, SUN_ANGLE, np.full(len(SUN_ANGLE), flank))
+        found = contacts(PAPER, mesh, turned(PAPER), np.full(len(SUN_ANGLE), flank))
         there = found.load > 0.0
         for gear, _, centre in gears_of_mesh(PAPER, mesh):
             arm, push = (found.point - centre)[there], found.push[there]
@@ -93,7 +105,7 @@ def test_contacts_lie_on_the_line_of_action_within_the_path_of_contact(flank):
 
 def test_pairs_share_the_whole_force_and_an_open_mesh_has_none():
     force = np.where(SUN_ANGLE < 0.2, 1500.0, 0.0)
-    found = contacts(PAPER, 0, SUN_ANGLE, force)
+    found = contacts(PAPER, 0, turned(PAPER), force)
     assert np.allclose(found.load.sum(axis=1), force)
     pairs = (found.load > 0).sum(axis=1)
     assert set(pairs[force > 0]) == {1, 2}
@@ -101,12 +113,28 @@ def test_pairs_share_the_whole_force_and_an_open_mesh_has_none():
     assert pairs[force > 0].mean() == pytest.approx(reach.contact_ratio, abs=0.05)
 
 
+def test_a_cracked_tooth_is_drawn_with_the_smaller_load_that_it_has_in_the_model():
+    """The crack takes a share of the tooth's stiffness; the pair beside it takes over."""
+    crack = {"kind": "crack", "gear": "sun", "tooth": 0, "stiffness_loss": 0.5}
+    force = np.full(len(SUN_ANGLE), 1000.0)
+    healthy, cracked = (
+        contacts(scene, 0, turned(scene), force) for scene in (PAPER, PAPER.replace(faults=[crack]))
+    )
+    assert np.allclose(cracked.load.sum(axis=1), force)
+    cycle = 30 * SUN_ANGLE / (2 * math.pi)  # tooth 0 is at the pitch point of planet 1 at 0
+    behind = (cycle > 0.45) & (cycle < 0.7)  # two full pairs, of which the first is cracked
+    assert np.allclose(healthy.load[behind].max(axis=1), 500.0)
+    assert np.allclose(cracked.load[behind].max(axis=1), 1000.0 * 1 / 1.5)
+    far = np.abs(cycle) > 1.5
+    assert np.array_equal(healthy.load[far], cracked.load[far])
+
+
 def test_load_torque_follows_from_the_pushes_on_the_sun():
     """The moment of all pushes about the sun's axis is that of the forces on its base circle."""
     force = np.full(len(SUN_ANGLE), 1000.0)
     moment = 0.0
     for mesh in range(3):
-        found = contacts(PAPER, mesh, SUN_ANGLE, force)
+        found = contacts(PAPER, mesh, turned(PAPER), force)
         lever = found.point[..., 0] * found.push[..., 1] - found.point[..., 1] * found.push[..., 0]
         moment += (found.load * lever).sum(axis=1)
     base = gear_of(PAPER.gearset, 30).base_radius

@@ -7,7 +7,6 @@ from collections.abc import Mapping, Sequence
 from typing import Any, NamedTuple
 
 from ...scene import Scene
-from ...scene.names import no_such_field
 from ...scene.quantity import bounds, unit_of
 from ...scene.unused import not_in_use
 from ..axes import look_up, read_value
@@ -49,10 +48,7 @@ def read_parameters(
 
 
 def _parameter(scene: Scene, name: str, start: Any) -> Parameter:
-    try:
-        info, value = look_up(scene, name)
-    except (AttributeError, KeyError):
-        raise ValueError(no_such_field(name, scene.field_names)) from None
+    info, value = look_up(scene, name)
     if unit_of(info) is None or not isinstance(value, float):
         raise ValueError(f"{name} = {value!r}: only a continuous quantity can be estimated")
     if reason := not_in_use(scene, name):

@@ -13,6 +13,7 @@ from planetary_twin_py.cli._arguments import JsonOption, SceneArgument
 from planetary_twin_py.cli._fail import fail, need, remark
 from planetary_twin_py.cli._figures import console_beside, put_figures
 from planetary_twin_py.cli._interrupts import interrupt
+from planetary_twin_py.cli._settings import changed_scene, settings
 
 from .pacing import check_rate_factor
 
@@ -73,7 +74,7 @@ def run(
 def _run(
     options: Mapping[str, Any],
     record: str | None,
-    settings: list[str],
+    given: list[str],
     tour: bool,
     target: str | None,
 ) -> None:
@@ -91,7 +92,7 @@ def _run(
     plan = Plan(
         **options,
         folder=_folder(record, scene),
-        values=_values(scene, settings),
+        values=_values(scene, given),
         stops=tour_of(scene, duration) if tour else [],
     )
     console = console_beside(target)
@@ -114,18 +115,16 @@ def _folder(record: str | None, scene: str) -> Path:
     return folder
 
 
-def _values(scene: str, settings: list[str]) -> dict[str, float]:
+def _values(scene: str, given: list[str]) -> dict[str, float]:
     """Return the settings in SI, tried on the scene before any process starts."""
     import planetary_twin_py as pt
 
-    values = {}
-    for setting in settings:
-        name, equals, value = setting.partition("=")
-        if not equals or name not in pt.TUNABLES:
+    values = settings(given)
+    for name, value in values.items():
+        if name not in pt.TUNABLES:
             known = ", ".join(pt.TUNABLES)
-            raise ValueError(f"--set {setting!r}: must be NAME=VALUE, with NAME of {known}")
-        values[name] = value
-    point = pt.load_scene(scene).replace(**values).operating_point
+            raise ValueError(f"--set '{name}={value}': must be NAME=VALUE, with NAME of {known}")
+    point = changed_scene(scene, values).operating_point
     return {name: getattr(point, name) for name in values}
 
 

@@ -3,14 +3,15 @@
 from __future__ import annotations
 
 import contextlib
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
 from planetary_twin_py.cli._console import make_console
-from planetary_twin_py.cli._fail import fail
+from planetary_twin_py.cli._fail import fail, note
+from planetary_twin_py.cli._settings import in_words
 
 if TYPE_CHECKING:
     from .remote import Remote
@@ -83,6 +84,7 @@ def set_(
     """
     with _twin(namespace) as twin:
         twin.set(name, value)
+        _say_units({name: value})
         print(f"{name} = {_shown(twin.setting(name).value)}")
 
 
@@ -103,7 +105,18 @@ def op(
     typed = dict(_pair(change) for change in changes)
     with _twin(namespace) as twin:
         instant = twin.operate(typed, ramp)
+        _say_units(typed)
         print(f"{', '.join(typed)} from {instant:g} s")
+
+
+def _say_units(typed: Mapping[str, str]) -> None:
+    """Say of each quantity that is given as a bare number in which unit it was taken."""
+    from planetary_twin_py.scene import TUNABLES
+    from planetary_twin_py.units import is_number
+
+    for name, value in typed.items():
+        if name in TUNABLES and TUNABLES[name].unit and is_number(value):
+            note(in_words(name, float(value), TUNABLES[name].unit))
 
 
 def _pair(change: str) -> tuple[str, str]:

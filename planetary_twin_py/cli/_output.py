@@ -1,0 +1,67 @@
+"""Where a command writes: checked while the options are read, before anything is computed."""
+
+from __future__ import annotations
+
+import os
+from pathlib import Path
+from typing import TypeVar
+
+import typer
+
+from ._fail import fail
+
+Target = TypeVar("Target", Path, str)
+
+
+def output_file(
+    context: typer.Context, param: typer.CallbackParam, value: Target | None
+) -> Target | None:
+    """Callback of an option that names a file: end the command where it cannot be written."""
+    if value is not None and str(value) != "-" and not context.resilient_parsing:
+        check_file(_option(param), Path(value))
+    return value
+
+
+def check_file(option: str, path: Path) -> None:
+    """End the command where the file at `path`, which `option` names, cannot be written.
+
+    Args:
+        option: name of the option, e.g. "--out".
+        path: of a file that may exist.
+    """
+    if path.is_dir():
+        _refuse(option, path, "is a folder; name a file")
+    if path.exists() and not os.access(path, os.W_OK):
+        _refuse(option, path, "may not be written")
+    _check_folder(option, path, path.parent)
+
+
+def check_recording(option: str, path: Path) -> None:
+    """End the command where no recording can be made at `path`, which `option` names.
+
+    Args:
+        option: name of the option, e.g. "--out".
+        path: of a folder, whose parents are made, or of one file NAME.mcap; it must be free.
+    """
+    if path.exists():
+        _refuse(option, path, "exists; choose a free name")
+    above = path.parent
+    while path.suffix != ".mcap" and not above.exists():
+        above = above.parent
+    _check_folder(option, path, above)
+
+
+def _check_folder(option: str, path: Path, folder: Path) -> None:
+    if not folder.is_dir():
+        wrong = "is not a folder" if folder.exists() else "does not exist"
+        _refuse(option, path, f"the folder {folder} {wrong}")
+    if not os.access(folder, os.W_OK):
+        _refuse(option, path, f"the folder {folder} may not be written")
+
+
+def _refuse(option: str, path: Path, reason: str) -> None:
+    fail(f"{option} = {str(path)!r}: {reason}")
+
+
+def _option(param: typer.CallbackParam) -> str:
+    return str(param.opts[0])

@@ -1,0 +1,87 @@
+"""Tables that can be read at any width: no word or number of them is cut.
+
+A table that is too wide gives up width of its columns where their cells can be folded between
+words. If that is not enough, every row becomes a paragraph that begins with its first cell.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import Any
+
+from rich.console import Console, Group, RenderableType
+from rich.measure import Measurement
+from rich.padding import Padding
+from rich.table import Column, Table
+from rich.text import Text
+
+_INDENT = 4
+_UNBOUND = 100_000  # characters, more than any table has
+
+
+class TableConsole(Console):
+    """A console that prints tables as `readable` makes them."""
+
+    def print(self, *objects: Any, **how: Any) -> None:
+        """Print as Rich does; tables are fitted to the width."""
+        fitted = (readable(one, self) if isinstance(one, Table) else one for one in objects)
+        super().print(*fitted, **how)
+
+
+def readable(table: Table, console: Console) -> RenderableType:
+    """The table with columns that fit the width of `console`, or its rows one after another.
+
+    Args:
+        table: whose headings and cells are texts.
+        console: where it is to be printed.
+
+    Returns:
+        What to print in its place.
+    """
+    columns = [_texts(column, console) for column in table.columns]
+    wanted = [_longest(texts, by_word=False) for texts in columns]
+    needed = [
+        most if column.no_wrap else _longest(texts, by_word=True)
+        for column, texts, most in zip(table.columns, columns, wanted, strict=True)
+    ]
+    wide = console.options.update(width=_UNBOUND, max_width=_UNBOUND)
+    frame = Measurement.get(console, wide, table).maximum - sum(wanted)
+    room = console.width - frame
+    if sum(wanted) <= room:
+        return table
+    if sum(needed) > room:
+        return Group(*_entries(table, columns))
+    share = (room - sum(needed)) / (sum(wanted) - sum(needed))
+    for column, least, most in zip(table.columns, needed, wanted, strict=True):
+        column.width = least + int(share * (most - least))
+    return table
+
+
+def _texts(column: Column, console: Console) -> list[Text]:
+    """Heading and cells, as `console` would print them."""
+    return [
+        cell if isinstance(cell, Text) else console.render_str(str(cell), highlight=False)
+        for cell in (column.header, *column.cells)
+    ]
+
+
+def _longest(texts: list[Text], by_word: bool) -> int:
+    """Cells that the longest line takes, or the longest word."""
+    parts = (text.plain.split() if by_word else text.plain.splitlines() for text in texts)
+    return max((Text(part).cell_len for own in parts for part in own), default=0)
+
+
+def _entries(table: Table, columns: list[list[Text]]) -> Iterator[RenderableType]:
+    """Title; of every row its first cell, and below it the others with their headings; caption."""
+    if table.title:
+        yield table.title
+    headings = [" ".join(texts[0].plain.split()) for texts in columns]
+    cells_by_row = zip(*(texts[1:] for texts in columns), strict=True)
+    for row, cells in zip(table.rows, cells_by_row, strict=True):
+        style = row.style or ""
+        yield Text.assemble(cells[0], style=style)
+        others = zip(headings[1:], cells[1:], strict=True)
+        pieces = [Text.assemble(f"{name}: " if name else "", cell) for name, cell in others if cell]
+        yield Padding(Text("; ", style=style).join(pieces), (0, 0, 0, _INDENT))
+    if table.caption:
+        yield table.caption

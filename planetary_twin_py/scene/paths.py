@@ -1,0 +1,80 @@
+"""Dotted paths into a scene: through sections, through lists by number, into optional sections."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from typing import Any
+
+from .quantity import Section, sections_in
+
+
+class NoSuchPath(LookupError):
+    """A path that leads nowhere; its message is empty where a name is not that of a field."""
+
+
+def put(
+    data: Any, kinds: Sequence[type[Section]], path: Sequence[str], value: Any, above: str = ""
+) -> Any:
+    """A copy of plain data with another value at `path`.
+
+    An optional section that is not given begins empty, so that several changes can make it whole.
+
+    Args:
+        data: what the path begins at: the mapping of a section, or a list.
+        kinds: sections that may stand there, or in the list.
+        path: names of fields, and numbers of entries, counted from 0.
+        value: what to put there.
+        above: dotted path of `data` itself, for the message of an error.
+
+    Returns:
+        The changed copy.
+
+    Raises:
+        NoSuchPath: a field of this name, or an entry of this number, does not exist.
+    """
+    name, *rest = path
+    inside = f"{above}.{name}".removeprefix(".")
+    if isinstance(data, (list, tuple)):
+        place = _entry(data, name, above)
+        inner = put(data[place], kinds, rest, value, inside) if rest else value
+        return [*data[:place], inner, *data[place + 1 :]]
+    fields = [kind.model_fields[name] for kind in kinds if name in kind.model_fields]
+    if not fields or not isinstance(data, dict):
+        raise NoSuchPath
+    if not rest:
+        return data | {name: value}
+    below = [section for field in fields for section in sections_in(field.annotation)]
+    inner = data.get(name)
+    if inner is None and below:
+        inner = {}
+    return data | {name: put(inner, below, rest, value, inside)}
+
+
+def _entry(data: Sequence[Any], name: str, above: str) -> int:
+    if name.isdecimal() and int(name) < len(data):
+        return int(name)
+    count = "1 entry" if len(data) == 1 else f"{len(data)} entries"
+    raise NoSuchPath(f"{above} has {count}{', counted from 0' if data else ''}")
+
+
+def paths(data: Any) -> Iterator[str]:
+    """Dotted names of all fields and entries below plain data, those above before those below."""
+    for name, inner in _entries(data):
+        yield name
+        yield from (f"{name}.{path}" for path in paths(inner))
+
+
+def leaves(data: Any) -> Iterator[tuple[str, Any]]:
+    """Dotted names and values below plain data that have nothing below them."""
+    for name, inner in _entries(data):
+        if isinstance(inner, (dict, list, tuple)):
+            yield from ((f"{name}.{path}", value) for path, value in leaves(inner))
+        else:
+            yield name, inner
+
+
+def _entries(data: Any) -> Iterator[tuple[str, Any]]:
+    if isinstance(data, (list, tuple)):
+        yield from ((str(place), entry) for place, entry in enumerate(data))
+    elif isinstance(data, Mapping):
+        yield from data.items()

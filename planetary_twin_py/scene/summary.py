@@ -1,0 +1,34 @@
+"""A scene in a few words, in the units that engineers use: a wrong unit shows here first."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from ..units import customary
+from .scene import Scene
+
+
+def gears(scene: Scene) -> Iterator[str]:
+    """What the gears of a scene are, thing by thing, each with its unit."""
+    gearset = scene.gearset
+    teeth = gearset.teeth
+    yield f"{teeth.sun}/{teeth.planet}/{teeth.ring} teeth"
+    yield f"module {customary(gearset.module, 'm')}"
+    yield f"face width {customary(gearset.face_width, 'm')}"
+    yield f"pressure angle {customary(gearset.pressure_angle, 'rad')}"
+    if gearset.helix_angle:
+        yield f"helix angle {customary(gearset.helix_angle, 'rad')}"
+    for number, angle in enumerate(gearset.planet_angles, 1):
+        yield f"planet {number} at {customary(angle, 'rad')}"
+    yield f"{gearset.held} held"
+
+
+def operating_point(scene: Scene) -> Iterator[str]:
+    """What a scene runs at, thing by thing, each with its unit."""
+    point = scene.operating_point
+    yield f"input speed {customary(point.input_speed, 'rad/s')}"
+    if scene.drive.second_input is not None:
+        yield f"second input speed {customary(point.second_input_speed, 'rad/s')}"
+    yield f"input torque {point.input_torque:.4g} N m"
+    yield f"backlash {customary(point.backlash, 'm')}"
+    yield f"oil {customary(point.oil_temperature, 'K')}"

@@ -1,0 +1,69 @@
+"""Where a command cannot write, it says so before it computes anything."""
+
+import pytest
+from typer.testing import CliRunner
+
+from planetary_twin_py.cli import build_app
+
+LONG = ("--duration", "3000")  # [s] which nobody would wait for
+COMMANDS = [
+    ("simulate", "paper", *LONG, "--out", "{}/run.npz"),
+    ("simulate", "paper", *LONG, "--out", "{}/run.mcap"),
+    ("simulate", "paper", *LONG, "--json", "{}/run.json"),
+    ("explain", "paper", *LONG, "--json", "{}/run.json"),
+    ("sweep", "paper", "--input-speed", "100:200:50", *LONG, "--out", "{}/s.csv"),
+    ("stribeck", "paper", "--out", "{}/s.csv"),
+    ("bifurcation", "paper", "--settling", "1000", "--out", "{}/s.png"),
+    ("plot", "s.csv", "--out", "{}/s.png"),
+    ("modal", "--campbell", "{}/c.png"),
+    ("modal", "--json", "{}/c.json"),
+    ("bench", "--json", "{}/c.json"),
+    ("bench", "--plot", "{}/c.png"),
+    ("bench", "--markdown", "{}/c.md"),
+    ("fields", "--json", "{}/c.json"),
+    ("info", "recordings/none", "--json", "{}/c.json"),
+    ("verify", "recordings/none", "--json", "{}/c.json"),
+    ("fit", "recordings/none", "--free", "backlash", "--json", "{}/c.json"),
+    ("spectrum", "recordings/none", "--out", "{}/c.csv"),
+    ("view", "recordings/none", "--save", "{}/c.rrd"),
+    ("view", "recordings/none", "--screenshot", "{}/c.png"),
+    ("import", "rig.csv", "--out", "{}/c.mcap"),
+]
+
+
+@pytest.mark.parametrize("command", COMMANDS, ids=" ".join)
+def test_a_folder_that_does_not_exist_is_refused_at_once(command, tmp_path):
+    missing = tmp_path / "missing"
+    done = CliRunner().invoke(build_app(), [part.format(missing) for part in command])
+    assert done.exit_code == 2
+    assert f"the folder {missing} does not exist" in done.stderr
+    assert done.stderr.count("\n") == 1
+    assert not missing.exists()
+
+
+@pytest.mark.parametrize(
+    ("out", "reason"),
+    [("taken", "exists; choose a free name"), ("plain/run", "plain is not a folder")],
+)
+def test_a_recording_that_cannot_be_made_is_refused_at_once(out, reason, tmp_path):
+    (tmp_path / "taken").mkdir()
+    (tmp_path / "plain").write_text("")
+    arguments = ["simulate", "paper", *LONG, "--out", str(tmp_path / out)]
+    done = CliRunner().invoke(build_app(), arguments)
+    assert done.exit_code == 2
+    assert reason in done.stderr and done.stderr.count("\n") == 1
+
+
+def test_a_folder_in_the_place_of_a_file_is_refused_at_once(tmp_path):
+    done = CliRunner().invoke(build_app(), ["modal", "--json", str(tmp_path)])
+    assert done.exit_code == 2
+    assert "is a folder; name a file" in done.stderr
+
+
+def test_parents_of_the_folder_of_a_recording_are_made(tmp_path):
+    out = tmp_path / "new" / "run"
+    done = CliRunner().invoke(
+        build_app(), ["simulate", "paper", "--duration", "0.01", "--out", str(out)]
+    )
+    assert done.exit_code == 0, done.output
+    assert list(out.glob("*.mcap"))

@@ -1,0 +1,115 @@
+"""`--set`: lists and sections as in a scene file, and bare numbers echoed with their unit."""
+
+import pytest
+from typer.testing import CliRunner
+
+import planetary_twin_py as pt
+from planetary_twin_py.cli import build_app
+from planetary_twin_py.cli._settings import settings
+
+SHORT = ("simulate", "paper", "--duration", "0.002")
+
+
+def invoke(*arguments):
+    return CliRunner().invoke(build_app(), list(arguments))
+
+
+def notes(done):
+    assert done.exit_code == 0, done.output
+    return [line.removeprefix("planetary-twin: ") for line in done.stderr.splitlines()]
+
+
+@pytest.mark.parametrize(
+    ("setting", "line"),
+    [
+        ("input_speed=1000", "input_speed = 1000 rad/s (9549 rpm)"),
+        ("backlash=3e-7", "backlash = 3e-07 m (0.3 um)"),
+        ("gearset.module=0.001", "gearset.module = 0.001 m (1 mm)"),
+        ("gearset.pressure_angle=0.35", "gearset.pressure_angle = 0.35 rad (20.05 deg)"),
+        ("oil_temperature=300", "oil_temperature = 300 K (26.85 degC)"),
+        ("input_torque=50", "input_torque = 50 N m"),
+        (
+            "gearset.planet_angles=[0, 180 deg]",
+            "gearset.planet_angles.0 = 0 rad (0 deg)",
+        ),
+        (
+            "faults=[{kind: wear, gear: sun, depth: 1e-6}]",
+            "faults.0.depth = 1e-06 m (1 um)",
+        ),
+    ],
+)
+def test_a_number_without_a_unit_is_echoed_with_the_one_it_was_taken_in(setting, line):
+    assert notes(invoke(*SHORT, "--set", setting)) == [line]
+
+
+@pytest.mark.parametrize(
+    "setting", ["input_speed=1000rpm", "mesh.ramp=0.02", "lambda_ratio=1.5", "gearset.teeth.sun=30"]
+)
+def test_what_has_a_unit_or_needs_none_is_not_echoed(setting):
+    assert notes(invoke(*SHORT, "--set", setting)) == []
+
+
+def test_bare_ends_of_the_range_of_a_study_are_echoed(tmp_path):
+    out = str(tmp_path / "s.csv")
+    done = invoke("stribeck", "paper", "--input-speed", "10:100:3", "--out", out)
+    assert [line for line in notes(done) if "rad/s" in line] == [
+        "input_speed = 10 rad/s (95.49 rpm)",
+        "input_speed = 100 rad/s (954.9 rpm)",
+    ]
+
+
+def test_lists_and_sections_are_written_as_in_a_scene_file():
+    given = ["faults=[{kind: crack, gear: ring, stiffness_loss: 0.3}]", "mesh.runout={sun: 2 um}"]
+    scene = pt.load_scene("paper").replace(**settings(given))
+    assert scene.faults[0].gear == "ring"
+    assert scene.mesh.runout.sun == pytest.approx(2e-6)
+
+
+def test_a_setting_that_is_given_twice_is_refused():
+    with pytest.raises(ValueError, match="--set backlash: given twice, as 1um and as 2um"):
+        settings(["backlash=1um", "backlash=2um"])
+
+
+def test_a_list_that_does_not_end_is_refused_with_the_name_of_its_field():
+    with pytest.raises(ValueError, match=r"^--set faults is not YAML: [^\n]*$"):
+        settings(["faults=[1"])
+
+
+@pytest.mark.parametrize(
+    ("field", "scene", "fixed"),
+    [
+        ("faults.0.tooth", "cracked_tooth", []),
+        ("losses.planet_bearing.f0", "paper", ["losses.planet_bearing.mean_diameter=10mm"]),
+    ],
+)
+def test_a_sweep_varies_fields_in_lists_and_in_optional_sections(field, scene, fixed, tmp_path):
+    from planetary_twin_py.studies.table import read
+
+    out = tmp_path / "s.parquet"
+    sets = [part for setting in fixed for part in ("--set", setting)]
+    short = ("--duration", "0.01", "--settling", "0")
+    done = invoke("sweep", scene, f"--{field}", "1,2", *sets, *short, "--out", str(out))
+    assert done.exit_code == 0, done.output
+    assert read(out)[field].to_pylist() == [1, 2]
+
+
+@pytest.mark.parametrize(
+    ("name", "lines"),
+    [
+        ("paper", ["module 0.8 mm", "input speed 1000 rpm", "planet 2 at -28.8 deg"]),
+        ("differential", ["second input speed -500 rpm"]),
+    ],
+)
+def test_simulate_says_what_it_has_understood_in_engineers_units(name, lines):
+    shown = " ".join(invoke("simulate", name, "--duration", "0.002").stdout.split())
+    assert [line for line in lines if line not in shown] == []
+
+
+def test_a_value_and_its_unit_stand_in_one_line():
+    shown = CliRunner().invoke(
+        build_app(), ["simulate", "paper", "--duration", "0.002"], env={"COLUMNS": "60"}
+    )
+    lines = shown.output.splitlines()
+    assert max(map(len, lines)) <= 60
+    for part in ("pressure angle 21.34 deg", "input torque 63 N m", "planet 3 at 208.8 deg"):
+        assert any(part in line for line in lines)

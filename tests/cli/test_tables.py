@@ -1,0 +1,95 @@
+"""Tables at the widths of terminals: every word and every number of them is there, uncut."""
+
+import io
+
+import pytest
+from rich.table import Table
+from typer.testing import CliRunner
+
+from planetary_twin_py.cli import build_app
+from planetary_twin_py.cli._tables import TableConsole
+
+WIDTHS = (60, 80, 100)
+SAMPLE = "recordings/sample"
+
+
+def shown(command, width):
+    done = CliRunner().invoke(build_app(), command, env={"COLUMNS": str(width)})
+    assert done.exit_code == 0, done.output
+    return done.stdout
+
+
+def words(text):
+    """Of a table, whatever lines and columns they are in; borders are none."""
+    inside = "".join(character if character < "\u2500" else " " for character in text)
+    return set(inside.replace(";", " ").replace(":", " ").split())
+
+
+@pytest.mark.parametrize("width", WIDTHS)
+@pytest.mark.parametrize(
+    "command",
+    [
+        ["modal", "paper"],
+        ["modal", "wind_turbine_stage", "--model", "planar"],
+        ["modal", "wind_turbine_stage", "--model", "spatial"],
+        ["fields", "mesh"],
+        ["info", SAMPLE],
+        ["spectrum", SAMPLE],
+    ],
+    ids=" ".join,
+)
+def test_a_narrow_terminal_shows_the_words_that_a_wide_one_shows(command, width):
+    narrow = shown(command, width)
+    assert "\u2026" not in narrow
+    # The heading of the first column is left out where rows become paragraphs.
+    assert words(shown(command, 1000)) - {"name", "topic"} == words(narrow) - {"name", "topic"}
+    tables = [line for line in narrow.splitlines() if "\u2500" <= line[:1] < "\u2600"]
+    assert max(map(len, tables), default=0) <= width
+
+
+@pytest.mark.parametrize("width", WIDTHS)
+def test_statistics_of_the_meshes_are_uncut(width):
+    command = ["simulate", "paper", "--duration", "0.002"]
+    rows = [
+        " ".join(line for line in shown(command, columns).splitlines() if line[0] in "\u2503\u2502")
+        for columns in (width, 1000)
+    ]
+    assert "\u2026" not in rows[0]
+    assert words(rows[0]) == words(rows[1])
+    assert {"planet-ring", "sun-planet", "deviation", "1"} < words(rows[0])
+
+
+def printed(width, **column):
+    table = Table(title="Names", caption="of two")
+    table.add_column("name", **column)
+    table.add_column("value", justify="right")
+    table.add_column("remark")
+    table.add_row("drive.input.coupling_stiffness", "1.23456e-05", "as long as it has to be")
+    table.add_row("backlash", "3e-07", "")
+    console = TableConsole(file=io.StringIO(), width=width)
+    console.print(table)
+    return console.file.getvalue()
+
+
+def test_a_column_gives_up_width_only_between_words():
+    lines = printed(60).splitlines()
+    assert max(map(len, lines)) <= 60
+    (row,) = [line for line in lines if "coupling_stiffness" in line]
+    assert "drive.input.coupling_stiffness" in row and "1.23456e-05" in row
+
+
+def test_a_table_too_wide_for_its_words_is_printed_row_by_row():
+    lines = [line.rstrip() for line in printed(50).splitlines()]
+    assert lines == [
+        "Names",
+        "drive.input.coupling_stiffness",
+        "    value: 1.23456e-05; remark: as long as it has",
+        "    to be",
+        "backlash",
+        "    value: 3e-07",
+        "of two",
+    ]
+
+
+def test_a_wide_console_leaves_the_table_as_it_is():
+    assert printed(200) == printed(1000)

@@ -1,0 +1,94 @@
+"""`Scene.replace` by paths through lists and into optional sections."""
+
+import math
+
+import pytest
+
+import planetary_twin_py as pt
+from planetary_twin_py.scene.fields import NUMBER, scene_sections
+from planetary_twin_py.studies.axes import look_up
+
+PAPER = pt.load_scene("paper")
+CRACKED = pt.load_scene("cracked_tooth")
+BEARING = {"losses.planet_bearing.mean_diameter": "10 mm"}
+
+
+def test_a_field_of_an_entry_of_a_list_is_replaced_and_the_others_stay():
+    scene = CRACKED.replace(**{"faults.0.depth": "0.5 mm", "faults.0.tooth": "7"})
+    (crack,) = scene.faults
+    assert (crack.depth, crack.tooth, crack.gear) == (pytest.approx(5e-4), 7, "sun")
+    assert crack.angle == CRACKED.faults[0].angle
+    assert CRACKED.faults[0].tooth == 0
+
+
+def test_a_value_in_a_list_is_replaced():
+    angles = PAPER.gearset.planet_angles
+    step = 2 * math.pi / 100
+    scene = PAPER.replace(**{"gearset.planet_angles.1": angles[1] + step})
+    assert scene.gearset.planet_angles == (angles[0], angles[1] + step, angles[2])
+
+
+def test_an_optional_section_that_is_not_given_begins_with_its_defaults():
+    bearing = PAPER.replace(**BEARING, **{"losses.planet_bearing.f0": 3}).losses.planet_bearing
+    assert (bearing.mean_diameter, bearing.f0, bearing.f1) == (pytest.approx(0.01), 3.0, 5e-4)
+
+
+def test_an_optional_section_that_is_left_incomplete_is_refused_with_what_is_missing():
+    with pytest.raises(pt.SceneError) as refusal:
+        PAPER.replace(**{"losses.planet_bearing.f0": 2})
+    assert str(refusal.value) == "losses.planet_bearing.mean_diameter: missing"
+    with pytest.raises(pt.SceneError, match=r"supports\.planet: missing"):
+        PAPER.replace(**{"supports.sun.mass": 1.0})
+
+
+@pytest.mark.parametrize(
+    ("scene", "name", "reason"),
+    [
+        (PAPER, "faults.0.depth", "faults has 0 entries"),
+        (CRACKED, "faults.1.depth", "faults has 1 entry, counted from 0"),
+        (CRACKED, "faults.-1.depth", "faults has 1 entry, counted from 0"),
+        (PAPER, "gearset.planet_angles.3", "gearset.planet_angles has 3 entries, counted from 0"),
+        (CRACKED, "faults.0.dept", "no such field; did you mean faults.0.depth?"),
+        (PAPER, "gearset.module.0", "no such field"),
+        (PAPER, "drive.speed_control.start_speed.x", "no such field"),
+        (PAPER, "mesh.", "no such field"),
+    ],
+)
+def test_a_path_that_leads_nowhere_is_refused_with_the_reason(scene, name, reason):
+    with pytest.raises(pt.SceneError) as refusal:
+        scene.replace(**{name: 1.0})
+    assert str(refusal.value).startswith(f"{name}: {reason}")
+
+
+def test_a_text_for_a_list_is_refused_as_such():
+    with pytest.raises(pt.SceneError, match=r"planet_angles = '0 deg,1 deg': must be a list"):
+        PAPER.replace(**{"gearset.planet_angles": "0 deg,1 deg"})
+
+
+def test_every_field_that_is_listed_leads_somewhere():
+    """Of a scene with everything that may be there; the paths are those of the reference."""
+    bearings = {
+        f"losses.{body}_bearing": {"mean_diameter": 0.01}
+        for body in ("planet", "sun", "ring", "carrier")
+    }
+    support = {"mass": 1.0, "bearing": 1e8}
+    whole = pt.load_scene("differential").replace(
+        **bearings,
+        **{"losses.churning": {"fill": 0.5, "gap": 0.01, "sun": 0.02}},
+        supports=dict.fromkeys(("sun", "planet", "ring", "carrier"), support),
+        faults=[
+            {"kind": "crack", "gear": "sun", "stiffness_loss": 0.1},
+            {"kind": "spall", "gear": "sun", "stiffness_loss": 0.1},
+            {"kind": "wear", "gear": "sun", "depth": 1e-6},
+        ],
+    )
+    place = {"crack": "0", "spall": "1", "wear": "2", "": "0"}
+    names = [
+        field.name.replace(f".{NUMBER}.", f".{place[section.kind]}.")
+        for section in scene_sections()
+        for field in section.fields
+    ]
+    assert len(names) > 120
+    for name in names:
+        _, value = look_up(whole, name)
+        assert whole.replace(**{name: value}) == whole
