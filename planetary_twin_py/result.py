@@ -36,7 +36,7 @@ class Energy:
     damping: float
     """Taken by the damping of meshes and couplings."""
     bearing: float
-    """Taken by bearings."""
+    """Taken by bearings, seals and grease."""
     churning: float
     """Taken by churned oil."""
     stiffness_work: float
@@ -125,7 +125,7 @@ class Result:
     mesh_power: np.ndarray
     """Power that rolls through a mesh, seen from the carrier [W], (samples, meshes)."""
     bearing_loss: np.ndarray
-    """All bearings [W], (samples,)."""
+    """All bearings, seals and grease [W], (samples,)."""
     churning_loss: np.ndarray
     """Churned oil [W], (samples,)."""
     energy: Energy

@@ -1,8 +1,10 @@
-"""Drag outside the tooth contacts: bearings, and members that churn oil."""
+"""Drag outside the tooth contacts: bearings, seals and grease, and members that churn oil."""
 
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
+from typing import NamedTuple
 
 import numpy as np
 
@@ -11,6 +13,7 @@ from .._records import BODIES, REAL, WHOLE, Record
 from ..losses.bearing import bearing_torque
 from ..losses.churning import disc_torque
 from ..scene import Scene
+from ..scene.losses import Bearing
 from .alike import planet_groups
 from .bodies import Bodies
 from .body_speed import body_speed
@@ -19,13 +22,16 @@ from .state import BEARING, CHURNING
 MEMBERS = ("sun", "ring", "carrier")
 SLOWEST_TURN = 1e-2  # [rad/s] below which the sense of drag fades out
 NO_PLANET = -1
+JOINTS = BODIES + len(MEMBERS)  # room: a bearing of every body, a drag of every member
 
 DRAG_LAYOUT = {
-    "bearings": WHOLE,
-    "bearing_body": (WHOLE, (BODIES, 2)),  # whose inner and outer ring
-    "bearing_planet": (WHOLE, (BODIES,)),  # whose pin loads it, or NO_PLANET
-    "bearing_idle": (REAL, (BODIES,)),  # f0 dm^3 [m^3]
-    "bearing_rubbing": (REAL, (BODIES,)),  # f1 dm [m]
+    "joints": WHOLE,  # bearings, and members with a drag of their own
+    "joint_body": (WHOLE, (JOINTS, 2)),  # what turns, and against what
+    "joint_planet": (WHOLE, (JOINTS,)),  # whose pin loads it, or NO_PLANET
+    "joint_idle": (REAL, (JOINTS,)),  # f0 dm^3 [m^3]
+    "joint_rubbing": (REAL, (JOINTS,)),  # f1 dm [m]
+    "joint_coulomb": (REAL, (JOINTS,)),  # [N m]
+    "joint_viscous": (REAL, (JOINTS,)),  # [N m s/rad]
     "pin_share": REAL,  # load on a pin per sum of the forces of its planet's meshes [-]
     "discs": WHOLE,
     "disc_body": (WHOLE, (len(MEMBERS),)),
@@ -35,25 +41,29 @@ DRAG_LAYOUT = {
 }
 
 
+class _Joint(NamedTuple):
+    """What resists the rotation of one body against another; see `DRAG_LAYOUT`."""
+
+    body: tuple[int, int]
+    planet: int = NO_PLANET
+    idle: float = 0.0
+    rubbing: float = 0.0
+    coulomb: float = 0.0
+    viscous: float = 0.0
+
+
 def build_drag(scene: Scene, bodies: Bodies) -> dict[str, object]:
     """Fields of `DRAG_LAYOUT`."""
-    losses, place, ground, rows = scene.losses, bodies.place, len(bodies.mass) - 1, []
-    if losses.planet_bearing is not None:
-        for i, leader in enumerate(planet_groups(scene).leaders):
-            rings = (place[f"planet_{leader + 1}"], place["carrier"])
-            rows.append((losses.planet_bearing, rings, i))
-    for member in MEMBERS:
-        bearing = getattr(losses, f"{member}_bearing")
-        if bearing is not None:
-            rows.append((bearing, (place[member], ground), NO_PLANET))
-    churning = losses.churning
+    joints, place, churning = list(_joints(scene, bodies)), bodies.place, scene.losses.churning
     discs = {m: getattr(churning, m) for m in MEMBERS if churning and getattr(churning, m)}
     return {
-        "bearings": len(rows),
-        "bearing_body": np.array([rings for _, rings, _ in rows], dtype=int).reshape(-1, 2),
-        "bearing_planet": np.array([planet for _, _, planet in rows], dtype=int),
-        "bearing_idle": np.array([b.f0 * b.mean_diameter**3 for b, _, _ in rows]),
-        "bearing_rubbing": np.array([b.f1 * b.mean_diameter for b, _, _ in rows]),
+        "joints": len(joints),
+        "joint_body": np.array([joint.body for joint in joints], dtype=int).reshape(-1, 2),
+        "joint_planet": np.array([joint.planet for joint in joints], dtype=int),
+        "joint_idle": np.array([joint.idle for joint in joints]),
+        "joint_rubbing": np.array([joint.rubbing for joint in joints]),
+        "joint_coulomb": np.array([joint.coulomb for joint in joints]),
+        "joint_viscous": np.array([joint.viscous for joint in joints]),
         "pin_share": math.cos(scene.gearset.pressure_angle),
         "discs": len(discs),
         "disc_body": np.array([place[member] for member in discs], dtype=int),
@@ -63,36 +73,56 @@ def build_drag(scene: Scene, bodies: Bodies) -> dict[str, object]:
     }
 
 
+def _joints(scene: Scene, bodies: Bodies) -> Iterator[_Joint]:
+    losses, place, ground = scene.losses, bodies.place, len(bodies.mass) - 1
+    if losses.planet_bearing is not None:
+        for i, leader in enumerate(planet_groups(scene).leaders):
+            pair = (place[f"planet_{leader + 1}"], place["carrier"])
+            yield _Joint(pair, i, *_palmgren(losses.planet_bearing))
+    for member in MEMBERS:
+        bearing, drag = getattr(losses, f"{member}_bearing"), getattr(losses, f"{member}_drag")
+        if bearing is not None:
+            yield _Joint((place[member], ground), NO_PLANET, *_palmgren(bearing))
+        if drag.coulomb > 0.0 or drag.viscous > 0.0:
+            yield _Joint((place[member], ground), coulomb=drag.coulomb, viscous=drag.viscous)
+
+
+def _palmgren(bearing: Bearing) -> tuple[float, float]:
+    return bearing.f0 * bearing.mean_diameter**3, bearing.f1 * bearing.mean_diameter
+
+
 @law
 def _sense(speed: float) -> float:
     return speed / math.sqrt(speed * speed + SLOWEST_TURN * SLOWEST_TURN)
 
 
+@law
+def _pin_load(train: Record, state: Record, out: Record, planet: int) -> float:
+    """Load [N] on the pin of a planet, whose two meshes add up or oppose each other."""
+    if planet == NO_PLANET:
+        return 0.0
+    ring = train.meshes // 2 + planet
+    return train.pin_share * abs(
+        state.side[planet] * out.now.push[planet] + state.side[ring] * out.now.push[ring]
+    )
+
+
 @kernel
 def apply_drag(model: Record, state: Record, v: np.ndarray, out: Record) -> None:
-    """Add the drag of bearings and discs to out.rubbing; book it in out.power.
+    """Add the drag of joints and discs to out.rubbing; book it in out.power.
 
     Reads the pushes of the meshes from `out.now`.
     """
     train, oil = model.train, model.oil
-    planets = train.meshes // 2
-    for b in range(train.bearings):
-        inner, outer, planet = (
-            train.bearing_body[b, 0],
-            train.bearing_body[b, 1],
-            train.bearing_planet[b],
-        )
-        load = 0.0
-        if planet != NO_PLANET:
-            load = train.pin_share * abs(
-                state.side[planet] * out.now.push[planet]
-                + state.side[planets + planet] * out.now.push[planets + planet]
-            )
+    for b in range(train.joints):
+        inner, outer = train.joint_body[b, 0], train.joint_body[b, 1]
         speed = body_speed(train, state, v, inner) - body_speed(train, state, v, outer)
-        torque = bearing_torque(
-            train.bearing_idle[b], train.bearing_rubbing[b], oil.kinematic, speed, load
-        ) * _sense(speed)
-        torque *= train.body_copies[inner]
+        load = _pin_load(train, state, out, train.joint_planet[b])
+        torque = train.joint_coulomb[b] + train.joint_viscous[b] * abs(speed)
+        torque += bearing_torque(
+            train.joint_idle[b], train.joint_rubbing[b], oil.kinematic, speed, load
+        )
+        torque *= _sense(speed) * train.body_copies[inner]
         out.rubbing[inner] -= torque / train.radius[inner]
         out.rubbing[outer] += torque / train.radius[outer]
         out.power[BEARING] += torque * speed

@@ -111,7 +111,7 @@ def rub(model: Record, state: Record, moment: Record, v: np.ndarray, out: Record
             for j in range(3):
                 force = dragging.torque[j, i] * train.lever[j, i]
                 out.rubbing[train.body[i, j]] += copies * force
-    if train.bearings + train.discs > 0:
+    if train.joints + train.discs > 0:
         apply_drag(model, state, v, out)
 
 

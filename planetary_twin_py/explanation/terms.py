@@ -171,6 +171,15 @@ def _bearings(scene: Scene) -> Term | None:
     return Term("bearings", f"Palmgren, of {', '.join(found)}", without)
 
 
+def _drag(scene: Scene) -> Term | None:
+    drags = {kind: getattr(scene.losses, f"{kind}_drag") for kind in ("sun", "ring", "carrier")}
+    found = [kind for kind, drag in drags.items() if drag.coulomb or drag.viscous]
+    if not found:
+        return None
+    without: dict[str, Any] = {f"losses.{kind}_drag": {} for kind in found}
+    return Term("seals and grease", f"Coulomb and viscous, of {', '.join(found)}", without)
+
+
 def _churning(scene: Scene) -> Term | None:
     if scene.losses.churning is None:
         return None
@@ -191,5 +200,6 @@ _TERMS: tuple[Callable[[Scene], Term | None], ...] = (
     _boundary,
     _rolling,
     _bearings,
+    _drag,
     _churning,
 )

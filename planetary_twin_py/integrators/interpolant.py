@@ -69,7 +69,7 @@ def sample(model: Record, march: Record, delay: float, out: Samples, row: int) -
     work = march.work.evaluation
     place_bristles(work.pairs, march.dense.bristle)
     observe(model, begin, march.moment, march.dense.x, march.dense.v, delay, work, out.mesh[row])
-    if train.bearings + train.discs > 0:
+    if train.joints + train.discs > 0:
         for i in range(train.meshes):
             work.now.push[i] = abs(out.mesh[row, MESH_FORCE, i])
         work.power[:] = 0.0

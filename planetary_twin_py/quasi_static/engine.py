@@ -21,9 +21,11 @@ from ..integrators.progress import CONTROL
 from ..runaway import Limits, RunawayError, squeeze
 from ..scene import OperatingPoint, Scene
 from ..tolerance import check_tolerance
-from .ledger import Ledger, first_guess
+from .equilibrium import first_guess
+from .ledger import Ledger
 from .motion import roll, turn_to
 from .sampling import sample, sample_all
+from .second_coupling import check_second_coupling
 
 
 class QuasiStaticEngine:
@@ -72,6 +74,7 @@ class QuasiStaticEngine:
         lean = (
             DRIVE_SIDE if mesh_force(self.scene, float(load.torque[MOTOR])) >= 0.0 else COAST_SIDE
         )
+        check_second_coupling(model, tolerance, lean, origin)
         ledger = Ledger(model, tolerance, lean, origin)
         self.model, self.tolerance, self._lean, self._ledger = model, tolerance, lean, ledger
         self._origin, self._run = origin.copy(), first_guess(lean)

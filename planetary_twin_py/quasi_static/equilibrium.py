@@ -15,7 +15,7 @@ import numpy as np
 
 from .._compile import kernel, law
 from .._overwrite import copy_array
-from .._records import AXES, BODIES, MACHINES, MESHES, REAL, WHOLE, Record, layout
+from .._records import AXES, BODIES, MACHINES, MESHES, REAL, WHOLE, Record, layout, new_record
 from ..dynamics.bodies import LOAD_MACHINE, MOTOR, SECOND_MOTOR
 from ..dynamics.body_speed import body_speed
 from ..dynamics.cycle import cycle_shift, find_segment, mesh_cycle
@@ -58,6 +58,13 @@ EQUILIBRIUM = layout(
     external=(REAL, (BODIES,)),  # all forces but those of the meshes [N]
     springs=SPRINGS,
 )
+
+
+def first_guess(lean: int) -> Record:
+    """An equilibrium still to be found, the teeth on the side `lean`."""
+    run = new_record(EQUILIBRIUM)
+    run.lean[:] = lean
+    return run
 
 
 @kernel

@@ -10,25 +10,18 @@ import math
 
 import numpy as np
 
-from .._records import Record, new_record
+from .._records import Record
 from ..dynamics.bodies import MOTOR
 from ..dynamics.cycle import cycle_shift, frame_cycle
 from ..dynamics.moment import frame_cycle_rate
 from ..dynamics.observe import QUANTITIES
 from ..dynamics.state import COAST_SIDE, DRIVE_SIDE
 from ..integrators.clock import Instant, delay
-from .equilibrium import EQUILIBRIUM, settle
+from .equilibrium import first_guess, settle
 from .motion import turn_to
 from .quadrature import ON_EDGE, divide_cycle, integrate, march
 
 SAME = 1e-12  # mesh cycles below which two edges are one
-
-
-def first_guess(lean: int) -> Record:
-    """An equilibrium still to be found, the teeth on the side `lean`."""
-    run = new_record(EQUILIBRIUM)
-    run.lean[:] = lean
-    return run
 
 
 class Ledger:

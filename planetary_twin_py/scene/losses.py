@@ -1,4 +1,4 @@
-"""Losses outside the tooth contacts: bearings and oil that is churned."""
+"""Losses outside the tooth contacts: bearings, seals and grease, and oil that is churned."""
 
 from __future__ import annotations
 
@@ -15,6 +15,19 @@ class Bearing(Section):
     mean_diameter: float = quantity("m", "pitch diameter dm", gt=0.0, le=10.0)
     f0: float = quantity("", "of the friction without load", 2.0, ge=0.0, le=100.0)
     f1: float = quantity("", "of the friction by load, M1 = f1 F dm", 5e-4, ge=0.0, le=0.1)
+
+
+class Drag(Section):
+    """Drag torque of a member in the housing that no load changes: seals, grease, preload.
+
+    coulomb + viscous |w|, against the rotation: the friction model of a joint in robotics
+    (Armstrong-Helouvry, Dupont and Canudas de Wit 1994, Automatica 30, 1083-1138).
+    """
+
+    coulomb: float = quantity("N m", "drag torque at any speed", 0.0, ge=0.0, le=1e6)
+    viscous: float = quantity(
+        "N m s/rad", "drag torque per speed of the member", 0.0, ge=0.0, le=1e6
+    )
 
 
 class Churning(Section):
@@ -40,4 +53,7 @@ class Losses(Section):
     sun_bearing: Bearing | None = Field(None, description="of the sun in the housing")
     ring_bearing: Bearing | None = Field(None, description="of the ring in the housing")
     carrier_bearing: Bearing | None = Field(None, description="of the carrier in the housing")
+    sun_drag: Drag = Field(Drag(), description="of the sun, whatever the load")
+    ring_drag: Drag = Field(Drag(), description="of the ring, whatever the load")
+    carrier_drag: Drag = Field(Drag(), description="of the carrier, whatever the load")
     churning: Churning | None = Field(None, description="members that turn in oil")

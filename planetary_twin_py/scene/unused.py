@@ -26,6 +26,9 @@ def not_in_use(scene: Scene, name: str) -> str | None:
         return "lubrication.traction = schlenk has boundary friction in it, whatever the film"
     if plain == "second_input_speed" and scene.drive.second_input is None:
         return "the scene has no second input"
+    held = scene.gearset.held
+    if plain.startswith((f"losses.{held}_bearing", f"losses.{held}_drag")):
+        return f"the gearset holds it (gearset.held = {held})"
     return None
 
 

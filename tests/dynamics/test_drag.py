@@ -8,7 +8,7 @@ from power_flows import ALL_FLOWS, FLOWS, scene_of
 
 import planetary_twin_py as pt
 from planetary_twin_py._records import new_record
-from planetary_twin_py.dynamics.drag import apply_drag
+from planetary_twin_py.dynamics.drag import SLOWEST_TURN, apply_drag
 from planetary_twin_py.dynamics.equations import EVALUATION
 from planetary_twin_py.dynamics.state import BEARING
 from planetary_twin_py.engine import Engine
@@ -76,3 +76,29 @@ def test_drag_brakes_in_both_directions_and_rests_at_rest():
         assert pt.simulate(scene, 0.02).energy.bearing > 0.0
     still = pt.simulate(scene_of(FLOWS[0], losses=LOSSES, input_speed=0.0, input_torque=0.0), 0.02)
     assert still.churning_loss.max() < 1e-12
+
+
+@pytest.mark.parametrize("dynamics", ["torsional", "quasi_static"])
+@ALL_FLOWS
+def test_drag_of_a_member_takes_coulomb_and_viscous_torque_times_its_speed(flow, dynamics):
+    member, coulomb, viscous = scene_of(flow).drive.output.member, 0.3, 2e-3
+    losses = {f"{member}_drag": {"coulomb": coulomb, "viscous": viscous}}
+    run = pt.simulate(scene_of(flow, losses=losses, dynamics=dynamics), 0.05, tolerance=1e-5)
+    speed = run.speed[:, run.bodies.index(member)]
+    expected = coulomb * np.abs(speed) + viscous * speed**2
+    assert run.bearing_loss == pytest.approx(expected, rel=1e-6)
+    # The ledger is that of whole steps: it ends up to a step behind the last sample.
+    assert run.energy.bearing == pytest.approx(0.05 * expected.mean(), rel=5e-3)
+    assert abs(run.energy.residual) < 1e-6 * run.energy.put_in
+
+
+def test_drag_passes_through_standstill_as_bearings_do():
+    """Half of it at 0.577 of the speed at which it fades, none at rest, reversed beyond."""
+    losses = {"sun_drag": {"coulomb": 0.3}}
+    found = []
+    for speed in (-50.0, -SLOWEST_TURN / math.sqrt(3.0), 0.0, SLOWEST_TURN / math.sqrt(3.0), 50.0):
+        engine = Engine(scene_of(FLOWS[0], losses=losses, input_speed=speed), 1e-3)
+        out, train = new_record(EVALUATION), engine.train
+        apply_drag(engine.model, engine.march.end, np.zeros(train.lanes), out)
+        found.append(float(out.rubbing[train.sun] * train.radius[train.sun]))
+    assert found == pytest.approx([0.3, 0.15, 0.0, -0.15, -0.3], rel=1e-6)

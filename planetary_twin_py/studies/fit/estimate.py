@@ -11,8 +11,6 @@ from .intervals import Interval, intervals
 from .least_squares import Array, Minimum, Residuals, explained
 from .parameter import Parameter
 
-AT_BOUND = 1e-3  # of the scale
-
 
 @dataclass(frozen=True)
 class Estimate:
@@ -27,7 +25,10 @@ class Estimate:
     """(p, p), NaN beside what is not told."""
     untold: tuple[tuple[int, ...], ...]
     """Parameters that are not told: alone, or several that are told only together."""
+    unbounded: Array
+    """(p,); where the sum of squares would be least without the ranges, to first order."""
     at_bound: tuple[bool, ...]
+    """Whether that lies beyond an end of the range, at which the estimate then stands."""
     excess: float
     """What is left over what noise leaves, by which the intervals are widened; 1: no more."""
 
@@ -64,15 +65,17 @@ def conclude(
             found[k] = Interval(*unseen(residuals, parameters, minimum, k, rise), True)
         elif told.lost(k):
             found[k] = Interval(math.nan, math.nan, True)
+    unbounded = minimum.values - told.covariance @ (minimum.slopes.T @ minimum.residuals)
     bound = tuple(
-        bool(min(value - p.low, p.high - value) < AT_BOUND * p.scale)
-        for value, p in zip(minimum.values, parameters, strict=True)
+        bool(value < p.low or value > p.high)
+        for value, p in zip(unbounded, parameters, strict=True)
     )
     return Estimate(
         values=minimum.values,
         intervals=tuple(found[k] for k in range(len(parameters))),
         correlation=correlation(told),
         untold=told.untold,
+        unbounded=unbounded,
         at_bound=bound,
         excess=excess,
     )

@@ -13,7 +13,8 @@ import numpy as np
 
 from ..local import Threads
 from .estimate import Estimate, conclude
-from .least_squares import explained, minimise
+from .lacking import Lacking, find_lacking
+from .least_squares import Minimum, explained, minimise, with_magnitudes
 from .least_squares import search as find_least
 from .misfit import Yardstick, measure_noise
 from .model import Model, Outcome, read_all
@@ -52,6 +53,10 @@ class Identified:
     yardstick: Yardstick
     confidence: float
     """Of the intervals."""
+    sum: float
+    """Of squares at the estimate."""
+    lacking: Lacking | None
+    """What the model leaves out and would explain what it misses; None if nothing does."""
     simulations: int
     wall_time: float
     """[s]"""
@@ -95,13 +100,15 @@ def identify(
     if yardstick.count < len(parameters):
         raise ValueError(
             f"free = {', '.join(search.free)}: {yardstick.count} readings cannot tell "
-            f"{len(parameters)} parameters; observe more"
+            f"{len(parameters)} parameters; observe more, or more operating points"
         )
+    parameters = with_magnitudes(runs.apart(yardstick), parameters)
     minimum = find_least(runs.apart(yardstick), parameters)
     for _ in range(ROUNDS):
-        before, yardstick = yardstick, weigh(minimum.values)
-        if yardstick.near(before, SETTLED):
+        closer = weigh(minimum.values)
+        if closer.near(yardstick, SETTLED):
             break
+        yardstick = closer
         minimum = minimise(runs.apart(yardstick), parameters, minimum.values)
         if not explained(minimum):
             minimum = min(
@@ -117,6 +124,8 @@ def identify(
         contact_fraction=_known(runs, minimum.values).contact_fraction,
         yardstick=yardstick,
         confidence=search.confidence,
+        sum=minimum.sum,
+        lacking=_lacking(runs, yardstick, parameters, minimum, found),
         simulations=runs.count,
         wall_time=time.perf_counter() - began,
     )
@@ -139,6 +148,25 @@ def _data(search: Search, stretch: Stretch) -> tuple[Readings, ...]:
         if not np.all(np.isfinite(readings.values)):
             raise ValueError(f"observe = {readings.name}: is no number somewhere in this stretch")
     return data
+
+
+def _lacking(
+    runs: Simulations,
+    yardstick: Yardstick,
+    parameters: Sequence[Parameter],
+    minimum: Minimum,
+    found: Estimate,
+) -> Lacking | None:
+    """What the model leaves out, where noise does not explain what is left or a range holds it."""
+    enough = len(minimum.residuals) > len(parameters)
+    if not enough or (explained(minimum) and not any(found.at_bound)):
+        return None
+
+    def trial(field: str, value: float) -> Array | None:
+        wider = runs.freeing(field)
+        return wider.apart(yardstick)([np.append(minimum.values, value)])[0]
+
+    return find_lacking(runs.scene, parameters, minimum, trial)
 
 
 def _known(runs: Simulations, values: Array) -> Outcome:

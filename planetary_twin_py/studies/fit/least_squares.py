@@ -23,6 +23,8 @@ STARTS = 6  # points for each parameter, of which the search begins at the best
 SEARCHES = 4
 MISFIT = 1e-3  # chance below which noise alone does not explain what is left
 MOST_STEPS = 30
+DECADES = 12  # of a range, of which one is the magnitude of a parameter that begins at zero
+NO_WORSE = 1.0  # rise of the sum of squares that no reading resolves
 CLOSE = 1e-5  # of its scale that the last step changes a parameter by
 FLAT = 1e-6  # of the sum of squares that it changes: far less than what noise makes it scatter by
 
@@ -86,6 +88,25 @@ def _farthest(
         return min(float(way @ way) for way in ways)
 
     return max(starts, key=distance)
+
+
+def with_magnitudes(residuals: Residuals, parameters: Sequence[Parameter]) -> tuple[Parameter, ...]:
+    """The parameters; one that begins at zero, the end of its range, begins at a magnitude.
+
+    That is the largest of the powers of ten of its range that fits as well as any, the others at
+    their starts.
+    """
+    found = list(parameters)
+    for k, parameter in enumerate(parameters):
+        if parameter.start != 0.0 or parameter.low != 0.0 or parameter.high == math.inf:
+            continue
+        tried = [parameter.high * 10.0**-n for n in range(1, DECADES + 1)]
+        starts = [np.array([p.start for p in found])]
+        starts += [np.insert(np.delete(starts[0], k), k, value) for value in tried]
+        heights = [_sum(there) for there in residuals(starts)]
+        sound = [v for v, h in zip(tried, heights[1:], strict=True) if h <= min(heights) + NO_WORSE]
+        found[k] = parameter._replace(start=max(sound, default=0.0))
+    return tuple(found)
 
 
 def minimise(residuals: Residuals, parameters: Sequence[Parameter], start: Array) -> Minimum:

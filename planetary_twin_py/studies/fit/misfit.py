@@ -5,12 +5,15 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from .readings import Array, Readings
 
+CHANCE = 3.0  # standard deviations of a correlation of independent readings
+LARGEST = 0.99  # correlation that is counted: of a drift, more of it is not known
 EXACTNESS = 0.1  # of the tolerance: beyond what a mean over a stretch was seen to be off by
 
 
@@ -23,6 +26,8 @@ class Noise(NamedTuple):
     """Standard deviation of the mean over a segment, shape (segments, channels)."""
     freedom: float
     """Degrees of freedom that it is known to; infinite where it was given."""
+    correlation: float
+    """Of successive readings, where it lowers what their mean tells; else 0."""
 
 
 @dataclass(frozen=True)
@@ -88,18 +93,38 @@ def _noise(recorded: Readings, readings: Readings, tolerance: float, given: floa
     means = _means(recorded)
     for s in range(len(segments)):
         left[place == s] -= left[place == s].mean(axis=0)
-    scatter, size = np.empty(left.shape[1]), np.empty(means.shape)
+    scatter, size, repeat = np.empty(left.shape[1]), np.empty(means.shape), np.empty(left.shape[1])
     freedom = math.inf
     for kind in np.unique(recorded.kinds):
         alike = recorded.kinds == kind
+        repeat[alike] = _correlation(left[:, alike], place)
         degrees = (rows - len(segments)) * int(alike.sum())
-        freedom = min(freedom, degrees)
+        freedom = min(freedom, degrees / _repeats(repeat[alike][0]))
         scatter[alike] = math.sqrt((left[:, alike] ** 2).sum() / degrees)
         size[:, alike] = np.abs(means[:, alike]).max(axis=1, keepdims=True)
     if given is not None:
         scatter[:], freedom = given, math.inf
-    mean = np.hypot(scatter / np.sqrt(count)[:, None], EXACTNESS * tolerance * size)
-    return Noise(scatter, mean, freedom)
+    sampling = scatter * np.sqrt(_repeats(repeat) / count[:, None])
+    floor = EXACTNESS * tolerance * size
+    correlation = float(repeat.max(initial=0.0, where=(sampling > floor).any(axis=0)))
+    return Noise(scatter, np.hypot(sampling, floor), freedom, correlation)
+
+
+def _correlation(left: Array, place: NDArray[np.int64]) -> float:
+    """Of `left` (readings, channels), each with the next of its segment; 0 if it may be chance."""
+    same = place[1:] == place[:-1]
+    products = (left[1:] * left[:-1])[same]
+    square = float((left**2).sum())
+    if square == 0.0 or not products.size:
+        return 0.0
+    found = float(products.sum()) / square * left.size / products.size
+    return min(found, LARGEST) if found > CHANCE / math.sqrt(products.size) else 0.0
+
+
+def _repeats(correlation: Any) -> Any:
+    """Readings that tell as much as one independent one, of a process whose correlation falls off
+    by this factor from one to the next (Bartlett 1946, J. R. Stat. Soc. Suppl. 8, 27-41)."""
+    return (1.0 + correlation) / (1.0 - correlation)
 
 
 def _means(readings: Readings) -> Array:

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import math
 from collections import deque
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
+from ...recording.fields import POWER_FLOW
 from ...scene import TUNABLES
 from ...twin import LONGEST_WINDOW, TICKS, Twin
 from ...window import Window
@@ -15,6 +17,7 @@ from .readings import Array, Interval, Readings, read, simulated
 from .stretch import Stretch
 
 UNSEEN = 1.0  # [Hz] sample rate of what nobody looks at
+FEW = 100  # samples of an interval of which only the power flow, an integral, is looked at
 
 
 @dataclass(frozen=True)
@@ -38,12 +41,17 @@ class Model:
         """The readings with the free parameters at `values`; None where it cannot be simulated."""
         overrides = dict(zip(self.free, values.tolist(), strict=True))
         try:
-            windows = list(_windows(self.stretch, overrides))
+            windows = list(_windows(self.stretch, overrides, self._most_samples))
         except (ValueError, ArithmeticError):
             return None
         intervals = [simulated(window, self.stretch.begins) for window in windows]
         contact = min(float(np.min(window.mesh["contact_fraction"])) for window in windows)
         return Outcome(read_all(self.observables, intervals, self.stretch), contact)
+
+    @property
+    def _most_samples(self) -> float:
+        """Of an interval."""
+        return FEW if set(self.observables) <= set(POWER_FLOW) else math.inf
 
 
 def read_all(
@@ -53,7 +61,9 @@ def read_all(
     return tuple(read(name, intervals, stretch) for name in names)
 
 
-def _windows(stretch: Stretch, overrides: Mapping[str, float]) -> Iterator[Window]:
+def _windows(
+    stretch: Stretch, overrides: Mapping[str, float], most_samples: float
+) -> Iterator[Window]:
     """The intervals of a stretch, with parameters other than the recorded ones.
 
     What came before the operating point of the stretch is simulated as recorded: how it still moves
@@ -91,7 +101,8 @@ def _windows(stretch: Stretch, overrides: Mapping[str, float]) -> Iterator[Windo
     for interval in stretch.intervals:
         reach(interval.begin - begins)
         twin.set_tolerance(interval.tolerance)
-        twin.set_sample_rate(interval.sample_rate)
+        length = (interval.end - interval.begin) / TICKS
+        twin.set_sample_rate(min(interval.sample_rate, most_samples / length))
         window = reach(interval.end - begins)
         assert window is not None  # an interval has a length
         yield window

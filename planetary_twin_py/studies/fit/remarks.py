@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from .identify import Identified
+from .parameter import Parameter
 
 
 def remarks(found: Identified) -> Iterator[str]:
@@ -27,16 +28,38 @@ def remarks(found: Identified) -> Iterator[str]:
         )
     for k, parameter in enumerate(parameters):
         if estimate.told(k) and estimate.at_bound[k]:
-            yield f"{parameter.name}: at the bound of its range, {estimate.values[k]:.3g}"
+            yield _at_end(parameter, float(estimate.unbounded[k]))
+    if found.lacking is not None:
+        field, value, unit, left = found.lacking
+        yield (
+            f"the model lacks a loss: {field} = {value:.3g} {unit} would lower the sum of squares "
+            f"from {found.sum:.3g} to {left:.3g} (linear estimate); free it too"
+        )
     if estimate.excess > 1.0:
         yield (
             "the model misses the recording by more than its noise: the sum of squares is "
             f"{estimate.excess:.3g} times what noise leaves; intervals are widened for it"
         )
+    for readings, noise in zip(found.yardstick.recorded, found.yardstick.noise, strict=True):
+        if noise.correlation > 0.0:
+            yield (
+                f"{readings.name}: successive readings are not independent: they correlate by "
+                f"{noise.correlation:.2g}; intervals are widened for it"
+            )
     yield from found.stretch.remarks
+
+
+def _at_end(parameter: Parameter, unbounded: float) -> str:
+    end = parameter.low if unbounded < parameter.low else parameter.high
+    return (
+        f"{parameter.name}: stands at the end of its range, {end:.3g} {parameter.unit}".rstrip()
+        + f"; without the range it would be {unbounded:.3g} (linear estimate)"
+    )
 
 
 def _reason(found: Identified, name: str) -> str:
     if name == "backlash" and found.contact_fraction == 1.0:
         return "teeth never part (contact_fraction = 1)"
+    if found.estimate.excess > 1.0:
+        return "no reading changes with it by as much as the model misses the recording"
     return "no reading changes with it by more than its noise"

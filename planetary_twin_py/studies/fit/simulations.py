@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from dataclasses import replace
 
 import numpy as np
 
+from ...scene import Scene
 from ..local import Threads
 from .least_squares import Residuals
 from .misfit import Yardstick
@@ -26,6 +28,16 @@ class Simulations:
     def count(self) -> int:
         """Simulations so far."""
         return len(self._known)
+
+    @property
+    def scene(self) -> Scene:
+        """The model, at what was recorded."""
+        return self._model.stretch.scene
+
+    def freeing(self, field: str) -> Simulations:
+        """The same with a further free field, the last entry of a point."""
+        wider = replace(self._model, free=(*self._model.free, field))
+        return Simulations(wider, self._crew, self._hear)
 
     def at(self, points: Sequence[Array]) -> list[Outcome | None]:
         """The outcome at each point (p,)."""

@@ -95,6 +95,7 @@ def read_stretch(
         run, intervals = longest_steady_part(runs)
         within = [i for i in intervals if i.end <= intervals[0].begin + LONGEST * TICKS]
         intervals = intervals[: max(FEWEST, len(within))]
+        remarks.extend(_left_out(run, intervals))
     else:
         run = max(runs, key=lambda run: length(run.intervals))
         intervals = between(run, begin or 0.0, math.inf if end is None else end)
@@ -124,6 +125,17 @@ def read_stretch(
         blocks=tuple(_blocks(path, chosen, intervals)) if waveform else (),
         remarks=tuple(remarks),
     )
+
+
+def _left_out(run: Run, intervals: list[Interval]) -> Iterator[str]:
+    """A line on the operating points of a run that its longest steady part leaves out."""
+    last = run.intervals[-1].end / TICKS
+    points = sum(change.time < last for change in run.changes)
+    if intervals and points > 1:
+        yield (
+            f"1 of {points} operating points is looked at, {intervals[0].begin / TICKS:g} to "
+            f"{intervals[-1].end / TICKS:g} s of {last:g} s; choose more with --from and --to"
+        )
 
 
 def _reference(run: Run, begin: float) -> Interval | None:

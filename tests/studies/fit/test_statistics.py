@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from planetary_twin_py.studies.fit.estimate import conclude
-from planetary_twin_py.studies.fit.least_squares import search
+from planetary_twin_py.studies.fit.least_squares import search, with_magnitudes
 from planetary_twin_py.studies.fit.parameter import Parameter
 
 TIME = np.linspace(0.0, 3.0, 25)
@@ -98,3 +98,27 @@ def test_a_model_that_cannot_follow_is_told_and_widens_the_intervals():
     sound = estimate(decay, decay(TRUTH) + noise_of(4))
     width, usual = (e.intervals[0].high - e.intervals[0].low for e in (found, sound))
     assert width > 2.0 * usual
+
+
+@pytest.mark.parametrize("truth", [3e-4, 40.0])
+def test_a_search_that_begins_at_zero_finds_the_magnitude(truth):
+    free = (Parameter("height", "m", 0.0, 1e6, 0.0),)
+    data = decay([truth, 0.7])
+    residuals = residuals_of(lambda v: decay([v[0], 0.7]), data, 1e-3 * truth)
+    found = conclude(residuals, free, search(residuals, with_magnitudes(residuals, free)), 99, 0.95)
+    assert found.values == pytest.approx([truth], rel=1e-5)
+
+
+def test_what_is_zero_stays_within_what_noise_hides():
+    free = (Parameter("height", "m", 0.0, 1e6, 0.0),)
+    residuals = residuals_of(lambda v: decay([v[0], 0.7]), noise_of(0))
+    free = with_magnitudes(residuals, free)
+    assert 1e-4 <= free[0].start <= NOISE
+
+
+def test_without_its_range_an_estimate_at_the_end_is_that_of_the_model_without_one():
+    short = (Parameter("height", "m", 0.0, 1.5, 1.0),)
+    found = estimate(lambda v: decay([v[0], TRUTH[1]]), decay(TRUTH), short)
+    assert found.at_bound == (True,)
+    assert found.values == pytest.approx([1.5], rel=1e-3)
+    assert found.unbounded == pytest.approx([TRUTH[0]], rel=1e-6)
