@@ -14,6 +14,7 @@ from ._records import AXES, Record, new_record
 from .dynamics.cycle import common_cycles, turns_per_cycle
 from .dynamics.energy import stored
 from .dynamics.equations import MODEL
+from .dynamics.mesh_sums import MeshSums, clear, mesh_sums
 from .dynamics.oil import build_oil
 from .dynamics.start import build_load, start_state
 from .dynamics.static_load import mesh_force, static_torques
@@ -75,6 +76,7 @@ class Engine:
         begin_step(self.model, self.march)
         self.advance(0.0, 1, 1.0, 0)
         self.stored()
+        self.take_mesh_sums()
         cut(self.model, self.march, instant(0.0))
 
     def _load(self, point: OperatingPoint) -> None:
@@ -142,6 +144,7 @@ class Engine:
     def change(self, point: OperatingPoint, tolerance: float, time: float | Fraction) -> None:
         """Run on with these from `time` [s], the end of the last window."""
         cut(self.model, self.march, instant(time))
+        clear(self.march.sums.total)  # what was cut off counted there
         self._shown = None
         self.tolerance = tolerance
         self._load(point)
@@ -176,6 +179,18 @@ class Engine:
         for energy in self._ledgers:
             energy -= ledger
         return ledger
+
+    def take_mesh_sums(self) -> MeshSums:
+        """Integrals and extremes of the meshes up to `reached` since they were last taken.
+
+        Where no step has been made since then, those of the last step.
+        """
+        sums, meshes = self.march.sums, int(self.train.meshes)
+        if sums.total.time == 0.0:
+            return mesh_sums(sums.step, meshes)
+        taken = mesh_sums(sums.total, meshes)
+        clear(sums.total)
+        return taken
 
     def stored(self) -> tuple[float, float]:
         """Kinetic and elastic energy at `reached` [J]."""

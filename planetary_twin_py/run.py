@@ -8,6 +8,7 @@ from typing import Protocol
 import numpy as np
 
 from ._records import Record
+from .dynamics.mesh_sums import MeshSums
 from .engine import Engine
 from .integrators.interpolant import Samples
 from .quasi_static.engine import QuasiStaticEngine
@@ -48,6 +49,12 @@ class Run(Protocol):
 
     def take_ledger(self) -> np.ndarray:
         """Integrals of the ledger up to `reached` since they were last taken."""
+
+    def take_mesh_sums(self) -> MeshSums:
+        """Integrals and extremes of the meshes up to `reached` since they were last taken.
+
+        Where no step has been made since then, those of the last step.
+        """
 
     def stored(self) -> tuple[float, float]:
         """Kinetic and elastic energy at `reached` [J]."""

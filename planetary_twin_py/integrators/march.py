@@ -23,6 +23,7 @@ from .frame import rebase
 from .interpolant import Samples, new_samples, sample
 from .progress import COLLOCATION, NO_MESH, ROSENBROCK, SHORTEST_STEP
 from .repetition import forget, play, watch
+from .step_sums import sum_step
 from .stiff_step import stiff_step
 
 
@@ -50,6 +51,7 @@ def _set_tolerances(train: Record, march: Record) -> None:
 def one_step(model: Record, march: Record, longest: float) -> None:
     """One accepted step of at most `longest` seconds from `begin`, ending on the first event."""
     control = march.control
+    march.sums.stale = control.changed or control.collocated
     event, mesh = next_event(model, march)
     longest, changing = min(longest, control.longest), FAILED
     if control.method != ROSENBROCK and (control.detour == 0 or control.method == COLLOCATION):
@@ -65,6 +67,7 @@ def one_step(model: Record, march: Record, longest: float) -> None:
 @kernel
 def accept(model: Record, march: Record, mesh: int) -> None:
     """Let the step stand; `mesh` changes its contact at its end (NO_MESH: none)."""
+    sum_step(model, march)
     if mesh != NO_MESH:
         change_contact(model, march.end, march.aside, mesh)
         march.control.flank_events += int(model.train.copies[mesh])
