@@ -19,11 +19,12 @@ from .dynamics.oil import build_oil
 from .dynamics.start import build_load, start_state
 from .dynamics.static_load import mesh_force, static_torques
 from .dynamics.train import build_train, lightest_body
-from .integrators.clock import NEVER, Sampling, instant, sampling
+from .integrators.clock import NEVER, Sampling, delay, instant, sampling
 from .integrators.interpolant import Samples, new_samples
 from .integrators.march import advance, begin_step, cut
 from .integrators.progress import AUTO, COLLOCATION, MARCH, ROSENBROCK
 from .integrators.radau import radau
+from .integrators.window_sums import count_until
 from .scene import OperatingPoint, Scene
 from .tolerance import check_tolerance
 
@@ -76,7 +77,7 @@ class Engine:
         begin_step(self.model, self.march)
         self.advance(0.0, 1, 1.0, 0)
         self.stored()
-        self.take_mesh_sums()
+        self.take_mesh_sums(0.0)
         cut(self.model, self.march, instant(0.0))
 
     def _load(self, point: OperatingPoint) -> None:
@@ -144,7 +145,8 @@ class Engine:
     def change(self, point: OperatingPoint, tolerance: float, time: float | Fraction) -> None:
         """Run on with these from `time` [s], the end of the last window."""
         cut(self.model, self.march, instant(time))
-        clear(self.march.sums.total)  # what was cut off counted there
+        clear(self.march.sums.total)
+        self.march.sums.taken = self.march.control.step  # what lies before `time`
         self._shown = None
         self.tolerance = tolerance
         self._load(point)
@@ -180,16 +182,15 @@ class Engine:
             energy -= ledger
         return ledger
 
-    def take_mesh_sums(self) -> MeshSums:
-        """Integrals and extremes of the meshes up to `reached` since they were last taken.
+    def take_mesh_sums(self, time: float | Fraction) -> MeshSums:
+        """Integrals and extremes of the meshes since they were last taken.
 
-        Where no step has been made since then, those of the last step.
+        Up to `time` [s], the end of the last window.
         """
-        sums, meshes = self.march.sums, int(self.train.meshes)
-        if sums.total.time == 0.0:
-            return mesh_sums(sums.step, meshes)
-        taken = mesh_sums(sums.total, meshes)
-        clear(sums.total)
+        march = self.march
+        count_until(self.model, march, delay(march.begin, instant(time)))
+        taken = mesh_sums(march.sums.total, int(self.train.meshes))
+        clear(march.sums.total)
         return taken
 
     def stored(self) -> tuple[float, float]:

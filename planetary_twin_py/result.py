@@ -85,8 +85,8 @@ class Result:
     """Samples and balance of one run; arrays are (samples,), (samples, bodies/meshes)."""
 
     duration: float
-    """[s], from the last step of the settling to the last of the run: what statistics and ledger
-    of energy are over."""
+    """[s], from the end of the settling to the end of the run, each to the end of its step: what
+    the ledger of energy is over."""
     time: np.ndarray
     """[s]"""
     bodies: tuple[str, ...]
@@ -119,7 +119,7 @@ class Result:
     """Churned oil [W], (samples,)."""
     energy: Energy
     mesh: dict[str, np.ndarray]
-    """Statistics of the meshes over `duration`, shape (meshes,) each: see `mesh_statistics`."""
+    """Statistics of the meshes over the time asked for, (meshes,) each: see `mesh_statistics`."""
     mesh_efficiency: tuple[float, float]
     """Of the sun meshes and of the ring meshes: 1 - tooth friction/power that rolls through."""
     stats: Stats

@@ -50,10 +50,10 @@ class Run(Protocol):
     def take_ledger(self) -> np.ndarray:
         """Integrals of the ledger up to `reached` since they were last taken."""
 
-    def take_mesh_sums(self) -> MeshSums:
-        """Integrals and extremes of the meshes up to `reached` since they were last taken.
+    def take_mesh_sums(self, time: float | Fraction) -> MeshSums:
+        """Integrals and extremes of the meshes since they were last taken.
 
-        Where no step has been made since then, those of the last step.
+        Up to `time` [s], the end of the last window.
         """
 
     def stored(self) -> tuple[float, float]:

@@ -69,12 +69,13 @@ def simulate(
     passed, end = (_samples(t, sample_rate) for t in (settling, settling + duration))
     engine.advance(settling, passed + 1, sample_rate, 0)
     engine.take_ledger()
-    engine.take_mesh_sums()
+    engine.take_mesh_sums(settling)
     before = _Start(engine.reached, engine.stored(), passed, _turned(engine, settling))
     samples = engine.advance(settling + duration, passed + 1, sample_rate, end - passed)
     wall = time.perf_counter() - begin
     speed = (_turned(engine, settling + duration) - before.turned) / duration
-    return _result(scene, engine, (samples, speed), sample_rate, before, wall)
+    sums = engine.take_mesh_sums(settling + duration)
+    return _result(scene, engine, (samples, speed, sums), sample_rate, before, wall)
 
 
 class _Start(NamedTuple):
@@ -118,14 +119,14 @@ def check_run(duration: float, sample_rate: float, method: str, tolerance: float
 def _result(
     scene: Scene,
     engine: Run,
-    seen: tuple[Samples, np.ndarray],
+    seen: tuple[Samples, np.ndarray, MeshSums],
     sample_rate: float,
     before: _Start,
     wall: float,
 ) -> Result:
     names, meshes = body_names(scene), mesh_names(scene)
-    sums = in_order(engine.take_mesh_sums(), meshes.place)
-    samples, mean_speed = seen
+    samples, mean_speed = seen[:2]
+    sums = in_order(seen[2], meshes.place)
     mesh, count = samples.mesh[:, :, meshes.place], engine.control
     ground = np.zeros((len(mesh), 1))
     return Result(

@@ -186,7 +186,7 @@ class Twin:
         mean_speed = np.append(speed, 0.0)[names.place]
         sun, carrier = mean_speed[names.names.index("sun")], mean_speed[-1]
         mesh = samples.mesh[:, :, self._mesh_names.place]
-        sums = in_order(self._engine.take_mesh_sums(), self._mesh_names.place)
+        sums = in_order(self._engine.take_mesh_sums(self._clock), self._mesh_names.place)
         return Window(
             start=float(self._clock - step),
             end=self.time,

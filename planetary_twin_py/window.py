@@ -32,9 +32,9 @@ class Waveform:
 class Window:
     """One stretch of simulated time. Angles stand at its end.
 
-    Powers and statistics of the meshes are over the steps of the integrator that end within it; no
-    window cuts a step short, so the path does not depend on the windows. Statistics of a window
-    within one step are those of that step.
+    Statistics of the meshes are over the window exactly. Powers and torques of the train are over
+    the steps of the integrator that end within it: no window cuts a step short, so the path does
+    not depend on the windows.
     """
 
     start: float

@@ -15,6 +15,7 @@ from planetary_twin_py.dynamics.observe import (
     POWER_LOSS,
     VISCOUS,
 )
+from planetary_twin_py.dynamics.state import FRICTION
 from planetary_twin_py.run import start
 from planetary_twin_py.window import mesh_statistics
 
@@ -61,18 +62,18 @@ def integrated_and_sampled(scene):
     """Statistics of the same 0.1 s by the integrator, and its samples each microsecond."""
     engine, other = start(scene, 1e-4), start(scene, 1e-4)
     engine.advance(0.02, 1, 1.0, 0)
-    engine.take_mesh_sums()
-    begin = float(engine.reached)
+    engine.take_mesh_sums(0.02)
     engine.advance(0.12, 1, 1.0, 0)
-    end, sums = float(engine.reached), engine.take_mesh_sums()
-    assert sums.time == pytest.approx(end - begin, rel=1e-9)
-    first, last = math.ceil(begin * 1e6), math.floor(end * 1e6)
-    return mesh_statistics(sums), other.advance(end, first, 1e6, last - first + 1).mesh
+    sums = engine.take_mesh_sums(0.12)
+    assert sums.time == pytest.approx(0.1, rel=1e-12)
+    return mesh_statistics(sums), other.advance(0.12, 20_000, 1e6, 100_001).mesh
 
 
-@pytest.mark.parametrize("changes", SCENES.values(), ids=SCENES)
-def test_statistics_are_those_of_very_many_samples(changes):
-    seen, samples = integrated_and_sampled(PAPER.replace(**changes))
+@pytest.mark.parametrize("name", SCENES)
+def test_statistics_are_those_of_very_many_samples(name):
+    """Within 1e-3; within 2e-3 where flanks part amid a step, as friction has a kink there."""
+    seen, samples = integrated_and_sampled(PAPER.replace(**SCENES[name]))
+    rel = 2e-3 if name == "rattling" else 1e-3
     touching = samples[:, MESH_FORCE] != 0.0
     mean = samples.mean(axis=0)
     film, ratio = np.nanmean(samples[:, [FILM, LAMBDA]], axis=0)
@@ -87,19 +88,25 @@ def test_statistics_are_those_of_very_many_samples(changes):
         "viscous_friction": mean[VISCOUS],
         "power_loss": mean[POWER_LOSS],
     }
-    for name, values in expected.items():
-        assert seen[name] == pytest.approx(values, rel=1e-3, abs=1e-15), name
-    for name, row in (("dte_peak", DTE), ("mesh_force_peak", MESH_FORCE)):
-        assert seen[name] == pytest.approx(np.abs(samples[:, row]).max(axis=0), rel=1e-2), name
+    for quantity, values in expected.items():
+        assert seen[quantity] == pytest.approx(values, rel=rel, abs=1e-15), quantity
+    for peak, row in (("dte_peak", DTE), ("mesh_force_peak", MESH_FORCE)):
+        assert seen[peak] == pytest.approx(np.abs(samples[:, row]).max(axis=0), rel=1e-2), peak
     clipped = touching & (samples[:, VISCOUS] == 0.0)
     assert seen["without_viscous"] == pytest.approx(clipped.mean(axis=0), abs=0.02)
 
 
 @pytest.mark.parametrize("changes", SCENES.values(), ids=SCENES)
 def test_losses_of_the_meshes_add_up_to_the_energy_ledger(changes):
-    run = pt.simulate(PAPER.replace(**changes), 0.05, 10_000.0)
-    lost = run.mesh["power_loss"].sum() * run.duration
-    assert lost == pytest.approx(run.energy.friction, rel=1e-4, abs=1e-12)
+    """Between ends of steps, where both stand."""
+    engine = start(PAPER.replace(**changes), 1e-4)
+    for time in (0.01, 0.05):
+        engine.advance(time, 1, 1.0, 0)
+        engine.advance(engine.reached, 1, 1.0, 0)
+        friction = engine.take_ledger()[FRICTION]
+        lost = engine.take_mesh_sums(engine.reached).integral[POWER_LOSS]
+    copies = engine.train.copies[: len(lost)]
+    assert (lost * copies).sum() == pytest.approx(friction, rel=1e-4, abs=1e-12)
 
 
 def test_rosenbrocks_method_has_the_same_statistics():

@@ -25,6 +25,7 @@ from .progress import COLLOCATION, NO_MESH, ROSENBROCK, SHORTEST_STEP
 from .repetition import forget, play, watch
 from .step_sums import sum_step
 from .stiff_step import stiff_step
+from .window_sums import count_step
 
 
 @kernel
@@ -98,6 +99,7 @@ def advance(
         if taken == room and delay(march.end, until) <= 0.0:
             sample(model, march, delay(march.begin, until), out, room)
             return
+        count_step(model, march)
         if march.repetition.playing:
             play(model, march, due(samples) if taken < room else until)
         else:

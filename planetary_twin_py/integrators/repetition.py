@@ -209,9 +209,9 @@ def play(model: Record, march: Record, until: Instant) -> None:
         step = repetition.tape[repetition.place]
         repetition.place += 1
         march.control.repeated += 1
-        add_sums(step.sums, march.sums.total, model.train.lanes)
         if delay(repetition.start, until) <= step.end.after:
             break
+        add_sums(step.sums, march.sums.total, model.train.lanes)
     _stand(repetition, step.begin, march.begin)
     _stand(repetition, step.end, march.end)
     march.control.collocated, march.control.step = (

@@ -17,7 +17,7 @@ from .._overwrite import copy_array
 from .._records import FLAG, MESHES, REAL, WHOLE, Record, layout
 from ..dynamics.equations import forces, squeeze
 from ..dynamics.mesh_force import mesh_motion
-from ..dynamics.mesh_sums import MESH_SUMS, SQUARE, SUMS, add_sums
+from ..dynamics.mesh_sums import MESH_SUMS, SQUARE, SUMS
 from ..dynamics.observe import DTE, MESH_FORCE
 from .contact_sums import (
     CONTACT_SUMS,
@@ -44,11 +44,14 @@ LOOK = layout(
 
 STEP_SUMS = layout(
     step=MESH_SUMS,  # over the last step
-    total=MESH_SUMS,  # over all steps since it was taken
+    part=MESH_SUMS,  # over a part of it
+    total=MESH_SUMS,  # since it was taken, up to the start of the last step
+    taken=REAL,  # of the last step [s]
     look=LOOK,
     contacts=CONTACT_SUMS,
     stale=FLAG,  # `rates` are not those of the start of the step
     rates=(REAL, (SUMS, MESHES)),  # by which the integrals grow at the end of a stiff step
+    push=(REAL, (MESHES,)),  # there [N]
 )
 
 
@@ -58,16 +61,16 @@ def sum_step(model: Record, march: Record) -> None:
     sums, train = march.sums, model.train
     sums.step.time = march.control.step
     if march.control.collocated:
-        intervals = _intervals(march, train.lanes, train.meshes)
-        if intervals == 0:
+        h, step = march.control.step, march.run.motion.step
+        intervals = even_intervals(march, train.lanes, train.meshes, h)
+        if intervals == 0 and abs(h - step) <= NEAR * step:
             _look_at_nodes(train, march)
         else:
-            _look_at_even_times(model, march, intervals)
+            _look_at_even_times(model, march, max(intervals, FEWEST))
         _add_nodes(model, march)
     else:
         _add_ends(model, march)
-    _add_look(train, march.moment, sums.look, sums.step)
-    add_sums(sums.step, sums.total, train.lanes)
+    add_look(train, march.moment, sums.look, sums.step)
 
 
 @law
@@ -104,13 +107,13 @@ def _add_nodes(model: Record, march: Record) -> None:
 
 
 @kernel
-def _intervals(march: Record, lanes: int, meshes: int) -> int:
-    """Even intervals that resolve a step by collocation, 0: its nodes do.
+def even_intervals(march: Record, lanes: int, meshes: int, h: float) -> int:
+    """Even intervals that resolve h seconds of a step by collocation, 0: as many nodes do.
 
     Nodes resolve as many radians of a free wave as they are; even times one each. Waves below the
     tolerance do not count.
     """
-    run, h = march.run, march.control.step
+    run = march.run
     reach, fastest = run.known.reach[run.motion.modes], 0.0
     for m in range(lanes):
         phase = run.motion.rate[m] * h
@@ -123,9 +126,17 @@ def _intervals(march: Record, lanes: int, meshes: int) -> int:
             swings = run.motion.slow[m] == run.motion.fast[m]
             if swings and swing * largest > march.control.tolerance_x:
                 fastest = phase
-    if fastest == 0.0 and abs(h - run.motion.step) <= NEAR * run.motion.step:
-        return 0
-    return min(max(2 * math.ceil(0.5 * fastest), FEWEST), POINTS - 1)
+    return min(2 * math.ceil(0.5 * fastest), POINTS - 1)
+
+
+@kernel
+def set_even_times(look: Record, begin: float, end: float, intervals: int) -> None:
+    """Set times from `begin` to `end` [s] and weights of Simpson's rule; intervals are even."""
+    gap = (end - begin) / intervals
+    look.count = intervals + 1
+    for k in range(look.count):
+        look.at[k], look.weight[k] = begin + k * gap, gap / 3.0 * (4.0 if k % 2 == 1 else 2.0)
+    look.weight[0] = look.weight[intervals] = gap / 3.0
 
 
 @kernel
@@ -148,17 +159,14 @@ def _look_at_even_times(model: Record, march: Record, intervals: int) -> None:
     train, begin, run = model.train, march.begin, march.run
     look, work, dense = march.sums.look, march.work.evaluation, march.dense
     form, motion = run.known.form[run.motion.modes], run.known.motion[run.motion.modes]
-    gap = march.control.step / intervals
-    look.count = intervals + 1
+    set_even_times(look, 0.0, march.control.step, intervals)
     for k in range(look.count):
-        modes_at(run, train.lanes, k * gap)
+        modes_at(run, train.lanes, look.at[k])
         combine_both(form, run.now_q, run.now_p, train.bodies, dense.x, dense.v)
         combine_both(motion, run.now_q, run.now_p, train.bodies, look.d[k], work.now.rate)
         copy_array(work.now.d, look.d[k])
-        squeeze(model, begin, march.moment, dense.x, dense.v, k * gap, work)
+        squeeze(model, begin, march.moment, dense.x, dense.v, look.at[k], work)
         copy_array(look.push[k], work.now.push)
-        look.at[k], look.weight[k] = k * gap, gap / 3.0 * (4.0 if k % 2 == 1 else 2.0)
-    look.weight[0] = look.weight[intervals] = gap / 3.0
 
 
 @kernel
@@ -168,7 +176,7 @@ def _add_ends(model: Record, march: Record) -> None:
     look, out, half = sums.look, sums.step.integral, 0.5 * march.control.step
     look.count, look.at[0], look.at[1] = 2, 0.0, 2.0 * half
     look.weight[0] = look.weight[1] = half
-    copy_array(look.push[0], look.push[1])  # the end of the last step
+    copy_array(look.push[0], sums.push)
     if sums.stale:
         work = march.work.evaluation
         forces(model, begin, moment, begin.x, begin.v, 0.0, begin.trim, work)
@@ -178,6 +186,7 @@ def _add_ends(model: Record, march: Record) -> None:
         for i in range(train.lanes):
             out[row, i] = half * sums.rates[row, i]
     copy_array(look.push[1], march.last.now.push)
+    copy_array(sums.push, march.last.now.push)
     _put_rates(model, moment, march.end.v, march.last, sums)
     for row in range(SUMS):
         for i in range(train.lanes):
@@ -199,7 +208,7 @@ def _put_rates(model: Record, moment: Record, v: np.ndarray, work: Record, sums:
 
 
 @kernel
-def _add_look(train: Record, moment: Record, look: Record, step: Record) -> None:
+def add_look(train: Record, moment: Record, look: Record, step: Record) -> None:
     """Integrals and extremes of transmission errors and forces, from the look."""
     out, lanes = step.integral, train.lanes
     for i in range(lanes):

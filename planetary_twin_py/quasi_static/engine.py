@@ -55,7 +55,7 @@ class QuasiStaticEngine:
         self.advance(0.0, 1, 1.0, 0)
         self.sample(0.0)
         self.take_ledger()
-        self.take_mesh_sums()
+        self.take_mesh_sums(0.0)
         self.stored()
 
     def _start(self) -> Record:
@@ -124,9 +124,12 @@ class QuasiStaticEngine:
         """
         return self._ledger.take(instant(self.reached))
 
-    def take_mesh_sums(self) -> MeshSums:
-        """Integrals and extremes of the meshes up to `reached` since they were last taken."""
-        return self._ledger.take_mesh_sums(instant(self.reached))
+    def take_mesh_sums(self, time: float | Fraction) -> MeshSums:
+        """Integrals and extremes of the meshes since they were last taken.
+
+        Up to `time` [s], the end of the last window.
+        """
+        return self._ledger.take_mesh_sums(instant(time))
 
     @property
     def powers(self) -> np.ndarray:
