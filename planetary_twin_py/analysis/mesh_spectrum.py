@@ -81,12 +81,13 @@ class MeshSpectrum:
         """
         if self.mesh is None:
             return None
-        if self.harmonic(line.place) is not None and (
-            line.amplitude > HIGHEST_ALIAS * self.edge or self.alias_share <= CARRIED
-        ):
+        own = self.harmonic(line.place)
+        carried = self.alias_share <= CARRIED or line.amplitude > HIGHEST_ALIAS * self.edge
+        if own is not None and carried:
             return None
         near = NEAR * float(self.axis[1])
-        return folded_harmonic(line.place, self.mesh, self.sample_rate, near)
+        found = folded_harmonic(line.place, self.mesh, self.sample_rate, near)
+        return None if found == own else found
 
 
 def frequency_spectrum_of(signal: Signal, sun_teeth: int | None) -> MeshSpectrum:
