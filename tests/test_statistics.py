@@ -29,7 +29,7 @@ SCENES = {
     "computed_lambda": {"lubrication.lambda_ratio": "computed"},
     "quasi_static": {"dynamics": "quasi_static"},
     "quasi_static_wear": {"dynamics": "quasi_static", **WEAR},
-    "rattling": {"input_torque": 0.3, "backlash": 2e-6, "input_speed": pt.rpm(3000)},
+    "rattling": {"input_torque": 0.3, "torque_ripple": 1.0, "input_speed": pt.rpm(2000)},
 }
 
 

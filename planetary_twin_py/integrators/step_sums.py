@@ -16,7 +16,7 @@ from .._compile import kernel, law
 from .._overwrite import copy_array
 from .._records import FLAG, MESHES, REAL, WHOLE, Record, layout
 from ..dynamics.equations import forces, squeeze
-from ..dynamics.mesh_force import mesh_motion
+from ..dynamics.mesh_force import mesh_motion, move_meshes
 from ..dynamics.mesh_sums import MESH_SUMS, SQUARE, SUMS
 from ..dynamics.observe import DTE, MESH_FORCE
 from .contact_sums import (
@@ -27,7 +27,7 @@ from .contact_sums import (
     find_contacts,
     put_contacts,
 )
-from .propagation import modes_at
+from .propagation import modes_at, propagate
 
 POINTS = 129  # room
 FEWEST = 4  # intervals between even times
@@ -61,13 +61,7 @@ def sum_step(model: Record, march: Record) -> None:
     sums, train = march.sums, model.train
     sums.step.time = march.control.step
     if march.control.collocated:
-        h, step = march.control.step, march.run.motion.step
-        intervals = even_intervals(march, train.lanes, train.meshes, h)
-        if intervals == 0 and abs(h - step) <= NEAR * step:
-            _look_at_nodes(train, march)
-        else:
-            _look_at_even_times(model, march, max(intervals, FEWEST))
-        _add_nodes(model, march)
+        _add_collocated(model, march)
     else:
         _add_ends(model, march)
     add_look(train, march.moment, sums.look, sums.step)
@@ -85,25 +79,55 @@ def _weight(march: Record, n: int) -> float:
 
 
 @kernel
-def _add_nodes(model: Record, march: Record) -> None:
-    """Contacts and friction, at the nodes of a step by collocation.
+def _add_collocated(model: Record, march: Record) -> None:
+    """Fill the look at a step by collocation, and sum up its contacts and friction."""
+    train, run, sums, h = model.train, march.run, march.sums, march.control.step
+    clear_contacts(train, sums.contacts)
+    for n in range(run.nodes.count):
+        add_friction(train, run.evaluation[n], _weight(march, n), sums.contacts)
+    intervals = even_intervals(march, train.lanes, train.meshes, h)
+    if abs(h - run.motion.step) > NEAR * run.motion.step:
+        _look_at_even_times(model, march, max(intervals, FEWEST))
+        _add_films_of_look(model, march)
+    else:
+        if intervals == 0:
+            _look_at_nodes(train, march)
+        else:
+            _look_at_even_times(model, march, intervals)
+        _add_films(model, march)
+    put_contacts(train, model.oil, sums.contacts, sums.step.integral)
 
-    Films change slowly: two nodes are enough for them.
-    """
-    train, run, contacts = model.train, march.run, march.sums.contacts
-    nodes, h = run.nodes, march.control.step
-    early, late = max(nodes.count - 4, 0), nodes.count - 2
-    t, u = nodes.abscissa[early] * run.motion.step, nodes.abscissa[late] * run.motion.step
+
+@kernel
+def _add_films(model: Record, march: Record) -> None:
+    """Films at the nodes; at two of them without friction, as nothing else asks for them."""
+    run, contacts, h = march.run, march.sums.contacts, march.control.step
+    if model.train.friction:
+        for n in range(run.nodes.count):
+            add_films(model.train, run.evaluation[n].pairs, _weight(march, n), contacts)
+        return
+    early, late = max(run.nodes.count - 4, 0), run.nodes.count - 2
+    t, u = run.nodes.abscissa[early] * run.motion.step, run.nodes.abscissa[late] * run.motion.step
     weight = h * (u - 0.5 * h) / (u - t)  # of the early one, exact for straight lines
-    clear_contacts(train, contacts)
-    for n in range(nodes.count):
-        add_friction(train, run.evaluation[n], _weight(march, n), contacts)
     for n in (early, late):
         work = run.evaluation[n]
-        if not train.friction:
-            find_contacts(model, march.moment, run.node_v[n], work)
-        add_films(train, work.pairs, weight if n == early else h - weight, contacts)
-    put_contacts(train, model.oil, contacts, march.sums.step.integral)
+        find_contacts(model, march.moment, run.node_v[n], work)
+        add_films(model.train, work.pairs, weight if n == early else h - weight, contacts)
+
+
+@kernel
+def _add_films_of_look(model: Record, march: Record) -> None:
+    """Films at the times of the look.
+
+    Beyond the end of a step whose flanks part, nodes show films of no load.
+    """
+    train, sums, work, dense = model.train, march.sums, march.work.evaluation, march.dense
+    for k in range(sums.look.count):
+        propagate(model, march, sums.look.at[k], dense.x, dense.v)
+        move_meshes(train, dense.x, dense.v, work.now)
+        squeeze(model, march.begin, march.moment, dense.x, dense.v, sums.look.at[k], work)
+        find_contacts(model, march.moment, dense.v, work)
+        add_films(train, work.pairs, sums.look.weight[k], sums.contacts)
 
 
 @kernel

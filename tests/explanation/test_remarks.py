@@ -50,9 +50,9 @@ def test_only_the_kind_of_mesh_that_is_clipped_is_told(heavy):
 
 
 def test_teeth_that_have_parted_are_not_clipped(heavy):
-    """Idling between backlash: neither force nor friction for most of the time."""
-    run = pt.simulate(HEAVY.replace(input_torque=0.3, backlash=2e-6, input_speed=314.0), 0.02)
-    assert run.mesh["contact_fraction"].max() < 0.9
+    """Rattling: neither force nor friction for a while."""
+    run = pt.simulate(pt.load_scene("lightly_loaded"), 0.1)
+    assert run.mesh["contact_fraction"].max() < 0.99
     assert (run.mesh["without_viscous"] <= run.mesh["contact_fraction"]).all()
     parted = {"contact_fraction": np.zeros(6), "without_viscous": np.zeros(6)}
     assert set(clipped_friction(HEAVY, replace(heavy, mesh=heavy.mesh | parted)).values()) == {0.0}
