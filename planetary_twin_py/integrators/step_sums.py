@@ -28,6 +28,7 @@ from .contact_sums import (
     put_contacts,
 )
 from .propagation import modes_at, propagate
+from .radau import MOST
 
 POINTS = 129  # room
 FEWEST = 4  # intervals between even times
@@ -49,6 +50,7 @@ STEP_SUMS = layout(
     taken=REAL,  # of the last step [s]
     look=LOOK,
     contacts=CONTACT_SUMS,
+    weight=(REAL, (MOST,)),  # of the nodes of a step by collocation [s]
     stale=FLAG,  # `rates` are not those of the start of the step
     rates=(REAL, (SUMS, MESHES)),  # by which the integrals grow at the end of a stiff step
     push=(REAL, (MESHES,)),  # there [N]
@@ -84,7 +86,8 @@ def _add_collocated(model: Record, march: Record) -> None:
     train, run, sums, h = model.train, march.run, march.sums, march.control.step
     clear_contacts(train, sums.contacts)
     for n in range(run.nodes.count):
-        add_friction(train, run.evaluation[n], _weight(march, n), sums.contacts)
+        sums.weight[n] = _weight(march, n)
+        add_friction(train, run.evaluation[n], sums.weight[n], sums.contacts)
     intervals = even_intervals(march, train.lanes, train.meshes, h)
     if abs(h - run.motion.step) > NEAR * run.motion.step:
         _look_at_even_times(model, march, max(intervals, FEWEST))
@@ -104,7 +107,7 @@ def _add_films(model: Record, march: Record) -> None:
     run, contacts, h = march.run, march.sums.contacts, march.control.step
     if model.train.friction:
         for n in range(run.nodes.count):
-            add_films(model.train, run.evaluation[n].pairs, _weight(march, n), contacts)
+            add_films(model.train, run.evaluation[n].pairs, march.sums.weight[n], contacts)
         return
     early, late = max(run.nodes.count - 4, 0), run.nodes.count - 2
     t, u = run.nodes.abscissa[early] * run.motion.step, run.nodes.abscissa[late] * run.motion.step
@@ -172,7 +175,7 @@ def _look_at_nodes(train: Record, march: Record) -> None:
     copy_array(look.push[0], march.first.now.push)
     for n in range(run.nodes.count):
         look.at[n + 1] = run.nodes.abscissa[n] * run.motion.step
-        look.weight[n + 1] = _weight(march, n)
+        look.weight[n + 1] = march.sums.weight[n]
         copy_array(look.d[n + 1], run.node_d[n])
         copy_array(look.push[n + 1], run.evaluation[n].now.push)
 
