@@ -16,17 +16,19 @@ from ._records import AXES, Record, new_record
 from .dynamics.cycle import common_cycles, turns_per_cycle
 from .dynamics.energy import stored
 from .dynamics.equations import MODEL
+from .dynamics.mesh_sums import MeshSums, clear, mesh_sums
 from .dynamics.oil import build_oil
 from .dynamics.speed_loop import bandwidth, check_speed_loop
 from .dynamics.start import build_load, start_state
 from .dynamics.state import IMPULSE
 from .dynamics.static_load import mesh_force, static_torques
 from .dynamics.train import build_train, lightest_body
-from .integrators.clock import NEVER, Sampling, instant, sampling
+from .integrators.clock import NEVER, Sampling, delay, instant, sampling
 from .integrators.interpolant import Samples, new_samples
 from .integrators.march import advance, begin_step, cut
 from .integrators.progress import AUTO, COLLOCATION, MARCH, ROSENBROCK
 from .integrators.radau import radau
+from .integrators.window_sums import count_until
 from .runaway import Limits, RunawayError, squeeze
 from .scene import OperatingPoint, Scene
 from .tolerance import check_tolerance
@@ -88,6 +90,7 @@ class Engine:
         self.march.end = self.march.begin  # tooth pairs may have begun to hold
         self.advance(0.0, 1, 1.0, 0)
         self.stored()
+        self.take_mesh_sums(0.0)
         cut(self.model, self.march, instant(0.0))
 
     def _load(self, point: OperatingPoint) -> None:
@@ -196,6 +199,8 @@ class Engine:
         if self.scene.mesh.damping.follows_speed:
             check_speed_loop(self.scene, self.train, point)
         cut(self.model, self.march, instant(time))
+        clear(self.march.sums.total)
+        self.march.sums.taken = self.march.control.step  # what lies before `time`
         self._shown = None
         self.tolerance = tolerance
         self._load(point)
@@ -230,6 +235,17 @@ class Engine:
         for energy in self._ledgers:
             energy -= ledger
         return ledger
+
+    def take_mesh_sums(self, time: float | Fraction) -> MeshSums:
+        """Integrals and extremes of the meshes since they were last taken.
+
+        Up to `time` [s], the end of the last window.
+        """
+        march = self.march
+        count_until(self.model, march, delay(march.begin, instant(time)))
+        taken = mesh_sums(march.sums.total, int(self.train.meshes))
+        clear(march.sums.total)
+        return taken
 
     def stored(self) -> tuple[float, float]:
         """Kinetic and elastic energy at `reached` [J]."""

@@ -7,18 +7,6 @@ from dataclasses import dataclass
 import numpy as np
 
 from .dynamics.bodies import LOAD_MACHINE, MOTOR, SECOND_MOTOR
-from .dynamics.observe import (
-    BOUNDARY,
-    DTE,
-    FILM,
-    LAMBDA,
-    MESH_FORCE,
-    MESH_POWER,
-    POWER_LOSS,
-    QUANTITIES,
-    VISCOUS,
-)
-from .window import Stretch, mesh_statistics
 
 
 @dataclass(frozen=True)
@@ -99,7 +87,8 @@ class Result:
     """Samples and balance of one run; arrays are (samples,), (samples, bodies/meshes)."""
 
     duration: float
-    """Of the run [s], to the end of its last step; the ledger of energy is over it."""
+    """[s], from the end of the settling to the end of the run, each to the end of its step: what
+    the ledger of energy is over."""
     time: np.ndarray
     """[s]"""
     bodies: tuple[str, ...]
@@ -108,6 +97,8 @@ class Result:
     """Absolute, counter-clockwise positive [rad], (samples, bodies)."""
     speed: np.ndarray
     """[rad/s], (samples, bodies)."""
+    mean_speed: np.ndarray
+    """Over the time of the samples [rad/s], (bodies,)."""
     dte: np.ndarray
     """Dynamic transmission error along the line of action [m], (samples, meshes)."""
     mesh_force: np.ndarray
@@ -129,6 +120,10 @@ class Result:
     churning_loss: np.ndarray
     """Churned oil [W], (samples,)."""
     energy: Energy
+    mesh: dict[str, np.ndarray]
+    """Statistics of the meshes over the time asked for, (meshes,) each: see `mesh_statistics`."""
+    mesh_efficiency: tuple[float, float]
+    """Of the sun meshes and of the ring meshes: 1 - tooth friction/power that rolls through."""
     stats: Stats
 
     @property
@@ -139,37 +134,12 @@ class Result:
 
     @property
     def mean_power_loss(self) -> float:
-        """Tooth friction of all meshes, bearings and churning, over the whole run [W]."""
+        """Tooth friction of all meshes, bearings and churning, over `duration` [W]."""
         return self.energy.loss / self.duration
 
     @property
-    def mesh(self) -> dict[str, np.ndarray]:
-        """Statistics of the meshes over the run, shape (meshes,) each: see `mesh_statistics`."""
-        seen = {
-            DTE: self.dte,
-            MESH_FORCE: self.mesh_force,
-            BOUNDARY: self.boundary_friction,
-            VISCOUS: self.viscous_friction,
-            FILM: self.film_thickness,
-            LAMBDA: self.lambda_ratio,
-            POWER_LOSS: self.power_loss,
-            MESH_POWER: self.mesh_power,
-        }
-        return mesh_statistics(Stretch(self.time, [seen[k] for k in range(QUANTITIES)]))
-
-    @property
-    def mesh_efficiency(self) -> tuple[float, float]:
-        """Of the sun meshes and of the ring meshes: 1 - tooth friction/power that rolls through."""
-        planets = len(self.meshes) // 2
-        sun, ring = (
-            1.0 - float(self.power_loss[:, meshes].sum() / self.mesh_power[:, meshes].sum())
-            for meshes in (slice(planets), slice(planets, None))
-        )
-        return sun, ring
-
-    @property
     def efficiency(self) -> float:
-        """1 - loss/put_in over the whole run; NaN if no machine drives."""
+        """1 - loss/put_in over `duration`; NaN if no machine drives."""
         if self.energy.put_in <= 0.0:
             return float("nan")
         return 1.0 - self.energy.loss / self.energy.put_in

@@ -8,6 +8,7 @@ from typing import Protocol
 import numpy as np
 
 from ._records import Record
+from .dynamics.mesh_sums import MeshSums
 from .dynamics.speed_loop import check_speed_loop
 from .dynamics.train import build_train
 from .engine import Engine
@@ -50,6 +51,12 @@ class Run(Protocol):
 
     def take_ledger(self) -> np.ndarray:
         """Integrals of the ledger up to `reached` since they were last taken."""
+
+    def take_mesh_sums(self, time: float | Fraction) -> MeshSums:
+        """Integrals and extremes of the meshes since they were last taken.
+
+        Up to `time` [s], the end of the last window.
+        """
 
     def stored(self) -> tuple[float, float]:
         """Kinetic and elastic energy at `reached` [J]."""

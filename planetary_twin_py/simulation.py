@@ -5,10 +5,13 @@ from __future__ import annotations
 import math
 import time
 import warnings
+from fractions import Fraction
+from typing import NamedTuple
 
 import numpy as np
 
 from .dynamics.bodies import body_names, mesh_names
+from .dynamics.mesh_sums import MeshSums, in_order
 from .dynamics.observe import (
     BOUNDARY,
     DTE,
@@ -27,6 +30,7 @@ from .result import Energy, Result, Stats
 from .run import Run, start
 from .scene import Scene
 from .tolerance import check_tolerance
+from .window import mesh_statistics
 
 MOST_SAMPLES = 20_000_000
 TOLERANCE = 1e-4  # unless one is given
@@ -38,16 +42,24 @@ def simulate(
     sample_rate: float = 50_000.0,
     method: str = "auto",
     tolerance: float = TOLERANCE,
+    settling: float = 0.0,
 ) -> Result:
     """Simulate `duration` seconds of a scene from steady running.
 
+    Means, rms and peaks of the result come from the integrator and do not depend on the samples.
+
     Args:
         scene: what to simulate.
-        duration: simulated time [s].
+        duration: simulated time of the result [s].
         sample_rate: of the result [Hz]; samples lie at whole multiples of its period.
         method: "collocation", "rosenbrock", "march": the first wherever it is fit, or "auto": the
             same, but steady running that repeats itself is not computed again.
         tolerance: relative local error of a step.
+        settling: simulated time before that [s], which leaves out what the start sets swinging;
+            the clock of the result counts it.
+
+    Returns:
+        Samples, energy ledger and statistics of the time after `settling`.
 
     Raises:
         ValueError: an argument is out of range, or the scene cannot be run.
@@ -57,16 +69,49 @@ def simulate(
         LedgerWarning: the energy ledger does not close, see `ledger_check`.
     """
     check_run(duration, sample_rate, method, tolerance)
+    if not 0.0 <= settling < math.inf:
+        raise ValueError(f"settling = {settling!r} s: must be finite and not negative")
     engine = start(scene, tolerance, method)
-    stored = engine.stored()
-    room = math.floor(duration * sample_rate + 1e-6)
     begin = time.perf_counter()
-    samples = engine.advance(duration, 1, sample_rate, room)
+    passed, end = (_samples(t, sample_rate) for t in (settling, settling + duration))
+    engine.advance(settling, passed + 1, sample_rate, 0)
+    engine.take_ledger()
+    engine.take_mesh_sums(settling)
+    before = _Start(engine.reached, engine.stored(), passed, _turned(engine, settling))
+    samples = engine.advance(settling + duration, passed + 1, sample_rate, end - passed)
     wall = time.perf_counter() - begin
-    result = _result(scene, engine, samples, sample_rate, stored, wall)
+    speed = (_turned(engine, settling + duration) - before.turned) / duration
+    sums = engine.take_mesh_sums(settling + duration)
+    result = _result(scene, engine, (samples, speed, sums), sample_rate, before, wall)
     if text := ledger_warning(balance_of_run(result.energy), tolerance):
         warnings.warn(text, LedgerWarning, stacklevel=2)
     return result
+
+
+class _Start(NamedTuple):
+    """Where the result of a run begins."""
+
+    reached: Fraction  # [s]
+    stored: tuple[float, float]  # [J]
+    samples: int  # up to there
+    turned: np.ndarray  # bodies [rad]
+
+
+def _turned(engine: Run, time: float) -> np.ndarray:
+    """Angles [rad] of the bodies that are integrated at `time` [s], the end of the last window."""
+    return _angles(engine, engine.sample(time))[0]
+
+
+def _angles(engine: Run, samples: Samples) -> np.ndarray:
+    """Of the bodies that are integrated [rad], (samples, bodies)."""
+    train = engine.train
+    turned = 2.0 * math.pi * samples.turns @ train.ratio[: train.bodies].T
+    return np.asarray(turned + samples.angle)
+
+
+def _samples(time: float, sample_rate: float) -> int:
+    """Number of samples up to `time` [s]."""
+    return math.floor(time * sample_rate + 1e-6)
 
 
 def check_run(duration: float, sample_rate: float, method: str, tolerance: float) -> None:
@@ -84,22 +129,24 @@ def check_run(duration: float, sample_rate: float, method: str, tolerance: float
 def _result(
     scene: Scene,
     engine: Run,
-    samples: Samples,
+    seen: tuple[Samples, np.ndarray, MeshSums],
     sample_rate: float,
-    stored: tuple[float, float],
+    before: _Start,
     wall: float,
 ) -> Result:
     names, meshes = body_names(scene), mesh_names(scene)
+    samples, mean_speed = seen[:2]
+    sums = in_order(seen[2], meshes.place)
     mesh, count = samples.mesh[:, :, meshes.place], engine.control
     ground = np.zeros((len(mesh), 1))
-    turned = 2.0 * math.pi * samples.turns @ engine.train.ratio[: engine.train.bodies].T
     return Result(
-        duration=float(engine.reached),
-        time=np.arange(1, len(mesh) + 1) / sample_rate,
+        duration=float(engine.reached - before.reached),
+        time=np.arange(before.samples + 1, before.samples + len(mesh) + 1) / sample_rate,
         bodies=names.names,
         meshes=meshes.names,
-        angle=np.hstack([turned + samples.angle, ground])[:, names.place],
+        angle=np.hstack([_angles(engine, samples), ground])[:, names.place],
         speed=np.hstack([samples.speed, ground])[:, names.place],
+        mean_speed=np.append(mean_speed, 0.0)[names.place],
         dte=mesh[:, DTE],
         mesh_force=mesh[:, MESH_FORCE],
         film_thickness=mesh[:, FILM],
@@ -110,7 +157,9 @@ def _result(
         mesh_power=mesh[:, MESH_POWER],
         bearing_loss=samples.drag[:, 0],
         churning_loss=samples.drag[:, 1],
-        energy=_energy(engine, stored),
+        energy=_energy(engine, before.stored),
+        mesh=mesh_statistics(sums),
+        mesh_efficiency=_mesh_efficiency(sums),
         stats=Stats(
             steps=int(count.steps),
             repeated_steps=int(count.repeated),
@@ -123,6 +172,16 @@ def _result(
             real_time_factor=float(engine.reached) / wall,
         ),
     )
+
+
+def _mesh_efficiency(sums: MeshSums) -> tuple[float, float]:
+    """Of the sun meshes and of the ring meshes."""
+    lost, rolled = (
+        sums.integral[row].reshape(2, -1).sum(axis=1) for row in (POWER_LOSS, MESH_POWER)
+    )
+    with np.errstate(invalid="ignore"):
+        sun, ring = 1.0 - lost / rolled
+    return float(sun), float(ring)
 
 
 def _energy(engine: Run, stored: tuple[float, float]) -> Energy:

@@ -9,6 +9,7 @@ from typing import NamedTuple
 import numpy as np
 
 from .dynamics.bodies import Ratios, body_names, mesh_names
+from .dynamics.mesh_sums import in_order
 from .dynamics.observe import BOUNDARY, DTE, MESH_FORCE, VISCOUS
 from .dynamics.state import BEARING, CHURNING, DAMPING, FRICTION, IMPULSE, STIFFNESS_WORK, WORK
 from .gearset.kinematics import mesh_frequency
@@ -17,7 +18,7 @@ from .run import start
 from .runaway import RunawayError
 from .scene import TUNABLES, OperatingPoint, Scene, SceneError
 from .tolerance import LIVE_TOLERANCE, check_tolerance
-from .window import Stretch, Waveform, Window, mesh_statistics
+from .window import Waveform, Window, mesh_statistics
 
 TICKS = 10**12  # of the clock, in a second
 LEEWAY = Fraction(1, 10**6)  # of a sample period, by which a sample may lie beyond its window
@@ -192,7 +193,7 @@ class Twin:
         mean_speed = np.append(speed, 0.0)[names.place]
         sun, carrier = mean_speed[names.names.index("sun")], mean_speed[-1]
         mesh = samples.mesh[:, :, self._mesh_names.place]
-        stretch = self._stretch(step, first, (begin, samples, self._end))
+        sums = in_order(self._engine.take_mesh_sums(self._clock), self._mesh_names.place)
         return Window(
             start=float(self._clock - step),
             end=self.time,
@@ -208,7 +209,7 @@ class Twin:
                 mesh_force=mesh[:, MESH_FORCE],
                 friction=mesh[:, BOUNDARY] + mesh[:, VISCOUS],
             ),
-            mesh=mesh_statistics(stretch),
+            mesh=mesh_statistics(sums),
             angle=self._angles(),
             mean_speed=mean_speed,
             mesh_frequency=mesh_frequency(self.scene.gearset.tooth_numbers, sun, carrier),
@@ -220,14 +221,6 @@ class Twin:
             stored_energy=self._books[2],
             residual_power=_residual(rate, self._machines) - stored,
         )
-
-    def _stretch(self, step: Fraction, first: int, parts: tuple[Samples, ...]) -> Stretch:
-        """The last `step` [s]: its beginning, the samples from number `first` on, and its end."""
-        seen = np.concatenate([part.mesh for part in parts])[:, :, self._mesh_names.place]
-        start, end = float(first / Fraction(self.sample_rate) - (self._clock - step)), float(step)
-        inner = start + np.arange(len(seen) - 2) / self.sample_rate
-        instants = np.concatenate([[0.0], np.minimum(inner, end), [end]])
-        return Stretch(instants, list(np.moveaxis(seen, 1, 0)))
 
     def _angles(self) -> np.ndarray:
         """Angles modulo a turn, exact in the whole turns of the motor."""

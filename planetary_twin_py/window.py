@@ -3,22 +3,13 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import NamedTuple
 
 import numpy as np
 
 from .dynamics.bodies import LOAD_MACHINE, MOTOR, SECOND_MOTOR
-from .dynamics.observe import (
-    BOUNDARY,
-    DTE,
-    FILM,
-    LAMBDA,
-    MESH_FORCE,
-    POWER_LOSS,
-    VISCOUS,
-)
+from .dynamics.mesh_sums import CLIPPED, CONTACT, FILMED, SQUARE, MeshSums
+from .dynamics.observe import BOUNDARY, DTE, FILM, LAMBDA, MESH_FORCE, POWER_LOSS, VISCOUS
 
 
 @dataclass(frozen=True)
@@ -39,7 +30,12 @@ class Waveform:
 
 @dataclass(frozen=True)
 class Window:
-    """One stretch of simulated time. Means are over the stretch, angles stand at its end."""
+    """One stretch of simulated time. Angles stand at its end.
+
+    Statistics of the meshes are over the window exactly. Powers and torques of the train are over
+    the steps of the integrator that end within it: no window cuts a step short, so the path does
+    not depend on the windows.
+    """
 
     start: float
     """[s]"""
@@ -128,59 +124,31 @@ class Window:
         return 1.0 - self.power_loss / put_in if put_in > 0.0 else math.nan
 
 
-class Stretch(NamedTuple):
-    """What `observe` sees of a stretch of time at instants of it, its first and last included."""
-
-    instants: np.ndarray
-    """[s] from anywhere, not falling, shape (instants,)"""
-    mesh: Sequence[np.ndarray]
-    """By quantity, shape (instants, meshes) each."""
-
-
-def mesh_statistics(stretch: Stretch) -> dict[str, np.ndarray]:
+def mesh_statistics(sums: MeshSums) -> dict[str, np.ndarray]:
     """Mean, rms and peak over a stretch of time, shape (meshes,) each.
 
-    Means are over time, by trapezoids from instant to instant: they do not depend on how many
-    samples happen to fall into the stretch. rms is that of the deviation from the mean, peak the
-    largest magnitude; film and lambda ratio are means over the time in contact, NaN without any.
-    `without_viscous` is the share of the time in which teeth are in contact but have no viscous
-    friction.
+    They come from the integrator, whatever samples are taken. rms is that of the deviation from
+    the mean, peak the largest magnitude; film thickness and lambda ratio are means over the time
+    in contact, NaN without any. `without_viscous` is the share of the time in which teeth carry
+    load but have no viscous friction.
+
+    Args:
+        sums: of the meshes over the stretch, in the order of the result.
     """
-    dte, force = stretch.mesh[DTE], stretch.mesh[MESH_FORCE]
-    touching, viscous = force != 0.0, stretch.mesh[VISCOUS]
-    weights = _trapezoids(stretch.instants)
-    dte_mean = _mean(dte, weights)
-    return {
-        "dte_mean": dte_mean,
-        "dte_rms": np.sqrt(_mean(np.square(dte - dte_mean), weights)),
-        "dte_peak": np.abs(dte).max(axis=0),
-        "mesh_force_mean": _mean(force, weights),
-        "mesh_force_peak": np.abs(force).max(axis=0),
-        "contact_fraction": _mean(touching.astype(float), weights),
-        "without_viscous": _mean((touching & (viscous == 0.0)).astype(float), weights),
-        "film_thickness": _mean_in_contact(stretch.mesh[FILM], weights),
-        "lambda_ratio": _mean_in_contact(stretch.mesh[LAMBDA], weights),
-        "boundary_friction": _mean(stretch.mesh[BOUNDARY], weights),
-        "viscous_friction": _mean(viscous, weights),
-        "power_loss": _mean(stretch.mesh[POWER_LOSS], weights),
-    }
-
-
-def _trapezoids(instants: np.ndarray) -> np.ndarray:
-    """Share of the stretch for which each instant stands, a column that sums up to 1."""
-    if len(instants) == 1:
-        return np.ones((1, 1))
-    gaps = np.diff(instants, prepend=instants[0], append=instants[-1])
-    return np.asarray(0.5 * (gaps[:-1] + gaps[1:]) / (instants[-1] - instants[0]))[:, None]
-
-
-def _mean(values: np.ndarray, weights: np.ndarray) -> np.ndarray:
-    """By column."""
-    return np.asarray((weights * values).sum(axis=0))
-
-
-def _mean_in_contact(values: np.ndarray, weights: np.ndarray) -> np.ndarray:
-    """Mean of the rows that are numbers, by column; NaN without any."""
-    sound = ~np.isnan(values)
+    mean = sums.integral / sums.time
     with np.errstate(invalid="ignore"):
-        return _mean(np.where(sound, values, 0.0), weights) / _mean(sound.astype(float), weights)
+        film, lambda_ratio = mean[[FILM, LAMBDA]] / mean[FILMED]
+    return {
+        "dte_mean": mean[DTE],
+        "dte_rms": np.sqrt(np.maximum(mean[SQUARE] - mean[DTE] ** 2, 0.0)),
+        "dte_peak": sums.dte_peak,
+        "mesh_force_mean": mean[MESH_FORCE],
+        "mesh_force_peak": sums.force_peak,
+        "contact_fraction": np.clip(mean[CONTACT], 0.0, 1.0),
+        "without_viscous": np.clip(mean[CLIPPED], 0.0, 1.0),
+        "film_thickness": film,
+        "lambda_ratio": lambda_ratio,
+        "boundary_friction": mean[BOUNDARY],
+        "viscous_friction": mean[VISCOUS],
+        "power_loss": mean[POWER_LOSS],
+    }

@@ -28,6 +28,9 @@ def simulate(
     scene: SceneArgument = "paper",
     duration: Annotated[float, typer.Option(help="Simulated seconds.")] = 1.0,
     sample_rate: Annotated[float, typer.Option(help="Samples per simulated second.")] = 50_000.0,
+    settling: Annotated[
+        float, typer.Option(help="Seconds simulated before, which no figure and sample is of.")
+    ] = 0.0,
     tolerance: ToleranceOption = 1e-4,
     set_: SetOption = None,
     out: Annotated[
@@ -36,6 +39,9 @@ def simulate(
     json_: JsonOption = None,
 ) -> None:
     """Simulate SCENE and print what it does.
+
+    Means, rms and peaks come from the integrator: they do not depend on --sample-rate. They are
+    over --duration; a recording (.mcap, folder) holds the time of --settling, too.
 
     Example: planetary-twin simulate paper --duration 0.5 --set lambda_ratio=1.5 --out run.npz
     """
@@ -54,14 +60,17 @@ def simulate(
         changes = settings(set_ or [])
         loaded = changed_scene(scene, changes)
         with console.status(f"simulating {duration:g} s of {loaded.name}"):
-            result = interruptible(lambda: run(loaded, duration, sample_rate, tolerance=tolerance))
+            result = interruptible(
+                lambda: run(loaded, duration, sample_rate, tolerance=tolerance, settling=settling)
+            )
         if out is not None and out.suffix in _RECORDINGS:
-            _record(console, out, loaded, duration, sample_rate, tolerance)
+            _record(console, out, loaded, settling + duration, sample_rate, tolerance)
         elif out is not None:
             _WRITERS[out.suffix](result, loaded, out)
     except (ValueError, OSError) as error:
         fail(error)
-    train, meshes = _train(loaded, result), _meshes(result)
+    train = {"settling_s": settling} | _train(loaded, result)
+    meshes = _meshes(result)
     put_together(console, "gears", gears(loaded))
     put_together(console, "operating point", operating_point(loaded))
     for name, value in train.items():
@@ -97,6 +106,7 @@ def _record(console: Console, out: Path, scene: Scene, *how: float) -> None:
 
 # What a person reads of the whole train, by the names in JSON.
 _TRAIN = {
+    "settling_s": "left out at the start [s]",
     "efficiency": "efficiency [-]",
     "mean_power_loss_W": "power loss, mean [W]",
     "mean_dte_m": "DTE of all meshes, mean [m]",
@@ -117,7 +127,7 @@ def _train(scene: Scene, result: Result) -> dict[str, float]:
 
     energy, seen = result.energy, glance(result)
     sun, carrier = (
-        float(result.speed[:, result.bodies.index(member)].mean()) for member in ("sun", "carrier")
+        float(result.mean_speed[result.bodies.index(member)]) for member in ("sun", "carrier")
     )
     return {
         "efficiency": result.efficiency,

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import inspect
+from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
@@ -75,7 +76,7 @@ def spectrum(**given: Any) -> None:
             _write(asked.out, found, _title(asked, signal), _labels(asked))
     except (ValueError, OSError) as error:
         fail(error)
-    for line in signal.remarks:
+    for line in (*signal.remarks, *_aliases(signal, found)):
         remark(line)
     figures = {"mesh": asked.mesh, "quantity": asked.quantity}
     figures |= _figures(signal, found, "order" if asked.order else "frequency_hz")
@@ -150,6 +151,22 @@ def _sun_teeth(signal: Signal) -> int | None:
     return parse_scene(signal.scene_yaml).gearset.teeth.sun
 
 
+def _aliases(signal: Signal, found: MeshSpectrum) -> Iterator[str]:
+    """A line where the samples do not carry the signal."""
+    from ..analysis.aliases import CARRIED, alias_remark
+    from ..modal.natural import natural_modes
+    from ..scene import parse_scene
+
+    if found.alias_share <= CARRIED:
+        return
+    highest = mesh = None
+    if signal.scene_yaml is not None:
+        highest = float(natural_modes(parse_scene(signal.scene_yaml)).frequencies.max())
+    if found.mesh is not None:
+        mesh = found.mesh * signal.sample_rate / found.sample_rate
+    yield alias_remark(signal.sample_rate, found.alias_share, highest, mesh)
+
+
 def _figures(signal: Signal, found: MeshSpectrum, axis: str) -> dict[str, Any]:
     return {
         "from_s": float(signal.time[0]),
@@ -163,6 +180,7 @@ def _figures(signal: Signal, found: MeshSpectrum, axis: str) -> dict[str, Any]:
                 "amplitude": line.amplitude,
                 "mesh_orders": found.in_mesh_orders(line.place),
                 "harmonic": found.harmonic(line.place),
+                "alias_of_harmonic": found.alias(line),
             }
             for line in found.lines(LINES)
         ],
@@ -179,12 +197,12 @@ def _tell(console: Console, figures: dict[str, Any], unit: str) -> None:
         table.add_column(heading, justify="right", no_wrap=True)
     table.add_column("")
     for line in figures["lines"]:
-        orders, harmonic = line["mesh_orders"], line["harmonic"]
+        orders = line["mesh_orders"]
         table.add_row(
             f"{line[axis]:.3f}",
             f"{line['amplitude']:.4g}",
             "-" if orders is None else f"{orders:.4f}",
-            "" if harmonic is None else f"harmonic {harmonic} of the meshing",
+            _name(line["harmonic"], line["alias_of_harmonic"]),
         )
     console.print(table)
     console.print(
@@ -194,6 +212,14 @@ def _tell(console: Console, figures: dict[str, Any], unit: str) -> None:
         f"mean {figures['mean']:.6g} {unit}",
         highlight=False,
     )
+
+
+def _name(harmonic: int | None, alias: int | None) -> str:
+    """What a line is, from its `harmonic` and the harmonic it may be an `alias` of."""
+    if harmonic is None:
+        return "" if alias is None else f"alias of harmonic {alias} of the meshing"
+    beside = "" if alias is None else f", or alias of harmonic {alias}"
+    return f"harmonic {harmonic} of the meshing{beside}"
 
 
 def _write(out: Path, found: MeshSpectrum, title: str, labels: tuple[str, str]) -> None:

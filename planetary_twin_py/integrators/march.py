@@ -25,7 +25,9 @@ from .frame import rebase
 from .interpolant import Samples, new_samples, sample
 from .progress import COLLOCATION, NO_MESH, ROSENBROCK, SHORTEST_STEP
 from .repetition import forget, play, watch
+from .step_sums import sum_step
 from .stiff_step import stiff_step
+from .window_sums import count_step
 
 # Errors of speeds, over the layer in which friction reverses, in tolerances: where pairs slide, and
 # where they hold and the gears may stick and slip.
@@ -67,6 +69,7 @@ def _set_tolerances(model: Record, march: Record) -> None:
 def one_step(model: Record, march: Record, longest: float) -> None:
     """One accepted step of at most `longest` seconds from `begin`, ending on the first event."""
     control = march.control
+    march.sums.stale = control.changed or control.collocated
     event, mesh = next_event(model, march)
     longest, changing = min(longest, control.longest), FAILED
     collocates = control.method != ROSENBROCK and not control.creeping
@@ -83,6 +86,7 @@ def one_step(model: Record, march: Record, longest: float) -> None:
 @kernel
 def accept(model: Record, march: Record, mesh: int) -> None:
     """Let the step stand; `mesh` changes its contact at its end (NO_MESH: none)."""
+    sum_step(model, march)
     if mesh != NO_MESH:
         change_contact(model, march.end, march.aside, mesh)
         march.control.flank_events += int(model.train.copies[mesh])
@@ -113,6 +117,7 @@ def advance(
         if taken == room and delay(march.end, until) <= 0.0:
             sample(model, march, delay(march.begin, until), out, room)
             return
+        count_step(model, march)
         if march.repetition.playing:
             play(model, march, due(samples) if taken < room else until)
         else:

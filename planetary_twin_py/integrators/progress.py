@@ -9,6 +9,7 @@ from ..dynamics.state import STATE
 from .propagation import PROPAGATION
 from .repetition import REPETITION
 from .rosenbrock import WORKSPACE
+from .step_sums import STEP_SUMS
 
 AUTO, COLLOCATION, ROSENBROCK = 0, 1, 2
 NO_MESH = -1
@@ -55,4 +56,5 @@ MARCH = layout(
     work=WORKSPACE,
     run=PROPAGATION,
     repetition=REPETITION,
+    sums=STEP_SUMS,  # of what the meshes show, over the last step and those before
 )

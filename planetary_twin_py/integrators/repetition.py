@@ -19,6 +19,7 @@ from ..dynamics.body_speed import body_speed
 from ..dynamics.bristles import place_bristles
 from ..dynamics.equations import forces
 from ..dynamics.mesh_force import mesh_motion
+from ..dynamics.mesh_sums import MESH_SUMS, add_sums
 from ..dynamics.moment import set_moment
 from ..dynamics.state import LEDGER, OPEN, STATE
 from .clock import Instant, delay, run_on
@@ -45,6 +46,7 @@ STEP = layout(
     power=(REAL, (LEDGER,)),  # at its end, see EVALUATION
     rubbing=(REAL, (BODIES,)),
     motion=MOTION,
+    sums=MESH_SUMS,
 )
 
 # What is known of repetition.
@@ -170,6 +172,7 @@ def _record(march: Record) -> None:
     copy_array(step.power, march.last.power)
     copy_array(step.rubbing, march.last.rubbing)
     overwrite(step.motion, march.run.motion)
+    overwrite(step.sums, march.sums.step)
     repetition.steps = place + 1
     repetition.known = known.count
 
@@ -211,6 +214,7 @@ def play(model: Record, march: Record, until: Instant) -> None:
         march.control.repeated += 1
         if delay(repetition.start, until) <= step.end.after:
             break
+        add_sums(step.sums, march.sums.total, model.train.lanes)
     _stand(repetition, step.begin, march.begin)
     _stand(repetition, step.end, march.end)
     march.control.collocated, march.control.step = (
@@ -220,6 +224,7 @@ def play(model: Record, march: Record, until: Instant) -> None:
     copy_array(march.last.power, step.power)
     copy_array(march.last.rubbing, step.rubbing)
     overwrite(march.run.motion, step.motion)
+    overwrite(march.sums.step, step.sums)
     begin, moment = march.begin, march.moment
     set_moment(model, begin, moment)
     if not step.collocated:  # dense output makes the step anew

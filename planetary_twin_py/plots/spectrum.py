@@ -8,10 +8,11 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from ..analysis.mesh_spectrum import MeshSpectrum
-from .style import GREY, applied, panels
+from .style import GREY, WIDTH, applied, panels
 
 DECADES = 5  # below the highest line
 HARMONICS = 30  # of the meshing at most: beyond, marks would hide the curve
+LABEL_WIDTH = 0.3  # [in] for the number of a harmonic
 
 
 def spectrum_plot(spectrum: MeshSpectrum, title: str, labels: tuple[str, str]) -> Figure:
@@ -28,10 +29,18 @@ def spectrum_plot(spectrum: MeshSpectrum, title: str, labels: tuple[str, str]) -
         mesh = spectrum.mesh or np.inf
         first = max(math.ceil(spectrum.band.low / mesh), 1)
         last = min(math.floor(spectrum.band.high / mesh), first + HARMONICS - 1)
+        apart = WIDTH * mesh / (spectrum.band.high - spectrum.band.low)
+        every = math.ceil(LABEL_WIDTH / apart)
         for harmonic in range(first, last + 1):
             axes.axvline(harmonic * mesh, color=GREY, lw=0.5, zorder=0)
-            place = (harmonic * mesh, top)
-            axes.annotate(
-                f"{harmonic}", place, (0, 2), textcoords="offset points", color=GREY, ha="center"
-            )
+            if harmonic % every == 0:
+                place = (harmonic * mesh, top)
+                axes.annotate(
+                    f"{harmonic}",
+                    place,
+                    (0, 2),
+                    textcoords="offset points",
+                    color=GREY,
+                    ha="center",
+                )
     return figure

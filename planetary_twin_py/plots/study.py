@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from textwrap import fill
 from typing import TYPE_CHECKING, NamedTuple
 
 import matplotlib
@@ -18,7 +19,7 @@ from .clipped import LEGEND, clipped_points, mark
 from .maps import draw_map
 from .quantity import Column, columns, find
 from .stribeck import stribeck_diagram
-from .style import CYCLE, GREY, applied, logarithmic, panels, remark
+from .style import CYCLE, GREY, applied, logarithmic, panels, remark, widen
 
 if TYPE_CHECKING:
     import pyarrow as pa
@@ -28,6 +29,7 @@ MANY = 6  # values of each of two fields that fill a map
 MOST_PANELS = 12
 MOST_LINES = 12
 SHADES = "viridis"
+LABEL = 34  # letters in a line of a vertical axis's label
 
 
 class Choice(NamedTuple):
@@ -211,8 +213,9 @@ def _curves(axes: Axes, choice: Choice, measure: Column, rows: np.ndarray) -> No
     if x.is_logarithmic:
         logarithmic(axes, "x")
     axes.set_xlabel(x.label)
-    axes.set_ylabel(measure.label)
+    axes.set_ylabel(fill(measure.label, LABEL))
     axes.margins(x=0.03)
+    widen(axes)
 
 
 def _shade(n: int, count: int) -> str:

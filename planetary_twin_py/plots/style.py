@@ -21,6 +21,7 @@ CYCLE = (BLUE, ORANGE, GREEN, PINK, AMBER, SKY)
 WIDTH = 8.0  # [in]
 DOTS_PER_INCH = 100
 FINE = 300  # dots per inch of what is no line in a vector drawing
+LEAST_SPAN = 1e-3  # of the values on an axis
 FORMATS = (".png", ".svg", ".pdf")
 # What a format would write of the moment at which the file is made.
 _MOMENT: dict[str, dict[str, Any]] = {
@@ -36,6 +37,7 @@ _STYLE: Any = {
     "axes.linewidth": 0.7,
     "axes.titlesize": 10,
     "axes.titlelocation": "left",
+    "axes.formatter.useoffset": False,  # 99.0281, not 1e-5 and +9.9028e1
     "axes.prop_cycle": cycler(color=CYCLE),
     "lines.linewidth": 1.5,
     "lines.markersize": 4.5,
@@ -83,6 +85,14 @@ def logarithmic(axes: Axes, name: Literal["x", "y"]) -> None:
     axes.set(**{f"{name}scale": "log"})
     axis = axes.xaxis if name == "x" else axes.yaxis
     axis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
+
+
+def widen(axes: Axes) -> None:
+    """Let the vertical axis span a share of its values at least: less is what tolerances leave."""
+    low, high = axes.get_ylim()
+    lacking = LEAST_SPAN * max(abs(low), abs(high)) - (high - low)
+    if lacking > 0.0:
+        axes.set_ylim(low - 0.5 * lacking, high + 0.5 * lacking)
 
 
 def save(figure: Figure, path: str, dots_per_inch: int = DOTS_PER_INCH) -> None:

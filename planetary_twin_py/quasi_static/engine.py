@@ -10,9 +10,10 @@ from .._records import Record, new_record
 from ..dynamics.bodies import MOTOR
 from ..dynamics.energy import kinetic
 from ..dynamics.equations import MODEL
+from ..dynamics.mesh_sums import MeshSums
 from ..dynamics.oil import build_oil
 from ..dynamics.start import build_load
-from ..dynamics.state import COAST_SIDE, DRIVE_SIDE, STATE
+from ..dynamics.state import COAST_SIDE, DRIVE_SIDE, LEDGER, STATE
 from ..dynamics.static_load import mesh_force
 from ..dynamics.train import build_train
 from ..integrators.clock import delay, instant, sampling
@@ -26,6 +27,7 @@ from .ledger import Ledger
 from .motion import roll, turn_to
 from .sampling import sample, sample_all
 from .second_coupling import check_second_coupling
+from .totals import ENERGY
 
 
 class QuasiStaticEngine:
@@ -49,7 +51,7 @@ class QuasiStaticEngine:
         self.control: Record = new_record(CONTROL)
         self.reached = Fraction(0)
         self.repeats = False  # there is nothing to compute again
-        self._load(scene.operating_point, tolerance, self._start())
+        self._load(scene.operating_point, tolerance, self._start(), np.zeros(LEDGER))
         self._compile()
 
     def _compile(self) -> None:
@@ -57,6 +59,7 @@ class QuasiStaticEngine:
         self.advance(0.0, 1, 1.0, 0)
         self.sample(0.0)
         self.take_ledger()
+        self.take_mesh_sums(0.0)
         self.stored()
 
     def _start(self) -> Record:
@@ -67,15 +70,20 @@ class QuasiStaticEngine:
         axes = int(self.train.axes)
         return new_record(STATE, speed=speeds[:axes], set_speed=speeds[:axes])
 
-    def _load(self, point: OperatingPoint, tolerance: float, origin: Record) -> None:
-        """Run on from `origin` at an operating point; where that cannot be, nothing changes."""
+    def _load(
+        self, point: OperatingPoint, tolerance: float, origin: Record, energy: np.ndarray
+    ) -> None:
+        """Run on from `origin`, with so much in the ledger, at an operating point.
+
+        Where that cannot be, nothing changes.
+        """
         load, oil = build_load(self.scene, point, self.train), build_oil(self.scene, point)
         model = new_record(MODEL, train=self.train, oil=oil, load=load)
         lean = (
             DRIVE_SIDE if mesh_force(self.scene, float(load.torque[MOTOR])) >= 0.0 else COAST_SIDE
         )
         check_second_coupling(model, tolerance, lean, origin)
-        ledger = Ledger(model, tolerance, lean, origin)
+        ledger = Ledger(model, tolerance, lean, origin, energy)
         self.model, self.tolerance, self._lean, self._ledger = model, tolerance, lean, ledger
         self._origin, self._run = origin.copy(), first_guess(lean)
 
@@ -113,9 +121,8 @@ class QuasiStaticEngine:
         Raises:
             ValueError: there is no equilibrium; nothing has changed.
         """
-        origin = self._standing(time)
-        origin.energy = self._ledger.at(instant(time))
-        self._load(point, tolerance, origin)
+        energy = self._ledger.at(instant(time))[0][ENERGY]
+        self._load(point, tolerance, self._standing(time), energy)
 
     def _standing(self, time: float | Fraction) -> Record:
         state = self._origin.copy()
@@ -128,6 +135,13 @@ class QuasiStaticEngine:
         They begin anew, so that what a window adds is not lost beside what a long run has added.
         """
         return self._ledger.take(instant(self.reached))
+
+    def take_mesh_sums(self, time: float | Fraction) -> MeshSums:
+        """Integrals and extremes of the meshes since they were last taken.
+
+        Up to `time` [s], the end of the last window.
+        """
+        return self._ledger.take_mesh_sums(instant(time))
 
     @property
     def powers(self) -> np.ndarray:

@@ -1,4 +1,4 @@
-"""The energy ledger of a quasi-static run, at any time.
+"""The energy ledger and the mesh sums of a quasi-static run, at any time.
 
 In steady running whose powers repeat with the mesh cycle, one cycle is integrated and counted. A
 changing speed, a torque ripple, runout and faulty teeth are followed panel by panel.
@@ -10,16 +10,18 @@ import math
 
 import numpy as np
 
-from .._records import Record
+from .._records import MESHES, Record
 from ..dynamics.bodies import MOTOR
 from ..dynamics.cycle import cycle_shift, frame_cycle
+from ..dynamics.mesh_sums import MeshSums
 from ..dynamics.moment import frame_cycle_rate
-from ..dynamics.observe import QUANTITIES
+from ..dynamics.observe import DTE, MESH_FORCE, QUANTITIES
 from ..dynamics.state import COAST_SIDE, DRIVE_SIDE
 from ..integrators.clock import Instant, delay
 from .equilibrium import first_guess, settle
 from .motion import turn_to
 from .quadrature import ON_EDGE, divide_cycle, integrate, march
+from .totals import ENERGY, MEAN, PEAKS, TOTALS, Totals, add_rates, mesh_sums
 
 SAME = 1e-12  # mesh cycles below which two edges are one
 
@@ -31,59 +33,91 @@ class Ledger:
         model: the train at that point.
         tolerance: relative error of the losses of a mesh cycle.
         lean: side of the teeth on which the mean torque presses.
-        origin: a STATE: where the motors are, and the ledger so far.
+        origin: a STATE: where the motors are.
+        energy: ledger so far (LEDGER,).
 
     Raises:
         ValueError: see `settle` and `divide_cycle`.
     """
 
-    def __init__(self, model: Record, tolerance: float, lean: int, origin: Record) -> None:
+    def __init__(
+        self, model: Record, tolerance: float, lean: int, origin: Record, energy: np.ndarray
+    ) -> None:
         self._model, self._tolerance, self._lean = model, tolerance, lean
         self._mark = origin.copy()
+        self._taken = Instant(int(origin.seconds), float(origin.time))
+        self._totals, self._peak = np.zeros(TOTALS), np.zeros((PEAKS, MESHES))
+        self._totals[ENERGY] = energy
         self._run = first_guess(lean)
         self._shown = np.zeros((QUANTITIES, int(model.train.meshes)))
         self._repeats = _repeats(model)
         self._edges = self._corners(origin)
-        self._cycle: tuple[np.ndarray, np.ndarray] | None = None
+        self._cycle: tuple[np.ndarray, np.ndarray, np.ndarray] | None = None
         self._edges = self._panels(origin)
 
-    def at(self, time: Instant) -> np.ndarray:
-        """Ledger at `time`, which is not before the origin, since it was last taken."""
-        march(
-            self._model, self._tolerance, self._mark, self._run, self._edges, time, self._repeats,
-            self._shown,
-        )  # fmt: skip
-        if not self._repeats or not self._is_steady():
-            return self._mark.energy + self._integral(0.0, delay(self._mark, time))
-        rate = abs(float(frame_cycle_rate(self._model.train, self._mark)))
-        if rate == 0.0:
-            left = delay(self._mark, time)
-            self._move(self.power(time) * left, left)
-            return np.array(self._mark.energy)
-        return self._mark.energy + self._cycles(time, 1.0 / rate)
-
     def take(self, time: Instant) -> np.ndarray:
-        """The same, and let it begin anew there."""
-        energy = self.at(time)
-        self._mark.energy -= energy
+        """Energy ledger at `time`, which is not before the origin, since it was last taken."""
+        energy = self.at(time)[0][ENERGY]
+        self._totals[ENERGY] -= energy
         return energy
 
-    def _cycles(self, time: Instant, period: float) -> np.ndarray:
-        """Integrals over what is left of a mesh cycle once the mark has moved by whole ones."""
+    def take_mesh_sums(self, time: Instant) -> MeshSums:
+        """Integrals and extremes of the meshes up to `time` since they were last taken.
+
+        Extremes are those of all panels that lie wholly or partly within.
+        """
+        totals, peak = self.at(time)
+        self._totals[MEAN] -= totals[MEAN]
+        self._peak[:], self._taken = 0.0, time
+        return mesh_sums(totals[MEAN], peak, int(self._model.train.meshes))
+
+    def at(self, time: Instant) -> tuple[np.ndarray, np.ndarray]:
+        """Totals at `time` (TOTALS,) since each was last taken, and peaks (PEAKS, MESHES)."""
+        march(
+            self._model, self._tolerance, self._mark, self._run, self._edges, time, self._repeats,
+            Totals(self._totals, self._peak, self._shown),
+        )  # fmt: skip
+        left = delay(self._mark, time)
+        if not self._repeats or not self._is_steady():
+            return self._with(*self._integral(0.0, left))
+        rate = abs(float(frame_cycle_rate(self._model.train, self._mark)))
+        if rate == 0.0:
+            rates, peak = self._rates(time)
+            self._move(rates * left, peak, left)
+            return self._totals.copy(), self._peak.copy()
+        return self._cycles(time, 1.0 / rate)
+
+    def _with(self, gain: np.ndarray, peak: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Totals and peaks with more."""
+        return self._totals + gain, np.maximum(self._peak, peak)
+
+    def _cycles(self, time: Instant, period: float) -> tuple[np.ndarray, np.ndarray]:
+        """Totals and peaks with what is left of a mesh cycle once the mark has moved by whole
+        ones."""
         if self._cycle is None:
             self._cycle = self._divide(self._model, self._mark)
-        phase, energy = self._cycle
+        phase, totals, _ = self._cycle
         whole = math.floor(delay(self._mark, time) / period + ON_EDGE)
-        self._move(whole * energy[-1], whole * period)
+        if whole > 0:
+            self._move(whole * totals[-1], self._seen(1.0, period), whole * period)
         left = max(delay(self._mark, time), 0.0)
         last = int(np.searchsorted(phase, left / period + ON_EDGE, "right")) - 1
         last = min(last, len(phase) - 2)
-        rest: np.ndarray = energy[last] + self._integral(period * phase[last], left)
-        return rest
+        rest, peak = self._integral(period * phase[last], left)
+        seen = self._seen(phase[last], period)
+        return self._with(totals[last] + rest, np.maximum(seen, peak))
 
-    def _move(self, energy: np.ndarray, time: float) -> None:
-        """Let the mark stand `time` [s] later, with so much more in the ledger."""
-        self._mark.energy += energy
+    def _seen(self, until: float, period: float) -> np.ndarray:
+        """Peaks of the panels of the cycle from where peaks were taken to a share of it."""
+        assert self._cycle is not None
+        phase, _, peaks = self._cycle
+        since = max(delay(self._mark, self._taken), 0.0) / period
+        within = (phase > since) & (phase <= until)
+        return peaks[within].max(axis=0, initial=0.0)
+
+    def _move(self, gain: np.ndarray, peak: np.ndarray, time: float) -> None:
+        """Let the mark stand `time` [s] later, with so much more in the totals."""
+        self._totals, self._peak = self._with(gain, peak)
         turn_to(self._model, self._mark, time, self._mark)
 
     def _panels(self, origin: Record) -> np.ndarray:
@@ -99,7 +133,7 @@ class Ledger:
                 return np.mod(first + math.copysign(1.0, rate) * phase[:-1], 1.0)
         return self._edges
 
-    def _divide(self, model: Record, origin: Record) -> tuple[np.ndarray, np.ndarray]:
+    def _divide(self, model: Record, origin: Record) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         rate = float(frame_cycle_rate(model.train, origin))
         first = float(frame_cycle(model.train, origin, 1))
         ahead = np.mod(math.copysign(1.0, rate) * (self._edges - first), 1.0)
@@ -107,10 +141,10 @@ class Ledger:
         edges = edges[np.append(np.diff(edges) > SAME, True)]
         edges[0], edges[-1] = 0.0, 1.0
         run = first_guess(self._lean)
-        phase, energy = divide_cycle(
+        cycle: tuple[np.ndarray, np.ndarray, np.ndarray] = divide_cycle(
             model, self._tolerance, origin, run, edges, 1.0 / abs(rate), self._shown
         )
-        return phase, energy
+        return cycle
 
     def _corners(self, origin: Record) -> np.ndarray:
         """Mesh cycles of the frame at which a tooth pair begins or ends to enter or leave."""
@@ -132,22 +166,32 @@ class Ledger:
     def _is_steady(self) -> bool:
         return bool(np.all(self._mark.set_speed == self._model.load.target_speed))
 
-    def _integral(self, begin: float, end: float) -> np.ndarray:
-        """Over times after the mark [s] in one panel, from a fresh guess: it leaves no trace."""
-        gain = np.zeros_like(self._mark.energy)
+    def _integral(self, begin: float, end: float) -> tuple[np.ndarray, np.ndarray]:
+        """Totals and peaks of times after the mark [s] in one panel.
+
+        From a fresh guess: it leaves no trace.
+        """
+        gain, peak = np.zeros(TOTALS), np.zeros((PEAKS, MESHES))
         integrate(
             self._model, self._tolerance, self._mark, first_guess(self._lean), (begin, end),
-            self._shown, gain,
+            self._shown, gain, peak,
         )  # fmt: skip
-        return gain
+        return gain, peak
 
     def power(self, time: Instant) -> np.ndarray:
         """By which the ledger grows at `time`, which is not before the mark."""
-        run = first_guess(self._lean)
+        return self._rates(time)[0][ENERGY]
+
+    def _rates(self, time: Instant) -> tuple[np.ndarray, np.ndarray]:
+        """By which the totals grow at `time`, and the peaks of that instant."""
+        run, rates, peak = first_guess(self._lean), np.zeros(TOTALS), np.zeros((PEAKS, MESHES))
         turn_to(self._model, self._mark, delay(self._mark, time), run.state)
         settle(self._model, self._tolerance, run, self._shown)
-        power: np.ndarray = run.evaluation.power
-        return power
+        train = self._model.train
+        add_rates(train, run.evaluation.power, self._shown, 1.0, rates)
+        meshes = int(train.meshes)
+        peak[:2, :meshes] = np.abs(self._shown[[DTE, MESH_FORCE]])
+        return rates, peak
 
 
 def _repeats(model: Record) -> bool:

@@ -1,4 +1,4 @@
-"""Integrals of the ledger's powers, by Gauss' rule on panels between tooth pair events.
+"""Integrals of what a quasi-static run adds up, by Gauss' rule on panels between tooth pair events.
 
 Panels lie between the places in the mesh cycle where a tooth pair begins or ends to enter or
 leave, or is at its pitch point. Where friction turns its sense they are halved until the rule on
@@ -12,15 +12,15 @@ import math
 import numpy as np
 
 from .._compile import allocating, kernel
-from .._records import Record
+from .._records import MESHES, Record
 from ..dynamics.cycle import frame_cycle
 from ..dynamics.moment import frame_cycle_rate
-from ..dynamics.state import BEARING, CHURNING, FRICTION, LEDGER, WORK
+from ..dynamics.state import BEARING, CHURNING, FRICTION, WORK
 from ..integrators.clock import Instant, delay
 from .equilibrium import settle
 from .motion import turn_to
+from .totals import NODES, PEAKS, TOTALS, WEIGHTS, Totals, add_rates, see_ends, see_node
 
-NODES, WEIGHTS = (np.array(a) for a in np.polynomial.legendre.leggauss(4))
 PANELS = 1024  # room
 NARROWEST = 1e-10  # of a mesh cycle: a panel about a jump of the stiffness
 SHARE = 1.0 / 64  # of the mesh cycle; a narrower panel may err as much as one that wide
@@ -39,15 +39,20 @@ def integrate(
     span: tuple[float, float],
     shown: np.ndarray,
     out: np.ndarray,
+    peak: np.ndarray,
 ) -> None:
-    """Write the integral over a span of time since `origin` [s] that is smooth."""
+    """Write the totals (TOTALS,) of a span of time since `origin` [s] that is smooth into `out`.
+
+    Raises `peak` (PEAKS, MESHES) to what is seen there.
+    """
     half = 0.5 * (span[1] - span[0])
     out[:] = 0.0
     for n in range(NODES.size):
         turn_to(model, origin, span[0] + half * (1.0 + NODES[n]), run.state)
         settle(model, tolerance, run, shown)
-        for e in range(LEDGER):
-            out[e] += half * WEIGHTS[n] * run.evaluation.power[e]
+        add_rates(model.train, run.evaluation.power, shown, half * WEIGHTS[n], out)
+        see_node(model.train, shown, n, peak)
+    see_ends(model.train, peak)
 
 
 @kernel
@@ -64,7 +69,7 @@ def divide_cycle(
     edges: np.ndarray,
     period: float,
     shown: np.ndarray,
-) -> tuple[np.ndarray, np.ndarray]:
+) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Panels of one mesh cycle of steady running from `origin` on.
 
     Args:
@@ -74,17 +79,23 @@ def divide_cycle(
         period: of the cycle [s].
 
     Returns:
-        Edges of the panels (m,) and the integrals up to them (m, LEDGER).
+        Edges of the panels (m,), the totals up to them (m, TOTALS), and the peaks of the panel
+        before each (m, PEAKS, MESHES).
 
     Raises:
         ValueError: the tolerance asks for too many panels.
     """
-    phase, energy = np.zeros(PANELS), np.zeros((PANELS, LEDGER))
-    whole, left, right = np.zeros(LEDGER), np.zeros(LEDGER), np.zeros(LEDGER)
+    phase, energy, peaks = (
+        np.zeros(PANELS),
+        np.zeros((PANELS, TOTALS)),
+        np.zeros((PANELS, PEAKS, MESHES)),
+    )
+    whole, left, right = np.zeros(TOTALS), np.zeros(TOTALS), np.zeros(TOTALS)
+    coarse, peak = np.zeros((PEAKS, MESHES)), np.zeros((PEAKS, MESHES))
     loss = given = 0.0
     for n in range(edges.size - 1):
         span = (edges[n] * period, edges[n + 1] * period)
-        integrate(model, tolerance, origin, run, span, shown, whole)
+        integrate(model, tolerance, origin, run, span, shown, whole, coarse)
         loss += abs(_lost(whole))
         given += abs(whole[WORK])
     loss = max(loss, NOTHING * given)
@@ -95,21 +106,23 @@ def divide_cycle(
             low, high = phase[count], waiting[top]
             middle = 0.5 * (low + high)
             begin, centre, end = low * period, middle * period, high * period
-            integrate(model, tolerance, origin, run, (begin, end), shown, whole)
-            integrate(model, tolerance, origin, run, (begin, centre), shown, left)
-            integrate(model, tolerance, origin, run, (centre, end), shown, right)
+            peak[:] = 0.0
+            integrate(model, tolerance, origin, run, (begin, end), shown, whole, coarse)
+            integrate(model, tolerance, origin, run, (begin, centre), shown, left, peak)
+            integrate(model, tolerance, origin, run, (centre, end), shown, right, peak)
             error = abs(_lost(left) + _lost(right) - _lost(whole))
             if error <= tolerance * loss * max(high - low, SHARE) or high - low < NARROWEST:
                 if count + 1 == PANELS:
                     raise ValueError("tolerance: too small for the losses of this scene")
                 phase[count + 1] = high
                 energy[count + 1] = energy[count] + left + right
+                peaks[count + 1] = peak
                 count += 1
                 top -= 1
             else:
                 top += 1
                 waiting[top] = middle
-    return phase[: count + 1], energy[: count + 1]
+    return phase[: count + 1], energy[: count + 1], peaks[: count + 1]
 
 
 @kernel
@@ -154,18 +167,19 @@ def march(
     edges: np.ndarray,
     until: Instant,
     stop: bool,
-    shown: np.ndarray,
+    totals: Totals,
 ) -> None:
     """Move `mark`, a STATE, panel by panel, as long as they end by `until`.
 
     Args:
-        model, tolerance, run, shown: see `settle`.
-        mark: where the motors are, and the ledger at that time.
+        model, tolerance, run: see `settle`.
+        mark: where the motors are.
         edges: (n,) in mesh cycles of the frame, within [0, 1).
         until: the instant asked for.
         stop: whether to end where all speeds are those wanted.
+        totals: which grow along.
     """
-    gain, load = np.zeros(LEDGER), model.load
+    gain, load = np.zeros(TOTALS), model.load
     while True:
         steady = True
         for a in range(model.train.axes):
@@ -173,6 +187,6 @@ def march(
         length = max(_step(model, mark, edges), SHORTEST_PANEL)
         if length > delay(mark, until) or (stop and steady):
             return
-        integrate(model, tolerance, mark, run, (0.0, length), shown, gain)
-        mark.energy += gain
+        integrate(model, tolerance, mark, run, (0.0, length), totals.shown, gain, totals.peak)
+        totals.integral[:] += gain
         turn_to(model, mark, length, mark)

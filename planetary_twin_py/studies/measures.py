@@ -109,7 +109,7 @@ class Glance(NamedTuple):
 
 
 def glance(result: Result) -> Glance:
-    """The figures of a whole run, its start included."""
+    """The figures of a whole run."""
     mesh = result.mesh
     means = {name: float(mesh[name].mean()) for name in ("dte_mean", "dte_rms", "mesh_force_mean")}
     peaks = {name: float(mesh[name].max()) for name in ("dte_peak", "mesh_force_peak")}

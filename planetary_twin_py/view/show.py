@@ -126,9 +126,9 @@ def _log_first(layer: Layer, recording: Recording, scene: Scene | None) -> list[
     windows = frames(recording)
     if windows is None:
         return []
-    log_spectra(layer, windows, scene.gearset if scene else None)
+    aliases = log_spectra(layer, windows, scene)
     log_phase_portrait(layer, windows)
-    return [windows.remark] if windows.remark else []
+    return [remark for remark in (windows.remark, aliases) if remark is not None]
 
 
 def _log_difference(

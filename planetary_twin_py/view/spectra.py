@@ -9,10 +9,12 @@ import numpy as np
 import rerun as rr
 from numpy.typing import NDArray
 
+from ..analysis.aliases import CARRIED, alias_remark, alias_share
 from ..analysis.orders import order_spectrum
 from ..analysis.signals import relative_angle
 from ..analysis.spectrum import amplitude_spectrum
-from ..scene.gearset import Gearset
+from ..modal.natural import natural_modes
+from ..scene import Scene
 from .chart import Chart, Ticks, log_frame, send_labels, send_strips, texts_at
 from .colour_map import shade
 from .frames import Frames
@@ -35,16 +37,35 @@ _CURSOR = (235, 235, 235)
 _SUPERSCRIPT = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 
 
-def log_spectra(layer: Layer, frames: Frames, gearset: Gearset | None) -> None:
-    """Log /spectrum, and with a gearset to tell the orders /order_map."""
+def log_spectra(layer: Layer, frames: Frames, scene: Scene | None) -> str | None:
+    """Log /spectrum, and with a scene to tell the orders /order_map.
+
+    Returns a remark where the samples do not carry the signal.
+    """
     found = [_spectrum(frames, number) for number in range(len(frames.time))]
     highest = max((a[1:].max() for _, a in found if len(a) > 1), default=0.0)
     if highest <= 0.0:
-        return
+        return None
     top = math.ceil(math.log10(highest))
     _log_spectrum(layer, frames, found, top)
-    if gearset is not None:
-        _log_order_map(layer, frames, gearset.teeth.sun, top)
+    if scene is not None:
+        _log_order_map(layer, frames, scene.gearset.teeth.sun, top)
+    return _alias_remark(frames, found, scene)
+
+
+def _alias_remark(
+    frames: Frames, found: list[tuple[Array, Array]], scene: Scene | None
+) -> str | None:
+    """Of the instant at which what folds back is highest beside the rest."""
+    shares = np.array([alias_share(*each) if len(each[0]) else 0.0 for each in found])
+    worst = int(np.argmax(shares))
+    if shares[worst] <= CARRIED:
+        return None
+    highest = None if scene is None else float(natural_modes(scene).frequencies.max())
+    mesh, rate = float(frames.state("mesh_frequency")[worst]), 2.0 * float(found[worst][0][-1])
+    known = mesh if mesh > 0.0 else None
+    remark = alias_remark(rate, float(shares[worst]), highest, known)
+    return f"spectrum around {frames.time[worst]:.2f} s: {remark}"
 
 
 def _spectrum(frames: Frames, number: int) -> tuple[Array, Array]:

@@ -17,9 +17,9 @@ def invoke(*arguments):
     return CliRunner().invoke(build_app(), ["simulate", *arguments])
 
 
-def expected():
+def expected(sample_rate=50_000.0):
     scene = pt.load_scene("paper").replace(lambda_ratio=1.5, **{"mesh.ramp": 0.05})
-    return pt.simulate(scene, 0.004)
+    return pt.simulate(scene, 0.004, sample_rate)
 
 
 def over_time(run, values):
@@ -35,11 +35,28 @@ def test_figures_are_those_of_the_library():
     assert figures["mean_power_loss_W"] == pytest.approx(over_time(run, run.total_power_loss), 2e-3)
 
 
+def test_figures_do_not_depend_on_the_sample_rate_and_leave_the_settling_out():
+    coarse, fine, late = (
+        json.loads(invoke("paper", "--duration", "0.1", *options, "--json", "-").stdout)
+        for options in (["--sample-rate", "10"], ["--sample-rate", "1e6"], ["--settling", "0.1"])
+    )
+    for figures in (coarse, fine, late):
+        assert figures.pop("real_time_factor") > 0.0
+    assert coarse["sun_planet"] == pytest.approx(fine["sun_planet"], rel=1e-12)
+    assert coarse["planet_ring"] == pytest.approx(fine["planet_ring"], rel=1e-12)
+    assert coarse["mean_dte_m"] == pytest.approx(fine["mean_dte_m"], rel=1e-12)
+    assert coarse["mesh_frequency_Hz"] == pytest.approx(fine["mesh_frequency_Hz"], rel=1e-12)
+    tooth = coarse["sun_planet"]["power_loss_W"] + coarse["planet_ring"]["power_loss_W"]
+    assert tooth == pytest.approx(coarse["mean_power_loss_W"], rel=3e-3)
+    assert (coarse["settling_s"], late["settling_s"]) == (0.0, 0.1)
+    assert late["mean_dte_m"] != coarse["mean_dte_m"]
+
+
 @pytest.mark.parametrize("name", ["paper", "lightly_loaded"])
 def test_meshes_of_the_sun_and_of_the_ring_are_told_apart(name):
     """Against the samples themselves; under light load the teeth part for a while."""
     figures = json.loads(invoke(name, "--duration", "0.1", "--json", "-").stdout)
-    run = pt.simulate(pt.load_scene(name), 0.1)
+    run = pt.simulate(pt.load_scene(name), 0.1, 1e6)
     for side, meshes in {"sun_planet": slice(3), "planet_ring": slice(3, 6)}.items():
         found, touching = figures[side], run.mesh_force[:, meshes] != 0.0
         assert found == pytest.approx(
@@ -70,16 +87,17 @@ def test_what_a_person_reads_has_units_and_says_which_meshes_it_is_of():
     shown, figures = invoke("paper", *SHORT).stdout, expected()
     told = dict(line.rsplit(maxsplit=1) for line in shown.splitlines() if "]  " in line)
     labels = {label.strip(): float(value) for label, value in told.items() if "│" not in label}
-    mean = over_time(figures, figures.dte)
-    rms = np.sqrt(over_time(figures, (figures.dte - mean) ** 2))
-    assert labels["DTE of all meshes, mean [m]"] == pytest.approx(mean.mean(), rel=1e-5)
-    assert labels["DTE of all meshes, rms about the mean [m]"] == pytest.approx(
-        rms.mean(), rel=1e-5
-    )
-    assert labels["DTE of any mesh, peak [m]"] == pytest.approx(abs(figures.dte).max(), rel=1e-5)
-    assert labels["force of any mesh, peak [N]"] == pytest.approx(
-        abs(figures.mesh_force).max(), rel=1e-5
-    )
+    mesh, fine = figures.mesh, expected(1e6)
+    for label, statistic, samples, rel in (
+        ("DTE of all meshes, mean [m]", mesh["dte_mean"].mean(), fine.dte.mean(), 1e-4),
+        ("DTE of all meshes, rms about the mean [m]", mesh["dte_rms"].mean(),
+         fine.dte.std(axis=0).mean(), 1e-3),
+        ("DTE of any mesh, peak [m]", mesh["dte_peak"].max(), abs(fine.dte).max(), 5e-3),
+        ("force of any mesh, peak [N]", mesh["mesh_force_peak"].max(),
+         abs(fine.mesh_force).max(), 5e-3),
+    ):  # fmt: skip
+        assert labels[label] == pytest.approx(statistic, rel=1e-5)
+        assert labels[label] == pytest.approx(samples, rel=rel)
     rows = {
         cells[0].strip(): [float(cell) for cell in cells[1:]]
         for cells in (line.strip("│").split("│") for line in shown.splitlines() if line[0] == "│")

@@ -1,0 +1,105 @@
+"""Tones above half the sample rate: where they stand, and that readers are warned."""
+
+import math
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+import planetary_twin_py as pt
+from planetary_twin_py.analysis.aliases import (
+    CARRIED,
+    alias_remark,
+    alias_share,
+    edge_amplitude,
+    fitting_rate,
+    folded,
+    folded_harmonic,
+)
+from planetary_twin_py.analysis.mesh_spectrum import frequency_spectrum_of, order_spectrum_of
+from planetary_twin_py.analysis.signals import Signal
+from planetary_twin_py.analysis.spectrum import amplitude_spectrum, strongest_lines
+
+PAPER = pt.load_scene("paper")
+
+
+@pytest.mark.parametrize("tone", [10_300.0, 19_000.0, 20_700.0, 33_300.0])
+def test_a_sampled_tone_stands_where_it_folds_to(tone):
+    time = np.arange(20_000) / 20_000.0
+    (line,) = strongest_lines(
+        *amplitude_spectrum(np.sin(2.0 * np.pi * tone * time + 0.3), 20_000.0), 1
+    )
+    assert line.place == pytest.approx(folded(tone, 20_000.0), abs=0.01)
+    assert line.amplitude == pytest.approx(1.0, rel=1e-3)
+
+
+def test_the_harmonic_that_folds_to_a_place_is_found_and_none_where_none_does():
+    # 2700 Hz: 4 x is 10 800 and folds to 9200, 5 x is 13 500 and folds to 6500
+    assert folded_harmonic(9200.0, 2700.0, 20_000.0, 5.0) == 4
+    assert folded_harmonic(6500.0, 2700.0, 20_000.0, 5.0) == 5
+    assert folded_harmonic(9300.0, 2700.0, 20_000.0, 5.0) is None
+    assert folded_harmonic(2700.0, 2700.0, 20_000.0, 5.0) is None
+
+
+def signal_of(speed, rate, duration=0.2):
+    run = pt.simulate(PAPER.replace(input_speed=speed), duration, rate, settling=0.2)
+    return Signal(run.dte[:, 0], run.time, run.angle[:, 0], None)
+
+
+@pytest.fixture(scope="module")
+def fast():
+    """6000 rpm, meshing at 3000 Hz, of which half of 50 kHz carries eight harmonics."""
+    return signal_of(pt.rpm(6000), 50_000.0)
+
+
+@pytest.mark.parametrize("spectrum_of", [frequency_spectrum_of, order_spectrum_of])
+def test_lines_of_a_fast_run_that_are_no_harmonics_are_folded_ones(fast, spectrum_of):
+    """Against the same run at 1 MHz, which has no line there."""
+    found = spectrum_of(fast, 30)
+    foreign = [line for line in found.lines(12) if found.harmonic(line.place) is None]
+    assert {found.alias(line) for line in foreign} >= {9, 10, 11, 12}
+    assert found.alias_share > CARRIED
+    fine = frequency_spectrum_of(signal_of(pt.rpm(6000), 1e6), 30)
+    assert fine.alias_share <= CARRIED
+    assert all(fine.harmonic(line.place) for line in fine.lines(12))
+    assert not any(fine.alias(line) for line in fine.lines(12))
+
+
+def test_high_lines_of_a_slow_sampling_are_named_as_what_they_may_be():
+    """At 1000 rpm and 20 kHz harmonic 23 folds onto 17, 22 onto 18, 21 onto 19."""
+    found = frequency_spectrum_of(signal_of(pt.rpm(1000), 20_000.0), 30)
+    named = {found.harmonic(line.place): found.alias(line) for line in found.lines(19)}
+    assert {own: named[own] for own in (17, 18, 19)} == {17: 23, 18: 22, 19: 21}
+    assert named[1] is None  # far above what folds back
+
+
+def test_what_stands_at_half_the_rate_is_about_what_folds_back():
+    """The height of lines beyond half of 20 and 50 kHz, from samples at 1 MHz."""
+    fine = frequency_spectrum_of(signal_of(pt.rpm(1000), 1e6), 30)
+    for rate in (20_000.0, 50_000.0):
+        seen = frequency_spectrum_of(signal_of(pt.rpm(1000), rate), 30)
+        beyond = fine.amplitude[fine.axis > 0.5 * rate].max()
+        assert 0.5 < seen.edge / beyond < 6.0
+
+
+def test_samples_that_carry_a_signal_are_not_remarked_upon():
+    frequency = np.linspace(0.0, 100.0, 101)
+    amplitude = np.exp(-frequency / 10.0)
+    assert edge_amplitude(frequency, amplitude) == pytest.approx(math.exp(-8.0))
+    assert alias_share(frequency, amplitude) <= CARRIED < alias_share(frequency, amplitude + 0.1)
+    assert alias_share(frequency, np.zeros(101)) == 0.0
+
+
+def test_the_remark_names_rates_heights_and_harmonics():
+    line = alias_remark(20_000.0, 0.034, 11_000.0, 500.0)
+    assert "20000 samples per second" in line and "3.4 %" in line
+    assert "harmonics of the meshing from 20 on" in line and "4.4e+04 Hz" in line
+    assert "harmonics" not in alias_remark(20_000.0, 0.034, None, None)
+    assert fitting_rate(20_000.0, None) == 40_000.0
+
+
+def test_a_line_above_the_aliases_is_none(fast):
+    found = frequency_spectrum_of(fast, 30)
+    first = found.lines(1)[0]
+    assert found.alias(first) is None
+    assert replace(found, mesh=None).alias(first) is None
