@@ -15,6 +15,7 @@ from pathlib import Path
 import pytest
 import yaml
 from docs.blocks import LANGUAGES, REASONS, ROOT, Block, blocks, pages
+from domains import private_domain
 
 import planetary_twin_py as pt
 
@@ -40,10 +41,9 @@ def environment():
     """That of a reader who has activated .venv, on a machine without a display."""
     outside = {key: value for key, value in os.environ.items() if key != "DISPLAY"}
     path = f"{Path(sys.executable).parent}:{os.environ['PATH']}"
-    # Neither a domain of the tests of nodes, which are from 1 on, nor of those of the ros2 command.
-    domain = str(101 + (os.getpid() + 50) % 100)
-    told = {"PATH": path, "MPLBACKEND": "Agg", "COLUMNS": "100", "ROS_DOMAIN_ID": domain}
-    return outside | told | {"PYTHONUNBUFFERED": "1"}
+    with private_domain() as number:
+        own = {"PATH": path, "MPLBACKEND": "Agg", "COLUMNS": "100", "ROS_DOMAIN_ID": str(number)}
+        yield outside | own | {"PYTHONUNBUFFERED": "1"}
 
 
 @pytest.fixture(scope="session")

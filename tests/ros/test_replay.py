@@ -14,6 +14,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from domains import private_domain
 from lifecycle_msgs.msg import Transition
 from lifecycle_msgs.srv import ChangeState
 from mcap.reader import make_reader
@@ -42,9 +43,10 @@ Play = Callable[..., "subprocess.Popen[str]"]
 def bag(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """A recording of one second, made by the real thing."""
     place = tmp_path_factory.mktemp("replay")
-    environment = os.environ | {"ROS_DOMAIN_ID": str(1 + (os.getpid() + 50) % 100)}
     command = [COMMAND, "run", "--duration", "1", "--record", "bag"]
-    subprocess.run(command, cwd=place, env=environment, check=True, capture_output=True)
+    with private_domain() as number:
+        environment = os.environ | {"ROS_DOMAIN_ID": str(number)}
+        subprocess.run(command, cwd=place, env=environment, check=True, capture_output=True)
     return place / "recordings/bag"
 
 
