@@ -71,6 +71,7 @@ print(hashlib.sha256(result.dte.tobytes()).hexdigest())
     ).stdout
 
 
+@pytest.mark.exhaustive
 @pytest.mark.slow
 def test_a_process_that_compiles_computes_the_same_digits_as_one_that_loads(tmp_path):
     compiling = digits(tmp_path)

@@ -83,9 +83,9 @@ def busy_threads(process):
     "arguments",
     (
         ["simulate", "--duration", "300"],
-        ["explain", "--duration", "300"],
+        pytest.param(["explain", "--duration", "300"], marks=pytest.mark.exhaustive),
         ["sweep", "paper", "--input-speed", "1000rpm:5000rpm:400", "--out", "s.csv"],
-        ["bifurcation", "paper", "--out", "s.csv"],
+        pytest.param(["bifurcation", "paper", "--out", "s.csv"], marks=pytest.mark.exhaustive),
     ),
     ids=lambda arguments: arguments[0],
 )

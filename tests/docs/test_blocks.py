@@ -36,6 +36,11 @@ def changes_code(page):
     return any(block.language == "diff" for block in blocks(page))
 
 
+def tier(page):
+    """README, which everyone tries, is tried always; every other page takes its time."""
+    return [] if page.name == "README.md" else [pytest.mark.exhaustive]
+
+
 @pytest.fixture(scope="session")
 def environment():
     """That of a reader who has activated .venv, on a machine without a display."""
@@ -64,7 +69,11 @@ def test_every_block_says_what_it_is_and_why_it_is_not_run(page):
 
 
 @pytest.mark.timeout(600)
-@pytest.mark.parametrize("page", [page for page in PAGES if not changes_code(page)], ids=name)
+@pytest.mark.parametrize(
+    "page",
+    [pytest.param(page, marks=tier(page)) for page in PAGES if not changes_code(page)],
+    ids=name,
+)
 def test_page(page, tmp_path, recording, environment, monkeypatch):
     shutil.copytree(recording, tmp_path / "recordings" / "NAME")
     monkeypatch.chdir(tmp_path)
@@ -78,6 +87,7 @@ def test_page(page, tmp_path, recording, environment, monkeypatch):
     assert not any(left), left
 
 
+@pytest.mark.exhaustive
 @pytest.mark.timeout(900)
 def test_pages_that_change_the_package(tmp_path, environment):
     """All in one copy of it: each has its changes made before any runs, to compile once."""

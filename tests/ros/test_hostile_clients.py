@@ -63,7 +63,9 @@ def flood(clients: int, batch: int) -> list[subprocess.Popen[str]]:
     return floods
 
 
-@pytest.mark.parametrize(("clients", "batch"), [(1, 1), (3, 50)])
+@pytest.mark.parametrize(
+    ("clients", "batch"), [(1, 1), pytest.param(3, 50, marks=pytest.mark.exhaustive)]
+)
 def test_a_flood_of_parameter_sets_neither_stops_the_twin_nor_makes_it_lie(
     peer: Peer, heard: Heard, clients: int, batch: int
 ) -> None:

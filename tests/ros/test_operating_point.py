@@ -157,11 +157,12 @@ def test_values_given_at_start_are_read_the_same_way(peer: Peer, start: Start) -
     "given",
     [
         "backlash:=7",
-        "backlash:=wide",
-        "tolerance:=5e-09",
-        "tolerance:=7",
         "rate_factor:=0.005",
         "scene:=nowhere",
+        *(
+            pytest.param(given, marks=pytest.mark.exhaustive)
+            for given in ("backlash:=wide", "tolerance:=5e-09", "tolerance:=7")
+        ),
     ],
 )
 def test_nonsense_at_start_ends_in_one_line(start: Start, given: str) -> None:

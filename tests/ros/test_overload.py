@@ -91,6 +91,7 @@ def test_what_is_too_much_is_given_up_in_order_told_and_simulated_again(
     assert_simulated_again(waves, points, told, SAMPLE_RATE)
 
 
+@pytest.mark.exhaustive
 def test_the_waveform_is_full_again_once_the_machine_is_quick_again(
     peer: Peer, start: Start
 ) -> None:

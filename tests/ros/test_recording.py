@@ -129,6 +129,7 @@ def _refused(process: subprocess.Popen[str], reason: str) -> None:
     assert errors.startswith("logger: ")
 
 
+@pytest.mark.exhaustive
 def test_two_twins_run_side_by_side(peer: Peer, start: Start, tmp_path: Path) -> None:
     for name in ("left", "right"):
         place = ("--ros-args", "-r", f"__ns:=/{name}")

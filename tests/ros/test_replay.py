@@ -106,7 +106,7 @@ def _refused(process: subprocess.Popen[str], *reasons: str) -> None:
     assert all(reason in errors for reason in reasons), errors
 
 
-@pytest.mark.parametrize("rate_factor", [1.0, 4.0])
+@pytest.mark.parametrize("rate_factor", [1.0, pytest.param(4.0, marks=pytest.mark.exhaustive)])
 def test_every_message_comes_again_in_order_byte_by_byte_and_in_time(
     peer: Peer, play: Play, bag: Path, rate_factor: float
 ) -> None:
@@ -172,7 +172,7 @@ def test_a_loop_goes_on_until_it_is_told_to_end(peer: Peer, play: Play, bag: Pat
 
 
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
-@pytest.mark.parametrize("seconds", [0.0, 0.5, 1.5])
+@pytest.mark.parametrize("seconds", [0.0, 0.5, pytest.param(1.5, marks=pytest.mark.exhaustive)])
 def test_a_signal_ends_it_cleanly_at_any_moment(
     peer: Peer, play: Play, bag: Path, number: int, seconds: float
 ) -> None:

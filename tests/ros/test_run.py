@@ -94,6 +94,7 @@ def test_a_run_without_end_is_shown_around_as_a_usual_one() -> None:
     assert tour_of("paper", math.inf) == tour_of("paper", LENGTH)
 
 
+@pytest.mark.exhaustive
 def test_a_recording_that_was_split_on_the_way_is_counted_as_a_whole(
     run: Callable[..., subprocess.Popen[str]], peer: Peer, tmp_path: Path
 ) -> None:
@@ -108,6 +109,7 @@ def test_a_recording_that_was_split_on_the_way_is_counted_as_a_whole(
     assert f"recordings{os.sep}bag: 2 files" in output
 
 
+@pytest.mark.exhaustive
 def test_what_came_while_the_logger_was_stopped_is_told_and_both_recordings_are_counted(
     run: Callable[..., subprocess.Popen[str]], peer: Peer, tmp_path: Path
 ) -> None:
@@ -138,7 +140,9 @@ def test_ctrl_c_leaves_a_readable_recording_and_the_table(
     assert working_in(tmp_path) == []
 
 
-@pytest.mark.parametrize("seconds", [0.9, 1.8, 2.7])
+@pytest.mark.parametrize(
+    "seconds", [0.9, *(pytest.param(s, marks=pytest.mark.exhaustive) for s in (1.8, 2.7))]
+)
 def test_ctrl_c_while_it_starts_leaves_nothing_running(
     run: Callable[..., subprocess.Popen[str]], tmp_path: Path, seconds: float
 ) -> None:
@@ -212,6 +216,7 @@ def test_a_mistake_ends_in_one_line_before_anything_starts(
     assert not (tmp_path / "recordings").exists()
 
 
+@pytest.mark.exhaustive
 def test_a_second_run_on_the_same_domain_is_refused_and_leaves_the_first_alone(run):
     first = run("--duration", "60", "--no-tour")
     _line(first, "rpm")

@@ -117,6 +117,7 @@ def test_a_signal_to_a_slow_or_paused_twin_need_not_wait(peer: Peer, start: Star
     ended_well(paused)
 
 
+@pytest.mark.exhaustive
 def test_a_signal_while_a_service_waits_or_a_transition_is_made(peer: Peer, start: Start) -> None:
     process = running(peer, start)
     assert peer.call(SetBool, f"{NODE}/pause", SetBool.Request(data=True)).success
@@ -150,6 +151,7 @@ def test_both_nodes_end_on_one_ctrl_c_and_the_recording_is_whole(
     assert counts(tmp_path / "recordings/bag")[STATES] > 50
 
 
+@pytest.mark.exhaustive
 def test_each_node_may_be_killed_and_come_back_while_the_other_goes_on(
     peer: Peer, start: Start, tmp_path: Path
 ) -> None:
