@@ -25,7 +25,7 @@ PAPER = Path(load_scene.__code__.co_filename).parent / "packaged" / "paper.yaml"
 
 
 def planetary_twin(*arguments):
-    return subprocess.run([*RUN, *map(str, arguments)], capture_output=True, text=True, timeout=120)
+    return subprocess.run([*RUN, *map(str, arguments)], capture_output=True, text=True, timeout=600)
 
 
 @pytest.fixture(scope="module")

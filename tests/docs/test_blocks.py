@@ -21,9 +21,9 @@ import planetary_twin_py as pt
 
 PAGES = pages()
 RECORDED = 2.0  # [s] of recordings/NAME
-PATIENCE = 400.0  # [s] for a command; those that compile take a minute, others a few seconds
-STARTS = 100.0  # [s] for what runs in the background to say something
-ENDS = 60.0  # [s] for it to end
+PATIENCE = 1200.0  # [s] for a command; those that compile take a minute, others a few seconds
+STARTS = 600.0  # [s] for what runs in the background to say something
+ENDS = 120.0  # [s] for it to end
 
 pytestmark = pytest.mark.slow
 
@@ -68,7 +68,6 @@ def test_every_block_says_what_it_is_and_why_it_is_not_run(page):
         assert block.language != "console" or block.commands, f"{block}: no line begins with '$ '"
 
 
-@pytest.mark.timeout(600)
 @pytest.mark.parametrize(
     "page",
     [pytest.param(page, marks=tier(page)) for page in PAGES if not changes_code(page)],
@@ -88,7 +87,6 @@ def test_page(page, tmp_path, recording, environment, monkeypatch):
 
 
 @pytest.mark.exhaustive
-@pytest.mark.timeout(900)
 def test_pages_that_change_the_package(tmp_path, environment):
     """All in one copy of it: each has its changes made before any runs, to compile once."""
     source = ROOT / "planetary_twin_py"

@@ -81,7 +81,7 @@ def points(peer: Peer, start: Start) -> list[OperatingPoint]:
     """What a running simulation has published as its operating point."""
     start("planetary_twin.simulation")
     points = peer.listen(OperatingPoint, f"{TWIN}/operating_point", LATCHED)
-    peer.until(lambda: points, 120.0)
+    peer.until(lambda: points)
     return points
 
 

@@ -56,7 +56,7 @@ class Peer:
             self._executor.spin_once(timeout_sec=0.02)
         return value
 
-    def listen(self, kind: type, topic: str, qos: QoSProfile | int = 100) -> list[Any]:
+    def listen(self, kind: type, topic: str, qos: QoSProfile | int = 1000) -> list[Any]:
         """A list that fills with the messages of `topic`."""
         heard: list[Any] = []
         self.node.create_subscription(kind, topic, heard.append, qos)
@@ -73,7 +73,7 @@ class Peer:
         if service not in self._clients:
             self._clients[service] = self.node.create_client(kind, service)
         client = self._clients[service]
-        self.until(client.service_is_ready, 60.0)
+        self.until(client.service_is_ready)
         for _ in range(ATTEMPTS):
             future = client.call_async(request)
             deadline = time.monotonic() + patience
@@ -102,7 +102,7 @@ class Peer:
             answer = self.call(ChangeState, f"{node}/change_state", request, TRANSITION)
             return answer.success or self.state(node) == _GOALS[transition]  # an answer got lost
 
-        self.until(there, 120.0)
+        self.until(there)
 
     def state(self, node: str) -> str:
         """The state a lifecycle node is in."""

@@ -26,7 +26,7 @@ from planetary_twin_py.recording.rosbag2 import Topic
 from planetary_twin_py.recording.schema import message_definition
 
 from .conftest import Start
-from .peer import LATCHED, TWIN, Peer
+from .peer import LATCHED, LONG, TWIN, Peer
 from .recordings import read_all
 
 COMMAND = Path(sys.executable).with_name("planetary-twin")
@@ -278,7 +278,7 @@ def test_what_cannot_be_renamed_or_chosen_ends_in_one_line(play: Play, split: Pa
 
 
 def _refused(process: subprocess.Popen[str], *reasons: str, code: int = 1) -> None:
-    _, errors = process.communicate(timeout=60)
+    _, errors = process.communicate(timeout=LONG)
     assert process.returncode == code
     assert len(errors.strip().splitlines()) == 1, errors
     assert all(reason in errors for reason in reasons), errors
@@ -298,7 +298,7 @@ def test_recorded_played_and_recorded_again_it_is_the_same(
     logger = start("planetary_twin.logger", "--ros-args", "-p", "name:=second")
     peer.until(lambda: (tmp_path / "recordings/second/second_0.mcap").exists())
     player = play(first)
-    peer.until(lambda: player.poll() is not None, 60.0)
+    peer.until(lambda: player.poll() is not None)
     assert player.returncode == 0
     logger.send_signal(signal.SIGINT)
     peer.until(lambda: logger.poll() is not None)

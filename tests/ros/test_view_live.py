@@ -30,7 +30,7 @@ def test_a_running_twin_is_drawn_and_where_there_is_none_one_line_says_so(
         _view("--during", ":4", "--namespace", name, "--save", f"{tmp_path}/{name}.rrd")
         for name in ("planetary_twin", "nobody")
     )
-    peer.until(lambda: shown.poll() is not None and nobody.poll() is not None, 60.0)
+    peer.until(lambda: shown.poll() is not None and nobody.poll() is not None)
     assert shown.returncode == 0, shown.communicate()
     times = []
     static = set()
@@ -58,7 +58,7 @@ def test_rerun_itself_finds_gears_that_turn_and_named_joints_in_the_file(
     logger = start("planetary_twin.logger", "--ros-args", "-p", "name:=bag")
     start("planetary_twin.simulation")
     states = peer.listen(GearboxState, f"{TWIN}/gearbox_state")
-    peer.until(lambda: len(states) > 100, 120.0)
+    peer.until(lambda: len(states) > 100)
     logger.terminate()
     peer.until(lambda: logger.poll() is not None)
     solids, names, turning = set(), [], 0

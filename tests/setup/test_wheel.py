@@ -98,7 +98,7 @@ def without_extras(folder, code, *arguments):
         [sys.executable, "-c", WITHOUT.format(folder=str(folder)) + code, *arguments],
         capture_output=True,
         text=True,
-        timeout=250,
+        timeout=1200,
     )
 
 
