@@ -27,7 +27,7 @@ FLOOR = SAMPLE_RATE / 2**HALVINGS
 
 
 @contextlib.contextmanager
-def slow_machine(pid: int, run: float = 0.002, stop: float = 0.048) -> Iterator[None]:
+def slow_machine(pid: int, run: float = 0.008, stop: float = 0.192) -> Iterator[None]:
     """Let a process run for `run` [s] and stand for `stop` [s], again and again."""
     over = threading.Event()
 
@@ -96,7 +96,8 @@ def test_what_is_too_much_is_given_up_in_order_told_and_simulated_again(
 def test_the_waveform_is_full_again_once_the_machine_is_quick_again(
     peer: Peer, start: Start
 ) -> None:
-    process = start("planetary_twin.simulation")
+    # A quarter of the time that the same takes in real time: there is enough on a busy machine.
+    process = start("planetary_twin.simulation", "--ros-args", "-p", "rate_factor:=0.25")
     waves = peer.listen(MeshWaveform, f"{TWIN}/mesh_waveform", 1000)
     reports = peer.listen(DiagnosticArray, "/diagnostics")
     peer.until(lambda: waves and waves[-1].sample_period == 1.0 / SAMPLE_RATE)
@@ -104,7 +105,7 @@ def test_the_waveform_is_full_again_once_the_machine_is_quick_again(
         peer.until(lambda: waves[-1].sample_period == 1.0 / FLOOR)
         peer.until(lambda: reports and figures(reports[-1:])["waveform"] == "thinned")
         assert reports[-1].status[0].level != DiagnosticStatus.OK
-    peer.until(lambda: figures(reports[-1:])["waveform"] == "full")
+    peer.until(lambda: figures(reports[-1:])["waveform"] == "full", 3 * LONG)
     assert waves[-1].sample_period == 1.0 / SAMPLE_RATE
     peer.until(lambda: reports[-1].status[0].level == DiagnosticStatus.OK)
     assert int(figures(reports)["sample_rate_changes"]) >= 2

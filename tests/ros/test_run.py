@@ -25,7 +25,7 @@ from std_srvs.srv import SetBool, Trigger
 from planetary_twin_py.scene import load_scene, parse_scene
 
 from .peer import LONG, TWIN, Peer
-from .processes import working_in
+from .processes import holding, working_in
 from .recordings import counts, disorder, torn_states
 
 COMMAND = (
@@ -145,12 +145,15 @@ def test_ctrl_c_leaves_a_readable_recording_and_the_table(
 
 
 @pytest.mark.parametrize(
-    "seconds", [0.9, *(pytest.param(s, marks=pytest.mark.exhaustive) for s in (1.8, 2.7))]
+    "seconds", [0.0, *(pytest.param(s, marks=pytest.mark.exhaustive) for s in (0.9, 1.8))]
 )
 def test_ctrl_c_while_it_starts_leaves_nothing_running(
     run: Callable[..., subprocess.Popen[str]], tmp_path: Path, seconds: float
 ) -> None:
     process = run("--duration", "600")
+    deadline = time.monotonic() + LONG
+    while not holding(process.pid, "_rclpy"):  # before, Python is still to learn what to run
+        assert time.monotonic() < deadline and process.poll() is None
     time.sleep(seconds)  # the very thing under test: an arbitrary moment
     process.send_signal(signal.SIGINT)
     _, errors = process.communicate(timeout=LONG)

@@ -40,9 +40,10 @@ def test_a_running_twin_is_drawn_and_where_there_is_none_one_line_says_so(
         elif chunk.entity_path == "/mesh/dte_mean":
             times += chunk.to_record_batch().column("simulated_time").cast("int64").to_pylist()
     assert "/gears/carrier/pin_1/planet_1" in static
+    peer.until(lambda: states[-1].simulated_time >= 1e-9 * max(times) - 1e-6)
     heard = np.rint(1e9 * np.array([state.simulated_time for state in states]))
     assert np.all(np.diff(times) > 0)
-    assert len(np.intersect1d(times, heard)) >= 100  # of 400: the machine may be busy
+    assert len(times) >= 10 and np.isin(times, heard).all()
     assert nobody.returncode == 2
     _, errors = nobody.communicate()
     assert errors == (
