@@ -74,6 +74,7 @@ def test_enforced_security_is_never_left_out_silently(
     assert last.startswith("simulation: the middleware refuses the node: ")
 
 
+@pytest.mark.exhaustive
 @pytest.mark.parametrize("twin", ["SUBNET"], indirect=True)
 def test_who_asks_for_the_network_gets_it(twin: None, peer: Peer, tmp_path: Path) -> None:
     states = peer.listen(GearboxState, f"{TWIN}/gearbox_state")

@@ -260,7 +260,9 @@ def test_a_full_disk_ends_the_logger_in_one_line_and_what_was_flushed_is_readabl
     assert len(numbers) > 30
 
 
-@pytest.mark.parametrize("reliability", ["RELIABLE", "BEST_EFFORT"])
+@pytest.mark.parametrize(
+    "reliability", ["RELIABLE", pytest.param("BEST_EFFORT", marks=pytest.mark.exhaustive)]
+)
 def test_recorded_and_lost_are_what_was_published_under_overload(
     peer: Peer, start: Start, tmp_path: Path, count: Count, reliability: str
 ) -> None:

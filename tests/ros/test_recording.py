@@ -48,7 +48,9 @@ def _record(peer: Peer, start: Start, messages: int = 100) -> list[GearboxState]
     return states
 
 
-@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
+@pytest.mark.parametrize(
+    "number", [signal.SIGINT, pytest.param(signal.SIGTERM, marks=pytest.mark.exhaustive)]
+)
 def test_a_signal_finishes_the_file(
     peer: Peer, start: Start, logger: subprocess.Popen[str], tmp_path: Path, number: int
 ) -> None:

@@ -174,7 +174,9 @@ def test_a_loop_goes_on_until_it_is_told_to_end(peer: Peer, play: Play, bag: Pat
 
 
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
-@pytest.mark.parametrize("seconds", [0.0, 0.5, pytest.param(1.5, marks=pytest.mark.exhaustive)])
+@pytest.mark.parametrize(
+    "seconds", [0.0, *(pytest.param(s, marks=pytest.mark.exhaustive) for s in (0.5, 1.5))]
+)
 def test_a_signal_ends_it_cleanly_at_any_moment(
     peer: Peer, play: Play, bag: Path, number: int, seconds: float
 ) -> None:

@@ -81,6 +81,7 @@ def test_a_run_records_every_message_it_publishes(
     assert working_in(tmp_path) == []
 
 
+@pytest.mark.exhaustive
 def test_messages_stand_in_the_order_in_which_they_were_received_while_it_keeps_up(
     run: Callable[..., subprocess.Popen[str]], tmp_path: Path
 ) -> None:
@@ -164,7 +165,9 @@ def test_ctrl_c_while_it_starts_leaves_nothing_running(
     assert all(counts(bag)[f"{TWIN}/gearbox_state"] for bag in tmp_path.glob("recordings/*"))
 
 
-@pytest.mark.parametrize("node", ["simulation", "logger"])
+@pytest.mark.parametrize(
+    "node", [pytest.param("simulation", marks=pytest.mark.exhaustive), "logger"]
+)
 def test_the_death_of_a_node_ends_the_run_with_one_line(
     run: Callable[..., subprocess.Popen[str]], tmp_path: Path, node: str
 ) -> None:
@@ -264,6 +267,7 @@ def test_a_pause_however_long_and_a_reset_are_no_failure_of_a_run(
     assert "efficiency" in output
 
 
+@pytest.mark.exhaustive
 def test_a_run_whose_simulation_is_shut_down_says_so(
     run: Callable[..., subprocess.Popen[str]], peer: Peer, tmp_path: Path
 ) -> None:
@@ -277,6 +281,7 @@ def test_a_run_whose_simulation_is_shut_down_says_so(
     assert counts(tmp_path / "recordings/bag")[f"{TWIN}/gearbox_state"] > 0
 
 
+@pytest.mark.exhaustive
 def test_a_recording_that_others_make_under_the_name_meanwhile_is_left_alone(
     run: Callable[..., subprocess.Popen[str]], tmp_path: Path
 ) -> None:

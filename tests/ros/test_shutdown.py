@@ -62,7 +62,9 @@ def ask(peer: Peer, kind: type, service: str, request: object) -> None:
     client.call_async(request)
 
 
-@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
+@pytest.mark.parametrize(
+    "number", [signal.SIGINT, pytest.param(signal.SIGTERM, marks=pytest.mark.exhaustive)]
+)
 def test_a_signal_while_the_model_is_built_ends_the_node_at_once(
     start: Start, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, number: signal.Signals
 ) -> None:

@@ -123,12 +123,12 @@ def test_a_paused_twin_makes_steps_of_just_the_time_asked_for(peer: Peer, heard:
     heard.check()
 
 
-@pytest.mark.parametrize("duration", [0.0, -1.0, math.nan, 1e9])
-def test_a_step_that_cannot_be_is_refused(peer: Peer, heard: Heard, duration: float) -> None:
+def test_a_step_that_cannot_be_is_refused(peer: Peer, heard: Heard) -> None:
     pause(peer, True)
-    answer = step(peer, duration)
-    assert not answer.success
-    assert answer.message.startswith("duration = ")
+    for duration in (0.0, -1.0, math.nan, 1e9):
+        answer = step(peer, duration)
+        assert not answer.success
+        assert answer.message.startswith("duration = ")
 
 
 def test_a_running_twin_makes_no_steps(peer: Peer, heard: Heard) -> None:

@@ -7,6 +7,7 @@ import sys
 from pathlib import Path
 
 import numpy as np
+import pytest
 from planetary_twin_msgs.msg import GearboxState, OperatingPoint
 from rerun.chunk import McapReader, RrdReader
 
@@ -53,6 +54,7 @@ def test_a_running_twin_is_drawn_and_where_there_is_none_one_line_says_so(
     assert not (tmp_path / "nobody.rrd").exists()
 
 
+@pytest.mark.exhaustive
 def test_rerun_itself_finds_gears_that_turn_and_named_joints_in_the_file(
     peer: Peer, start: Start, tmp_path: Path
 ) -> None:
