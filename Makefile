@@ -36,7 +36,7 @@ test:
 # What CI runs beyond `make test`: documentation that is executed, searches by chance, every further
 # case, and minutes of running live.
 test-all:
-	@echo "make test, then what takes longer: about 35 minutes on 2 idle cores"
+	@echo "make test, then what takes longer: about half an hour on 2 idle cores"
 	@$(MAKE) --no-print-directory test
 	@$(MAKE) --no-print-directory --jobs=2 test-exhaustive soak DURATION=$(or $(DURATION),300)
 

@@ -74,7 +74,7 @@ def test_a_flood_of_parameter_sets_neither_stops_the_twin_nor_makes_it_lie(
     floods = flood(clients, batch)
     try:
         first, told, begin = len(heard.states), len(heard.reports), time.monotonic()
-        peer.until(lambda: len(heard.states) > first + 200 and len(heard.reports) > told + 2)
+        peer.until(lambda: len(heard.states) > first + 400 and len(heard.reports) > told + 2)
         elapsed = time.monotonic() - begin
         during = heard.states[first:]
         count = len(heard.reports)
@@ -86,7 +86,7 @@ def test_a_flood_of_parameter_sets_neither_stops_the_twin_nor_makes_it_lie(
             process.communicate()
     # The machine is the flood's too, so the twin may fall behind; then it says so.
     simulated = during[-1].simulated_time - during[0].simulated_time
-    if simulated < 0.9 * elapsed:
+    if simulated < 0.8 * elapsed:  # more than what may still be under way to this process
         assert any(report.status[0].level != b"\0" for report in heard.reports[told:])
     assert [b.sequence - a.sequence for a, b in itertools.pairwise(during)] == [1] * (
         len(during) - 1
