@@ -36,11 +36,6 @@ def changes_code(page):
     return any(block.language == "diff" for block in blocks(page))
 
 
-def tier(page):
-    """README, which everyone tries, is tried always; every other page takes its time."""
-    return [] if page.name == "README.md" else [pytest.mark.exhaustive]
-
-
 @pytest.fixture(scope="session")
 def environment():
     """That of a reader who has activated .venv, on a machine without a display."""
@@ -68,11 +63,8 @@ def test_every_block_says_what_it_is_and_why_it_is_not_run(page):
         assert block.language != "console" or block.commands, f"{block}: no line begins with '$ '"
 
 
-@pytest.mark.parametrize(
-    "page",
-    [pytest.param(page, marks=tier(page)) for page in PAGES if not changes_code(page)],
-    ids=name,
-)
+@pytest.mark.exhaustive
+@pytest.mark.parametrize("page", [page for page in PAGES if not changes_code(page)], ids=name)
 def test_page(page, tmp_path, recording, environment, monkeypatch):
     shutil.copytree(recording, tmp_path / "recordings" / "NAME")
     monkeypatch.chdir(tmp_path)

@@ -102,6 +102,7 @@ def without_extras(folder, code, *arguments):
     )
 
 
+@pytest.mark.exhaustive
 @pytest.mark.slow
 def test_the_model_alone_simulates(alone):
     done = without_extras(
