@@ -14,6 +14,9 @@ ROOT = Path(__file__).parents[1]
 # A shell has what it runs in the background ignore Ctrl-C, and so does all that starts from there.
 signal.signal(signal.SIGINT, signal.default_int_handler)
 
+# A worker of pytest-xdist has it; a test that needs a width sets it.
+os.environ.pop("COLUMNS", None)
+
 # Read when rclpy and the message classes are first imported; child processes inherit them. The
 # domain is for what has none of its own, and held as long as this process lives.
 _HELD = ExitStack()
