@@ -29,7 +29,7 @@ run: setup
 PYTEST := $(BIN)/pytest --quiet --numprocesses=3 --dist=loadfile
 
 test:
-	@echo "lint, then every feature's tests: about 10 minutes of processor time, 6 on 2 idle cores"
+	@echo "lint, then every feature's tests: a quarter of an hour of processor time"
 	@$(MAKE) --no-print-directory lint
 	$(PYTEST) -m "not exhaustive" --ignore=tests/ros/test_soak.py $(ARGS)
 
