@@ -17,26 +17,40 @@ ifneq ($(AMENT_PREFIX_PATH)$(_ROS_WHEELS_BOOTSTRAP_COMPLETE),)
 unexport LD_LIBRARY_PATH _ROS_WHEELS_BOOTSTRAP_COMPLETE
 endif
 
-.PHONY: setup run test test-model test-nodes test-fast soak bench view picture sample studies docs lint lock clean
+.PHONY: setup run test test-all test-exhaustive test-model test-nodes test-fast soak bench view picture sample studies docs lint lock clean
 
 setup: $(STAMPS)/interfaces $(STAMPS)/kernels $(STAMPS)/nodes
 
 run: setup
 	@$(BIN)/planetary-twin run $(ARGS)
 
-# Nodes wait for one another most of the time: beside their tests go those of the model, and ten
-# minutes of running live.
-test: lint
-	@$(MAKE) --no-print-directory --jobs=3 test-model test-nodes soak DURATION=$(or $(DURATION),600)
+# Nodes wait for one another most of the time: three workers keep two cores busy. Each file is one
+# worker's, so that what its tests share is made once.
+PYTEST := $(BIN)/pytest --quiet --numprocesses=3 --dist=loadfile
+
+test:
+	@echo "lint, then every feature's tests: a quarter of an hour of processor time"
+	@$(MAKE) --no-print-directory lint
+	$(PYTEST) -m "not exhaustive" --ignore=tests/ros/test_soak.py $(ARGS)
+
+# What CI runs beyond `make test`: documentation that is executed, searches by chance, every further
+# case, and minutes of running live.
+test-all:
+	@echo "make test, then what takes longer: about half an hour on 2 idle cores"
+	@$(MAKE) --no-print-directory test
+	@$(MAKE) --no-print-directory --jobs=2 test-exhaustive soak DURATION=$(or $(DURATION),300)
+
+test-exhaustive: setup
+	$(PYTEST) -m exhaustive $(ARGS)
 
 test-model: setup
-	$(BIN)/pytest --ignore=tests/ros $(ARGS)
+	$(PYTEST) -m "not exhaustive" --ignore=tests/ros $(ARGS)
 
 test-nodes: setup
-	$(BIN)/pytest tests/ros --ignore=tests/ros/test_soak.py $(ARGS)
+	$(PYTEST) -m "not exhaustive" --ignore=tests/ros/test_soak.py tests/ros $(ARGS)
 
 test-fast: setup
-	$(BIN)/pytest -m "not slow" $(ARGS)
+	$(PYTEST) -m "not slow and not exhaustive" $(ARGS)
 
 soak: setup
 	SOAK_DURATION=$(or $(DURATION),3600) $(BIN)/pytest -q -s -p no:cacheprovider tests/ros/test_soak.py

@@ -2,18 +2,36 @@
 
 import os
 import signal
+from collections.abc import Iterator
+from contextlib import ExitStack
 from pathlib import Path
+
+import pytest
+from domains import private_domain
 
 ROOT = Path(__file__).parents[1]
 
 # A shell has what it runs in the background ignore Ctrl-C, and so does all that starts from there.
 signal.signal(signal.SIGINT, signal.default_int_handler)
 
-# Read when rclpy and the message classes are first imported; child processes inherit them.
-os.environ["ROS_DOMAIN_ID"] = str(1 + os.getpid() % 100)
+# A worker of pytest-xdist has it; a test that needs a width sets it.
+os.environ.pop("COLUMNS", None)
+
+# Read when rclpy and the message classes are first imported; child processes inherit them. The
+# domain is for what has none of its own, and held as long as this process lives.
+_HELD = ExitStack()
+os.environ["ROS_DOMAIN_ID"] = str(_HELD.enter_context(private_domain()))
 # As `planetary-twin run` has it: nodes find one another at once, and none stumbles over what
 # another that was killed has left in shared memory.
 os.environ["ROS_AUTOMATIC_DISCOVERY_RANGE"] = "SYSTEM_DEFAULT"
 profile = ROOT / "ros_ws/src/planetary_twin/config/loopback.xml"
 os.environ["FASTRTPS_DEFAULT_PROFILES_FILE"] = str(profile)
 os.environ["ROS_PYTHON_CHECK_FIELDS"] = "1"
+
+
+@pytest.fixture
+def domain(monkeypatch: pytest.MonkeyPatch) -> Iterator[int]:
+    """A domain for this test alone, also in the environment of what it starts."""
+    with private_domain() as number:
+        monkeypatch.setenv("ROS_DOMAIN_ID", str(number))
+        yield number

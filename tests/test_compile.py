@@ -47,13 +47,13 @@ def test_no_change_and_no_scene_compiles_anything_after_the_first_twin(name):
     assert compiled() == before
 
 
-def test_a_change_takes_less_than_5_milliseconds():
+def test_a_change_takes_less_than_5_milliseconds_of_the_processor():
     twin, taken = pt.Twin(pt.load_scene("paper")), []
     for change in CHANGES * 3:
         twin.advance(1.23e-3)  # ends within a step, part of which is made again
-        begin = time.perf_counter()
+        begin = time.thread_time()
         twin.set(**change)
-        taken.append(time.perf_counter() - begin)
+        taken.append(time.thread_time() - begin)
     assert median(taken) < 5e-3
 
 
@@ -71,6 +71,7 @@ print(hashlib.sha256(result.dte.tobytes()).hexdigest())
     ).stdout
 
 
+@pytest.mark.exhaustive
 @pytest.mark.slow
 def test_a_process_that_compiles_computes_the_same_digits_as_one_that_loads(tmp_path):
     compiling = digits(tmp_path)

@@ -144,6 +144,7 @@ def test_a_random_scene_is_finite_dissipative_and_closed_in_energy(changes):
     check(changes)
 
 
+@pytest.mark.exhaustive
 @pytest.mark.slow
 @THOROUGH
 @given(changes=SCENES)

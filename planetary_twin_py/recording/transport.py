@@ -22,11 +22,16 @@ class Transport:
         self._rate_factor = rate_factor
         self.held = True
 
+    @property
+    def paced(self) -> bool:
+        """Whether time limits how fast the tape runs, not the machine alone."""
+        return self._rate_factor != AS_FAST_AS_IT_GOES
+
     def position(self, now: float, limit: int) -> int:
         """Where the tape stands [ns]."""
         if self.held:
             return self._position
-        if self._rate_factor == AS_FAST_AS_IT_GOES:
+        if not self.paced:
             return limit
         passed = round((now - self._since) * self._rate_factor * 1e9)
         return min(self._position + passed, limit)
@@ -35,7 +40,7 @@ class Transport:
         """Time until `instant` [s], negative if it is over; infinite while the tape is held."""
         if self.held:
             return math.inf
-        if self._rate_factor == AS_FAST_AS_IT_GOES:
+        if not self.paced:
             return 0.0
         due = (instant - self._position) * 1e-9 / self._rate_factor
         return due - (now - self._since)

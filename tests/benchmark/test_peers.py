@@ -35,6 +35,7 @@ MISSING = [
     *([] if find_spec("CyRK") else cyrk.SOLVERS),
 ]
 INSTALLED = [name for name in SOLVERS if name not in MISSING]
+SLOW = ("scipy_lsoda", "lsoda_compiled", "cvode_bdf_compiled")  # of those that are alike
 SCENES = {
     "rattle": ("paper", {"input_torque": 0.3, "torque_ripple": 3.0}),
     "backwards with runout": ("paper", {"input_speed": -60.0, "mesh.runout.sun": 2e-6}),
@@ -97,7 +98,13 @@ def test_the_right_hand_side_is_the_derivative_of_the_twin(base, changes):
     assert compared >= 20
 
 
-@pytest.mark.parametrize("name", INSTALLED)
+@pytest.mark.parametrize(
+    "name",
+    [
+        pytest.param(name, marks=pytest.mark.exhaustive if name in SLOW else ())
+        for name in INSTALLED
+    ],
+)
 def test_the_error_against_the_reference_falls_with_the_tolerance(name, references):
     errors = [
         dte_error(solved(name, SHORT, tolerance).dte, references["short"][:, DTE])

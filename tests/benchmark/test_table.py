@@ -25,7 +25,11 @@ def _short_runs(monkeypatch):
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("case", [SHORT, RATTLE, HITS], ids=lambda case: case.name)
+@pytest.mark.parametrize(
+    "case",
+    [SHORT, *(pytest.param(case, marks=pytest.mark.exhaustive) for case in (RATTLE, HITS))],
+    ids=lambda case: case.name,
+)
 def test_the_error_against_the_reference_is_that_of_the_tolerance(case):
     rows = measure([case], (1e-3, 1e-5), methods=METHODS[:1])
     assert rows[1].error_dte < rows[0].error_dte
@@ -37,7 +41,9 @@ def test_the_error_against_the_reference_is_that_of_the_tolerance(case):
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("case", [SHORT, RATTLE], ids=lambda case: case.name)
+@pytest.mark.parametrize(
+    "case", [SHORT, pytest.param(RATTLE, marks=pytest.mark.exhaustive)], ids=lambda case: case.name
+)
 def test_the_error_of_the_other_method_falls_with_the_tolerance(case):
     rows = measure([case], (1e-3, 1e-5), methods=METHODS[1:])
     assert 0.0 < 30.0 * rows[1].error_dte < rows[0].error_dte < 1e-2

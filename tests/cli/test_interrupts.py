@@ -55,7 +55,7 @@ def said(handlers, callback):
     prepare, arm = HANDLERS[handlers]
     program = PROGRAM.format(prepare=prepare, arm=arm or "pass", callback=CALLBACKS[callback])
     done = subprocess.run(
-        [sys.executable, "-c", program], capture_output=True, text=True, timeout=60, check=True
+        [sys.executable, "-c", program], capture_output=True, text=True, timeout=120, check=True
     )
     return done.stdout.strip(), done.stderr
 
@@ -112,5 +112,5 @@ main()
 
 
 def test_an_interrupt_at_the_very_end_kills_nobody():
-    done = subprocess.run([sys.executable, "-c", ENDS], capture_output=True, text=True, timeout=60)
+    done = subprocess.run([sys.executable, "-c", ENDS], capture_output=True, text=True, timeout=120)
     assert (done.returncode, done.stderr) == (0, "")

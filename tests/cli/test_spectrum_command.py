@@ -25,7 +25,7 @@ PAPER = Path(load_scene.__code__.co_filename).parent / "packaged" / "paper.yaml"
 
 
 def planetary_twin(*arguments):
-    return subprocess.run([*RUN, *map(str, arguments)], capture_output=True, text=True, timeout=120)
+    return subprocess.run([*RUN, *map(str, arguments)], capture_output=True, text=True, timeout=600)
 
 
 @pytest.fixture(scope="module")
@@ -78,6 +78,7 @@ def test_a_picture_and_a_table_are_written(file, tmp_path):
     assert table["amplitude_of_mesh_force_N"][0] == pytest.approx(63.0 / 0.0111772 / 3, rel=0.02)
 
 
+@pytest.mark.exhaustive
 @pytest.mark.parametrize(("faulty", "low", "high"), [(True, 1e-9, 1e-8), (False, 0.0, 1e-11)])
 def test_a_cracked_tooth_of_the_sun_has_sidebands_at_its_turns(tmp_path, faulty, low, high):
     """A band around the first harmonic of the meshing, 30 orders of the sun."""
@@ -95,6 +96,7 @@ def test_a_cracked_tooth_of_the_sun_has_sidebands_at_its_turns(tmp_path, faulty,
     assert "dte of sun_planet_1, from" in done.stderr
 
 
+@pytest.mark.exhaustive
 def test_a_band_restricts_the_table_and_has_the_same_lines_as_the_whole(file, tmp_path):
     whole, part = (
         json.loads(planetary_twin("spectrum", file, *band, "--to", 0.24, "--json", "-").stdout)
@@ -119,6 +121,7 @@ def test_samples_of_simulate_are_analysed_too(tmp_path):
     assert [line["harmonic"] for line in lines] == [round(line["order"] / 30) for line in lines]
 
 
+@pytest.mark.exhaustive
 def test_samples_without_a_scene_have_lines_that_are_not_named(tmp_path):
     npz = tmp_path / "run.npz"
     planetary_twin("simulate", "paper", "--duration", 0.1, "--out", npz)

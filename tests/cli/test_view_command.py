@@ -10,7 +10,7 @@ RUN = [sys.executable, "-c", "from planetary_twin_py.cli import main; main()"]
 
 
 def planetary_twin(*arguments):
-    return subprocess.run([*RUN, *map(str, arguments)], capture_output=True, text=True, timeout=120)
+    return subprocess.run([*RUN, *map(str, arguments)], capture_output=True, text=True, timeout=600)
 
 
 @pytest.fixture(scope="module")

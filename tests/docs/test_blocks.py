@@ -15,14 +15,15 @@ from pathlib import Path
 import pytest
 import yaml
 from docs.blocks import LANGUAGES, REASONS, ROOT, Block, blocks, pages
+from domains import private_domain
 
 import planetary_twin_py as pt
 
 PAGES = pages()
 RECORDED = 2.0  # [s] of recordings/NAME
-PATIENCE = 400.0  # [s] for a command; those that compile take a minute, others a few seconds
-STARTS = 100.0  # [s] for what runs in the background to say something
-ENDS = 60.0  # [s] for it to end
+PATIENCE = 1200.0  # [s] for a command; those that compile take a minute, others a few seconds
+STARTS = 600.0  # [s] for what runs in the background to say something
+ENDS = 120.0  # [s] for it to end
 
 pytestmark = pytest.mark.slow
 
@@ -40,10 +41,9 @@ def environment():
     """That of a reader who has activated .venv, on a machine without a display."""
     outside = {key: value for key, value in os.environ.items() if key != "DISPLAY"}
     path = f"{Path(sys.executable).parent}:{os.environ['PATH']}"
-    # Neither a domain of the tests of nodes, which are from 1 on, nor of those of the ros2 command.
-    domain = str(101 + (os.getpid() + 50) % 100)
-    told = {"PATH": path, "MPLBACKEND": "Agg", "COLUMNS": "100", "ROS_DOMAIN_ID": domain}
-    return outside | told | {"PYTHONUNBUFFERED": "1"}
+    with private_domain() as number:
+        own = {"PATH": path, "MPLBACKEND": "Agg", "COLUMNS": "100", "ROS_DOMAIN_ID": str(number)}
+        yield outside | own | {"PYTHONUNBUFFERED": "1"}
 
 
 @pytest.fixture(scope="session")
@@ -63,7 +63,7 @@ def test_every_block_says_what_it_is_and_why_it_is_not_run(page):
         assert block.language != "console" or block.commands, f"{block}: no line begins with '$ '"
 
 
-@pytest.mark.timeout(600)
+@pytest.mark.exhaustive
 @pytest.mark.parametrize("page", [page for page in PAGES if not changes_code(page)], ids=name)
 def test_page(page, tmp_path, recording, environment, monkeypatch):
     shutil.copytree(recording, tmp_path / "recordings" / "NAME")
@@ -78,7 +78,7 @@ def test_page(page, tmp_path, recording, environment, monkeypatch):
     assert not any(left), left
 
 
-@pytest.mark.timeout(900)
+@pytest.mark.exhaustive
 def test_pages_that_change_the_package(tmp_path, environment):
     """All in one copy of it: each has its changes made before any runs, to compile once."""
     source = ROOT / "planetary_twin_py"

@@ -20,7 +20,7 @@ def test_site_is_built_without_a_warning(tmp_path):
         [*build, "--keep-going", "-d", tmp_path / "trees", ROOT / "docs", tmp_path / "site"],
         capture_output=True,
         text=True,
-        timeout=200,
+        timeout=1200,
     )
     assert done.returncode == 0, done.stdout + done.stderr
     assert (tmp_path / "site/index.html").exists()
@@ -38,7 +38,7 @@ def test_faults_fail_the_build_and_are_told(tmp_path):
     (pages / "orphan.md").write_text("# Orphan\n")
     program = Path(sys.executable).with_name("sphinx-build")
     build = [program, "--quiet", "--fail-on-warning", "--keep-going", pages, tmp_path / "site"]
-    done = subprocess.run(build, capture_output=True, text=True, timeout=100)
+    done = subprocess.run(build, capture_output=True, text=True, timeout=600)
     assert done.returncode != 0
     for fault in ("nowhere.md", "no-such-heading", "nowhere.png", "orphan.md"):
         assert fault in done.stderr, done.stderr
@@ -53,7 +53,7 @@ def test_reference_names_every_public_object():
 def test_pages_of_the_reference_are_those_that_the_code_makes(tmp_path):
     # In a process of its own, for the nodes that it asks keep its environment to themselves.
     make = [sys.executable, "-m", "_generate", tmp_path]
-    subprocess.run(make, cwd=ROOT / "docs", check=True, timeout=100)
+    subprocess.run(make, cwd=ROOT / "docs", check=True, timeout=600)
     made = {file.name: file.read_text() for file in tmp_path.iterdir()}
     kept = {name: (ROOT / "docs/reference" / name).read_text() for name in made}
     assert len(made) == 5

@@ -118,7 +118,9 @@ def played(file):
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("read", [values, counted, recovered, played])
+@pytest.mark.parametrize(
+    "read", [values, counted, pytest.param(recovered, marks=pytest.mark.exhaustive), played]
+)
 def test_what_is_read_is_as_written_or_the_damage_is_told(sound, tmp_path, monkeypatch, read):
     monkeypatch.setattr(os, "fsync", lambda file: None)  # hundreds of times, for no power cut
     whole, remarks = read(shutil.copy(sound, tmp_path / "whole.mcap"))

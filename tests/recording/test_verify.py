@@ -156,6 +156,7 @@ def test_how_many_messages_could_not_be_compared_is_told(tmp_path):
     assert "no bit differs in 121 of 122 messages" in output
 
 
+@pytest.mark.exhaustive
 @pytest.mark.slow
 def test_any_bit_that_is_turned_in_the_file_is_found(sound, tmp_path):
     whole = sound.read_bytes()

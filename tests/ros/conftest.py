@@ -2,16 +2,11 @@
 
 from __future__ import annotations
 
-import fcntl
-import itertools
-import os
 import signal
 import subprocess
 import sys
-import tempfile
 import threading
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager
 from pathlib import Path
 from typing import IO, Any
 
@@ -22,30 +17,6 @@ from small_disk import mounted
 from .peer import LATCHED, TWIN, Peer
 
 _PATIENCE = 5.0  # [s] for a node to end when it is asked to
-_DOMAINS = itertools.count(os.getpid())
-
-
-@pytest.fixture
-def domain(monkeypatch: pytest.MonkeyPatch) -> Iterator[int]:
-    """A domain for this test, also in the environment of what it starts."""
-    with _free_domain() as number:
-        monkeypatch.setenv("ROS_DOMAIN_ID", str(number))
-        monkeypatch.setenv("ROS_PYTHON_CHECK_FIELDS", "1")
-        yield number
-
-
-@contextmanager
-def _free_domain() -> Iterator[int]:
-    """The next domain that tests of another process do not use either."""
-    for number in (1 + count % 100 for count in _DOMAINS):
-        path = Path(tempfile.gettempdir()) / f"planetary_twin_test_domain_{number}.lock"
-        with path.open("w") as lock:
-            try:
-                fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
-            except BlockingIOError:
-                continue
-            yield number
-            return
 
 
 class Program(subprocess.Popen[str]):
@@ -110,7 +81,7 @@ def points(peer: Peer, start: Start) -> list[OperatingPoint]:
     """What a running simulation has published as its operating point."""
     start("planetary_twin.simulation")
     points = peer.listen(OperatingPoint, f"{TWIN}/operating_point", LATCHED)
-    peer.until(lambda: points, 120.0)
+    peer.until(lambda: points)
     return points
 
 

@@ -12,6 +12,7 @@ from lifecycle_msgs.srv import ChangeState, GetState
 from rcl_interfaces.msg import Parameter as ParameterMsg
 from rcl_interfaces.msg import ParameterType, ParameterValue
 from rcl_interfaces.srv import GetParameters, SetParameters, SetParametersAtomically
+from rclpy.client import Client
 from rclpy.executors import SingleThreadedExecutor
 from rclpy.qos import DurabilityPolicy, QoSProfile
 from rclpy.signals import SignalHandlerOptions
@@ -25,6 +26,9 @@ _GOALS = {
     "deactivate": "inactive",
     "cleanup": "unconfigured",
 }
+LONG = 120.0  # [s] after which what should have come will not, however busy the machine is
+PATIENCE = 10.0  # [s] for an answer
+ATTEMPTS = 6
 TRANSITION = 30.0  # [s] that configuring a node may take where others keep the machine busy
 
 
@@ -37,13 +41,14 @@ class Peer:
         self.node = rclpy.create_node("peer", context=self.context)
         self._executor = SingleThreadedExecutor(context=self.context)
         self._executor.add_node(self.node)
+        self._clients: dict[str, Client] = {}
 
     def close(self) -> None:
         self._executor.shutdown()
         self.node.destroy_node()
         self.context.try_shutdown()
 
-    def until(self, ready: Callable[[], Any], seconds: float = 30.0) -> Any:
+    def until(self, ready: Callable[[], Any], seconds: float = LONG) -> Any:
         """The first true value of `ready`; fails the test after `seconds`."""
         deadline = time.monotonic() + seconds
         while not (value := ready()):
@@ -51,26 +56,30 @@ class Peer:
             self._executor.spin_once(timeout_sec=0.02)
         return value
 
-    def listen(self, kind: type, topic: str, qos: QoSProfile | int = 100) -> list[Any]:
+    def listen(self, kind: type, topic: str, qos: QoSProfile | int = 1000) -> list[Any]:
         """A list that fills with the messages of `topic`."""
         heard: list[Any] = []
         self.node.create_subscription(kind, topic, heard.append, qos)
         return heard
 
-    def call(self, kind: type, service: str, request: Any, patience: float = 3.0) -> Any:
-        """The answer of a service; asks again where the first call after discovery gets lost.
-
-        `patience` [s] must be longer than the answer takes where being asked twice matters.
+    def call(self, kind: type, service: str, request: Any, patience: float = PATIENCE) -> Any:
         """
-        client = self.node.create_client(kind, service)
-        self.until(client.service_is_ready, 60.0)
-        for _ in range(5):
+        The answer of a service.
+
+        An answer gets lost where the server has not yet found a client that is new: then it asks
+        again after `patience` [s], which must be longer than the answer takes where being asked
+        twice matters.
+        """
+        if service not in self._clients:
+            self._clients[service] = self.node.create_client(kind, service)
+        client = self._clients[service]
+        self.until(client.service_is_ready)
+        for _ in range(ATTEMPTS):
             future = client.call_async(request)
             deadline = time.monotonic() + patience
             while not future.done() and time.monotonic() < deadline:
                 self._executor.spin_once(timeout_sec=0.02)
             if future.done():
-                self.node.destroy_client(client)
                 return future.result()
             client.remove_pending_request(future)
         raise AssertionError(f"{service}: no answer")
@@ -93,7 +102,7 @@ class Peer:
             answer = self.call(ChangeState, f"{node}/change_state", request, TRANSITION)
             return answer.success or self.state(node) == _GOALS[transition]  # an answer got lost
 
-        self.until(there, 120.0)
+        self.until(there)
 
     def state(self, node: str) -> str:
         """The state a lifecycle node is in."""

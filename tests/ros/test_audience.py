@@ -6,7 +6,7 @@ from planetary_twin.audience import PATIENCE
 from planetary_twin_msgs.msg import GearboxState, RecorderStatus
 
 from .conftest import Start
-from .peer import TWIN, Peer
+from .peer import LONG, TWIN, Peer
 from .told import figures, listen_to_reports
 
 STATES = f"{TWIN}/gearbox_state"
@@ -21,7 +21,7 @@ def accounted(peer: Peer, topic: str = STATES, messages: int = 30) -> RecorderSt
         topics = list(status[-1].topics) if status else []
         return topic in topics and status[-1].recorded[topics.index(topic)] >= messages
 
-    peer.until(enough, 60.0)
+    peer.until(enough)
     return status[-1]
 
 
@@ -37,7 +37,7 @@ def test_of_nodes_that_start_together_the_recording_has_every_message(
 def test_the_logger_may_come_later_and_may_want_few_topics(peer: Peer, start: Start) -> None:
     start("planetary_twin.simulation", *WAITING)
     reports = listen_to_reports(peer)
-    peer.until(lambda: figures(reports).get("state") == "waits", 60.0)
+    peer.until(lambda: figures(reports).get("state") == "waits")
     start("planetary_twin.logger", "--ros-args", "-p", f"topics:=[{TWIN}/joint_states]")
     status = accounted(peer, f"{TWIN}/joint_states")
     assert list(status.topics) == [f"{TWIN}/joint_states"]
@@ -49,5 +49,5 @@ def test_a_twin_whose_logger_never_comes_says_so_and_begins(peer: Peer, start: S
     states = peer.listen(GearboxState, STATES)
     peer.until(lambda: states, PATIENCE + 60.0)
     simulation.terminate()
-    _, errors = simulation.communicate(timeout=20)
+    _, errors = simulation.communicate(timeout=LONG)
     assert "wait_for = nobody: has not subscribed within 10 s; begins without it" in errors

@@ -64,7 +64,7 @@ def test_a_short_measurement_has_figures_that_can_be(
     monkeypatch.setattr("planetary_twin.benchmark.measure.SETTLING", 1.5)
     said: list[str] = []
     found = Bench(2.0, said.append).punctuality(100.0)
-    assert found.messages > 50 and found.lost == 0
+    assert found.messages > 0 and found.lost == 0
     assert 0.0 < found.sent.p50 <= found.sent.p99 <= found.sent.max
     # A value shows in the interval after the one in which it came, and not before that ends.
     assert found.answer.p50 < found.shown.p50

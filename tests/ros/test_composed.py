@@ -11,7 +11,7 @@ import pytest
 from planetary_twin_msgs.msg import GearboxState, RecorderStatus
 
 from .conftest import Start
-from .peer import TWIN, Peer
+from .peer import LONG, TWIN, Peer
 from .recordings import counts
 
 STATES = f"{TWIN}/gearbox_state"
@@ -23,7 +23,7 @@ def test_what_is_published_is_recorded_until_however_many_signals(
     twin = start("planetary_twin.composed", "--ros-args", "-p", "name:=bag")
     states = peer.listen(GearboxState, STATES, 1000)
     status = peer.listen(RecorderStatus, f"{TWIN}/logger/status")
-    peer.until(lambda: len(states) > 100 and status and STATES in status[-1].topics, 120.0)
+    peer.until(lambda: len(states) > 100 and status and STATES in status[-1].topics)
     told = len(status)
     peer.until(lambda: len(status) > told + 1)
     heard = status[-1].recorded[list(status[-1].topics).index(STATES)]
@@ -50,7 +50,7 @@ def test_what_keeps_one_node_from_starting_ends_both_in_one_line(
 ) -> None:
     (tmp_path / "file").write_text("in the way")
     twin = start("planetary_twin.composed", "--ros-args", "-p", setting)
-    _, errors = twin.communicate(timeout=60)
+    _, errors = twin.communicate(timeout=LONG)
     assert twin.returncode == 1
     lines = [line for line in errors.strip().splitlines() if "[INFO]" not in line]
     assert len(lines) == 1 and lines[0].startswith(told), errors

@@ -23,7 +23,7 @@ from std_srvs.srv import SetBool, Trigger
 from planetary_twin_py._compile import cache_folder
 
 from .conftest import Start
-from .peer import LATCHED, TRANSITION, TWIN, Peer
+from .peer import LATCHED, LONG, TRANSITION, TWIN, Peer
 from .recordings import counts
 
 NAMES = ("simulation", "logger")
@@ -111,7 +111,7 @@ def test_every_legal_transition_is_made_and_every_other_refused(
     assert goals.count("active") == 3 and goals[-1] == "finalized"
     assert process.poll() is None
     process.terminate()
-    _, errors = process.communicate(timeout=20)
+    _, errors = process.communicate(timeout=LONG)
     assert process.returncode == 0
     assert "Traceback" not in errors
 
@@ -126,7 +126,7 @@ def test_a_second_life_of_the_logger_is_a_second_recording(
     for end in ("cleanup", "shutdown"):
         assert managed.change("configure") and managed.change("activate")
         heard = len(states)
-        peer.until(lambda n=heard: len(states) > n + 50, 120.0)
+        peer.until(lambda n=heard: len(states) > n + 50)
         assert end == "shutdown" or managed.change("deactivate")
         assert managed.change(end)
     recordings = list((tmp_path / "recordings").iterdir())
@@ -147,7 +147,7 @@ def test_a_logger_that_cannot_write_tells_why_and_is_mended(
     assert managed.change("configure")
     assert managed.change("shutdown")
     process.terminate()
-    _, errors = process.communicate(timeout=20)
+    _, errors = process.communicate(timeout=LONG)
     assert process.returncode == 0
     assert "directory = recordings: Not a directory" in errors
     assert counts(place / "bag") == {}
@@ -169,7 +169,7 @@ def test_a_simulation_that_cannot_write_its_meshes_tells_why_and_is_mended(
     assert managed.change("configure")
     assert managed.state == "inactive"
     process.terminate()
-    _, errors = process.communicate(timeout=20)
+    _, errors = process.communicate(timeout=LONG)
     assert process.returncode == 0
     assert f"{cache}/planetary_twin/meshes" in errors and "Traceback" not in errors
 
@@ -251,7 +251,7 @@ def test_a_twin_that_stops_by_itself_leads_through_the_error_state(
     executor = SingleThreadedExecutor()
     executor.add_node(simulation)
     simulation.running()._pass = None  # as a defect would: what it does now raises
-    deadline = time.monotonic() + 30.0
+    deadline = time.monotonic() + LONG
     while simulation._state_machine.current_state[1] != "unconfigured":
         assert time.monotonic() < deadline
         executor.spin_once(timeout_sec=0.01)

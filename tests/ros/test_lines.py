@@ -13,7 +13,7 @@ import pytest
 from planetary_twin_msgs.msg import GearboxState
 
 from .conftest import Start
-from .peer import TWIN, Peer
+from .peer import LONG, TWIN, Peer
 from .told import figures, listen_to_reports
 
 NODE = f"{TWIN}/simulation"
@@ -56,13 +56,13 @@ def test_lines_in_a_file_that_others_write_into_stay(tmp_path: Path) -> None:
 def test_its_lines_come_where_somebody_reads(peer: Peer, start: Start) -> None:
     states = peer.listen(GearboxState, f"{TWIN}/gearbox_state")
     node = start("planetary_twin.simulation", "--ros-args", "-p", "rate_factor:=1e9")
-    _, errors = node.communicate(timeout=60.0)
+    _, errors = node.communicate(timeout=LONG)
     assert node.returncode == 1
     assert "rate_factor = 1000000000.0: must be a number within 0 and 100" in errors
     node = start("planetary_twin.simulation")
-    peer.until(lambda: len(states) > 300, 60.0)
+    peer.until(lambda: len(states) > 300)
     node.terminate()
-    _, errors = node.communicate(timeout=20.0)
+    _, errors = node.communicate(timeout=LONG)
     assert "tolerance" in errors
 
 
@@ -72,9 +72,9 @@ def test_a_terminal_that_stands_still_holds_up_neither_the_twin_nor_its_paramete
     states = peer.listen(GearboxState, f"{TWIN}/gearbox_state")
     reports = listen_to_reports(peer)
     # The tolerance that it chooses is the first line it logs.
-    peer.until(lambda: int(figures(reports).get("tolerance_changes", 0)), 60.0)
+    peer.until(lambda: int(figures(reports).get("tolerance_changes", 0)))
     count = len(states)
     assert peer.set(NODE, backlash=3e-7).successful
-    peer.until(lambda: len(states) > count + 300, 30.0)
+    peer.until(lambda: len(states) > count + 300)
     stalled.terminate()
-    assert stalled.wait(10.0) == 0
+    assert stalled.wait(LONG) == 0

@@ -12,7 +12,7 @@ import pytest
 from planetary_twin_msgs.msg import GearboxState
 
 from .conftest import Start
-from .peer import TWIN, Peer
+from .peer import LONG, TWIN, Peer
 from .processes import bound_addresses, working_in
 
 COMMAND = "import sys; from planetary_twin_py.cli import main; sys.exit(main())"
@@ -42,7 +42,7 @@ def twin(
     process = subprocess.Popen([sys.executable, "-c", COMMAND, "run"], cwd=tmp_path)
     yield
     process.send_signal(signal.SIGINT)
-    assert process.wait(60) == 0
+    assert process.wait(LONG) == 0
 
 
 def _addresses(folder: Path) -> dict[int, set[str]]:
@@ -67,15 +67,16 @@ def test_enforced_security_is_never_left_out_silently(
     monkeypatch.setenv("ROS_SECURITY_STRATEGY", "Enforce")
     monkeypatch.setenv("ROS_SECURITY_KEYSTORE", str(tmp_path / "keys"))
     process = start("planetary_twin.simulation")
-    _, errors = process.communicate(timeout=60)
+    _, errors = process.communicate(timeout=LONG)
     assert process.returncode == 1
     assert "Traceback" not in errors
     *_, last = errors.strip().splitlines()
     assert last.startswith("simulation: the middleware refuses the node: ")
 
 
+@pytest.mark.exhaustive
 @pytest.mark.parametrize("twin", ["SUBNET"], indirect=True)
 def test_who_asks_for_the_network_gets_it(twin: None, peer: Peer, tmp_path: Path) -> None:
     states = peer.listen(GearboxState, f"{TWIN}/gearbox_state")
-    peer.until(lambda: states, 120.0)
+    peer.until(lambda: states)
     assert all("0.0.0.0" in addresses for addresses in _addresses(tmp_path).values())

@@ -12,7 +12,7 @@ from planetary_twin_msgs.srv import SetOperatingPoint
 import planetary_twin_py as pt
 
 from .conftest import Start
-from .peer import LATCHED, TWIN, Peer
+from .peer import LATCHED, LONG, TWIN, Peer
 
 ROOT = Path(__file__).parents[2]
 NODE = f"{TWIN}/simulation"
@@ -157,16 +157,17 @@ def test_values_given_at_start_are_read_the_same_way(peer: Peer, start: Start) -
     "given",
     [
         "backlash:=7",
-        "backlash:=wide",
-        "tolerance:=5e-09",
-        "tolerance:=7",
         "rate_factor:=0.005",
         "scene:=nowhere",
+        *(
+            pytest.param(given, marks=pytest.mark.exhaustive)
+            for given in ("backlash:=wide", "tolerance:=5e-09", "tolerance:=7")
+        ),
     ],
 )
 def test_nonsense_at_start_ends_in_one_line(start: Start, given: str) -> None:
     process = start("planetary_twin.simulation", "--ros-args", "-p", given)
-    _, errors = process.communicate(timeout=60)
+    _, errors = process.communicate(timeout=LONG)
     assert process.returncode == 1
     assert len(errors.strip().splitlines()) == 1
     assert given.split(":=")[1] in errors

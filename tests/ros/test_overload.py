@@ -10,6 +10,7 @@ import threading
 import time
 from collections.abc import Iterator
 
+import pytest
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
 from planetary_twin_msgs.msg import GearboxState, MeshWaveform, OperatingPoint
 
@@ -17,7 +18,7 @@ from planetary_twin_py.affordable import HALVINGS
 from planetary_twin_py.tolerance import LADDER
 
 from .conftest import Start
-from .peer import LATCHED, TWIN, Peer
+from .peer import LATCHED, LONG, TWIN, Peer
 from .told import assert_simulated_again, figures, settings_told
 
 NODE = f"{TWIN}/simulation"
@@ -26,7 +27,7 @@ FLOOR = SAMPLE_RATE / 2**HALVINGS
 
 
 @contextlib.contextmanager
-def slow_machine(pid: int, run: float = 0.002, stop: float = 0.048) -> Iterator[None]:
+def slow_machine(pid: int, run: float = 0.008, stop: float = 0.192) -> Iterator[None]:
     """Let a process run for `run` [s] and stand for `stop` [s], again and again."""
     over = threading.Event()
 
@@ -62,7 +63,7 @@ def test_what_is_too_much_is_given_up_in_order_told_and_simulated_again(
     peer.change_state(NODE, "deactivate")
     peer.until(lambda: figures(reports)["state"] == "stopped")
     process.terminate()
-    _, log = process.communicate(timeout=20)
+    _, log = process.communicate(timeout=LONG)
 
     told = figures(reports)
     settings = list(settings_told(told).values())
@@ -91,18 +92,20 @@ def test_what_is_too_much_is_given_up_in_order_told_and_simulated_again(
     assert_simulated_again(waves, points, told, SAMPLE_RATE)
 
 
+@pytest.mark.exhaustive
 def test_the_waveform_is_full_again_once_the_machine_is_quick_again(
     peer: Peer, start: Start
 ) -> None:
-    process = start("planetary_twin.simulation")
+    # A quarter of the time that the same takes in real time: there is enough on a busy machine.
+    process = start("planetary_twin.simulation", "--ros-args", "-p", "rate_factor:=0.25")
     waves = peer.listen(MeshWaveform, f"{TWIN}/mesh_waveform", 1000)
     reports = peer.listen(DiagnosticArray, "/diagnostics")
-    peer.until(lambda: waves and waves[-1].sample_period == 1.0 / SAMPLE_RATE, 120.0)
+    peer.until(lambda: waves and waves[-1].sample_period == 1.0 / SAMPLE_RATE)
     with slow_machine(process.pid):
         peer.until(lambda: waves[-1].sample_period == 1.0 / FLOOR)
-        peer.until(lambda: reports and figures(reports[-1:])["waveform"] == "thinned", 60.0)
+        peer.until(lambda: reports and figures(reports[-1:])["waveform"] == "thinned")
         assert reports[-1].status[0].level != DiagnosticStatus.OK
-    peer.until(lambda: figures(reports[-1:])["waveform"] == "full", 90.0)
+    peer.until(lambda: figures(reports[-1:])["waveform"] == "full", 3 * LONG)
     assert waves[-1].sample_period == 1.0 / SAMPLE_RATE
-    peer.until(lambda: reports[-1].status[0].level == DiagnosticStatus.OK, 60.0)
+    peer.until(lambda: reports[-1].status[0].level == DiagnosticStatus.OK)
     assert int(figures(reports)["sample_rate_changes"]) >= 2

@@ -19,7 +19,7 @@ from rcl_interfaces.srv import (
 from rclpy.parameter import parameter_dict_from_yaml_file, parameter_value_to_python
 
 from .conftest import Start
-from .peer import TWIN, Peer
+from .peer import LONG, TWIN, Peer
 
 NODE = f"{TWIN}/simulation"
 # As users type them: an exponent without a point is text to ROS, a number without one an integer.
@@ -68,7 +68,7 @@ def test_a_dumped_file_gives_its_values_back(peer: Peer, start: Start, tmp_path:
         name: pytest.approx(float(value)) for name, value in TYPED.items()
     }
     first.terminate()
-    assert first.wait(20) == 0
+    assert first.wait(LONG) == 0
 
     start("planetary_twin.simulation", "--ros-args", "--params-file", str(file))
     assert values(peer) == dumped
@@ -114,9 +114,9 @@ def test_a_start_parameter_that_no_node_has_is_warned_of_and_no_other(
     given = ("--ros-args", "--params-file", str(config), "-p", "backlsh:=3e-7")
     process = start("planetary_twin.composed", *given, "-p", "zzz:=1")
     states = peer.listen(GearboxState, f"{TWIN}/gearbox_state")
-    peer.until(lambda: states, 120.0)
+    peer.until(lambda: states)
     process.terminate()
-    _, log = process.communicate(timeout=20)
+    _, log = process.communicate(timeout=LONG)
     told = [line for line in log.splitlines() if "no such parameter" in line]
     assert len(told) == 2
     assert told[0].endswith("backlsh: no such parameter; did you mean backlash?")

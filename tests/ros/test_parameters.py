@@ -13,7 +13,7 @@ from rclpy.parameter import parameter_value_to_python
 import planetary_twin_py as pt
 
 from .conftest import Start
-from .peer import TWIN, Peer
+from .peer import LONG, TWIN, Peer
 
 NODE = f"{TWIN}/simulation"
 ROS = ("use_sim_time", "start_type_description_service")  # what rclpy itself declares
@@ -100,7 +100,7 @@ def test_a_refusal_names_field_value_and_range_and_changes_nothing(
 
 def test_a_start_value_of_the_geometry_must_be_the_scenes(start: Start) -> None:
     process = start("planetary_twin.simulation", "--ros-args", "-p", "gearset.teeth.sun:=31")
-    _, errors = process.communicate(timeout=60)
+    _, errors = process.communicate(timeout=LONG)
     assert process.returncode == 1
     assert errors.startswith("simulation: gearset.teeth.sun = 31: geometry is fixed")
     assert len(errors.strip().splitlines()) == 1

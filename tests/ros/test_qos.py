@@ -16,7 +16,7 @@ from std_msgs.msg import String
 from tf2_msgs.msg import TFMessage
 
 from .conftest import Start
-from .peer import TWIN, Peer
+from .peer import LONG, TWIN, Peer
 
 LATCHED = {f"{TWIN}/operating_point": OperatingPoint, f"{TWIN}/robot_description": String}
 STREAMS = {
@@ -63,7 +63,7 @@ class Audience:
 def test_every_subscriber_hears_or_is_told_why_not(peer: Peer, start: Start) -> None:
     process = start("planetary_twin.simulation", "--ros-args", "-p", "clock:=true")
     states = peer.listen(GearboxState, f"{TWIN}/gearbox_state")
-    peer.until(lambda: len(states) > 10, 120.0)
+    peer.until(lambda: len(states) > 10)
     streams = Audience(peer, STREAMS, VOLATILE)
     late = Audience(peer, LATCHED, KEPT)
     wrong = Audience(peer, STREAMS, KEPT)
@@ -81,7 +81,7 @@ def test_every_subscriber_hears_or_is_told_why_not(peer: Peer, start: Start) -> 
 
     peer.until(changed)
     process.send_signal(signal.SIGINT)
-    _, errors = process.communicate(timeout=20)
+    _, errors = process.communicate(timeout=LONG)
     assert process.returncode == 0
     told = [line for line in errors.splitlines() if "incompatible QoS" in line]
     for topic in STREAMS:

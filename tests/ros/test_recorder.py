@@ -23,7 +23,7 @@ from planetary_twin_py.recording.info import read_info
 from planetary_twin_py.recording.records import files_of, records_of
 
 from .conftest import Start
-from .peer import LATCHED, TWIN, Peer
+from .peer import LATCHED, LONG, TWIN, Peer
 from .recordings import counts
 
 COUNTER = Path(__file__).with_name("counter.py")
@@ -87,7 +87,7 @@ class Logger:
 
     def ends_with(self, reason: str) -> None:
         """It ends by itself, with one line and an exit code that is not zero."""
-        _, errors = self.process.communicate(timeout=30)
+        _, errors = self.process.communicate(timeout=LONG)
         assert self.process.returncode == 1
         lines = [line for line in errors.splitlines() if line.startswith("logger: ")]
         assert len(lines) == 1 and reason in lines[0], errors
@@ -154,14 +154,14 @@ def test_recordings_begin_split_and_end_on_demand(peer: Peer, start: Start, tmp_
     peer.until(lambda: logger.recorded() > before + 50)
     stopped = logger.ask("stop")
     assert stopped.success and stopped.message.endswith("bag_1.mcap")
-    at_least = ticker.sent
+    at_most = ticker.sent
     logger.refuses("stop", "nothing is being recorded")
     logger.refuses("split", "nothing is being recorded")
     peer.until(lambda: logger.status[-1].file == "")
     folder = tmp_path / "recordings/bag"
     numbers = numbers_in(folder)
     assert numbers == list(range(numbers[0], numbers[-1] + 1))
-    assert numbers[0] == 1 and at_least - 20 < numbers[-1] <= at_least + 20
+    assert numbers[0] == 1 and before + 50 < numbers[-1] <= at_most
     assert counts(folder)[TOPIC] == len(numbers)
     assert read_info(folder).topics[TOPIC].lost == 0
     for file in files_of(folder):
@@ -179,7 +179,7 @@ def test_recordings_begin_split_and_end_on_demand(peer: Peer, start: Start, tmp_
     assert begun.success
     peer.until(lambda: logger.recorded() > 20)
     logger.process.terminate()
-    assert logger.process.wait(20) == 0
+    assert logger.process.wait(LONG) == 0
     second = Path(tmp_path / begun.message)
     assert second.parent != folder
     assert len(numbers_in(second.parent)) > 20
@@ -197,12 +197,13 @@ def test_a_snapshot_writes_the_last_seconds_and_goes_on(
     assert not (tmp_path / "recordings").exists()
     files = []
     for _ in range(2):
+        known = logger.recorded()
         answer, sent = logger.ask("snapshot"), ticker.sent
         assert answer.success
         files.append(tmp_path / answer.message)
         numbers = numbers_in(files[-1].parent)
         assert numbers == list(range(numbers[0], numbers[-1] + 1))
-        assert numbers[0] > 1 and sent - 50 < numbers[-1] <= sent
+        assert numbers[0] > 1 and known <= numbers[-1] <= sent
         info = read_info(files[-1]).topics
         assert info[TOPIC].last - info[TOPIC].first <= 5e8
         assert info[DESCRIPTION].recorded == 1
@@ -240,7 +241,7 @@ def test_a_managed_logger_goes_to_its_error_state_and_is_mended(
     peer.change_state(node, "activate")
     peer.until(lambda: logger.reports[-1].level == DiagnosticStatus.OK and logger.recorded() > 20)
     logger.process.terminate()
-    assert logger.process.wait(20) == 0
+    assert logger.process.wait(LONG) == 0
     (folder,) = (tmp_path / "recordings").iterdir()
     assert len(numbers_in(folder)) > 20
 
@@ -259,7 +260,9 @@ def test_a_full_disk_ends_the_logger_in_one_line_and_what_was_flushed_is_readabl
     assert len(numbers) > 30
 
 
-@pytest.mark.parametrize("reliability", ["RELIABLE", "BEST_EFFORT"])
+@pytest.mark.parametrize(
+    "reliability", ["RELIABLE", pytest.param("BEST_EFFORT", marks=pytest.mark.exhaustive)]
+)
 def test_recorded_and_lost_are_what_was_published_under_overload(
     peer: Peer, start: Start, tmp_path: Path, count: Count, reliability: str
 ) -> None:
@@ -282,7 +285,7 @@ def test_recorded_and_lost_are_what_was_published_under_overload(
     assert lost > 0
     assert recorded + lost == 20_001
     logger.process.terminate()
-    _, errors = logger.process.communicate(timeout=20)
+    _, errors = logger.process.communicate(timeout=LONG)
     assert f"lost {TOPIC} {lost}" in errors
     numbers = numbers_in(tmp_path / "recordings/bag")
     assert len(numbers) == len(set(numbers)) == recorded

@@ -12,7 +12,7 @@ from lifecycle_msgs.srv import ChangeState
 from planetary_twin_msgs.msg import GearboxState, RecorderStatus
 
 from .conftest import Start
-from .peer import TWIN, Peer
+from .peer import LONG, TWIN, Peer
 from .recordings import counts, torn_states
 from .told import figures, listen_to_reports
 
@@ -48,13 +48,15 @@ def _record(peer: Peer, start: Start, messages: int = 100) -> list[GearboxState]
     return states
 
 
-@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
+@pytest.mark.parametrize(
+    "number", [signal.SIGINT, pytest.param(signal.SIGTERM, marks=pytest.mark.exhaustive)]
+)
 def test_a_signal_finishes_the_file(
     peer: Peer, start: Start, logger: subprocess.Popen[str], tmp_path: Path, number: int
 ) -> None:
     _record(peer, start)
     logger.send_signal(number)
-    _, errors = logger.communicate(timeout=20)
+    _, errors = logger.communicate(timeout=LONG)
     assert logger.returncode == 0
     assert "Traceback" not in errors
     recorded = counts(tmp_path / "recordings/bag")
@@ -62,15 +64,19 @@ def test_a_signal_finishes_the_file(
     assert recorded[f"{TWIN}/gearbox_state"] >= 100
 
 
-def test_kill_minus_nine_loses_at_most_a_second(
+def test_kill_minus_nine_loses_nothing_that_is_older_than_the_flush_period(
     peer: Peer, start: Start, logger: subprocess.Popen[str], tmp_path: Path
 ) -> None:
     states = _record(peer, start, 200)
     heard = states[-1].simulated_time
+    # The status comes once a second, from the thread that flushes.
+    assert peer.get(f"{TWIN}/logger", "flush_period") <= 0.5
+    status = peer.listen(RecorderStatus, f"{TWIN}/logger/status")
+    peer.until(lambda: len(status) >= 3)
     logger.kill()
-    logger.wait(20)
+    logger.wait(LONG)
     kept = torn_states(tmp_path / "recordings/bag/bag_0.mcap")
-    assert kept[-1].simulated_time > heard - 1.0
+    assert kept[-1].simulated_time >= heard
     first = kept[0].sequence
     assert [state.sequence for state in kept] == list(range(first, first + len(kept)))
 
@@ -103,7 +109,7 @@ def test_recorded_and_lost_are_what_was_published(
     assert set(published()) == TOPICS
     lost = dict(zip(status[-1].topics, status[-1].lost, strict=True))
     logger.terminate()
-    assert logger.wait(20) == 0
+    assert logger.wait(LONG) == 0
     recorded = counts(tmp_path / "recordings/bag")
     assert {name: recorded[name] + lost[name] for name in recorded} == published()
 
@@ -122,13 +128,14 @@ def test_a_folder_that_cannot_be_made_ends_in_one_line(start: Start, tmp_path: P
 
 
 def _refused(process: subprocess.Popen[str], reason: str) -> None:
-    _, errors = process.communicate(timeout=30)
+    _, errors = process.communicate(timeout=LONG)
     assert process.returncode == 1
     assert len(errors.strip().splitlines()) == 1
     assert reason in errors
     assert errors.startswith("logger: ")
 
 
+@pytest.mark.exhaustive
 def test_two_twins_run_side_by_side(peer: Peer, start: Start, tmp_path: Path) -> None:
     for name in ("left", "right"):
         place = ("--ros-args", "-r", f"__ns:=/{name}")
@@ -137,7 +144,7 @@ def test_two_twins_run_side_by_side(peer: Peer, start: Start, tmp_path: Path) ->
     heard = {
         name: peer.listen(GearboxState, f"/{name}/gearbox_state") for name in ("left", "right")
     }
-    peer.until(lambda: all(heard.values()), 120.0)
+    peer.until(lambda: all(heard.values()))
     assert peer.set("/left/simulation", lambda_ratio=2).successful
     peer.until(lambda: abs(heard["left"][-1].sun_planet_lambda_ratio[0] - 2.0) < 1e-6)
     assert abs(heard["right"][-1].sun_planet_lambda_ratio[0] - 1.0) < 1e-6
@@ -147,25 +154,27 @@ def test_the_simulation_ends_on_a_signal_without_a_traceback(peer: Peer, start: 
     for number in (signal.SIGINT, signal.SIGTERM):
         process = start("planetary_twin.simulation")
         states = peer.listen(GearboxState, f"{TWIN}/gearbox_state")
-        peer.until(lambda heard=states: len(heard) > 10, 120.0)
+        peer.until(lambda heard=states: len(heard) > 10)
         process.send_signal(number)
-        _, errors = process.communicate(timeout=20)
+        _, errors = process.communicate(timeout=LONG)
         assert process.returncode == 0, errors
         assert "Traceback" not in errors
 
 
 def test_a_logger_that_is_held_up_for_a_moment_misses_nothing(peer: Peer, start: Start) -> None:
     logger = start("planetary_twin.logger", "--ros-args", "-p", "name:=bag")
-    start("planetary_twin.simulation", "--ros-args", "-p", "wait_for:=logger")
+    # Slow, so that a busy machine publishes no more meanwhile than a publisher keeps.
+    slow = ("-p", "wait_for:=logger", "-p", "rate_factor:=0.25")
+    start("planetary_twin.simulation", "--ros-args", *slow)
     status = peer.listen(RecorderStatus, f"{TWIN}/logger/status")
     states = peer.listen(GearboxState, f"{TWIN}/gearbox_state")
-    peer.until(lambda: states and status, 60.0)
+    peer.until(lambda: states and status)
     for _ in range(3):
         count = len(states)
         logger.send_signal(signal.SIGSTOP)
         peer.until(lambda count=count: len(states) > count + 30)
         logger.send_signal(signal.SIGCONT)
-        peer.until(lambda count=count: len(states) > count + 150)
+        peer.until(lambda count=count: len(states) > count + 50)
     told = len(status)
     peer.until(lambda: len(status) > told + 1)
     assert dict(zip(status[-1].topics, status[-1].lost, strict=True)) == dict.fromkeys(TOPICS, 0)

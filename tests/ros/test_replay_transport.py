@@ -26,7 +26,7 @@ from planetary_twin_py.recording.rosbag2 import Topic
 from planetary_twin_py.recording.schema import message_definition
 
 from .conftest import Start
-from .peer import LATCHED, TWIN, Peer
+from .peer import LATCHED, LONG, TWIN, Peer
 from .recordings import read_all
 
 COMMAND = Path(sys.executable).with_name("planetary-twin")
@@ -36,6 +36,7 @@ BEGIN = 1_790_000_000_000_000_000  # log time of the first message
 STAMPED = 1_000_000_000_000  # its stamp: of another clock
 LENGTH = 2000  # states, in two files
 POINTS = 500  # states between two operating points
+DEPTH = 200  # states that are kept for a subscriber which a busy machine holds up
 Play = Callable[..., "subprocess.Popen[str]"]
 
 
@@ -51,9 +52,9 @@ def split(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return folder
 
 
-def _write(place: Path, steps: range) -> Path:
+def _write(place: Path, steps: range, depth: int = DEPTH) -> Path:
     bag = BagWriter(place)
-    states = bag.add_topic(_topic("gearbox_state", "GearboxState", QoSProfile(depth=10)))
+    states = bag.add_topic(_topic("gearbox_state", "GearboxState", QoSProfile(depth=depth)))
     latched = QoSProfile(depth=1, durability=LATCHED.durability)
     points = bag.add_topic(_topic("operating_point", "OperatingPoint", latched))
     state, point = GearboxState(planets=3), OperatingPoint()
@@ -113,7 +114,7 @@ def numbers(states: list[GearboxState]) -> list[int]:
 
 def expect(peer: Peer, states: list[GearboxState], first: int, last: int) -> None:
     """These and no others have come, and are forgotten."""
-    peer.until(lambda: len(states) > last - first, 60.0)
+    peer.until(lambda: len(states) > last - first)
     assert numbers(states) == list(range(first, last + 1))
     states.clear()
 
@@ -195,31 +196,30 @@ def test_a_running_replay_changes_its_rate_and_place_without_a_jump(
     process = play(split, "--start-offset", "1", "--loop", *arguments)
     peer.until(lambda: len(heard) > 50)
     assert "the replay runs; pause it first" in step(peer, 0.1).message
-    rates = {1.0: _pace(heard)}
-    for rate in (4.0, 0.5):
+    for rate in (1.0, 4.0, 0.5):
         assert peer.set(NODE, rate_factor=rate).successful
-        count = len(heard)
-        peer.until(lambda count=count: len(heard) > count + 100)
-        rates[rate] = _pace(heard[count + 20 :])
-    assert all(found == pytest.approx(rate, rel=0.1) for rate, found in rates.items()), rates
+        settled = len(heard) + 20
+        peer.until(lambda n=settled, r=rate: _pace(heard[n:]) == pytest.approx(r, rel=0.05))
     recorded = [time for time, _ in heard]
-    assert recorded == pytest.approx(1.0 + 0.01 * np.arange(len(recorded)))
+    assert recorded == pytest.approx(1.0 + 0.01 * (np.arange(len(recorded)) % (LENGTH - 100)))
     told = [t.clock.sec * 10**9 + t.clock.nanosec for t in clock]
-    assert told == sorted(told)
-    assert np.diff(told) == pytest.approx(2 * PERIOD)
+    steps = np.diff(told)
+    assert steps[steps > 0] == pytest.approx(2 * PERIOD)
+    assert np.sum(steps <= 0) <= len(recorded) // (LENGTH - 100)  # where the loop begins again
 
     # A pause keeps the place, a seek changes it, also from one turn of the loop to the next.
     held = float(pause(peer, True).split()[-2])
-    peer.until(lambda: heard[-1][0] >= held - 0.0101)
+    peer.until(lambda: held - 0.0101 <= heard[-1][0] <= held + 1e-9)
     count = len(heard)
     pause(peer, False)
     peer.until(lambda: len(heard) > count)
     assert heard[count][0] == pytest.approx(heard[count - 1][0] + 0.01)
+    count = len(heard)
     assert seek(peer, 19.8).success
-    peer.until(lambda: any(b < a for (a, _), (b, _) in itertools.pairwise(heard)))
-    recorded = [time for time, _ in heard]
+    peer.until(lambda: any(b < a for (a, _), (b, _) in itertools.pairwise(heard[count:])))
+    recorded = [time for time, _ in heard[count:]]
     place = recorded.index(pytest.approx(19.8))
-    after = np.array(recorded[place:])
+    after = np.array(recorded[place : place + 21])
     assert np.round(100 * after[:21]) == pytest.approx([*range(1980, 2000), 100])
 
     # As fast as it goes, and back to a pace.
@@ -228,7 +228,7 @@ def test_a_running_replay_changes_its_rate_and_place_without_a_jump(
     peer.until(lambda: len(heard) > count + 3000)
     assert peer.set(NODE, rate_factor="1").successful
     # Once what was on its way has come.
-    peer.until(lambda: _pace(heard[-50:]) == pytest.approx(1.0, rel=0.1))
+    peer.until(lambda: _pace(heard[-200:]) == pytest.approx(1.0, rel=0.1))
     process.send_signal(signal.SIGINT)
     peer.until(lambda: process.poll() is not None)
     output, errors = process.communicate()
@@ -237,9 +237,21 @@ def test_a_running_replay_changes_its_rate_and_place_without_a_jump(
 
 
 def _pace(heard: list[tuple[float, float]]) -> float:
-    """Recorded seconds per second of the newest that were heard."""
+    """Recorded seconds per second of what was heard, NaN where that is little."""
+    if len(heard) < 100:
+        return math.nan
     recorded, received = np.array(heard).T
-    return float(np.polyfit(received, recorded, 1)[0])
+    return float(np.polyfit(received, np.unwrap(recorded, period=LENGTH * 0.01 - 1.01), 1)[0])
+
+
+def test_as_fast_as_it_goes_every_message_reaches_a_reliable_subscriber(
+    peer: Peer, play: Play, tmp_path: Path
+) -> None:
+    file = _write(tmp_path / "shallow", range(LENGTH), depth=5)
+    states = peer.listen(GearboxState, f"{TWIN}/gearbox_state", LENGTH)
+    process = play(file, "--rate", "0")
+    peer.until(lambda: process.poll() is not None)
+    expect(peer, states, 1, LENGTH)
 
 
 def test_a_recorded_clock_is_played_alone(peer: Peer, play: Play, tmp_path: Path) -> None:
@@ -266,7 +278,7 @@ def test_what_cannot_be_renamed_or_chosen_ends_in_one_line(play: Play, split: Pa
 
 
 def _refused(process: subprocess.Popen[str], *reasons: str, code: int = 1) -> None:
-    _, errors = process.communicate(timeout=60)
+    _, errors = process.communicate(timeout=LONG)
     assert process.returncode == code
     assert len(errors.strip().splitlines()) == 1, errors
     assert all(reason in errors for reason in reasons), errors
@@ -286,7 +298,7 @@ def test_recorded_played_and_recorded_again_it_is_the_same(
     logger = start("planetary_twin.logger", "--ros-args", "-p", "name:=second")
     peer.until(lambda: (tmp_path / "recordings/second/second_0.mcap").exists())
     player = play(first)
-    peer.until(lambda: player.poll() is not None, 60.0)
+    peer.until(lambda: player.poll() is not None)
     assert player.returncode == 0
     logger.send_signal(signal.SIGINT)
     peer.until(lambda: logger.poll() is not None)

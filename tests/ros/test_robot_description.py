@@ -18,7 +18,7 @@ from std_msgs.msg import String
 from tf2_msgs.msg import TFMessage
 
 from .conftest import Start
-from .peer import TWIN, Peer
+from .peer import LONG, TWIN, Peer
 
 PREFIX = "left/"
 # As `ros2 topic info -v /tf` tells it in Jazzy: the type is built here, and must be that of ROS.
@@ -84,7 +84,7 @@ def test_a_late_subscriber_gets_the_gearbox_and_its_frames_as_its_joints_say(
     states = peer.listen(JointState, f"{TWIN}/joint_states")
     transforms = peer.listen(TFMessage, "/tf")
     gearbox = peer.listen(GearboxState, f"{TWIN}/gearbox_state")
-    peer.until(lambda: len(states) > 100 and transforms and gearbox, 120.0)
+    peer.until(lambda: len(states) > 100 and transforms and gearbox)
     heard = peer.listen(String, f"{TWIN}/robot_description", LATCHED)
     robot = ElementTree.fromstring(peer.until(lambda: heard)[0].data)
     joints = {joint.attrib["name"] for joint in robot.iter("joint") if "name" in joint.attrib} - {
@@ -122,7 +122,7 @@ def test_a_cache_folder_that_cannot_be_written_ends_in_one_line(
     monkeypatch.setenv("NUMBA_CACHE_DIR", str(tmp_path / "kernels"))
     monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "file"))
     process = start("planetary_twin.simulation")
-    _, errors = process.communicate(timeout=60)
+    _, errors = process.communicate(timeout=LONG)
     assert process.returncode == 1
     assert len(errors.strip().splitlines()) == 1
     assert "XDG_CACHE_HOME" in errors

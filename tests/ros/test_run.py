@@ -24,8 +24,8 @@ from std_srvs.srv import SetBool, Trigger
 
 from planetary_twin_py.scene import load_scene, parse_scene
 
-from .peer import TWIN, Peer
-from .processes import working_in
+from .peer import LONG, TWIN, Peer
+from .processes import holding, working_in
 from .recordings import counts, disorder, torn_states
 
 COMMAND = (
@@ -81,10 +81,12 @@ def test_a_run_records_every_message_it_publishes(
     assert working_in(tmp_path) == []
 
 
+@pytest.mark.exhaustive
 def test_messages_stand_in_the_order_in_which_they_were_received_while_it_keeps_up(
     run: Callable[..., subprocess.Popen[str]], tmp_path: Path
 ) -> None:
-    process = run("--duration", "2", "--no-tour", "--record", "bag")
+    # Slow enough for any machine to keep up.
+    process = run("--duration", "0.5", "--rate-factor", "0.2", "--no-tour", "--record", "bag")
     _, errors = process.communicate(timeout=120)
     assert process.returncode == 0, errors
     assert disorder(tmp_path / "recordings/bag/bag_0.mcap") < 0.1
@@ -94,33 +96,38 @@ def test_a_run_without_end_is_shown_around_as_a_usual_one() -> None:
     assert tour_of("paper", math.inf) == tour_of("paper", LENGTH)
 
 
+@pytest.mark.exhaustive
 def test_a_recording_that_was_split_on_the_way_is_counted_as_a_whole(
     run: Callable[..., subprocess.Popen[str]], peer: Peer, tmp_path: Path
 ) -> None:
-    process = run("--duration", "5", "--no-tour", "--record", "bag", "--json", "figures.json")
+    process = run("--duration", "600", "--no-tour", "--record", "bag", "--json", "figures.json")
     _line(process, "rpm")
     assert peer.call(Trigger, f"{TWIN}/logger/split", Trigger.Request()).success
-    output, errors = process.communicate(timeout=60)
+    process.send_signal(signal.SIGINT)
+    output, errors = process.communicate(timeout=LONG)
     assert process.returncode == 0, errors
     figures = json.loads((tmp_path / "figures.json").read_text())
-    assert figures["duration_s"] >= 5.0
     assert all(topic["lost"] == 0 for topic in figures["topics"].values()), output
     assert f"recordings{os.sep}bag: 2 files" in output
 
 
+@pytest.mark.exhaustive
 def test_what_came_while_the_logger_was_stopped_is_told_and_both_recordings_are_counted(
     run: Callable[..., subprocess.Popen[str]], peer: Peer, tmp_path: Path
 ) -> None:
-    process = run("--duration", "6", "--no-tour", "--record", "bag", "--json", "figures.json")
+    process = run("--duration", "600", "--no-tour", "--record", "bag", "--json", "figures.json")
     _line(process, "rpm")
     for service in ("stop", "start"):
         assert peer.call(Trigger, f"{TWIN}/logger/{service}", Trigger.Request(), 20.0).success
-    output, errors = process.communicate(timeout=60)
+    states = peer.listen(GearboxState, f"{TWIN}/gearbox_state")
+    peer.until(lambda: len(states) > 100)
+    process.send_signal(signal.SIGINT)
+    output, errors = process.communicate(timeout=LONG)
     assert process.returncode == 0, errors
     states = json.loads((tmp_path / "figures.json").read_text())["topics"][f"{TWIN}/gearbox_state"]
     held = [counts(bag)[f"{TWIN}/gearbox_state"] for bag in tmp_path.glob("recordings/*")]
     assert len(held) == 2 and sum(held) == states["recorded"]
-    assert states["recorded"] + states["lost"] == states["published"] >= 600
+    assert states["recorded"] + states["lost"] == states["published"]
     assert "while the logger was stopped" in output
 
 
@@ -130,7 +137,7 @@ def test_ctrl_c_leaves_a_readable_recording_and_the_table(
     process = run("--duration", "600", "--record", "bag")
     _line(process, "rpm")
     process.send_signal(signal.SIGINT)
-    output, errors = process.communicate(timeout=60)
+    output, errors = process.communicate(timeout=LONG)
     assert process.returncode == 0, errors
     assert "Traceback" not in errors
     assert "published" in output
@@ -138,14 +145,19 @@ def test_ctrl_c_leaves_a_readable_recording_and_the_table(
     assert working_in(tmp_path) == []
 
 
-@pytest.mark.parametrize("seconds", [0.9, 1.8, 2.7])
+@pytest.mark.parametrize(
+    "seconds", [0.0, *(pytest.param(s, marks=pytest.mark.exhaustive) for s in (0.9, 1.8))]
+)
 def test_ctrl_c_while_it_starts_leaves_nothing_running(
     run: Callable[..., subprocess.Popen[str]], tmp_path: Path, seconds: float
 ) -> None:
     process = run("--duration", "600")
+    deadline = time.monotonic() + LONG
+    while not holding(process.pid, "_rclpy"):  # before, Python is still to learn what to run
+        assert time.monotonic() < deadline and process.poll() is None
     time.sleep(seconds)  # the very thing under test: an arbitrary moment
     process.send_signal(signal.SIGINT)
-    _, errors = process.communicate(timeout=60)
+    _, errors = process.communicate(timeout=LONG)
     assert process.returncode == 0, errors
     assert "Traceback" not in errors
     assert working_in(tmp_path) == []
@@ -153,7 +165,9 @@ def test_ctrl_c_while_it_starts_leaves_nothing_running(
     assert all(counts(bag)[f"{TWIN}/gearbox_state"] for bag in tmp_path.glob("recordings/*"))
 
 
-@pytest.mark.parametrize("node", ["simulation", "logger"])
+@pytest.mark.parametrize(
+    "node", [pytest.param("simulation", marks=pytest.mark.exhaustive), "logger"]
+)
 def test_the_death_of_a_node_ends_the_run_with_one_line(
     run: Callable[..., subprocess.Popen[str]], tmp_path: Path, node: str
 ) -> None:
@@ -165,7 +179,7 @@ def test_the_death_of_a_node_ends_the_run_with_one_line(
         if f"planetary_twin.{node}".encode() in Path(f"/proc/{pid}/cmdline").read_bytes()
     )
     os.kill(victim, signal.SIGKILL)
-    _, errors = process.communicate(timeout=60)
+    _, errors = process.communicate(timeout=LONG)
     assert process.returncode == 1
     assert len(errors.strip().splitlines()) == 1
     assert f"{node}: ended by SIGKILL; what was recorded is in recordings/" in errors
@@ -178,13 +192,13 @@ def test_kill_minus_nine_of_the_run_takes_its_nodes_along(
     process = run("--duration", "600", "--record", "bag")
     _line(process, "rpm")
     bag = tmp_path / "recordings/bag"
-    deadline = time.monotonic() + 60.0
+    deadline = time.monotonic() + LONG
     while not torn_states(bag / "bag_0.mcap"):  # until the first flush
         assert time.monotonic() < deadline
         time.sleep(0.1)
     process.kill()
-    process.communicate(timeout=60)
-    deadline = time.monotonic() + 20.0
+    process.communicate(timeout=LONG)
+    deadline = time.monotonic() + LONG
     while working_in(tmp_path):
         assert time.monotonic() < deadline
         time.sleep(0.05)
@@ -205,22 +219,23 @@ def test_a_mistake_ends_in_one_line_before_anything_starts(
     run: Callable[..., subprocess.Popen[str]], tmp_path: Path, options: list[str], reason: str
 ) -> None:
     process = run(*options)
-    _, errors = process.communicate(timeout=60)
+    _, errors = process.communicate(timeout=LONG)
     assert process.returncode == 2
     assert len(errors.strip().splitlines()) == 1
     assert reason in errors
     assert not (tmp_path / "recordings").exists()
 
 
+@pytest.mark.exhaustive
 def test_a_second_run_on_the_same_domain_is_refused_and_leaves_the_first_alone(run):
     first = run("--duration", "60", "--no-tour")
     _line(first, "rpm")
     second = run("--duration", "1")
-    _, errors = second.communicate(timeout=60)
+    _, errors = second.communicate(timeout=LONG)
     assert second.returncode == 1
     assert "another twin runs on ROS_DOMAIN_ID" in errors.strip().splitlines()[-1]
     first.send_signal(signal.SIGINT)
-    output, _ = first.communicate(timeout=60)
+    output, _ = first.communicate(timeout=LONG)
     assert first.returncode == 0
     assert "efficiency" in output
 
@@ -230,7 +245,7 @@ def test_a_run_does_not_begin_where_something_else_publishes_a_twin(
 ) -> None:
     peer.node.create_publisher(GearboxState, f"{TWIN}/gearbox_state", 10)
     process = run("--duration", "60", "--record", "bag")
-    _, errors = process.communicate(timeout=60)
+    _, errors = process.communicate(timeout=LONG)
     assert process.returncode == 1
     assert "/peer runs on ROS_DOMAIN_ID" in errors
     assert not (tmp_path / "recordings/bag").exists()
@@ -246,12 +261,13 @@ def test_a_pause_however_long_and_a_reset_are_no_failure_of_a_run(
     time.sleep(SILENCE + 2.0)  # the very thing under test
     assert peer.call(SetBool, f"{TWIN}/simulation/pause", SetBool.Request(data=False)).success
     assert peer.call(Trigger, f"{TWIN}/simulation/reset", Trigger.Request()).success
-    output, errors = process.communicate(timeout=60)
+    output, errors = process.communicate(timeout=LONG)
     assert process.returncode == 0, errors
     assert re.search(r"^ +1\.\d\d s .*rpm", output, re.MULTILINE)  # of the run that began anew
     assert "efficiency" in output
 
 
+@pytest.mark.exhaustive
 def test_a_run_whose_simulation_is_shut_down_says_so(
     run: Callable[..., subprocess.Popen[str]], peer: Peer, tmp_path: Path
 ) -> None:
@@ -259,23 +275,24 @@ def test_a_run_whose_simulation_is_shut_down_says_so(
     _line(process, "rpm")
     request = ChangeState.Request(transition=Transition(label="shutdown"))
     assert peer.call(ChangeState, f"{TWIN}/simulation/change_state", request, 20.0).success
-    _, errors = process.communicate(timeout=60)
+    _, errors = process.communicate(timeout=LONG)
     assert process.returncode == 1
     assert "was made finalized by a request to its life cycle; what was recorded is in" in errors
     assert counts(tmp_path / "recordings/bag")[f"{TWIN}/gearbox_state"] > 0
 
 
+@pytest.mark.exhaustive
 def test_a_recording_that_others_make_under_the_name_meanwhile_is_left_alone(
     run: Callable[..., subprocess.Popen[str]], tmp_path: Path
 ) -> None:
     process = run("--duration", "60", "--record", "bag")
-    deadline = time.monotonic() + 60.0
+    deadline = time.monotonic() + LONG
     while len(working_in(tmp_path)) < 2:  # from when on the name has been seen free
         assert time.monotonic() < deadline
     theirs = tmp_path / "recordings/bag/theirs.mcap"
     theirs.parent.mkdir(parents=True)
     theirs.write_bytes(b"theirs")
-    _, errors = process.communicate(timeout=60)
+    _, errors = process.communicate(timeout=LONG)
     assert process.returncode == 1
     assert "exists" in errors
     assert theirs.read_bytes() == b"theirs"

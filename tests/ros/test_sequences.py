@@ -55,7 +55,7 @@ def test_nothing_that_is_done_to_it_breaks_numbers_or_stamps(peer: Peer, start: 
 
     def run() -> None:
         count = len(states)
-        peer.until(lambda: len(states) > count + 5, 120.0)
+        peer.until(lambda: len(states) > count + 5)
 
     run()
     storm(peer)

@@ -18,7 +18,7 @@ from rclpy.serialization import deserialize_message
 from rosbags.rosbag2 import Reader
 
 from .conftest import Start
-from .peer import TWIN, Peer
+from .peer import LONG, TWIN, Peer
 from .told import figures, listen_to_reports
 
 DURATION = float(os.environ.get("SOAK_DURATION", "60"))  # [s]
@@ -71,7 +71,7 @@ def test_a_long_run_neither_grows_nor_loses_nor_falls_behind_by_itself(
     reports = listen_to_reports(peer)
     peer.change_state(NODE, "configure")
     topics = {f"{TWIN}/gearbox_state", f"{TWIN}/mesh_waveform", "/diagnostics"}
-    peer.until(lambda: status and topics <= set(status[-1].topics), 60.0)
+    peer.until(lambda: status and topics <= set(status[-1].topics))
     peer.change_state(NODE, "activate")
     begun, waited = time.monotonic(), waited_for_processor(process.pid)
 
@@ -100,9 +100,9 @@ def test_a_long_run_neither_grows_nor_loses_nor_falls_behind_by_itself(
     peer.until(lambda: accounted(status[-1]) == published(told))
     lost = dict(zip(status[-1].topics, status[-1].lost, strict=True))
     logger.terminate()
-    assert logger.wait(60) == 0
+    assert logger.wait(LONG) == 0
     process.terminate()
-    assert process.wait(20) == 0
+    assert process.wait(LONG) == 0
     check_recording(tmp_path / "recordings/bag", told, lost)
 
     slope, span = Slope.of(times, sizes), times[-1] - times[0]

@@ -7,6 +7,7 @@ import sys
 from pathlib import Path
 
 import numpy as np
+import pytest
 from planetary_twin_msgs.msg import GearboxState, OperatingPoint
 from rerun.chunk import McapReader, RrdReader
 
@@ -30,7 +31,7 @@ def test_a_running_twin_is_drawn_and_where_there_is_none_one_line_says_so(
         _view("--during", ":4", "--namespace", name, "--save", f"{tmp_path}/{name}.rrd")
         for name in ("planetary_twin", "nobody")
     )
-    peer.until(lambda: shown.poll() is not None and nobody.poll() is not None, 60.0)
+    peer.until(lambda: shown.poll() is not None and nobody.poll() is not None)
     assert shown.returncode == 0, shown.communicate()
     times = []
     static = set()
@@ -40,9 +41,10 @@ def test_a_running_twin_is_drawn_and_where_there_is_none_one_line_says_so(
         elif chunk.entity_path == "/mesh/dte_mean":
             times += chunk.to_record_batch().column("simulated_time").cast("int64").to_pylist()
     assert "/gears/carrier/pin_1/planet_1" in static
+    peer.until(lambda: states[-1].simulated_time >= 1e-9 * max(times) - 1e-6)
     heard = np.rint(1e9 * np.array([state.simulated_time for state in states]))
     assert np.all(np.diff(times) > 0)
-    assert len(np.intersect1d(times, heard)) >= 100  # of 400: the machine may be busy
+    assert len(times) >= 10 and np.isin(times, heard).all()
     assert nobody.returncode == 2
     _, errors = nobody.communicate()
     assert errors == (
@@ -52,13 +54,14 @@ def test_a_running_twin_is_drawn_and_where_there_is_none_one_line_says_so(
     assert not (tmp_path / "nobody.rrd").exists()
 
 
+@pytest.mark.exhaustive
 def test_rerun_itself_finds_gears_that_turn_and_named_joints_in_the_file(
     peer: Peer, start: Start, tmp_path: Path
 ) -> None:
     logger = start("planetary_twin.logger", "--ros-args", "-p", "name:=bag")
     start("planetary_twin.simulation")
     states = peer.listen(GearboxState, f"{TWIN}/gearbox_state")
-    peer.until(lambda: len(states) > 100, 120.0)
+    peer.until(lambda: len(states) > 100)
     logger.terminate()
     peer.until(lambda: logger.poll() is not None)
     solids, names, turning = set(), [], 0

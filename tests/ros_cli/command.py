@@ -35,7 +35,7 @@ class Ros2:
             stdout=subprocess.PIPE,
             stderr=subprocess.STDOUT,
             text=True,
-            timeout=60,
+            timeout=120,
         ).stdout
 
     def start(self, *arguments: str) -> subprocess.Popen[str]:
@@ -57,7 +57,7 @@ class Ros2:
         """End it as Ctrl-C does, which reaches all that it has started; returns the exit code."""
         if process.poll() is None:
             os.killpg(process.pid, signal.SIGINT)
-        return process.wait(30)
+        return process.wait(120)
 
     def output(self, process: subprocess.Popen[str]) -> str:
         """What a command that goes on has printed so far."""

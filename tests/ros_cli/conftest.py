@@ -12,17 +12,14 @@ prints is all that is read, so any installation of it can be tested.
 
 from __future__ import annotations
 
-import itertools
-import os
 import shutil
 from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
+from domains import private_domain
 
 from .command import Ros2
-
-_DOMAINS = itertools.count(os.getpid())
 
 
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
@@ -38,11 +35,12 @@ def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
 @pytest.fixture(scope="module")
 def ros2(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Ros2]:
     """The command on a domain of its own; ends what it has started, and its daemon."""
-    command = Ros2(101 + next(_DOMAINS) % 100, tmp_path_factory.mktemp("cli"))
-    yield command
-    for process in command.started:
-        command.interrupt(process)
-    command("daemon", "stop")
+    with private_domain() as number:
+        command = Ros2(number, tmp_path_factory.mktemp("cli"))
+        yield command
+        for process in command.started:
+            command.interrupt(process)
+        command("daemon", "stop")
 
 
 @pytest.fixture(scope="module")

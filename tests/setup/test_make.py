@@ -24,7 +24,7 @@ def make(*arguments, directory=ROOT, **environment):
         env={**outside, **environment},
         capture_output=True,
         text=True,
-        timeout=120,
+        timeout=600,
     )
 
 

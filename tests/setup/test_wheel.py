@@ -98,10 +98,11 @@ def without_extras(folder, code, *arguments):
         [sys.executable, "-c", WITHOUT.format(folder=str(folder)) + code, *arguments],
         capture_output=True,
         text=True,
-        timeout=250,
+        timeout=1200,
     )
 
 
+@pytest.mark.exhaustive
 @pytest.mark.slow
 def test_the_model_alone_simulates(alone):
     done = without_extras(

@@ -54,6 +54,7 @@ def test_the_zero_of_the_encoders_would_tell_it(tmp_path):
     assert low < 2e-7 < high
 
 
+@pytest.mark.exhaustive
 @pytest.mark.slow
 def test_without_noise_the_truth_is_found_through_a_change_that_still_rings(tmp_path):
     changes = [(0.1, {"input_torque": 40.0})]

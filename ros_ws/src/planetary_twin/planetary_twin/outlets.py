@@ -17,6 +17,39 @@ from .managed import NodeError
 from .qos import publisher_qos
 from .topics import message_class
 
+_POLL = 2e-3  # [s]
+_NOW = Duration()
+
+
+class Outlet:
+    """A publisher that knows whether it would overwrite what a reliable subscriber still lacks."""
+
+    def __init__(self, publisher: Publisher, depth: int) -> None:
+        self.publisher = publisher
+        self._depth = depth
+        self._sent = 0  # since all was acknowledged
+
+    def publish(self, data: bytes) -> None:
+        """Publish a serialised message."""
+        self.publisher.publish(data)
+        self._sent += 1
+
+    def has_room(self) -> bool:
+        """
+        Return whether the next message overwrites none that is not acknowledged.
+
+        A subscriber that has died counts until its lease expires: 20 s in Fast DDS. A publisher
+        without reliable subscribers always has room.
+        """
+        if self._sent >= self._depth and self.acknowledged():
+            self._sent = 0
+        return self._sent < self._depth
+
+    def acknowledged(self) -> bool:
+        """Return whether every reliable subscriber has acknowledged every message."""
+        # Only polled: while rclpy waits it holds the interpreter, so that no service is answered.
+        return bool(self.publisher.wait_for_all_acked(_NOW))
+
 
 class Outlets:
     """
@@ -28,7 +61,7 @@ class Outlets:
     def __init__(self, node: Node, topics: Iterable[Topic], names: Mapping[str, str]) -> None:
         self._node = node
         self._names = names
-        self._publishers: dict[str, Publisher] = {}
+        self._outlets: dict[str, Outlet] = {}
         try:
             for topic in topics:
                 self._offer(topic)
@@ -37,29 +70,33 @@ class Outlets:
             raise
 
     def __len__(self) -> int:
-        return len(self._publishers)
+        return len(self._outlets)
 
     def publish(self, cue: Cue) -> None:
         """Publish a message as it was recorded."""
-        self._publishers[cue.topic].publish(cue.data)
+        self._outlets[cue.topic].publish(cue.data)
+
+    def has_room(self, cue: Cue) -> bool:
+        """Return whether `cue` overwrites nothing that a reliable subscriber still lacks."""
+        return self._outlets[cue.topic].has_room()
 
     def shared(self) -> list[str]:
         """Names of the topics that others publish too."""
-        names = (self._names[topic] for topic in self._publishers)
+        names = (self._names[topic] for topic in self._outlets)
         return [name for name in names if self._node.count_publishers(name) > 1]
 
     def wait(self, seconds: float) -> None:
         """Wait until subscribers have acknowledged what was published, or `seconds` are over."""
         deadline = time.monotonic() + seconds
-        for publisher in self._publishers.values():
-            remaining = max(deadline - time.monotonic(), 0.0)
-            publisher.wait_for_all_acked(Duration(seconds=remaining))
+        for outlet in self._outlets.values():
+            while not outlet.acknowledged() and time.monotonic() < deadline:
+                time.sleep(_POLL)
 
     def close(self) -> None:
         """Let the publishers go."""
-        for publisher in self._publishers.values():
-            self._node.destroy_publisher(publisher)
-        self._publishers = {}
+        for outlet in self._outlets.values():
+            self._node.destroy_publisher(outlet.publisher)
+        self._outlets = {}
 
     def _offer(self, topic: Topic) -> None:
         name = self._names[topic.name]
@@ -71,9 +108,10 @@ class Outlets:
         except (KeyError, ValueError, TypeError) as defect:
             raise NodeError(f"{topic.name}: recorded QoS is unreadable: {defect!r}") from None
         try:
-            self._publishers[topic.name] = self._node.create_publisher(kind, name, qos)
+            publisher = self._node.create_publisher(kind, name, qos)
         except NameValidationException as refusal:
             raise NodeError(f"{name}: {str(refusal).splitlines()[0]}") from None
+        self._outlets[topic.name] = Outlet(publisher, max(qos.depth, 1))
         if topic.type_hash not in ("", self._type_hash(name)):
             raise NodeError(f"{topic.name}: recorded with another version of {topic.type}")
 

@@ -15,6 +15,7 @@ from .orders import Orders
 
 LONGEST_STEP = 10.0  # [s] that a paused tape plays at a time
 _POLL = 0.05  # [s]
+_YIELD = 2e-3  # [s] for subscribers to take what they were sent
 _LONGEST_WAIT = 3600.0  # [s] for an order, while there is nothing to play
 
 
@@ -26,6 +27,9 @@ class Stage(Protocol):
 
     def begin(self) -> None:
         """Begin anew: the first cue comes next."""
+
+    def has_room(self, cue: Cue) -> bool:
+        """Return whether `cue` can be played without loss to a subscriber that is slow."""
 
     def play(self, cue: Cue) -> None:
         """Publish `cue`, whose instant is now."""
@@ -54,7 +58,7 @@ class Player:
     """
     Plays so many recorded seconds per second, to absolute deadlines on the steady clock.
 
-    Where the rate factor is 0, it plays as fast as it goes.
+    Where the rate factor is 0, it plays as fast as reliable subscribers take what they are sent.
     A cue that is late is played at once and none is left out: the tape catches up by itself. Where
     it is paused at an instant, all up to and at that instant has been played. Orders are carried
     out between two cues; their futures give the recorded instant [s] of that.
@@ -125,6 +129,8 @@ class Player:
         """Play to the end; false if stopped before."""
         while not self._stop.is_set():
             remaining = self._transport.remaining(self._upcoming, time.monotonic())
+            if not self._transport.paced and not self._has_room():
+                remaining = max(remaining, _YIELD)
             # Waiting for an order, not sleeping: neither it nor a signal waits for the next cue.
             answers = self._orders.carry_out(min(max(remaining, 0.0), _LONGEST_WAIT))
             for answer in answers:
@@ -150,6 +156,9 @@ class Player:
         self._cues = self._stretch.cues(instant)
         self._next = next(self._cues, None)
 
+    def _has_room(self) -> bool:
+        return self._next is None or self._stage.has_room(self._next)
+
     def _play_next(self) -> None:
         self._stage.play(self._next)
         self._next = next(self._cues, None)
@@ -157,7 +166,10 @@ class Player:
     def _play_through(self, instant: int) -> None:
         """Play all up to and at `instant`, and stand there; less far if stopped meanwhile."""
         while self._next is not None and self._next.time <= instant and not self._stop.is_set():
-            self._play_next()
+            if self._has_room():
+                self._play_next()
+            else:
+                self._stop.wait(_YIELD)
         self._transport.place(min(instant, self._upcoming), time.monotonic())
 
     def _go_to(self, instant: int) -> None:

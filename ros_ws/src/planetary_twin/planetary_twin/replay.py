@@ -133,6 +133,10 @@ class Replay(ManagedNode):
         if shared := self._outlets.shared():
             self._listener.warn(f"others publish too, subscribers hear both: {', '.join(shared)}")
 
+    def has_room(self, cue: Cue) -> bool:
+        """Return whether `cue` overwrites nothing that a reliable subscriber still lacks."""
+        return self._outlets.has_room(cue)
+
     def play(self, cue: Cue) -> None:
         """Publish a message as it was recorded."""
         self._outlets.publish(cue)

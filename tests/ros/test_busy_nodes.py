@@ -1,0 +1,81 @@
+"""Services are answered whatever a node is busy with: nothing it does starves them."""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+from pathlib import Path
+
+from planetary_twin_msgs.msg import GearboxState, MeshWaveform, RecorderStatus
+from rclpy.serialization import serialize_message
+from std_msgs.msg import String
+from std_srvs.srv import SetBool, Trigger
+
+from planetary_twin_py.recording.bag import BagWriter
+from planetary_twin_py.recording.rosbag2 import Topic
+from planetary_twin_py.recording.schema import message_definition
+
+from .conftest import Start
+from .peer import TWIN, Peer
+
+HERE = Path(__file__).parent
+REQUESTS = 20
+NUMBERS = f"{TWIN}/numbers"
+
+
+def assert_answers(peer: Peer, node: str, parameter: str) -> None:
+    """Every request of another process is answered while this one listens to all that comes."""
+    command = [sys.executable, str(HERE / "asker.py"), node, parameter, str(REQUESTS)]
+    asker = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+    peer.until(lambda: asker.poll() is not None)
+    answers, errors = asker.communicate()
+    assert asker.returncode == 0, errors
+    assert len(answers.splitlines()) == REQUESTS
+
+
+def test_a_replay_as_fast_as_it_goes(peer: Peer, start: Start, tmp_path: Path) -> None:
+    bag = BagWriter(tmp_path / "bag")
+    kind = "std_msgs/msg/String"
+    channel = bag.add_topic(Topic(NUMBERS, kind, "", message_definition(kind)))
+    for k in range(5000):
+        bag.write(channel, serialize_message(String(data=f"{k}".ljust(400))), 1 + k, 1 + k, k)
+    bag.close()
+    heard = peer.listen(String, NUMBERS, 1000)
+    options = (f"file:={bag.file}", "rate_factor:=0.0", "loop:=true")
+    arguments = [word for option in options for word in ("-p", option)]
+    start("planetary_twin.replay", "--ros-args", *arguments)
+    peer.until(lambda: len(heard) > 1000)
+    node = f"{TWIN}/replay"
+    assert_answers(peer, node, "loop")
+    # So are those who listen, and the orders that its player carries out.
+    for paused in (True, False):
+        assert peer.call(SetBool, f"{node}/pause", SetBool.Request(data=paused)).success
+    assert peer.set(node, rate_factor=1.0).successful
+
+
+def test_a_simulation_as_fast_as_it_goes(peer: Peer, start: Start) -> None:
+    states = peer.listen(GearboxState, f"{TWIN}/gearbox_state", 1000)
+    waves = peer.listen(MeshWaveform, f"{TWIN}/mesh_waveform", 1000)
+    start("planetary_twin.simulation", "--ros-args", "-p", "rate_factor:=0.0")
+    peer.until(lambda: len(states) > 100 and len(waves) > 100)
+    node = f"{TWIN}/simulation"
+    assert_answers(peer, node, "backlash")
+    for paused in (True, False):
+        assert peer.call(SetBool, f"{node}/pause", SetBool.Request(data=paused)).success
+    assert peer.set(node, backlash=3e-7).successful
+
+
+def test_a_logger_that_is_sent_more_than_it_can_take(peer: Peer, start: Start) -> None:
+    status = peer.listen(RecorderStatus, f"{TWIN}/logger/status")
+    start("planetary_twin.logger", "--ros-args", "-p", f"topics:=['{NUMBERS}']")
+    count, size, depth = map(str, (10**9, 400, 1000))
+    flood = [sys.executable, str(HERE / "counter.py"), NUMBERS, "0", count, size, depth, "RELIABLE"]
+    sender = subprocess.Popen(flood, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
+    try:
+        peer.until(lambda: status and sum(status[-1].recorded) > 1000)
+        node = f"{TWIN}/logger"
+        assert_answers(peer, node, "compression")
+        assert peer.call(Trigger, f"{node}/split", Trigger.Request()).success
+    finally:
+        sender.kill()
+        sender.communicate()
