@@ -10,7 +10,8 @@ from .._vector_math import exp
 from ..dynamics.equations import share_loads
 from ..dynamics.mesh_sums import CLIPPED, CONTACT, FILMED
 from ..dynamics.observe import BOUNDARY, FILM, LAMBDA, MESH_POWER, POWER_LOSS, VISCOUS
-from ..dynamics.tooth_friction import ROOM, evaluate, turn_pairs
+from ..dynamics.state import ROOM
+from ..dynamics.tooth_friction import evaluate, turn_pairs
 
 # Entry p * meshes + i of the first five belongs to pair p of mesh i, as in TOOTH_PAIRS.
 CONTACT_SUMS = layout(
