@@ -85,7 +85,7 @@ def test_changes_are_told_with_old_and_new_value(recording):
 def test_of_a_long_recording_detail_is_shown_where_something_happens(tmp_path, monkeypatch):
     monkeypatch.setattr("planetary_twin_py.view.detail.MOST_SAMPLES", 20_000)  # 0.4 s
     recording = read_recording(write_recording(tmp_path / "a.mcap", 1.0))
-    remark, aliases = save(recording, None, tmp_path / "a.rrd")
+    (remark,) = save(recording, None, tmp_path / "a.rrd")
     assert remark.startswith("single samples are shown of the start and the changes (0.4 s of 1.0")
     remark, aliases = save(recording, None, tmp_path / "b.rrd", detail=(0.3, 0.5))
     assert "do not carry this signal" in aliases
