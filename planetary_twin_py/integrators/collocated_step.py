@@ -18,14 +18,13 @@ from .edges import planned, time_to_edge
 from .flanks import at_event, first_flank_event
 from .frame import pass_time
 from .memory import remember
-from .progress import COLLOCATION, GROW, NO_MESH, SAFETY, SHORTEST_STEP, SHRINK
+from .progress import COLLOCATION, DETOUR, GROW, NO_MESH, SAFETY, SHORTEST_STEP, SHRINK
 from .propagation import enter, integrate_powers, propagate, resolves, trim_at
 
 FAILED = -2  # no mesh, and no step
 ON_EDGE = 1e-13  # [s] to which a step ends on the edge of a tooth pair
 WITHIN = 0.1  # of the step, by which its end is moved for that at most
 STRETCH = 1.2  # by which a planned step is stretched to end on an event
-DETOUR = 20  # steps of Rosenbrock's method before collocation is tried again
 OUTDONE = 0.2  # of the other method's step, below which it is taken
 
 

@@ -1,4 +1,4 @@
-"""Where gears begin and cease to creep: tooth pairs begin to hold, and let go."""
+"""Gears that creep, or come to rest as they vibrate: how their friction is integrated."""
 
 from __future__ import annotations
 
@@ -6,6 +6,9 @@ from .._compile import kernel
 from .._records import Record
 from ..dynamics.bristles import creeps, steady_bristles
 from ..dynamics.equations import forces
+from .progress import DETOUR
+
+STICKING = 0.5  # of its speed against the carrier on average, below which a gear may come to stick
 
 
 @kernel
@@ -25,3 +28,25 @@ def hold_or_slide(model: Record, march: Record) -> None:
         steady_bristles(march.first.pairs, begin.bristle)
     march.first.pairs.held = march.last.pairs.held = creeping
     march.work.evaluation.pairs.held = creeping
+
+
+@kernel
+def avoid_reversals(model: Record, march: Record) -> None:
+    """Leave steps to Rosenbrock's method for a while where vibration may reverse friction.
+
+    A polynomial through friction that jumps from one sense to the other is off by more than the
+    change of its nodes shows.
+    """
+    control, train, moment, v = march.control, model.train, march.moment, march.begin.v
+    if not control.slow:
+        return
+    for i in range(train.meshes):
+        carrier = train.body[i, 2]
+        turning = v[carrier] * train.inverse_radius[carrier]
+        for gear in range(2):
+            body = train.body[i, gear]
+            rigid = moment.rigid[body] - moment.rigid[carrier]
+            speed = rigid + v[body] * train.inverse_radius[body] - turning
+            if speed * rigid < STICKING * rigid * rigid:
+                control.detour = DETOUR
+                return

@@ -18,12 +18,12 @@ from ..dynamics.contact_events import change_contact
 from ..dynamics.moment import set_moment
 from ..dynamics.tooth_friction import friction_layer
 from .clock import Instant, Sampling, after, delay, due, sampling
-from .collocated_step import DETOUR, FAILED, collocated_step
-from .creep import hold_or_slide
+from .collocated_step import FAILED, collocated_step
+from .creep import avoid_reversals, hold_or_slide
 from .edges import next_event, pass_edges
 from .frame import rebase
 from .interpolant import Samples, new_samples, sample
-from .progress import COLLOCATION, NO_MESH, ROSENBROCK, SHORTEST_STEP
+from .progress import COLLOCATION, DETOUR, NO_MESH, ROSENBROCK, SHORTEST_STEP
 from .repetition import forget, play, watch
 from .step_sums import sum_step
 from .stiff_step import stiff_step
@@ -42,6 +42,7 @@ def begin_step(model: Record, march: Record) -> None:
     set_moment(model, march.begin, march.moment)
     hold_or_slide(model, march)
     _set_tolerances(model, march)
+    avoid_reversals(model, march)
 
 
 @kernel

@@ -14,6 +14,7 @@ from .step_sums import STEP_SUMS
 AUTO, COLLOCATION, ROSENBROCK = 0, 1, 2
 NO_MESH = -1
 SHORTEST_STEP = 1e-13  # [s] below it two events count as one
+DETOUR = 20  # steps of Rosenbrock's method before collocation is tried again
 SAFETY, SHRINK, GROW = 0.8, 0.25, 2.0  # of steps
 
 # Step control and counters.
