@@ -102,7 +102,7 @@ def test_powers_and_speeds_of_a_window_are_those_of_the_first_hour(scene):
         now, then = old.advance(length), young.advance(length)
         assert np.array_equal(now.machine_power, then.machine_power)
         assert now.power_loss == then.power_loss and now.efficiency == then.efficiency
-        assert now.stored_power == then.stored_power
+        np.testing.assert_equal(now.stored_power, then.stored_power)  # NaN within one step
         assert now.mean_speed == pytest.approx(then.mean_speed, rel=1e-12, abs=1e-9)
 
 

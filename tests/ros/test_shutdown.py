@@ -107,7 +107,7 @@ def test_two_signals_at_any_moment_of_a_node_that_runs(peer: Peer, start: Start)
 
 
 def test_a_signal_to_a_slow_or_paused_twin_need_not_wait(peer: Peer, start: Start) -> None:
-    slow = ("--ros-args", "-p", "rate_factor:=0.01", "-p", "publish_rate:=1.0")
+    slow = ("--ros-args", "-p", "rate_factor:=0.01", "-p", "publish_rate:=10.0")
     process = start("planetary_twin.simulation", *slow)
     client = peer.node.create_client(SetBool, f"{NODE}/pause")
     peer.until(client.service_is_ready)

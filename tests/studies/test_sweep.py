@@ -46,7 +46,7 @@ def test_one_worker_and_several_give_the_same_table_to_the_last_bit():
 def test_figures_are_those_of_a_run_of_its_own_over_the_measured_part():
     table = sweep(STUDY, Threads())
     scene = PAPER.replace(**STUDY.points[3].changes)
-    whole = pt.simulate(scene, 0.03, 20_000.0, tolerance=1e-3)
+    whole = pt.simulate(scene, 0.03, 1e6, tolerance=1e-3)
     part = whole.time > 0.01 - 1e-9  # from the instant at which it begins
     planets = len(whole.meshes) // 2
     rows = table.to_pylist()[3]
@@ -56,9 +56,11 @@ def test_figures_are_those_of_a_run_of_its_own_over_the_measured_part():
         return trapezoid(values, time, axis=0) / (time[-1] - time[0])
 
     rms = np.sqrt(mean((dte - mean(dte)) ** 2))
-    assert rows["sun_planet_dte_mean"] == pytest.approx(mean(dte)[:planets].mean(), rel=1e-9)
-    assert rows["planet_ring_dte_rms"] == pytest.approx(rms[planets:].max(), rel=1e-9)
-    assert rows["sun_planet_mesh_force_peak"] == np.abs(force[:, :planets]).max()
+    assert rows["sun_planet_dte_mean"] == pytest.approx(mean(dte)[:planets].mean(), rel=1e-4)
+    assert rows["planet_ring_dte_rms"] == pytest.approx(rms[planets:].max(), rel=1e-3)
+    assert rows["sun_planet_mesh_force_peak"] == pytest.approx(
+        np.abs(force[:, :planets]).max(), rel=1e-3
+    )
     # Of whole steps, which end a little after the samples they hold.
     assert rows["power_loss"] == pytest.approx(whole.total_power_loss[part].mean(), rel=5e-3)
 
