@@ -1,0 +1,130 @@
+"""Errors of transmission error and loss over random scenes, against the other method, converged.
+
+Speeds run from 0.001 to 20 000 rpm in both senses, with standstill; gear sets, power flows, laws
+and faults are drawn. Prints a line for each scene whose error exceeds ten tolerances or whose
+ledger misses a millionth of the turnover at 1e-5, then how many there are.
+
+    python benchmarks/random_scenes.py --count 100 --seed 1 --tolerance 1e-4
+"""
+
+from __future__ import annotations
+
+import argparse
+import math
+import warnings
+from typing import Any, NamedTuple
+
+import numpy as np
+
+import planetary_twin_py as pt
+
+SETS = [(30, 20, 70, 3), (36, 18, 72, 4), (24, 24, 72, 3), (40, 30, 100, 2), (30, 20, 70, 5)]
+FASTEST_ROSENBROCK = 3000.0  # [Hz] mesh frequency above which collocation is the reference
+CRACK = {"kind": "crack", "gear": "sun", "tooth": 0, "stiffness_loss": 0.4}
+LEAST_SHARE = 1e-3  # of the power that passes: losses below it are compared with it
+
+
+class Errors(NamedTuple):
+    """Of one scene."""
+
+    dte: float  # rms of the difference over rms
+    loss: float  # relative
+    ledger: float  # residual over turnover, at 1e-5
+
+    def within(self, tolerance: float) -> bool:
+        """Whether the scene keeps to the tolerance."""
+        return max(self.dte, self.loss) < 10.0 * tolerance and self.ledger < 1e-6
+
+
+def random_changes(random: np.random.Generator) -> dict[str, Any]:
+    """Settings of a random scene, beside those of `paper`."""
+
+    def logarithmic(low: float, high: float) -> float:
+        return float(10.0 ** random.uniform(math.log10(low), math.log10(high)))
+
+    def one(*choices: Any) -> Any:
+        return choices[random.integers(len(choices))]
+
+    sun, planet, ring, planets = SETS[random.integers(len(SETS))]
+    held, first, last = (str(name) for name in random.permutation(["sun", "ring", "carrier"]))
+    speed = one(0.0, *[logarithmic(1e-3, 20_000.0)] * 9)
+    places = [round(n * (sun + ring) / planets) / (sun + ring) for n in range(planets)]
+    return {
+        "gearset.teeth": {"sun": sun, "planet": planet, "ring": ring},
+        "gearset.planet_angles": tuple(2.0 * math.pi * place for place in places),
+        "gearset.held": held,
+        "drive.input.member": first,
+        "drive.output.member": last,
+        "drive.speed_limit": pt.rpm(25_000.0),
+        "input_speed": one(1.0, -1.0) * pt.rpm(speed),
+        "input_torque": one(1.0, -1.0) * logarithmic(1.0, 300.0),
+        "torque_ripple": one(0.0, 0.0, 5.0),
+        "backlash": one(0.0, 2e-7, 1e-6, 1e-5),
+        "lambda_ratio": float(random.uniform(0.0, 4.0)),
+        "oil_temperature": float(random.uniform(273.0, 400.0)),
+        "mesh.sun_planet_stiffness": logarithmic(3e7, 6e8),
+        "mesh.planet_ring_stiffness": logarithmic(3e7, 6e8),
+        "mesh.double_pair_ratio": float(random.uniform(1.0, 2.0)),
+        "mesh.ramp": one(0.0, 0.03, 0.1),
+        "mesh.damping.law": one("viscous", "meshing_frequency", "natural_frequency"),
+        "mesh.runout": one({}, {"sun": "2 um"}),
+        "faults": one([], [], [CRACK]),
+        "lubrication.film": one("dowson_higginson", "dowson_toyoda", "salagianni"),
+        "lubrication.lambda_ratio": one("prescribed", "computed"),
+        "lubrication.boundary": one("greenwood_tripp", "load_sharing"),
+        "lubrication.traction": one("eyring", "evans_johnson", "schlenk"),
+        "lubrication.rolling": one("none", "goksem_hargreaves"),
+    }
+
+
+def measure(scene: pt.Scene, tolerance: float) -> Errors:
+    """Compare a run of some mesh cycles with one of the other method at 1e-7."""
+    speed = abs(scene.operating_point.input_speed)
+    frequency = speed * scene.gearset.teeth.ring / (2.0 * math.pi)  # at most
+    duration = min(max(4.0 / frequency, 0.004), 0.02) if frequency > 0.0 else 0.02
+    method = "collocation" if frequency > FASTEST_ROSENBROCK else "rosenbrock"
+    run = pt.simulate(scene, duration, tolerance=tolerance)
+    closer = pt.simulate(scene, duration, tolerance=1e-5).energy
+    exact = pt.simulate(scene, duration, tolerance=1e-7, method=method)
+    passing = sum(map(abs, exact.energy.machines)) / duration
+    losses = [float(each.mesh["power_loss"].sum()) for each in (run, exact)]
+    turnover = sum(map(abs, closer.machines)) + abs(closer.kinetic) + abs(closer.elastic)
+    return Errors(
+        float(np.sqrt(np.mean((run.dte - exact.dte) ** 2) / np.mean(exact.dte**2))),
+        abs(losses[0] - losses[1]) / max(abs(losses[1]), LEAST_SHARE * passing, 1e-9),
+        abs(closer.residual) / max(turnover, 1e-6 * closer.stored),
+    )
+
+
+def main() -> None:
+    """Measure and print."""
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--count", type=int, default=100, help="scenes to draw")
+    parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--tolerance", type=float, default=1e-4)
+    given = parser.parse_args()
+    warnings.simplefilter("ignore", pt.LedgerWarning)
+    random, paper = np.random.default_rng(given.seed), pt.load_scene("paper")
+    compared = beyond = 0
+    for number in range(given.count):
+        try:
+            scene = paper.replace(**random_changes(random))
+            found = measure(scene, given.tolerance)
+        except (ValueError, pt.RunawayError) as refusal:
+            print(f"{number:4d}  refused: {str(refusal)[:90]}")
+            continue
+        compared += 1
+        if not found.within(given.tolerance):
+            beyond += 1
+            point = scene.operating_point
+            print(
+                f"{number:4d}  {point.input_speed / pt.rpm(1.0):10.4g} rpm "
+                f"{point.input_torque:8.3g} N m  DTE {found.dte:.1e}  loss {found.loss:.1e}  "
+                f"ledger {found.ledger:.1e}",
+                flush=True,
+            )
+    print(f"{compared} scenes compared, {beyond} beyond ten tolerances of {given.tolerance:g}")
+
+
+if __name__ == "__main__":
+    main()
