@@ -67,6 +67,7 @@ def test_every_block_says_what_it_is_and_why_it_is_not_run(page):
 @pytest.mark.parametrize("page", [page for page in PAGES if not changes_code(page)], ids=name)
 def test_page(page, tmp_path, recording, environment, monkeypatch):
     shutil.copytree(recording, tmp_path / "recordings" / "NAME")
+    shutil.copytree(ROOT / "tests" / "data", tmp_path / "tests" / "data")
     monkeypatch.chdir(tmp_path)
     monkeypatch.setenv("MPLBACKEND", "Agg")
     behind, namespace = [], {"__name__": "__main__"}
