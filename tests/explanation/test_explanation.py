@@ -70,7 +70,6 @@ def test_what_leaving_friction_out_changes_is_what_two_runs_differ_by():
     assert found.figures.dte_peak == pytest.approx(np.abs(run.dte).max(), rel=5e-3)
     assert effect.without.dte_mean == pytest.approx(other.dte[1:].mean(), rel=1e-3)
     assert effect.without.power_loss == 0.0
-    assert effect.cost < 1.0  # how much it is, is the clock's
 
 
 @pytest.mark.parametrize("name", ["paper", "wind_turbine_stage", "lightly_loaded"])
