@@ -50,7 +50,8 @@ class Engine:
         scene: what to simulate.
         tolerance: local error of a step, relative to the static deflection of the meshes.
         method: one of METHODS; "march" makes steps by collocation wherever that is fit, else by
-            Rosenbrock's method; "auto" makes none where steady running repeats itself.
+            Rosenbrock's method; "auto" makes none where steady running repeats itself. Where gears
+            creep, every method makes its steps by Rosenbrock's.
 
     Raises:
         ValueError: the tolerance is out of range, or the scene cannot be built.

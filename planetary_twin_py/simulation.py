@@ -53,7 +53,8 @@ def simulate(
         duration: simulated time of the result [s].
         sample_rate: of the result [Hz]; samples lie at whole multiples of its period.
         method: "collocation", "rosenbrock", "march": the first wherever it is fit, or "auto": the
-            same, but steady running that repeats itself is not computed again.
+            same, but steady running that repeats itself is not computed again. Gears that creep
+            are integrated by "rosenbrock" whatever the method, see `Stats.stiff_steps`.
         tolerance: relative local error of a step.
         settling: simulated time before that [s], which leaves out what the start sets swinging;
             the clock of the result counts it.

@@ -21,12 +21,11 @@ def test_creeping_the_transmission_error_is_that_of_statics(law, direction):
 @EITHER_LAW
 @pytest.mark.parametrize("direction", [1.0, -1.0])
 def test_creeping_friction_loads_the_springs_of_the_teeth(law, direction):
-    """By some per cent of the mesh force: the friction coefficient times the tangent of the
-    pressure angle."""
+    """By up to some per cent of the mesh force, as friction coefficients of some per cent do."""
     scene = UNIFORM.replace(input_speed=direction * SPEED, **{"mesh.damping.law": law})
     run = sound_run(scene, 0.2)
     force, half = static_force(scene), 0.5 * scene.operating_point.backlash
-    assert np.abs(run.mesh_force[-1] / force - 1.0).max() == pytest.approx(0.01, abs=0.01)
+    assert 2e-3 < np.abs(run.mesh_force[-1] / force - 1.0).max() < 0.02
     assert run.dte[-1] == pytest.approx(run.mesh_force[-1] / stiffnesses(scene) + half, rel=1e-5)
 
 
