@@ -123,7 +123,7 @@ def test_every_message_comes_again_in_order_byte_by_byte_and_in_time(
     for name in names:
         then, now = (np.array([t for t, _ in source[name]]) for source in (recorded, heard))
         off = (now - now[0]) * 1e-9 - (then - then[0]) * 1e-9 / rate_factor
-        # None comes early; how late they come is the machine's, and told.
+        # None comes early; how late they come depends on the machine.
         assert off.min() > -late - 0.01
 
 

@@ -1,4 +1,4 @@
-"""A twin that leaves all sense stops with an error, and can be started anew."""
+"""A twin that leaves all sense stops with an error, and can be started again."""
 
 from __future__ import annotations
 
@@ -75,14 +75,14 @@ def test_a_loop_that_is_not_stable_ends_the_node_in_one_line(start: Start, scene
 
 
 @pytest.mark.parametrize(
-    ("change", "told"),
+    ("change", "reason"),
     [
         ("input_torque: 300 N m", "refuses to configure: the run stops near 0 s"),
         ("torque_ripple: 300 N m", "what was recorded is in"),
     ],
 )
 def test_a_run_that_fails_says_why_and_where_the_recording_is(
-    domain: int, scene: Path, tmp_path: Path, change: str, told: str
+    domain: int, scene: Path, tmp_path: Path, change: str, reason: str
 ) -> None:
     scene.write_text(f"{SOFT}operating_point: {{{change}}}\n")
     options = ("--duration", "3", "--no-tour", "--record", "bag")
@@ -96,4 +96,4 @@ def test_a_run_that_fails_says_why_and_where_the_recording_is(
     )
     assert run.returncode == 1
     assert "base pitch" in run.stderr
-    assert told in run.stderr
+    assert reason in run.stderr
