@@ -7,12 +7,17 @@ import subprocess
 import sys
 import threading
 from collections.abc import Callable, Iterator
+from dataclasses import dataclass
 from pathlib import Path
 from typing import IO, Any
 
 import pytest
+from domains import private_domain
 from planetary_twin_msgs.msg import OperatingPoint
 from small_disk import mounted
+from std_srvs.srv import Trigger
+
+import planetary_twin_py as pt
 
 from .peer import LATCHED, TWIN, Peer
 
@@ -62,6 +67,10 @@ def start(domain: int, tmp_path: Path) -> Iterator[Start]:
         return processes[-1]
 
     yield run
+    _end(processes)
+
+
+def _end(processes: list[Program]) -> None:
     # Asked before they are killed: who dies at once leaves its shared memory to those that live.
     for process in processes:
         if process.poll() is None:
@@ -76,13 +85,63 @@ def start(domain: int, tmp_path: Path) -> Iterator[Start]:
         process.stdout.close()
 
 
+@dataclass(frozen=True)
+class RunningTwin:
+    """A simulation that all tests of a module share, and a user who listens to it."""
+
+    domain: int
+    user: Peer
+    points: list[OperatingPoint]
+
+    def restore(self) -> None:
+        """Begin again at the operating point of the scene; `points` keeps that one only."""
+        scene = pt.load_scene("paper").operating_point.model_dump()
+        # A set value ends its ramp, so all are set.
+        answer = self.user.set(f"{TWIN}/simulation", atomically=True, **scene)
+        assert answer.successful, answer.reason
+        before = len(self.points)
+        assert self.user.call(Trigger, f"{TWIN}/simulation/reset", Trigger.Request()).success
+
+        def begun() -> bool:
+            return any(point.simulated_time == 0.0 for point in self.points[before:])
+
+        self.user.until(begun)
+        del self.points[:-1]
+
+
+@pytest.fixture(scope="module")
+def running_twin(tmp_path_factory: pytest.TempPathFactory) -> Iterator[RunningTwin]:
+    """A simulation with its defaults, started once for the tests of a module."""
+    place = tmp_path_factory.mktemp("running_twin")
+    with private_domain() as domain, pytest.MonkeyPatch.context() as environment:
+        environment.setenv("ROS_DOMAIN_ID", str(domain))
+        process = Program("planetary_twin.simulation", cwd=place)
+        user = Peer()
+        points = user.listen(OperatingPoint, f"{TWIN}/operating_point", LATCHED)
+        user.until(lambda: points)
+        yield RunningTwin(domain, user, points)
+        user.close()
+        _end([process])
+
+
 @pytest.fixture
-def points(peer: Peer, start: Start) -> list[OperatingPoint]:
-    """What a running simulation has published as its operating point."""
-    start("planetary_twin.simulation")
-    points = peer.listen(OperatingPoint, f"{TWIN}/operating_point", LATCHED)
-    peer.until(lambda: points)
-    return points
+def user(running_twin: RunningTwin) -> Peer:
+    """The participant beside the module's running twin."""
+    return running_twin.user
+
+
+@pytest.fixture
+def points(
+    running_twin: RunningTwin, monkeypatch: pytest.MonkeyPatch
+) -> Iterator[list[OperatingPoint]]:
+    """
+    What the module's running twin has published as its operating point: that of its scene.
+
+    Commands that a test starts find this twin.
+    """
+    monkeypatch.setenv("ROS_DOMAIN_ID", str(running_twin.domain))
+    yield running_twin.points
+    running_twin.restore()
 
 
 @pytest.fixture

@@ -18,20 +18,20 @@ ROOT = Path(__file__).parents[2]
 NODE = f"{TWIN}/simulation"
 
 
-def test_a_number_may_be_typed_as_users_type_it(peer: Peer, points: list[OperatingPoint]) -> None:
+def test_a_number_may_be_typed_as_users_type_it(user: Peer, points: list[OperatingPoint]) -> None:
     for typed in ("3e-7", 0, 2.5e-7):
-        assert peer.set(NODE, backlash=typed).successful
-        assert peer.get(NODE, "backlash") == float(typed)
-        peer.until(lambda value=typed: points[-1].backlash == float(value))
-    assert peer.set(NODE, lambda_ratio=2).successful
-    peer.until(lambda: points[-1].lambda_ratio == 2.0)
+        assert user.set(NODE, backlash=typed).successful
+        assert user.get(NODE, "backlash") == float(typed)
+        user.until(lambda value=typed: points[-1].backlash == float(value))
+    assert user.set(NODE, lambda_ratio=2).successful
+    user.until(lambda: points[-1].lambda_ratio == 2.0)
     assert points[-1].changed == "lambda_ratio"
 
 
 def test_nonsense_is_refused_with_the_reason_and_changes_nothing(
-    peer: Peer, points: list[OperatingPoint]
+    user: Peer, points: list[OperatingPoint]
 ) -> None:
-    before = {name: peer.get(NODE, name) for name in ("backlash", "lambda_ratio")}
+    before = {name: user.get(NODE, name) for name in ("backlash", "lambda_ratio")}
     for values in (
         {"backlash": "wide"},
         {"backlash": 1.0},
@@ -44,24 +44,24 @@ def test_nonsense_is_refused_with_the_reason_and_changes_nothing(
         {"tolerance": math.nan},
         {"tolerance": "tight"},
     ):
-        result = peer.set(NODE, **values)
+        result = user.set(NODE, **values)
         assert not result.successful
         ((name, value),) = values.items()
         assert name in result.reason
         assert str(value).lower() in result.reason.lower()
-    assert not peer.set(NODE, backlash_typo=1.0).successful
-    assert not peer.set(NODE, scene="other").successful
-    assert not peer.set(NODE, atomically=True, backlash=3e-7, lambda_ratio=99.0).successful
-    assert {name: peer.get(NODE, name) for name in before} == before
+    assert not user.set(NODE, backlash_typo=1.0).successful
+    assert not user.set(NODE, scene="other").successful
+    assert not user.set(NODE, atomically=True, backlash=3e-7, lambda_ratio=99.0).successful
+    assert {name: user.get(NODE, name) for name in before} == before
     assert len(points) == 1
 
 
 def test_values_set_atomically_hold_from_one_instant(
-    peer: Peer, points: list[OperatingPoint]
+    user: Peer, points: list[OperatingPoint]
 ) -> None:
     values = {"backlash": "3e-7", "lambda_ratio": 2, "input_speed": 200.0}
-    assert peer.set(NODE, atomically=True, **values).successful
-    peer.until(lambda: len(points) == 2)
+    assert user.set(NODE, atomically=True, **values).successful
+    user.until(lambda: len(points) == 2)
     point = points[-1]
     assert set(point.changed.split(",")) == set(values)
     assert (point.backlash, point.lambda_ratio, point.input_speed) == (3e-7, 2.0, 200.0)
@@ -69,34 +69,34 @@ def test_values_set_atomically_hold_from_one_instant(
 
 
 def test_the_service_answers_with_the_instant_and_the_parameters_follow(
-    peer: Peer, points: list[OperatingPoint]
+    user: Peer, points: list[OperatingPoint]
 ) -> None:
     service = f"{NODE}/set_operating_point"
     request = SetOperatingPoint.Request(names=["backlash", "lambda_ratio"], values=[3e-7, 1.5])
-    answer = peer.call(SetOperatingPoint, service, request)
+    answer = user.call(SetOperatingPoint, service, request)
     assert answer.success
-    peer.until(lambda: len(points) == 2)
+    user.until(lambda: len(points) == 2)
     assert answer.simulated_time == points[-1].simulated_time
     assert answer.stamp == points[-1].header.stamp
-    assert peer.get(NODE, "backlash") == 3e-7
+    assert user.get(NODE, "backlash") == 3e-7
     for names, values in ((["backlash"], [1.0]), (["gap"], [1.0]), (["backlash"], []), ([], [])):
         request = SetOperatingPoint.Request(names=names, values=values)
-        answer = peer.call(SetOperatingPoint, service, request)
+        answer = user.call(SetOperatingPoint, service, request)
         assert not answer.success
         assert answer.message
-    assert peer.get(NODE, "backlash") == 3e-7
+    assert user.get(NODE, "backlash") == 3e-7
     assert len(points) == 2
 
 
 def test_a_ramp_reaches_the_values_in_just_the_time_asked_for(
-    peer: Peer, points: list[OperatingPoint]
+    user: Peer, points: list[OperatingPoint]
 ) -> None:
     request = SetOperatingPoint.Request(
         names=["lambda_ratio", "backlash"], values=[2.0, 4e-7], ramp=0.5
     )
-    answer = peer.call(SetOperatingPoint, f"{NODE}/set_operating_point", request)
+    answer = user.call(SetOperatingPoint, f"{NODE}/set_operating_point", request)
     assert answer.success, answer.message
-    peer.until(lambda: points[-1].lambda_ratio == 2.0)
+    user.until(lambda: points[-1].lambda_ratio == 2.0)
     settled = len(points)
     on_the_way = points[1:]
     assert 45 <= len(on_the_way) <= 55
@@ -105,39 +105,39 @@ def test_a_ramp_reaches_the_values_in_just_the_time_asked_for(
         share = min((point.simulated_time + 0.01 - answer.simulated_time) / 0.5, 1.0)
         assert math.isclose(point.lambda_ratio, 1.0 + share, abs_tol=1e-9)
         assert math.isclose(point.backlash, 2e-7 + 2e-7 * share, abs_tol=1e-15)
-    assert peer.get(NODE, "lambda_ratio") == 2.0
-    assert peer.set(NODE, lambda_ratio=1.0).successful
-    peer.until(lambda: len(points) == settled + 1)
+    assert user.get(NODE, "lambda_ratio") == 2.0
+    assert user.set(NODE, lambda_ratio=1.0).successful
+    user.until(lambda: len(points) == settled + 1)
 
 
-def test_what_is_set_meanwhile_leaves_its_ramp(peer: Peer, points: list[OperatingPoint]) -> None:
+def test_what_is_set_meanwhile_leaves_its_ramp(user: Peer, points: list[OperatingPoint]) -> None:
     request = SetOperatingPoint.Request(
         names=["lambda_ratio", "backlash"], values=[2.0, 4e-7], ramp=2.0
     )
-    assert peer.call(SetOperatingPoint, f"{NODE}/set_operating_point", request).success
-    peer.until(lambda: len(points) > 5)
-    assert peer.set(NODE, lambda_ratio=0.5).successful
-    peer.until(lambda: points[-1].lambda_ratio == 0.5)
-    peer.until(lambda: points[-1].backlash == 4e-7)
+    assert user.call(SetOperatingPoint, f"{NODE}/set_operating_point", request).success
+    user.until(lambda: len(points) > 5)
+    assert user.set(NODE, lambda_ratio=0.5).successful
+    user.until(lambda: points[-1].lambda_ratio == 0.5)
+    user.until(lambda: points[-1].backlash == 4e-7)
     assert points[-1].lambda_ratio == 0.5
 
 
 @pytest.mark.parametrize("ramp", [-1.0, math.nan, 1e6])
 def test_a_ramp_that_cannot_be_is_refused(
-    peer: Peer, points: list[OperatingPoint], ramp: float
+    user: Peer, points: list[OperatingPoint], ramp: float
 ) -> None:
     request = SetOperatingPoint.Request(names=["backlash"], values=[4e-7], ramp=ramp)
-    answer = peer.call(SetOperatingPoint, f"{NODE}/set_operating_point", request)
+    answer = user.call(SetOperatingPoint, f"{NODE}/set_operating_point", request)
     assert not answer.success and answer.message.startswith("ramp = ")
     assert len(points) == 1
 
 
-def test_film_and_speed_follow_the_parameters(peer: Peer, points: list[OperatingPoint]) -> None:
-    states = peer.listen(GearboxState, f"{TWIN}/gearbox_state")
-    assert peer.set(NODE, lambda_ratio=2).successful
-    peer.until(lambda: states and math.isclose(states[-1].sun_planet_lambda_ratio[0], 2.0))
-    assert peer.set(NODE, input_speed=200).successful
-    peer.until(lambda: abs(states[-1].sun_speed - 200.0) < 2.0)
+def test_film_and_speed_follow_the_parameters(user: Peer, points: list[OperatingPoint]) -> None:
+    states = user.listen(GearboxState, f"{TWIN}/gearbox_state")
+    assert user.set(NODE, lambda_ratio=2).successful
+    user.until(lambda: states and math.isclose(states[-1].sun_planet_lambda_ratio[0], 2.0))
+    assert user.set(NODE, input_speed=200).successful
+    user.until(lambda: abs(states[-1].sun_speed - 200.0) < 2.0)
     state = states[-1]
     assert math.isclose(state.ring_speed, -3.0 / 7.0 * state.sun_speed, rel_tol=0.01)
     planets = state.planets

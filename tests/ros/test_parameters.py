@@ -36,9 +36,9 @@ def described(peer: Peer) -> dict[str, ParameterDescriptor]:
 
 
 def test_every_parameter_says_what_it_is_and_what_it_may_be(
-    peer: Peer, points: list[OperatingPoint]
+    user: Peer, points: list[OperatingPoint]
 ) -> None:
-    own = {name: told for name, told in described(peer).items() if name not in ROS}
+    own = {name: told for name, told in described(user).items() if name not in ROS}
     for name, told in own.items():
         assert told.name == name and told.description and told.additional_constraints, name
     settable = {name for name, told in own.items() if not told.read_only}
@@ -50,24 +50,24 @@ def test_every_parameter_says_what_it_is_and_what_it_may_be(
 
 
 def test_geometry_is_that_of_the_scene_and_cannot_be_set(
-    peer: Peer, points: list[OperatingPoint]
+    user: Peer, points: list[OperatingPoint]
 ) -> None:
     geometry = leaves("gearset", pt.load_scene("paper").gearset)
-    told = described(peer)
+    told = described(user)
     assert {name for name in told if name.startswith("gearset.")} == set(geometry)
     request = GetParameters.Request(names=list(geometry))
-    values = peer.call(GetParameters, f"{NODE}/get_parameters", request).values
+    values = user.call(GetParameters, f"{NODE}/get_parameters", request).values
     for (name, expected), value in zip(geometry.items(), values, strict=True):
         given = parameter_value_to_python(value)
         assert (tuple(given) if isinstance(expected, tuple) else given) == expected
         assert told[name].read_only
-        result = peer.set(NODE, **{name: "other" if isinstance(expected, str) else 0.123})
+        result = user.set(NODE, **{name: "other" if isinstance(expected, str) else 0.123})
         assert not result.successful
         assert result.reason.startswith(f"{name} = ")
         assert "choose another scene" in result.reason
     both = {"backlash": 3e-7, "gearset.module": 1e-3}
-    assert not peer.set(NODE, atomically=True, **both).successful
-    assert peer.get(NODE, "backlash") == 2e-7
+    assert not user.set(NODE, atomically=True, **both).successful
+    assert user.get(NODE, "backlash") == 2e-7
 
 
 REFUSED: tuple[tuple[str, object, tuple[str, ...]], ...] = (
@@ -85,16 +85,16 @@ REFUSED: tuple[tuple[str, object, tuple[str, ...]], ...] = (
 
 
 def test_a_refusal_names_field_value_and_range_and_changes_nothing(
-    peer: Peer, points: list[OperatingPoint]
+    user: Peer, points: list[OperatingPoint]
 ) -> None:
     for name, value, reason in REFUSED:
         for given in ({name: value}, {"torque_ripple": 1.0, name: value}):
-            result = peer.set(NODE, atomically=len(given) == 2, **given)
+            result = user.set(NODE, atomically=len(given) == 2, **given)
             assert not result.successful
             assert all(part in result.reason for part in (name, *reason)), result.reason
-    assert peer.get(NODE, "torque_ripple") == 0.0
-    assert peer.set(NODE, torque_ripple=0.5).successful
-    peer.until(lambda: len(points) == 2)
+    assert user.get(NODE, "torque_ripple") == 0.0
+    assert user.set(NODE, torque_ripple=0.5).successful
+    user.until(lambda: len(points) == 2)
     assert points[-1].changed == "torque_ripple"
 
 

@@ -35,15 +35,15 @@ def command(*arguments: str) -> subprocess.CompletedProcess[str]:
 
 
 def test_values_may_have_units_and_what_was_set_is_told(
-    peer: Peer, points: list[OperatingPoint]
+    user: Peer, points: list[OperatingPoint]
 ) -> None:
     answer = command("param", "set", "backlash", "0.3 um")
     assert (answer.returncode, answer.stdout.strip()) == (0, "backlash = 3e-07"), answer.stderr
-    peer.until(lambda: points[-1].backlash == pytest.approx(3e-7))
+    user.until(lambda: points[-1].backlash == pytest.approx(3e-7))
     assert command("param", "get", "backlash").stdout.strip() == "3e-07"
     answer = command("op", "input_speed=2000 rpm", "lambda_ratio=1.5")
     assert answer.returncode == 0 and answer.stdout.startswith("input_speed, lambda_ratio from ")
-    peer.until(lambda: points[-1].lambda_ratio == 1.5)
+    user.until(lambda: points[-1].lambda_ratio == 1.5)
     assert points[-1].input_speed == pytest.approx(2000 * math.pi / 30)
     assert set(points[-1].changed.split(",")) == {"input_speed", "lambda_ratio"}
     assert answer.stderr == ""

@@ -24,14 +24,14 @@ def _view(*options: str) -> subprocess.Popen[str]:
 
 
 def test_a_running_twin_is_drawn_and_where_there_is_none_one_line_says_so(
-    peer: Peer, points: list[OperatingPoint], tmp_path: Path
+    user: Peer, points: list[OperatingPoint], tmp_path: Path
 ) -> None:
-    states = peer.listen(GearboxState, f"{TWIN}/gearbox_state")
+    states = user.listen(GearboxState, f"{TWIN}/gearbox_state")
     shown, nobody = (
         _view("--during", ":4", "--namespace", name, "--save", f"{tmp_path}/{name}.rrd")
         for name in ("planetary_twin", "nobody")
     )
-    peer.until(lambda: shown.poll() is not None and nobody.poll() is not None)
+    user.until(lambda: shown.poll() is not None and nobody.poll() is not None)
     assert shown.returncode == 0, shown.communicate()
     times = []
     static = set()
@@ -41,7 +41,7 @@ def test_a_running_twin_is_drawn_and_where_there_is_none_one_line_says_so(
         elif chunk.entity_path == "/mesh/dte_mean":
             times += chunk.to_record_batch().column("simulated_time").cast("int64").to_pylist()
     assert "/gears/carrier/pin_1/planet_1" in static
-    peer.until(lambda: states[-1].simulated_time >= 1e-9 * max(times) - 1e-6)
+    user.until(lambda: states[-1].simulated_time >= 1e-9 * max(times) - 1e-6)
     heard = np.rint(1e9 * np.array([state.simulated_time for state in states]))
     assert np.all(np.diff(times) > 0)
     assert len(times) >= 10 and np.isin(times, heard).all()
