@@ -98,6 +98,7 @@ def test_the_right_hand_side_is_the_derivative_of_the_twin(base, changes):
     assert compared >= 20
 
 
+@pytest.mark.exhaustive
 @pytest.mark.parametrize(
     "name",
     [
@@ -113,6 +114,7 @@ def test_the_error_against_the_reference_falls_with_the_tolerance(name, referenc
     assert 3 * errors[1] < errors[0] < 5e-2
 
 
+@pytest.mark.exhaustive
 @pytest.mark.parametrize(
     # Damping that follows the speed does so at once here, in the reference event by event.
     ("case", "agreement"),
@@ -152,12 +154,14 @@ def test_cvode_takes_the_same_path_with_a_compiled_callback(references):
     assert 0.5 < errors[1] / errors[0] < 2.0
 
 
+@pytest.mark.exhaustive
 def test_the_mean_power_loss_is_that_of_the_reference(references):
     found = solved("scipy_lsoda", SHORT, 1e-7).power_loss
     lost = references["short"][:, POWER_LOSS].sum(axis=1).mean()
     assert found == pytest.approx(lost, rel=1e-6)
 
 
+@pytest.mark.exhaustive
 def test_a_row_says_why_it_has_no_figures(monkeypatch, references):
     monkeypatch.setattr(work_precision, "LIMIT", 0.0)
     beside = work_precision.peer_rows(tolerances=(1e-3, 1e-4), names=["scipy_lsoda"])

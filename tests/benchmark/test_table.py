@@ -40,7 +40,7 @@ def test_the_error_against_the_reference_is_that_of_the_tolerance(case):
     assert all(row.rtf_low <= row.rtf <= row.rtf_high for row in rows)
 
 
-@pytest.mark.slow
+@pytest.mark.exhaustive
 @pytest.mark.parametrize(
     "case", [SHORT, pytest.param(RATTLE, marks=pytest.mark.exhaustive)], ids=lambda case: case.name
 )
@@ -49,7 +49,7 @@ def test_the_error_of_the_other_method_falls_with_the_tolerance(case):
     assert 0.0 < 30.0 * rows[1].error_dte < rows[0].error_dte < 1e-2
 
 
-@pytest.mark.slow
+@pytest.mark.exhaustive
 def test_every_method_has_its_rows_and_the_whole_run_is_that_of_simulate():
     """Set-up takes longer than so short a run: the speed from end to end is lower."""
     rows = measure([SHORT], (1e-2, 1e-3))
@@ -59,7 +59,7 @@ def test_every_method_has_its_rows_and_the_whole_run_is_that_of_simulate():
     assert rows[2].figures()["end_to_end_rtf"] is None
 
 
-@pytest.mark.slow
+@pytest.mark.exhaustive
 def test_a_case_with_a_stretch_is_compared_there_and_timed_as_a_whole():
     assert RUN_UP.timed(10.0) == pytest.approx(0.003)
     assert RUN_UP.scene().drive.speed_control.start_speed == 50.0
@@ -104,7 +104,7 @@ def test_the_page_of_the_documentation_shows_what_was_measured():
     assert as_table([row]).row_count == 1
 
 
-@pytest.mark.slow
+@pytest.mark.exhaustive
 def test_the_page_shows_a_picture_only_where_there_is_one():
     rows = measure([SHORT], (1e-2,), methods=METHODS[:1])
     assert "![" not in as_markdown(rows)

@@ -13,7 +13,7 @@ import planetary_twin_py as pt
 ROOT = Path(__file__).parents[2]
 
 
-@pytest.mark.slow
+@pytest.mark.exhaustive
 def test_site_is_built_without_a_warning(tmp_path):
     build = [Path(sys.executable).with_name("sphinx-build"), "--quiet", "--fail-on-warning"]
     done = subprocess.run(

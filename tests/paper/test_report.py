@@ -176,6 +176,7 @@ def test_contact_ratios_and_jumps(found):
     assert found["Figure 3"].figures["printed_jumps"] == pytest.approx([40.0, 70.0])
 
 
+@pytest.mark.exhaustive
 def test_page_and_figures_are_the_same_on_a_second_run_with_more_processes(
     found, evidence, tmp_path
 ):

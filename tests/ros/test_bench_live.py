@@ -61,6 +61,7 @@ def test_processes_that_must_share_a_core_wait_for_it() -> None:
     assert min(waited) > 0.05
 
 
+@pytest.mark.exhaustive
 def test_a_short_measurement_has_figures_that_can_be(
     domain: int, monkeypatch: pytest.MonkeyPatch
 ) -> None:

@@ -76,7 +76,7 @@ def test_dop853_reports_success_and_returns_garbage(rattle, tolerance):
     assert not error < 1.0  # as large as the motion itself
 
 
-@pytest.mark.slow
+@pytest.mark.exhaustive
 def test_dop853_returns_garbage_at_a_tight_tolerance_too():
     """From which start it does so hangs on the last digits; everywhere it is far off."""
     outcomes = [Rattle(begin, 6e-3).peer("DOP853", 1e-4) for begin in (0.02, 0.021, 0.022, 0.023)]

@@ -59,7 +59,7 @@ def independent(start_speed, settling):
     return np.interp(whole, cycles, run.dte[late, 0])
 
 
-@pytest.mark.slow
+@pytest.mark.exhaustive
 def test_where_two_motions_are_possible_each_way_keeps_its_own():
     """Both repeat with the meshing; their sections lie 1.2 um apart."""
     speeds = [pt.rpm(speed) for speed in (10_000, 10_070, 10_140, 10_210, 10_280, 10_380, 10_480)]

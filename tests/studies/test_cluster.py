@@ -50,6 +50,7 @@ def until(found, patience=60.0):
     return result
 
 
+@pytest.mark.exhaustive
 def test_a_cluster_gives_the_same_table_to_the_last_bit(scheduler):
     cluster = Cluster(scheduler[0])
     try:

@@ -54,7 +54,7 @@ def test_the_picture_shows_gears_on_the_left_and_follows_the_time_cursor(rrd, tm
     assert viewers() == []
 
 
-@pytest.mark.slow
+@pytest.mark.exhaustive
 @pytest.mark.skipif(not DRIVERS, reason="no Vulkan driver on this machine")
 def test_the_picture_of_two_recordings_shows_the_other_one_in_paler_curves(
     recording, rrd, tmp_path

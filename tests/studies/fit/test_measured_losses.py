@@ -31,7 +31,7 @@ def drag_by_regression():
     return intercept / (1.0 - slope)
 
 
-@pytest.mark.slow
+@pytest.mark.exhaustive
 def test_friction_alone_runs_into_the_end_of_its_range_and_the_drag_it_lacks_is_named(rig):
     found = identify(rig, Search((FRICTION,), ("power_loss",)), begin=0.0, end=22.5)
     assert found.estimate.at_bound == (True,) and found.estimate.unbounded[0] > 1.0
@@ -43,7 +43,7 @@ def test_friction_alone_runs_into_the_end_of_its_range_and_the_drag_it_lacks_is_
     assert said[1].startswith(f"the model lacks a loss: {DRAG} = ")
 
 
-@pytest.mark.slow
+@pytest.mark.exhaustive
 def test_with_a_load_independent_drag_friction_stays_within_its_range(rig):
     found = identify(rig, Search((FRICTION, DRAG), ("power_loss",)), begin=0.0, end=22.5)
     assert found.estimate.at_bound == (False, False)

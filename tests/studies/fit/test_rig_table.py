@@ -41,7 +41,7 @@ def test_what_is_exported_imported_and_fitted_is_the_truth(exported, tmp_path):
     assert found.stretch.scene.operating_point.input_torque == pytest.approx(63.0, rel=0.005)
 
 
-@pytest.mark.slow
+@pytest.mark.exhaustive
 def test_readings_of_one_mesh_are_enough(exported, tmp_path):
     table = parquet.read_table(exported)
     table = table.select(["simulated_time", "power_loss", "planet_ring_dte_rms_2"])
