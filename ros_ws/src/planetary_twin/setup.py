@@ -18,8 +18,8 @@ setup(
         (f"share/{NAME}/launch", glob("launch/*.py")),
         (f"share/{NAME}/config", glob("config/*")),
         (f"share/{NAME}/layouts", glob("layouts/*")),
-        # Where `ros2 run` looks. As console scripts, pip would put them on the path, where `logger`
-        # hides the program of the system.
+        # Where `ros2 run` looks. pip would put console scripts on the path, where `logger` hides
+        # the program of the system.
         (f"lib/{NAME}", glob("scripts/*")),
     ],
     entry_points={
