@@ -103,7 +103,10 @@ class ManagedNode(ParameterNode):
     def on_configure(self, state: LifecycleState) -> TransitionCallbackReturn:
         """Lifecycle transition."""
         with SIGNALS.interrupting():  # it may take long, and has nothing to lose
-            return self._attempt(self.configure)
+            outcome = self._attempt(self.configure)
+        if outcome == TransitionCallbackReturn.FAILURE:
+            self.close()
+        return outcome
 
     def on_activate(self, state: LifecycleState) -> TransitionCallbackReturn:
         """Lifecycle transition."""

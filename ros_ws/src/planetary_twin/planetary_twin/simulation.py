@@ -61,12 +61,12 @@ class Simulation(ManagedNode):
         TimeServices(self, self)
 
     def configure(self) -> None:
-        """Build and compile the model as the parameters say, and offer the topics."""
+        """Offer the topics, so that others find them, and build the model as parameters say."""
         self._given.read()
-        self._urdf = self._robot_description()
-        self._twin = self._new_twin()
         self._telemetry = Telemetry(self, self._given, self._before)
         self._audience = Audience(self, self._given.wait_for)
+        self._urdf = self._robot_description()
+        self._twin = self._new_twin()
         # What is loaded now stays: a collection that looks at it all takes a tenth of a second.
         gc.collect()
         gc.freeze()
