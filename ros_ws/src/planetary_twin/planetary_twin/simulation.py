@@ -18,6 +18,7 @@ from planetary_twin_py.affordable import Affordable, Setting
 from planetary_twin_py.robot import robot_description
 from planetary_twin_py.runaway import RunawayError
 
+from . import simulation_services
 from .audience import Audience
 from .ledger_report import LedgerReport
 from .live import LiveTwin, Progress
@@ -26,6 +27,7 @@ from .parameters import brief
 from .ramps import LONGEST_RAMP
 from .real_time import KEEPS_UP, RealTimeReport
 from .simulation_parameters import TOLERANCE, SimulationParameters, tunables
+from .simulation_services import SimulationServices
 from .stamps import STEADY
 from .telemetry import Telemetry
 from .time_services import TimeServices
@@ -59,6 +61,8 @@ class Simulation(ManagedNode):
         self.create_service(SetOperatingPoint, "~/set_operating_point", self._set_operating_point)
         self.create_service(NaturalModes, "~/natural_modes", self._natural_modes)
         TimeServices(self, self)
+        if simulation_services.AVAILABLE:
+            SimulationServices(self, self, lambda: 1.0 / self._given.rate)
 
     def configure(self) -> None:
         """Offer the topics, so that others find them, and build the model as parameters say."""
