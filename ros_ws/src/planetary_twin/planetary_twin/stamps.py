@@ -62,7 +62,7 @@ class Stamps:
 
     @property
     def newest(self) -> int:
-        """The newest stamp [ns]."""
+        """Return the newest stamp [ns]."""
         return self._interval.last
 
     def ready(self) -> bool:
