@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+
 import pytest
 import yaml
 from planetary_twin_msgs.msg import GearboxState, RecorderStatus
@@ -102,8 +104,8 @@ def test_a_scene_that_cannot_be_is_refused_and_changes_nothing(peer: Peer, start
     peer.change_state(SIMULATION, "configure")
 
 
-def test_a_logger_records_where_it_is_told_before_it_is_configured(
-    peer: Peer, start: Start, tmp_path: str
+def test_a_logger_records_into_the_folder_set_before_it_is_configured(
+    peer: Peer, start: Start, tmp_path: Path
 ) -> None:
     node = f"{TWIN}/logger"
     start("planetary_twin.logger", *UNCONFIGURED)
@@ -116,5 +118,6 @@ def test_a_logger_records_where_it_is_told_before_it_is_configured(
     for transition in ("configure", "activate"):
         peer.change_state(node, transition)
     peer.until(lambda: status)
-    assert "/recordings/later/" in f"/{status[-1].file}"
+    assert status[-1].file.startswith("recordings/later/")
+    assert (tmp_path / status[-1].file).exists()
     assert topics(peer, "logger") == {"/diagnostics", f"{node}/status"}

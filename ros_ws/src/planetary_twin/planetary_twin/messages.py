@@ -103,7 +103,7 @@ class JointsMessage:
     """
     JointState: a joint `<body>_joint` per body, its position the absolute angle of the body.
 
-    Positions lie within a turn, or, if `continuous`, count whole turns from the run's begin.
+    Positions lie within a turn, or, if `continuous`, count whole turns from the start of the run.
     The URDF in `robot_description` hangs the planets so that this also moves them rightly.
     """
 
