@@ -2,16 +2,20 @@
 
 import os
 from collections.abc import Iterator
+from tempfile import TemporaryDirectory
 
 # The nodes are asked in this process: nobody else is to hear of them.
 os.environ["ROS_AUTOMATIC_DISCOVERY_RANGE"] = "OFF"
 
 import rclpy
 from planetary_twin.logger import Logger
+from planetary_twin.parameters import changes
 from planetary_twin.replay import Replay
 from planetary_twin.simulation import Simulation
 from rcl_interfaces.msg import ParameterDescriptor, ParameterType
+from rclpy.lifecycle import TransitionCallbackReturn
 from rclpy.node import Node
+from rclpy.parameter import Parameter
 
 _NODES = {"simulation": Simulation, "logger": Logger, "replay": Replay}
 _TYPES = {
@@ -24,9 +28,12 @@ _TITLES = "parameter", "type", "default", "range", "changes", "meaning"
 _HEAD = """# Nodes
 
 Made from the nodes, with the scene `paper`. Names are below the namespace `/planetary_twin` unless
-they begin with a slash. What topics and services are for, and how they act together, is told in
-[topics and services](topics-and-services.md). The parameter and life
-cycle services that every node has are left out.
+they begin with a slash. [Topics and services](topics-and-services.md) says what these are for and
+how they act together. The parameter and lifecycle services that every node has are left out.
+
+Parameters change *live*: at any time; *unconfigured*: until the node is configured, and after it is
+cleaned up; *with scene*: they show the scene and are set by choosing another one; *at start*: with
+`-p NAME:=VALUE` alone.
 """
 
 
@@ -42,12 +49,8 @@ def page() -> str:
 def _section(name: str, kind: type[Node]) -> str:
     node = kind()
     try:
-        return (
-            f"\n## Node `{name}`\n"
-            + _table("topic", "type", _topics(node))
-            + _table("service", "type", _services(node))
-            + _parameters(node)
-        )
+        rest = _table("service", "type", _services(node)) + _parameters(node)
+        return f"\n## Node `{name}`\n" + _table("topic", "type", _topics(node)) + rest
     finally:
         node.destroy_node()
 
@@ -58,9 +61,18 @@ def _table(title: str, second: str, rows: Iterator[tuple[str, str]]) -> str:
 
 
 def _topics(node: Node) -> Iterator[tuple[str, str]]:
-    for publisher in node.publishers:
-        if not publisher.topic_name.endswith(("/transition_event", "rosout", "parameter_events")):
-            yield _short(publisher.topic_name), _type(publisher.msg_type)
+    """What a node offers once it is configured; a replay offers what its recording holds."""
+    if isinstance(node, Replay):
+        return
+    with TemporaryDirectory() as folder:
+        if isinstance(node, Logger):
+            node.set_parameters([Parameter("directory", value=folder)])
+        assert node.trigger_configure() == TransitionCallbackReturn.SUCCESS
+        for publisher in node.publishers:
+            name = publisher.topic_name
+            if not name.endswith(("/transition_event", "rosout", "parameter_events")):
+                yield _short(name), _type(publisher.msg_type)
+        node.close()
 
 
 def _services(node: Node) -> Iterator[tuple[str, str]]:
@@ -81,7 +93,7 @@ def _type(kind: type) -> str:
 def _parameters(node: Node) -> str:
     lines = [f"\n| {' | '.join(_TITLES)} |\n", "|---" * len(_TITLES), "|\n"]
     for name, parameter in sorted(node.get_parameters_by_prefix("").items()):
-        if not name.startswith(("qos_overrides", "gearset.")) and name not in _OF_ROS:
+        if not name.startswith("qos_overrides") and name not in _OF_ROS:
             lines.append(_parameter(node.describe_parameter(name), parameter.value))
     return "".join(lines)
 
@@ -94,7 +106,7 @@ def _parameter(told: ParameterDescriptor, value: object) -> str:
         _TYPES[told.type],
         f"{value:g}" if isinstance(value, float) else f"`{value!r}`",
         span,
-        "at start" if told.read_only else "live",
+        changes(told),
         told.description,
     )
     return "| " + " | ".join(cells) + " |\n"

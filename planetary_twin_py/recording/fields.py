@@ -25,6 +25,7 @@ POWER_FLOW = (
 )
 WAVES = ("dte", "mesh_force", "friction")
 ROOM = 7  # planets that a message has room for
+TURN = 2.0 * np.pi  # [rad]
 
 
 def mesh_field(name: str, planets: int) -> tuple[str, int] | None:
@@ -73,6 +74,22 @@ def waveform_fields(window: Window) -> dict[str, Any]:
 def joint_fields(window: Window) -> dict[str, Any]:
     """What a JointState shows of `window`."""
     return {"position": window.angle, "velocity": window.mean_speed}
+
+
+def joint_fields_like(window: Window, recorded: np.ndarray) -> dict[str, Any]:
+    """
+    What a JointState shows of `window` where it counts whole turns as the `recorded` one does.
+
+    Parameters:
+        window: an interval.
+        recorded: positions of a recorded message [rad], shape (bodies,). Their whole turns depend
+            on where the run began, so they are taken from here, and the rest from `window`.
+    """
+    found = joint_fields(window)
+    if recorded.shape == window.angle.shape:
+        turns = np.rint((recorded - window.angle) / TURN)
+        found["position"] = window.angle + TURN * np.where(np.isfinite(turns), turns, 0.0)
+    return found
 
 
 def _with_room(values: np.ndarray) -> np.ndarray:

@@ -20,7 +20,7 @@ from .index import UNSOUND, Index
 from .records import files_of
 from .repeats import Repeats, unrepeated
 from .schedule import stamp_of
-from .topics import POINT, REAL_TIME, STATE
+from .topics import POINT, REAL_TIME, STATE, is_status
 
 REPORT = "/diagnostics"
 REPORTED = {"real_time_factor_mean", "overruns"}
@@ -267,7 +267,7 @@ def _report(reports: Sequence[Any]) -> dict[str, str]:
 
 def _figures(report: Any) -> dict[str, str]:
     """What the simulation's report of its real time says, if this is one."""
-    statuses = [status for status in report.status if status.name == REAL_TIME]
+    statuses = [status for status in report.status if is_status(status.name, REAL_TIME)]
     return {item.key: item.value for status in statuses for item in status.values}
 
 

@@ -13,7 +13,7 @@ import numpy as np
 from ..ledger_check import Balance, balance_of_window, ledger_warning
 from ..window import Window
 from .again import Again
-from .fields import joint_fields, state_fields, waveform_fields
+from .fields import joint_fields_like, state_fields, waveform_fields
 from .origin import Measured, makers_here
 from .records import RecordingError
 from .schedule import Interval, Run, messages_of, read_runs
@@ -136,7 +136,7 @@ def _expected(topic: str, message: Any, window: Window) -> Mapping[str, Any]:
         return state_fields(window, [field.name for field in fields(message)])
     if topic == WAVEFORM:
         return waveform_fields(window)
-    return joint_fields(window)
+    return joint_fields_like(window, np.asarray(message.position))
 
 
 def _distance(recorded: np.ndarray, simulated: np.ndarray) -> float:

@@ -17,7 +17,7 @@ def test_a_ledger_that_does_not_close_is_a_warning_until_the_next_report() -> No
     for window in windows:
         report.add(window)
     sound = report.status()
-    assert (sound.name, sound.hardware_id) == (LEDGER, "/twin")
+    assert (sound.name, sound.hardware_id) == (f"twin/{LEDGER}", "/twin")
     assert (sound.level, sound.message) == (DiagnosticStatus.OK, "closes")
     assert float({item.key: item.value for item in sound.values}["excess"]) < 1.0
     for window in windows:

@@ -11,13 +11,12 @@ from pathlib import Path
 
 import pytest
 import rclpy
-from lifecycle_msgs.msg import State, Transition, TransitionEvent
+from lifecycle_msgs.msg import Transition, TransitionEvent
 from lifecycle_msgs.srv import ChangeState, GetAvailableTransitions, GetState
 from planetary_twin.simulation import Simulation
 from planetary_twin_msgs.msg import GearboxState, OperatingPoint
 from planetary_twin_msgs.srv import SetOperatingPoint, Step
 from rclpy.executors import SingleThreadedExecutor
-from rclpy.lifecycle import LifecycleState, TransitionCallbackReturn
 from std_srvs.srv import SetBool, Trigger
 
 from planetary_twin_py._compile import cache_folder
@@ -237,25 +236,24 @@ def test_cleanup_lets_the_model_go(simulation: Simulation) -> None:
 def test_a_twin_that_stops_by_itself_leads_through_the_error_state(
     simulation: Simulation,
 ) -> None:
-    errors = []
-    number = State.TRANSITION_STATE_ERRORPROCESSING
-    on_error = simulation._callbacks[number]
+    states = []
+    close = simulation.close
 
-    def noted(state: LifecycleState) -> TransitionCallbackReturn:
-        errors.append(simulation._state_machine.current_state[1])
-        return on_error(state)
+    def noted() -> None:
+        states.append(simulation.state)
+        close()
 
-    simulation._callbacks[number] = noted
+    simulation.close = noted
     simulation.trigger_configure()
     simulation.trigger_activate()
     executor = SingleThreadedExecutor()
     executor.add_node(simulation)
     simulation.running()._pass = None  # as a defect would: what it does now raises
     deadline = time.monotonic() + LONG
-    while simulation._state_machine.current_state[1] != "unconfigured":
+    while simulation.state != "unconfigured":
         assert time.monotonic() < deadline
         executor.spin_once(timeout_sec=0.01)
-    assert errors == ["errorprocessing"]
+    assert states == ["errorprocessing"]
     with pytest.raises(ValueError, match="not active"):
         simulation.running()
     assert simulation.trigger_configure().name == "SUCCESS"

@@ -93,8 +93,8 @@ def test_a_dumped_file_gives_its_values_back(peer: Peer, start: Start, tmp_path:
     assert peer.set(NODE, atomically=True, **OTHERS).successful
     changed = values(peer)
     for name, text, reason in (
-        ("scene", "rattle", "scene = 'rattle': fixed while the node lives"),
-        ("publish_rate", "50.5", "publish_rate = '50.5': fixed while the node lives"),
+        ("scene", "rattle", "scene = 'rattle': fixed while the node is configured"),
+        ("publish_rate", "50.5", "publish_rate = '50.5': fixed while the node is configured"),
         ("gap", "1e-7", "'gap': no such parameter"),
         ("backlash", "wide", "backlash = 'wide': must be a number"),
         ("input_torque", "1e9", "input_torque = 1000000000.0 N m: must be a number within"),

@@ -21,6 +21,7 @@ from std_srvs.srv import Trigger
 
 from planetary_twin_py.recording.info import read_info
 from planetary_twin_py.recording.records import files_of, records_of
+from planetary_twin_py.recording.topics import is_status
 
 from .conftest import Start
 from .peer import LATCHED, LONG, TWIN, Peer
@@ -66,7 +67,7 @@ class Logger:
     @property
     def reports(self) -> list[DiagnosticStatus]:
         statuses = [status for report in self._reports for status in report.status]
-        return [status for status in statuses if status.name == RECORDING]
+        return [status for status in statuses if is_status(status.name, RECORDING)]
 
     def recorded(self, topic: str = TOPIC) -> int:
         if not self.status or topic not in self.status[-1].topics:

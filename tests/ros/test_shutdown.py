@@ -86,7 +86,7 @@ def test_a_signal_while_a_node_loads_ends_it_without_a_word(
     for library in ("numpy", "_rclpy", "fastrtps"):
         for number in (signal.SIGINT, signal.SIGTERM):
             process = subprocess.Popen(
-                [Path(sys.executable).with_name(name)],
+                [Path(sys.prefix, "lib/planetary_twin", name)],
                 cwd=tmp_path,
                 stdout=subprocess.PIPE,
                 stderr=subprocess.PIPE,

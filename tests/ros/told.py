@@ -10,7 +10,7 @@ from planetary_twin_msgs.msg import MeshWaveform, OperatingPoint
 
 import planetary_twin_py as pt
 from planetary_twin_py.affordable import Setting
-from planetary_twin_py.recording.topics import REAL_TIME
+from planetary_twin_py.recording.topics import REAL_TIME, is_status
 
 from .peer import Peer
 
@@ -22,7 +22,7 @@ def listen_to_reports(peer: Peer) -> list[DiagnosticArray]:
     reports: list[DiagnosticArray] = []
 
     def hear(message: DiagnosticArray) -> None:
-        if message.status[0].name == REAL_TIME:
+        if is_status(message.status[0].name, REAL_TIME):
             reports.append(message)
 
     peer.node.create_subscription(DiagnosticArray, "/diagnostics", hear, 100)

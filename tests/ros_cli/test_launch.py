@@ -10,7 +10,8 @@ from .command import Ros2
 
 LAUNCH = ("launch", "planetary_twin", "twin.launch.py")
 ARGUMENTS = (
-    "scene", "namespace", "frame_prefix", "record", "rate_factor", "params", "domain", "composed",
+    "scene", "namespace", "frame_prefix", "record", "rate_factor", "params_file", "params",
+    "use_sim_time", "log_level", "domain", "use_composition", "composed",
 )  # fmt: skip
 
 
@@ -25,7 +26,7 @@ def test_every_argument_is_described(ros2: Ros2) -> None:
 def test_twins_of_two_namespaces_run_and_record_side_by_side(ros2: Ros2) -> None:
     """One of them in one process, at another rate."""
     left = ros2.start(*LAUNCH, "namespace:=left", "frame_prefix:=left/")
-    options = ("frame_prefix:=right/", "composed:=true", "rate_factor:=0.5")
+    options = ("frame_prefix:=right/", "use_composition:=true", "rate_factor:=0.5")
     right = ros2.start(*LAUNCH, "namespace:=right", *options)
     for name in ("left", "right"):
         ros2.until("active [3]", "lifecycle", "get", f"/{name}/simulation")
@@ -50,7 +51,7 @@ def test_a_twin_of_another_domain_and_scene_is_not_met(ros2: Ros2) -> None:
     params = ros2.folder / "params.yaml"
     params.write_text("/**:\n  ros__parameters:\n    backlash: 1.5e-7\n", encoding="utf-8")
     options = ("domain:=230", "namespace:=far", "scene:=run_up", "record:=false")
-    far = ros2.start(*LAUNCH, *options, f"params:={params}")
+    far = ros2.start(*LAUNCH, *options, f"params_file:={params}", "log_level:=debug")
     away = Ros2(230, ros2.folder)
     try:
         away.until("active [3]", "lifecycle", "get", "/far/simulation")
@@ -61,6 +62,20 @@ def test_a_twin_of_another_domain_and_scene_is_not_met(ros2: Ros2) -> None:
     finally:
         away("daemon", "stop")
     assert ros2.interrupt(far) == 0
+    assert "[DEBUG]" in ros2.output(far)
+
+
+def test_older_names_of_arguments_work_and_a_clock_is_followed(ros2: Ros2) -> None:
+    params = ros2.folder / "older.yaml"
+    params.write_text("/**:\n  ros__parameters:\n    backlash: 1.5e-7\n", encoding="utf-8")
+    older = ("composed:=true", f"params:={params}")
+    process = ros2.start(*LAUNCH, *older, "namespace:=older", "use_sim_time:=true")
+    ros2.until("active [3]", "lifecycle", "get", "/older/simulation")
+    assert ros2.value("/older/simulation", "backlash") == "1.5e-07"
+    assert ros2.value("/older/simulation", "use_sim_time") == "True"
+    assert ros2.interrupt(process) == 0
+    told = ros2.output(process)
+    assert "[twin-" in told and "use_sim_time: waits for the first message on /clock" in told
 
 
 def test_a_scene_keeps_its_operating_point(ros2: Ros2) -> None:

@@ -36,7 +36,11 @@ def test_numbers_are_taken_as_typed(
         ("backlash", "true", ("backlash = True: must be a number",)),
         ("backlash", "[1.0, 2.0]", ("backlash = [1.0, 2.0]: must be a number",)),
         ("tolerance", "5", ("tolerance", "5.0", "0.1")),
-        ("scene", "run_up", ("scene = 'run_up': fixed while the node lives", "-p scene:=VALUE")),
+        (
+            "scene",
+            "run_up",
+            ("scene = 'run_up': fixed while the node is configured", "-p scene:=VALUE"),
+        ),
         ("gap", "1", ("'gap': no such parameter",)),
     ],
 )

@@ -1,23 +1,41 @@
-"""Every node is found where `ros2 run` and `ros2 launch` look for it."""
+"""Every node is found where `ros2 run` and `ros2 launch` look for it, and nowhere on the path."""
 
 import os
 import re
+import subprocess
 import sys
-from importlib.metadata import distribution
 from pathlib import Path
 
-LAUNCH = Path(__file__).parents[2] / "ros_ws/src/planetary_twin/launch/twin.launch.py"
+PACKAGE = Path(__file__).parents[2] / "ros_ws/src/planetary_twin"
 FOLDER = Path(sys.prefix, "lib/planetary_twin")
 
 
-def test_executables_are_those_that_the_package_declares() -> None:
-    declared = distribution("planetary_twin").entry_points.select(group="console_scripts")
+def test_executables_are_those_of_the_package() -> None:
     found = {path.name for path in FOLDER.iterdir()}
-    assert found == {script.name for script in declared}
-    assert all(os.access(path, os.X_OK) for path in FOLDER.iterdir())
+    assert found == {path.name for path in (PACKAGE / "scripts").iterdir()}
+    assert {"simulation", "logger", "replay", "twin"} <= found
+
+
+def test_executables_run_with_the_interpreter_of_their_environment() -> None:
+    for path in FOLDER.iterdir():
+        unknown = [path, "--ros-args", "--no-such-option"]
+        done = subprocess.run(
+            unknown, env={"PATH": "/usr/bin:/bin"}, capture_output=True, text=True, timeout=120
+        )
+        assert done.returncode == 1
+        assert "--no-such-option" in done.stderr and "Traceback" not in done.stderr
+
+
+def test_no_program_of_the_system_is_hidden() -> None:
+    """`logger` is one of them; the names of the other nodes may be."""
+    on_the_path = {path.name for path in Path(sys.prefix, "bin").iterdir()}
+    assert not on_the_path & {path.name for path in FOLDER.iterdir()}
+    assert "planetary-twin" in on_the_path
 
 
 def test_the_launch_file_starts_executables_that_exist() -> None:
-    started = re.findall(r'_node\("(\w+)"', LAUNCH.read_text(encoding="utf-8"))
+    launch = PACKAGE / "launch/twin.launch.py"
+    started = re.findall(r'_node\("(\w+)"', launch.read_text(encoding="utf-8"))
     assert started
     assert set(started) <= {path.name for path in FOLDER.iterdir()}
+    assert all(os.access(path, os.X_OK) for path in FOLDER.iterdir())

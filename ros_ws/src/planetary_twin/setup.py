@@ -18,14 +18,11 @@ setup(
         (f"share/{NAME}/launch", glob("launch/*.py")),
         (f"share/{NAME}/config", glob("config/*")),
         (f"share/{NAME}/layouts", glob("layouts/*")),
+        # Where `ros2 run` looks. pip would put console scripts on the path, where `logger` hides
+        # the program of the system.
+        (f"lib/{NAME}", glob("scripts/*")),
     ],
     entry_points={
-        "console_scripts": [
-            "simulation = planetary_twin.nodes:simulation",
-            "logger = planetary_twin.nodes:logger",
-            "replay = planetary_twin.nodes:replay",
-            "twin = planetary_twin.nodes:twin",
-        ],
         "planetary_twin.live": ["follow = planetary_twin.watching:follow"],
         "planetary_twin.commands": [
             "run = planetary_twin.commands:run",

@@ -18,15 +18,24 @@ from launch_ros.substitutions import FindPackageShare
 
 _CONFIG = PathJoinSubstitution([FindPackageShare("planetary_twin"), "config", "twin.yaml"])
 _DOMAIN = EnvironmentVariable("ROS_DOMAIN_ID", default_value="0")
+# An older name stands before the one that takes its value as a default.
 _ARGUMENTS = (
     ("scene", "paper", "packaged scene, or path of a YAML file"),
     ("namespace", "planetary_twin", "one per twin, so that several run side by side"),
     ("frame_prefix", "", "before the names of all frames of /tf, which several twins share"),
     ("record", "true", "whether the logger records, into recordings/ of the working directory"),
     ("rate_factor", "1.0", "simulated seconds per second"),
-    ("params", _CONFIG, "YAML file with parameters of both nodes"),
+    ("params", _CONFIG, "older name of params_file"),
+    ("params_file", LaunchConfiguration("params"), "YAML file with parameters of both nodes"),
+    ("use_sim_time", "false", "stamp with the time on /clock, which another node publishes"),
+    ("log_level", "info", "of both nodes: debug, info, warn, error or fatal"),
     ("domain", _DOMAIN, "ROS_DOMAIN_ID of the nodes: twins of different domains never meet"),
-    ("composed", "false", "simulation and logger in one process, for up to some 100 messages/s"),
+    ("composed", "false", "older name of use_composition"),
+    (
+        "use_composition",
+        LaunchConfiguration("composed"),
+        "simulation and logger in one process, for up to some 100 messages/s",
+    ),
 )
 
 _RECORDED_BY = IfElseSubstitution(LaunchConfiguration("record"), "logger", "")
@@ -39,7 +48,7 @@ def generate_launch_description() -> LaunchDescription:
         for name, default, description in _ARGUMENTS
     ]
     record = LaunchConfiguration("record")
-    both = AndSubstitution(record, LaunchConfiguration("composed"))
+    both = AndSubstitution(record, LaunchConfiguration("use_composition"))
     apart = NotSubstitution(both)
     nodes = [
         _node("logger", AndSubstitution(record, apart)),
@@ -50,7 +59,10 @@ def generate_launch_description() -> LaunchDescription:
 
 
 def _node(executable: str, condition: Substitution, **options: Shutdown) -> Node:
-    given = {"scene": ParameterValue(LaunchConfiguration("scene"), value_type=str)}
+    given = {
+        "scene": ParameterValue(LaunchConfiguration("scene"), value_type=str),
+        "use_sim_time": ParameterValue(LaunchConfiguration("use_sim_time"), value_type=bool),
+    }
     if executable != "logger":
         given |= {
             "rate_factor": ParameterValue(LaunchConfiguration("rate_factor"), value_type=float),
@@ -63,7 +75,8 @@ def _node(executable: str, condition: Substitution, **options: Shutdown) -> Node
         namespace=LaunchConfiguration("namespace"),
         output="screen",
         additional_env={"ROS_DOMAIN_ID": LaunchConfiguration("domain")},
-        parameters=[LaunchConfiguration("params"), given],
+        parameters=[LaunchConfiguration("params_file"), given],
+        ros_arguments=["--log-level", LaunchConfiguration("log_level")],
         condition=IfCondition(condition),
         **options,
     )

@@ -11,10 +11,8 @@ from typing import Any, Self
 import rclpy
 from rclpy.client import Client as Service
 from rclpy.executors import ExternalShutdownException, SingleThreadedExecutor
-from rclpy.impl.implementation_singleton import rclpy_implementation
 from rclpy.signals import SignalHandlerOptions
 
-RCLError = rclpy_implementation.RCLError
 PATIENCE = 2.0  # [s] the answer to a first call after discovery may get lost: ask again
 _POLL = 0.02  # [s]
 
@@ -74,6 +72,6 @@ class Client:
             self._executor.spin()
         except ExternalShutdownException:
             pass
-        except RCLError:
+        except RuntimeError:  # of rcl
             if self._context.ok():  # else the shutdown fell between two waits
                 raise

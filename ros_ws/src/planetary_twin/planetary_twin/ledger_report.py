@@ -8,6 +8,7 @@ from diagnostic_msgs.msg import DiagnosticStatus, KeyValue
 
 from planetary_twin_py import Window
 from planetary_twin_py.ledger_check import Balance, balance_of_window, ledger_warning
+from planetary_twin_py.recording.topics import status_name
 
 LEDGER = "simulation: energy ledger"
 
@@ -38,7 +39,7 @@ class LedgerReport:
         warning = ledger_warning(balance, loosest)
         return DiagnosticStatus(
             level=DiagnosticStatus.WARN if warning else DiagnosticStatus.OK,
-            name=LEDGER,
+            name=status_name(LEDGER, self._hardware),
             message=warning or "closes",
             hardware_id=self._hardware,
             values=[

@@ -150,6 +150,8 @@ class LiveTwin:
                 if not self._stands:
                     self._follow_ramps()
                 self._announce()
+                if answers:  # who asked may look at once where it stands
+                    self.progress = self._standing()
                 for answer in answers:
                     answer()
                 if not self._stands and self._pass(self._interval, self._pace.wait):

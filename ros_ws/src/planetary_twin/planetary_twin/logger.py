@@ -7,11 +7,12 @@ from collections import deque
 
 from diagnostic_msgs.msg import DiagnosticArray
 from planetary_twin_msgs.msg import RecorderStatus
+from rclpy.lifecycle import LifecyclePublisher
 from rclpy.serialization import serialize_message
 from rclpy.timer import Timer
 
-from .logger_parameters import declare_wishes
-from .managed import ManagedNode, NodeError, RCLError, run_node
+from .logger_parameters import declare_wishes, wishes_of
+from .managed import ManagedNode, NodeError, run_node
 from .messages import set_stamp
 from .parameters import brief
 from .recorder import Recorder, Refused
@@ -29,19 +30,21 @@ class Logger(ManagedNode):
 
     def __init__(self) -> None:
         super().__init__("logger")
-        self._wishes = declare_wishes(self)
+        declare_wishes(self)
+        self._wishes = wishes_of(self)
         self._recorder: Recorder | None = None
         self._ticking: list[Timer] = []
         self._own: deque[bytes] = deque(maxlen=_OWN)
         self._status = RecorderStatus()
         self._now = Rising(self.get_clock())
         self._report = RecordingReport(self.get_namespace())
-        self._status_publisher = self.create_publisher(RecorderStatus, "~/status", 10)
-        self._diagnostics = self.create_publisher(DiagnosticArray, "/diagnostics", 10)
+        self._status_publisher: LifecyclePublisher | None = None
+        self._diagnostics: LifecyclePublisher | None = None
         RecordingServices(self, self._active)
 
     def configure(self) -> None:
-        """Create the recording's folder and file."""
+        """Create the recording's folder and file, and offer the topics."""
+        self._wishes = wishes_of(self)
         self._check_topics()
         recorder = Recorder(self, self._wishes, self._own, self._cannot_go_on)
         try:
@@ -52,6 +55,9 @@ class Logger(ManagedNode):
             raise NodeError(f"name = {refusal}") from None
         self._recorder = recorder
         self._report = RecordingReport(self.get_namespace())
+        create = self.create_lifecycle_publisher
+        self._status_publisher = create(RecorderStatus, "~/status", 10)
+        self._diagnostics = create(DiagnosticArray, "/diagnostics", 10)
 
     def activate(self) -> None:
         """Subscribe to what there is, and to what appears later."""
@@ -69,6 +75,10 @@ class Logger(ManagedNode):
     def close(self) -> None:
         """Finish the file with its account."""
         self._stop_ticking()
+        for publisher in (self._status_publisher, self._diagnostics):
+            if publisher is not None:
+                self.destroy_lifecycle_publisher(publisher)
+        self._status_publisher = self._diagnostics = None
         recorder, self._recorder = self._recorder, None
         if recorder is not None:
             try:
@@ -90,7 +100,7 @@ class Logger(ManagedNode):
         for name in self._wishes.topics:
             try:
                 self.resolve_topic_name(name)
-            except RCLError as refusal:
+            except RuntimeError as refusal:  # of rcl
                 reason = str(refusal).partition(", at ")[0]
                 raise NodeError(f"topics: {brief(name)}: {reason}") from None
 

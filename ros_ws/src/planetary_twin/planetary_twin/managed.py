@@ -6,39 +6,33 @@ import sys
 import threading
 import time
 import traceback
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Collection, Mapping
 from typing import Any
 
 import rclpy
 from lifecycle_msgs.srv import ChangeState
-from rcl_interfaces.msg import SetParametersResult
 from rclpy.exceptions import ParameterException
 from rclpy.executors import ExternalShutdownException, SingleThreadedExecutor
-from rclpy.impl.implementation_singleton import rclpy_implementation
-from rclpy.lifecycle import LifecycleNode, LifecycleState, TransitionCallbackReturn
-from rclpy.parameter import Parameter
-from rclpy.qos import QoSProfile
-from rclpy.service import Service
+from rclpy.lifecycle import LifecycleState, TransitionCallbackReturn
 
 from planetary_twin_py.scene.names import did_you_mean
 
-from .parameters import ParameterServices, brief, check_settable, declare_fixed, fixed_at
+from .namesakes import Namesakes
+from .parameter_node import ParameterNode
+from .parameters import brief, declare_at_start
 from .signals import SIGNALS
 from .standard_error import never_waiting
 
 NAMESPACE = "planetary_twin"
-RCLError = rclpy_implementation.RCLError
 _SOON = 1e-3  # [s]
-_QOS = "qos_overrides."  # of topics, which ROS declares where it finds them
 _QUIET = 1.0  # [s] between two log lines that a client can cause
-_REQUESTS = QoSProfile(depth=100)
 
 
 class NodeError(Exception):
     """A node that cannot do its work; the message says why in one line."""
 
 
-class ManagedNode(LifecycleNode):
+class ManagedNode(ParameterNode):
     """
     Lifecycle node that configures and activates itself unless `autostart` is false.
 
@@ -48,24 +42,18 @@ class ManagedNode(LifecycleNode):
     """
 
     def __init__(self, name: str, given: Mapping[str, Any] | None = None) -> None:
-        overrides = [Parameter(key, value=value) for key, value in (given or {}).items()]
-        super().__init__(
-            name,
-            namespace=NAMESPACE,
-            parameter_overrides=overrides,
-            start_parameter_services=False,
-        )
+        super().__init__(name, NAMESPACE, given or {})
         self.failure: str | None = None
         """Why the process ends, if it is no good end."""
         self._reason = ""
         self._broken = ""
         self._starting = False
-        self._served = ParameterServices(self)
-        self._change_state = self._service_change_state.callback
-        self._service_change_state.callback = self._change_state_if_possible
+        service = self.service_of(ChangeState)
+        self._change_state, service.callback = service.callback, self._change_state_if_possible
         self._autostart = bool(
-            declare_fixed(self, "autostart", True, "configure and activate without being asked")
+            declare_at_start(self, "autostart", True, "configure and activate without being asked")
         )
+        self._namesakes = Namesakes(self)
 
     def configure(self) -> None:
         """Acquire what running needs."""
@@ -106,43 +94,34 @@ class ManagedNode(LifecycleNode):
             self.executor.create_task(self._break_down, reason)
 
     def _break_down(self, reason: str) -> None:
-        if self._state_machine.current_state[1] == "active":
+        if self.state == "active":
             self._broken = reason
             self.trigger_deactivate()  # the only way from there to the error state
 
-    def create_service(self, *given: Any, **options: Any) -> Service:
-        """As rclpy's, with room for few requests: who floods waits, and fills no memory."""
-        return super().create_service(*given, **options | {"qos_profile": _REQUESTS})
-
-    def set_parameters_atomically(self, parameter_list: list[Parameter]) -> SetParametersResult:
-        """
-        As rclpy's, with a refusal that names the parameter for all that cannot be.
-
-        What is fixed may be set to what it is: a file that `ros2 param dump` wrote loads.
-        """
-        try:
-            changing = [p for p in parameter_list if not fixed_at(self, p)]
-            for parameter in changing:
-                check_settable(self, parameter)
-            if parameter_list and not changing:
-                return SetParametersResult(successful=True)
-            return super().set_parameters_atomically(changing)
-        except ValueError as refusal:
-            return SetParametersResult(successful=False, reason=str(refusal))
+    # Lifecycle publishers send from the beginning of `activate` to the end of `deactivate`.
 
     def on_configure(self, state: LifecycleState) -> TransitionCallbackReturn:
         """Lifecycle transition."""
         with SIGNALS.interrupting():  # it may take long, and has nothing to lose
-            return self._attempt(self.configure)
+            outcome = self._attempt(self.configure)
+        if outcome == TransitionCallbackReturn.FAILURE:
+            self.close()
+        return outcome
 
     def on_activate(self, state: LifecycleState) -> TransitionCallbackReturn:
         """Lifecycle transition."""
-        return self._attempt(self.activate)
+        super().on_activate(state)
+        outcome = self._attempt(self.activate)
+        if outcome != TransitionCallbackReturn.SUCCESS:
+            super().on_deactivate(state)
+        return outcome
 
     def on_deactivate(self, state: LifecycleState) -> TransitionCallbackReturn:
         """Lifecycle transition."""
         if not self._broken:
-            return self._attempt(self.deactivate)
+            outcome = self._attempt(self.deactivate)
+            super().on_deactivate(state)
+            return outcome
         self.get_logger().error(self._broken)
         self._broken = ""
         return TransitionCallbackReturn.ERROR
@@ -156,7 +135,7 @@ class ManagedNode(LifecycleNode):
         return self._attempt(self.close)
 
     def on_error(self, state: LifecycleState) -> TransitionCallbackReturn:
-        """Let go of what is left, so that the node can be configured anew."""
+        """Let go of what is left, so that the node can be configured again."""
         return self._attempt(self.close)
 
     def _change_state_if_possible(
@@ -164,13 +143,12 @@ class ManagedNode(LifecycleNode):
     ) -> ChangeState.Response:
         """Rclpy's service, which raises for what is no transition of the present state."""
         wanted = request.transition.label or request.transition.id
-        offered = self._state_machine.available_transitions
-        if any(wanted in (number, label) for number, label, *_ in offered):
+        offered = self.transitions()
+        if any(wanted in transition for transition in offered.items()):
             return self._change_state(request, response)
-        state = self._state_machine.current_state[1]
-        known = ", ".join(label for _, label, *_ in offered) or "none"
+        known = ", ".join(offered.values()) or "none"
         self.get_logger().warning(
-            f"{brief(wanted)}: no transition of the state {state}; there are: {known}",
+            f"{brief(wanted)}: no transition of the state {self.state}; there are: {known}",
             throttle_duration_sec=_QUIET,
         )
         response.success = False
@@ -251,7 +229,7 @@ def _run_to_end(
         pass
     except (NodeError, ParameterException, ValueError, OSError) as reason:
         failures[name] = str(reason)
-    except RCLError:
+    except RuntimeError:  # of rcl
         # A callback that publishes while a signal shuts ROS down is refused: that is the end.
         if rclpy.ok():
             raise
@@ -283,16 +261,14 @@ def wake_after_shutdown(executors: list[SingleThreadedExecutor]) -> None:
         executor.wake()
 
 
-def _warn_of_unknown(nodes: Iterable[ManagedNode]) -> None:
+def _warn_of_unknown(nodes: Collection[ManagedNode]) -> None:
     """Tell of parameters given at the start that no node here has: ROS ignores them silently."""
-    known = [name for node in nodes for name in node._parameters]
-    told = set(known)
-    for node in nodes:
-        for name in sorted(node._parameter_overrides.keys() - told):
-            told.add(name)
-            if not name.startswith(_QOS):
-                near = did_you_mean(name, known)
-                node.get_logger().warning(f"{name}: no such parameter{near}")
+    known = [name for node in nodes for name in node.get_parameters_by_prefix("")]
+    unknown = {name: node for node in nodes for name in node.given}
+    for name, node in sorted(unknown.items(), key=lambda item: item[0]):
+        if name not in known:
+            near = did_you_mean(name, known)
+            node.get_logger().warning(f"{name}: no such parameter{near}")
 
 
 def _serve_beside(executor: SingleThreadedExecutor, node: ManagedNode) -> None:
@@ -311,16 +287,14 @@ def _serve_beside(executor: SingleThreadedExecutor, node: ManagedNode) -> None:
 def _initialize(args: list[str] | None) -> None:
     try:
         rclpy.init(args=args)
-    except (
-        RuntimeError
-    ) as refusal:  # RCLError, and what rclpy derives for options it does not know
+    except RuntimeError as refusal:  # of rcl, and what rclpy derives for options it does not know
         raise NodeError(f"--ros-args: {str(refusal).split(', at ')[0]}") from None
 
 
 def _made(make: Callable[[], ManagedNode]) -> ManagedNode:
     try:
         return make()
-    except RCLError as refusal:
+    except RuntimeError as refusal:  # of rcl
         if not rclpy.ok():  # a signal came between
             raise
         reason = " ".join(str(refusal).split(", at ")[0].split())

@@ -15,7 +15,9 @@ from planetary_twin_msgs import msg
 from sensor_msgs.msg import JointState
 
 from planetary_twin_py import TUNABLES, OperatingPoint, Scene, Window
-from planetary_twin_py.recording.fields import MEMBERS, POWER_FLOW, WAVES, mesh_field
+from planetary_twin_py.recording.fields import MEMBERS, POWER_FLOW, TURN, WAVES, mesh_field
+
+from .whole_turns import WholeTurns
 
 
 def set_stamp(message: Time, stamp: int) -> None:
@@ -101,10 +103,11 @@ class JointsMessage:
     """
     JointState: a joint `<body>_joint` per body, its position the absolute angle of the body.
 
+    Positions lie within a turn, or, if `continuous`, count whole turns from the start of the run.
     The URDF in `robot_description` hangs the planets so that this also moves them rightly.
     """
 
-    def __init__(self, bodies: tuple[str, ...]) -> None:
+    def __init__(self, bodies: tuple[str, ...], continuous: bool) -> None:
         size = bytes(8 * len(bodies))
         self.message = JointState(
             name=[f"{body}_joint" for body in bodies],
@@ -113,10 +116,12 @@ class JointsMessage:
         )
         self._position = np.frombuffer(self.message.position)
         self._velocity = np.frombuffer(self.message.velocity)
+        self._turns = WholeTurns() if continuous else None
 
     def fill(self, window: Window) -> JointState:
         """Describe `window`."""
-        self._position[:] = window.angle
+        turns = self._turns.after(window) if self._turns else 0.0
+        self._position[:] = window.angle + TURN * turns
         self._velocity[:] = window.mean_speed
         return self.message
 

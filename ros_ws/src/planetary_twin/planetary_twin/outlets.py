@@ -7,8 +7,7 @@ from collections.abc import Iterable, Mapping
 
 from rclpy.duration import Duration
 from rclpy.exceptions import NameValidationException
-from rclpy.node import Node
-from rclpy.publisher import Publisher
+from rclpy.lifecycle import LifecycleNode, LifecyclePublisher
 
 from planetary_twin_py.recording.rosbag2 import Topic
 from planetary_twin_py.recording.tape import Cue
@@ -24,7 +23,7 @@ _NOW = Duration()
 class Outlet:
     """A publisher that knows whether it would overwrite what a reliable subscriber still lacks."""
 
-    def __init__(self, publisher: Publisher, depth: int) -> None:
+    def __init__(self, publisher: LifecyclePublisher, depth: int) -> None:
         self.publisher = publisher
         self._depth = depth
         self._sent = 0  # since all was acknowledged
@@ -58,7 +57,9 @@ class Outlets:
     Raises `NodeError` where that cannot be had.
     """
 
-    def __init__(self, node: Node, topics: Iterable[Topic], names: Mapping[str, str]) -> None:
+    def __init__(
+        self, node: LifecycleNode, topics: Iterable[Topic], names: Mapping[str, str]
+    ) -> None:
         self._node = node
         self._names = names
         self._outlets: dict[str, Outlet] = {}
@@ -95,7 +96,7 @@ class Outlets:
     def close(self) -> None:
         """Let the publishers go."""
         for outlet in self._outlets.values():
-            self._node.destroy_publisher(outlet.publisher)
+            self._node.destroy_lifecycle_publisher(outlet.publisher)
         self._outlets = {}
 
     def _offer(self, topic: Topic) -> None:
@@ -108,7 +109,7 @@ class Outlets:
         except (KeyError, ValueError, TypeError) as defect:
             raise NodeError(f"{topic.name}: recorded QoS is unreadable: {defect!r}") from None
         try:
-            publisher = self._node.create_publisher(kind, name, qos)
+            publisher = self._node.create_lifecycle_publisher(kind, name, qos)
         except NameValidationException as refusal:
             raise NodeError(f"{name}: {str(refusal).splitlines()[0]}") from None
         self._outlets[topic.name] = Outlet(publisher, max(qos.depth, 1))

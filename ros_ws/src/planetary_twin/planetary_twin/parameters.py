@@ -5,7 +5,7 @@ from __future__ import annotations
 import reprlib
 from array import array
 from collections.abc import Container, Iterator
-from typing import Any
+from typing import Any, Protocol
 
 from pydantic import BaseModel
 from pydantic.fields import FieldInfo
@@ -13,12 +13,10 @@ from rcl_interfaces.msg import (
     FloatingPointRange,
     ParameterDescriptor,
     ParameterType,
-    SetParametersResult,
+    ParameterValue,
 )
-from rcl_interfaces.srv import SetParameters, SetParametersAtomically
 from rclpy.node import Node
 from rclpy.parameter import Parameter
-from rclpy.parameter_service import ParameterService
 
 from planetary_twin_py import TUNABLES, Tunable
 from planetary_twin_py.scene.quantity import unit_of, within
@@ -26,8 +24,8 @@ from planetary_twin_py.scene.quantity import unit_of, within
 from .pacing import AS_FAST_AS_IT_GOES, FASTEST, SLOWEST, check_rate_factor
 
 _AT_START = "fixed while the node lives: set it at start, -p {name}:=VALUE"
-_GEOMETRY = "geometry is fixed while the node lives: choose another scene, -p scene:=SCENE"
-_MOST = 200  # parameters in a request: more than there are, but little work
+_UNCONFIGURED = "fixed while the node is configured: set it before, or at start, -p {name}:=VALUE"
+_GEOMETRY = "geometry is fixed: choose another scene, -p scene:=SCENE"
 _BRIEF = reprlib.Repr()
 _BRIEF.maxstring = _BRIEF.maxother = 60
 
@@ -41,35 +39,34 @@ def _listed(value: Any) -> Any:
     return list(value) if isinstance(value, array) else value
 
 
-class ParameterServices(ParameterService):
-    """rclpy's services, with a refusal for a value of no known type, which would end the node."""
+class Declaring(Protocol):
+    """Node that declares parameters; `given` are start values that no declaration has taken."""
 
-    def _set_parameters_callback(
-        self, request: SetParameters.Request, response: SetParameters.Response
-    ) -> SetParameters.Response:
-        messages = request.parameters
-        if len(messages) > _MOST:
-            response.results = [self._set(messages)] * len(messages)
-        else:
-            response.results = [self._set([message]) for message in messages]
-        return response
+    given: dict[str, Any]
 
-    def _set_parameters_atomically_callback(
-        self, request: SetParametersAtomically.Request, response: SetParametersAtomically.Response
-    ) -> SetParametersAtomically.Response:
-        response.result = self._set(request.parameters)
-        return response
+    def declare_parameter(
+        self, name: str, value: Any, descriptor: ParameterDescriptor, ignore_override: bool
+    ) -> Parameter:
+        """As rclpy's."""
 
-    def _set(self, messages: list[Any]) -> SetParametersResult:
-        if len(messages) > _MOST:
-            reason = f"{len(messages)} parameters: at most {_MOST} at once"
-            return SetParametersResult(successful=False, reason=reason)
-        try:
-            parameters = [Parameter.from_parameter_msg(message) for message in messages]
-        except ValueError as refusal:
-            name = brief(messages[0].name) if len(messages) == 1 else "parameters"
-            return SetParametersResult(successful=False, reason=f"{name}: {refusal}")
-        return self._get_node().set_parameters_atomically(parameters)
+    def set_descriptor(
+        self, name: str, descriptor: ParameterDescriptor, alternative_value: ParameterValue
+    ) -> ParameterValue:
+        """As rclpy's."""
+
+
+def changes(descriptor: ParameterDescriptor) -> str:
+    """Return when a parameter may be set: `at start`, `unconfigured`, `live` or `with scene`."""
+    if descriptor.additional_constraints == _UNCONFIGURED.format(name=descriptor.name):
+        return "unconfigured"
+    if descriptor.additional_constraints == _GEOMETRY:
+        return "with scene"
+    return "at start" if descriptor.read_only else "live"
+
+
+def is_fixed(descriptor: ParameterDescriptor, state: str) -> bool:
+    """Whether a parameter cannot be set in this lifecycle state of its node."""
+    return changes(descriptor) not in ("live", state)
 
 
 def fixed_at(node: Node, given: Parameter) -> bool:
@@ -90,16 +87,22 @@ def check_settable(node: Node, parameter: Parameter) -> None:
     """
     if not node.has_parameter(parameter.name):
         raise ValueError(f"{brief(parameter.name)}: no such parameter")
-    told = f"{parameter.name} = {brief(parameter.value)}"
+    refused = f"{parameter.name} = {brief(parameter.value)}"
     descriptor = node.describe_parameter(parameter.name)
     if descriptor.read_only:
         reason = descriptor.additional_constraints or "fixed while the node lives"
-        raise ValueError(f"{told}: {reason}")
+        raise ValueError(f"{refused}: {reason}")
     wanted = Parameter.Type(descriptor.type)
     if wanted not in (Parameter.Type.DOUBLE, parameter.type_):
-        raise ValueError(f"{told}: must be of type {wanted.name}")
+        raise ValueError(f"{refused}: must be of type {wanted.name}")
     for limits in descriptor.floating_point_range:
         _check_within(limits, parameter.name, number(parameter.name, parameter.value))
+
+
+def is_number(node: Node, name: str) -> bool:
+    """Whether `node` has a parameter of type DOUBLE of this name."""
+    double = ParameterType.PARAMETER_DOUBLE
+    return node.has_parameter(name) and node.describe_parameter(name).type == double
 
 
 def _check_within(limits: FloatingPointRange, name: str, value: float) -> None:
@@ -111,33 +114,44 @@ def _check_within(limits: FloatingPointRange, name: str, value: float) -> None:
         raise ValueError(f"{told}: {within(low, high, unit)}")
 
 
-def declare_fixed(node: Node, name: str, default: Any, description: str) -> Any:
-    """Declare a read-only parameter and return its value; a float also takes 1 and 1e3."""
+def declare_at_start(node: Declaring, name: str, default: Any, description: str) -> Any:
+    """Declare a read-only parameter and return its value."""
     descriptor = ParameterDescriptor(
         description=description,
         read_only=True,
         additional_constraints=_AT_START.format(name=name),
     )
+    return _declare(node, name, default, descriptor)
+
+
+def declare_fixed(node: Declaring, name: str, default: Any, description: str) -> Any:
+    """
+    Declare a parameter that may change while the node is unconfigured, and return its value.
+
+    A float also takes 1 and 1e3.
+    """
+    descriptor = ParameterDescriptor(
+        description=description, additional_constraints=_UNCONFIGURED.format(name=name)
+    )
     if isinstance(default, float):
         return _declare_number(node, name, default, descriptor)
-    return node.declare_parameter(name, default, descriptor).value
+    return _declare(node, name, default, descriptor)
 
 
 def declare_bounded(
-    node: Node, name: str, default: float, limits: tuple[float, float], description: str
+    node: Declaring, name: str, default: float, limits: tuple[float, float], description: str
 ) -> float:
-    """Declare a read-only number within `limits` and return its value."""
+    """Declare a number within `limits` as `declare_fixed` does, and return its value."""
     descriptor = ParameterDescriptor(
         description=description,
-        read_only=True,
-        additional_constraints=_AT_START.format(name=name),
+        additional_constraints=_UNCONFIGURED.format(name=name),
         floating_point_range=[FloatingPointRange(from_value=limits[0], to_value=limits[1])],
     )
     return _declare_number(node, name, default, descriptor)
 
 
 def declare_changing(
-    node: Node, name: str, default: float, limits: tuple[float, float], description: str
+    node: Declaring, name: str, default: float, limits: tuple[float, float], description: str
 ) -> float:
     """Declare a number within `limits` that may change while the node lives; return its value."""
     descriptor = ParameterDescriptor(
@@ -148,7 +162,7 @@ def declare_changing(
     return _declare_number(node, name, default, descriptor)
 
 
-def declare_rate_factor(node: Node) -> float:
+def declare_rate_factor(node: Declaring) -> float:
     """
     Declare simulated seconds per second and return the value; 0 is as fast as it goes.
 
@@ -165,7 +179,7 @@ def declare_rate_factor(node: Node) -> float:
     return value
 
 
-def declare_tunable(node: Node, tunable: Tunable, default: float, told_in: str) -> float:
+def declare_tunable(node: Declaring, tunable: Tunable, default: float, told_in: str) -> float:
     """
     Declare a quantity that may change while the twin runs and return its value at start.
 
@@ -181,9 +195,9 @@ def declare_tunable(node: Node, tunable: Tunable, default: float, told_in: str) 
     return _declare_number(node, tunable.name, default, descriptor)
 
 
-def declare_geometry(node: Node, prefix: str, section: BaseModel) -> None:
+def declare_geometry(node: Declaring, prefix: str, section: BaseModel) -> None:
     """
-    Declare every field of a scene's section, to be read alone.
+    Declare every field of a scene's section, to be read alone; it changes with the scene.
 
     Raises `ValueError` where a start value differs from the scene's.
     """
@@ -191,13 +205,12 @@ def declare_geometry(node: Node, prefix: str, section: BaseModel) -> None:
         unit = unit_of(field)
         descriptor = ParameterDescriptor(
             description=f"{field.description}" + ("" if unit is None else f" [{unit or '-'}]"),
-            read_only=True,
             additional_constraints=_GEOMETRY,
         )
         if isinstance(value, float):
             given = _declare_number(node, name, value, descriptor)
         else:
-            given = node.declare_parameter(name, value, descriptor).value
+            given = _declare(node, name, value, descriptor)
         if (list(given) if isinstance(value, list) else given) != value:
             raise ValueError(f"{name} = {brief(given)}: {_GEOMETRY}")
 
@@ -237,12 +250,18 @@ def number(name: str, value: Any) -> float:
     raise ValueError(f"{name} = {brief(value)}: must be a number")
 
 
+def _declare(node: Declaring, name: str, default: Any, descriptor: ParameterDescriptor) -> Any:
+    # A start value holds for the first declaration; a later one is that of another scene.
+    first = node.given.pop(name, None) is not None
+    return node.declare_parameter(name, default, descriptor, ignore_override=not first).value
+
+
 def _declare_number(
-    node: Node, name: str, default: float, descriptor: ParameterDescriptor
+    node: Declaring, name: str, default: float, descriptor: ParameterDescriptor
 ) -> float:
     # A value given at start may be typed INTEGER or STRING and is checked against the declared
     # type at once: declare it open, then close it with the number it means.
-    given = node.declare_parameter(name, default, ParameterDescriptor(dynamic_typing=True)).value
+    given = _declare(node, name, default, ParameterDescriptor(dynamic_typing=True))
     descriptor.type = ParameterType.PARAMETER_DOUBLE
     value = Parameter(name, Parameter.Type.DOUBLE, number(name, given))
     for limits in descriptor.floating_point_range:

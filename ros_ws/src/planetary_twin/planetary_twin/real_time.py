@@ -10,9 +10,9 @@ from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus, KeyValue
 
 from planetary_twin_py import Change
 from planetary_twin_py.affordable import Affordable
+from planetary_twin_py.recording.topics import REAL_TIME, status_name
 
 from .live import Progress, State
-from .reports import REAL_TIME
 
 _TOLERATED_LAG = 0.01  # share of the wanted rate; below it the real-time factor is a warning
 _TOLERATED_INTERVALS = 2.0  # by which two looks may differ in any case: where they fall decides
@@ -100,7 +100,7 @@ class RealTimeReport:
         told = [self.verdict.text, details.get(self.verdict, "")]
         status = DiagnosticStatus(
             level=self.verdict.level,
-            name=REAL_TIME,
+            name=status_name(REAL_TIME, self._hardware),
             message=": ".join(filter(None, told)),
             hardware_id=self._hardware,
         )

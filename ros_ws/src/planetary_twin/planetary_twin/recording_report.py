@@ -7,6 +7,7 @@ from collections.abc import Mapping
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus, KeyValue
 
 from planetary_twin_py.recording.account import TopicAccount
+from planetary_twin_py.recording.topics import status_name
 
 RECORDING = "logger: recording"
 
@@ -41,7 +42,7 @@ class RecordingReport:
         values = [KeyValue(key=key, value=str(value)) for key, value in figures.items()]
         status = DiagnosticStatus(
             level=level,
-            name=RECORDING,
+            name=status_name(RECORDING, self._hardware),
             message=text,
             hardware_id=self._hardware,
             values=values,

@@ -20,7 +20,7 @@ from planetary_twin_py.recording.tape import Cue, Tape
 from .managed import ManagedNode, NodeError, run_node
 from .outlets import Outlets
 from .pacing import AS_FAST_AS_IT_GOES, FASTEST, SLOWEST, check_rate_factor
-from .parameters import coerce, declare_bounded, declare_changing, declare_fixed
+from .parameters import declare_bounded, declare_changing, declare_fixed
 from .playing import Player, Stretch
 from .playing_services import PlayingServices
 
@@ -69,6 +69,7 @@ class Replay(ManagedNode):
 
     def configure(self) -> None:
         """Open the recording and offer its topics."""
+        self._read()
         if not self._path:
             raise NodeError("file is not given: -p file:=RECORDING")
         tape = self._tape = Tape(Path(self._path).expanduser(), self._chosen)
@@ -169,7 +170,7 @@ class Replay(ManagedNode):
         return self._tape.start + round(instant * 1e9)
 
     def _declare(self) -> None:
-        self._path = declare_fixed(self, "file", "", "recording: an .mcap file or its folder")
+        declare_fixed(self, "file", "", "recording: an .mcap file or its folder")
         check_rate_factor(
             declare_changing(
                 self,
@@ -179,25 +180,32 @@ class Replay(ManagedNode):
                 f"recorded seconds per second, {SLOWEST:g} to {FASTEST:g}; 0: no limit [-]",
             )
         )
-        self._start = declare_bounded(
-            self, "start", 0.0, (0.0, _LONGEST), "recorded time to begin at [s]"
-        )
-        self._duration = declare_bounded(
+        declare_bounded(self, "start", 0.0, (0.0, _LONGEST), "recorded time to begin at [s]")
+        declare_bounded(
             self, "duration", 0.0, (0.0, _LONGEST), "recorded time to play [s]; 0: to the end"
         )
-        self._loop = declare_fixed(self, "loop", False, "play again and again")
-        self._start_paused = declare_fixed(self, "start_paused", False, "begin paused")
-        self._clock_rate = declare_bounded(
+        declare_fixed(self, "loop", False, "play again and again")
+        declare_fixed(self, "start_paused", False, "begin paused")
+        declare_bounded(
             self, "clock", 0.0, (0.0, 1000.0), "/clock per recorded second [Hz]; 0: none"
         )
-        self._namespace = declare_fixed(
-            self, "namespace", "", "publish below it what was recorded below another"
-        )
-        chosen = declare_fixed(self, "topics", [""], "recorded topics to play; empty: all")
-        self._chosen = [topic for topic in chosen if topic]
-        self.add_pre_set_parameters_callback(lambda given: coerce(given, {_RATE}))
+        declare_fixed(self, "namespace", "", "publish below it what was recorded below another")
+        declare_fixed(self, "topics", [""], "recorded topics to play; empty: all")
+        self._read()
         self.add_on_set_parameters_callback(self._validate)
         self.add_post_set_parameters_callback(self._submit)
+
+    def _read(self) -> None:
+        """Take over what may have been set while the node was unconfigured."""
+        value = {name: p.value for name, p in self.get_parameters_by_prefix("").items()}
+        self._path: str = value["file"]
+        self._start: float = value["start"]
+        self._duration: float = value["duration"]
+        self._loop: bool = value["loop"]
+        self._start_paused: bool = value["start_paused"]
+        self._clock_rate: float = value["clock"]
+        self._namespace: str = value["namespace"]
+        self._chosen = [topic for topic in value["topics"] if topic]
 
     def _validate(self, parameters: list[Parameter]) -> SetParametersResult:
         try:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from diagnostic_msgs.msg import DiagnosticArray
 
-from planetary_twin_py.recording.topics import REAL_TIME
+from planetary_twin_py.recording.topics import REAL_TIME, is_status
 
 
 def real_time_figures(message: DiagnosticArray, namespace: str) -> dict[str, str]:
@@ -12,6 +12,6 @@ def real_time_figures(message: DiagnosticArray, namespace: str) -> dict[str, str
     return {
         item.key: item.value
         for status in message.status
-        if status.name == REAL_TIME and status.hardware_id == namespace
+        if is_status(status.name, REAL_TIME) and status.hardware_id == namespace
         for item in status.values
     }

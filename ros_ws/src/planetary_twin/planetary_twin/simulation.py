@@ -15,9 +15,10 @@ from rclpy.parameter import Parameter
 
 import planetary_twin_py as pt
 from planetary_twin_py.affordable import Affordable, Setting
-from planetary_twin_py.robot import frames, robot_description
+from planetary_twin_py.robot import robot_description
 from planetary_twin_py.runaway import RunawayError
 
+from . import simulation_services
 from .audience import Audience
 from .ledger_report import LedgerReport
 from .live import LiveTwin, Progress
@@ -26,10 +27,10 @@ from .parameters import brief
 from .ramps import LONGEST_RAMP
 from .real_time import KEEPS_UP, RealTimeReport
 from .simulation_parameters import TOLERANCE, SimulationParameters, tunables
+from .simulation_services import SimulationServices
 from .stamps import STEADY
 from .telemetry import Telemetry
 from .time_services import TimeServices
-from .transforms import TransformsMessage
 
 _REPORT_PERIOD = 1.0  # [s]
 # After which a thread that waits may take the interpreter from one that is busy: Python's 5 ms,
@@ -50,25 +51,24 @@ class Simulation(ManagedNode):
         self._company = 0
         self._submitted: Future[float] | None = None
         self._ramp = 0.0  # [s] in which what is being set is to be reached
-        self._given = given = SimulationParameters(self)
+        self._given = SimulationParameters(self)
         self._ledger = LedgerReport(self.get_namespace())
+        self._telemetry: Telemetry | None = None
+        self._before: Telemetry | None = None  # of the life before, closed
+        self._audience: Audience | None = None
         self.add_post_set_parameters_callback(self._submit)
-        self._telemetry = Telemetry(
-            self,
-            given.scene,
-            given.frame_prefix + given.frame,
-            self._transforms() if given.tf else None,
-            given.clock,
-            given.rate,
-        )
-        self._audience = Audience(self, given.wait_for)
         self._timer = self.create_timer(_REPORT_PERIOD, self._diagnose, clock=STEADY)
         self.create_service(SetOperatingPoint, "~/set_operating_point", self._set_operating_point)
         self.create_service(NaturalModes, "~/natural_modes", self._natural_modes)
         TimeServices(self, self)
+        if simulation_services.AVAILABLE:
+            SimulationServices(self, self, lambda: 1.0 / self._given.rate)
 
     def configure(self) -> None:
-        """Build and compile the model at the operating point the parameters give."""
+        """Offer the topics, so that others find them, and build the model as parameters say."""
+        self._given.read()
+        self._telemetry = Telemetry(self, self._given, self._before)
+        self._audience = Audience(self, self._given.wait_for)
         self._urdf = self._robot_description()
         self._twin = self._new_twin()
         # What is loaded now stays: a collection that looks at it all takes a tenth of a second.
@@ -103,7 +103,10 @@ class Simulation(ManagedNode):
         live, self._live = self._live, None
         if live is not None:
             live.stop()
-        self._twin = self._report = None
+        self._twin = self._report = self._audience = None
+        if self._telemetry is not None:
+            self._telemetry.close()
+            self._before, self._telemetry = self._telemetry, None
 
     # Called by the live twin, in its thread.
 
@@ -175,11 +178,6 @@ class Simulation(ManagedNode):
     def stamp(self, instant: float) -> int:
         """ROS time [ns] of a simulated instant [s]."""
         return self._telemetry.stamp(instant)
-
-    def _transforms(self) -> TransformsMessage:
-        return TransformsMessage(
-            frames(self._given.scene.gearset, self._given.frame), self._given.frame_prefix
-        )
 
     def _robot_description(self) -> str:
         try:

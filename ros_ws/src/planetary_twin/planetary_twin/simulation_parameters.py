@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from rcl_interfaces.msg import SetParametersResult
-from rclpy.node import Node
 from rclpy.parameter import Parameter
 
 import planetary_twin_py as pt
@@ -12,13 +11,15 @@ from planetary_twin_py.run import check_point
 from planetary_twin_py.tolerance import AUTOMATIC, LIVE_TOLERANCE, TOLERANCES, ladder_of
 
 from .audience import PATIENCE
+from .pacing import check_rate_factor
+from .parameter_node import ParameterNode
 from .parameters import (
-    coerce,
     declare_bounded,
     declare_fixed,
     declare_geometry,
     declare_rate_factor,
     declare_tunable,
+    number,
 )
 
 TOLERANCE = pt.Tunable(
@@ -29,6 +30,19 @@ TOLERANCE = pt.Tunable(
     TOLERANCES[1],
 )
 _SPEEDS = ("input_speed", "second_input_speed")
+_GEARSET = "gearset"
+_SETTINGS = (
+    "frame_id",
+    "frame_prefix",
+    "tf",
+    "continuous_joints",
+    "publish_rate",
+    "wait_for",
+    "clock",
+    "sample_rate",
+    "rate_factor",
+    "compute_share",
+)
 
 
 class SimulationParameters:
@@ -38,50 +52,37 @@ class SimulationParameters:
     Raises `ValueError` where one that is given at the start is out of its range.
     """
 
-    def __init__(self, node: Node) -> None:
+    def __init__(self, node: ParameterNode) -> None:
         self._node = node
+        given = node.given
+        self._chosen = {name: number(name, given[name]) for name in pt.TUNABLES if name in given}
+        """Quantities whose values are not the scene's own, whichever scene it is."""
         name = declare_fixed(node, "scene", "paper", "packaged scene, or path of a YAML file")
-        self.frame: str = declare_fixed(node, "frame_id", "gearbox", "frame of the gearbox's base")
-        self.frame_prefix: str = declare_fixed(
-            node, "frame_prefix", "", "before the names of all frames; for several twins"
-        )
-        self.tf: bool = declare_fixed(
-            node, "tf", True, "publish /tf; false where robot_state_publisher does"
-        )
-        self.rate = declare_bounded(
-            node, "publish_rate", 100.0, (10.0, 1000.0), "messages per simulated second [Hz]"
-        )
-        self.wait_for: str = declare_fixed(
-            node,
-            "wait_for",
-            "",
-            f"node that must have subscribed before the twin begins, such as the logger that is "
-            f"to record it from the first message on; waits {PATIENCE:g} s at most",
-        )
-        self.clock: bool = declare_fixed(node, "clock", False, "publish simulated time on /clock")
-        self.sample_rate = declare_bounded(
-            node, "sample_rate", 50e3, (1e3, 1e6), "samples of mesh_waveform [Hz]"
-        )
-        self.rate_factor = declare_rate_factor(node)
-        self._compute_share = declare_bounded(
-            node,
-            "compute_share",
-            0.4,
-            (0.05, 0.9),
-            "share of the time that computing may take where the tolerance is automatic [-]",
-        )
+        _declare_settings(node)
         ladder_of(declare_tunable(node, TOLERANCE, AUTOMATIC, "/diagnostics"))
         self.scene = pt.load_scene(name)
         """As loaded, at the operating point given at the start."""
-        declare_geometry(node, "gearset", self.scene.gearset)
-        for tunable in self.scene.tunables.values():
-            default = getattr(self.scene.operating_point, tunable.name)
-            declare_tunable(node, tunable, default, "operating_point")
+        self._declare_scene()
         self.scene = self.scene_now()
         check_point(self.scene, self.scene.operating_point)
-        numbers = {*pt.TUNABLES, TOLERANCE.name}
-        node.add_pre_set_parameters_callback(lambda given: coerce(given, numbers))
+        self._wanted = self.scene
+        self.read()
         node.add_on_set_parameters_callback(self._validate)
+        node.add_post_set_parameters_callback(self._follow)
+
+    def read(self) -> None:
+        """Take over what may have been set while the node was unconfigured."""
+        value = {name: self._node.get_parameter(name).value for name in _SETTINGS}
+        self.frame: str = value["frame_id"]
+        self.frame_prefix: str = value["frame_prefix"]
+        self.tf: bool = value["tf"]
+        self.continuous_joints: bool = value["continuous_joints"]
+        self.rate: float = value["publish_rate"]
+        self.wait_for: str = value["wait_for"]
+        self.clock: bool = value["clock"]
+        self.sample_rate: float = value["sample_rate"]
+        self.rate_factor: float = value["rate_factor"]
+        self._compute_share: float = value["compute_share"]
 
     @property
     def period(self) -> float:
@@ -106,16 +107,78 @@ class SimulationParameters:
             settings = [Setting(wanted or LIVE_TOLERANCE, self.sample_rate)]
         return Affordable(settings, self._compute_share, self.period, begin)
 
+    def _declare_scene(self) -> None:
+        """Declare the geometry of the scene and its operating point."""
+        declare_geometry(self._node, _GEARSET, self.scene.gearset)
+        for tunable in self.scene.tunables.values():
+            own = getattr(self.scene.operating_point, tunable.name)
+            declare_tunable(self._node, tunable, own, "operating_point")
+
     def _validate(self, parameters: list[Parameter]) -> SetParametersResult:
+        values = {p.name: p.value for p in parameters}
         try:
-            changed = self.scene.replace(**self.point() | tunables(parameters))
-            if any(p.name in _SPEEDS for p in parameters):
-                check_point(self.scene, changed.operating_point)
-            for wanted in (p.value for p in parameters if p.name == TOLERANCE.name):
-                ladder_of(wanted)
+            scene = pt.load_scene(values["scene"]) if "scene" in values else self.scene
+            changed = scene.replace(**self._chosen | tunables(parameters))
+            if "scene" in values or any(name in _SPEEDS for name in values):
+                check_point(scene, changed.operating_point)
+            if TOLERANCE.name in values:
+                ladder_of(values[TOLERANCE.name])
+            if "rate_factor" in values:
+                check_rate_factor(values["rate_factor"])
         except ValueError as refusal:
             return SetParametersResult(successful=False, reason=str(refusal))
+        self._wanted = scene
         return SetParametersResult(successful=True)
+
+    def _follow(self, parameters: list[Parameter]) -> None:
+        """Note what has been chosen, and let another scene bring the rest."""
+        self._chosen |= tunables(parameters)
+        if any(p.name == "scene" for p in parameters):
+            self._change_scene(self._wanted)
+
+    def _change_scene(self, scene: pt.Scene) -> None:
+        """Declare geometry and operating point again, with the ranges of another scene."""
+        node = self._node
+        node.remove_on_set_parameters_callback(self._validate)  # there is no whole point meanwhile
+        geometry = [f"{_GEARSET}.{name}" for name in node.get_parameters_by_prefix(_GEARSET)]
+        for name in (*geometry, *pt.TUNABLES):
+            node.undeclare_parameter(name)
+        self.scene = scene.replace(**self._chosen)
+        self._declare_scene()
+        node.add_on_set_parameters_callback(self._validate)
+
+
+def _declare_settings(node: ParameterNode) -> None:
+    """Declare what may be set until the node is configured."""
+    declare_fixed(node, "frame_id", "gearbox", "frame of the gearbox's base")
+    declare_fixed(node, "frame_prefix", "", "before the names of all frames; for several twins")
+    declare_fixed(node, "tf", True, "publish /tf; false where robot_state_publisher does")
+    declare_fixed(
+        node,
+        "continuous_joints",
+        False,
+        "joint_states count whole turns, and positions do not jump by a turn",
+    )
+    declare_bounded(
+        node, "publish_rate", 100.0, (10.0, 1000.0), "messages per simulated second [Hz]"
+    )
+    declare_fixed(
+        node,
+        "wait_for",
+        "",
+        f"node that must have subscribed before the twin begins, such as the logger that is "
+        f"to record it from the first message on; waits {PATIENCE:g} s at most",
+    )
+    declare_fixed(node, "clock", False, "publish simulated time on /clock")
+    declare_bounded(node, "sample_rate", 50e3, (1e3, 1e6), "samples of mesh_waveform [Hz]")
+    declare_rate_factor(node)
+    declare_bounded(
+        node,
+        "compute_share",
+        0.4,
+        (0.05, 0.9),
+        "share of the time that computing may take where the tolerance is automatic [-]",
+    )
 
 
 def tunables(parameters: list[Parameter]) -> dict[str, float]:

@@ -49,16 +49,21 @@ class Stamps:
     Stamps run with simulated time from the ROS time at which they `begin`, and move with the
     system clock where that is set. With `use_sim_time` they are what /clock tells when an interval
     is published. Where a clock is turned back, they go on from the newest. A twin that is itself
-    the `source` of /clock asks a clock but once.
+    the `source` of /clock asks a clock but once. All are later than `newest` [ns].
     """
 
-    def __init__(self, clock: ROSClock, source: bool) -> None:
+    def __init__(self, clock: ROSClock, source: bool, newest: int = 0) -> None:
         # A source of time must not wait for itself.
         self._clock = Clock(clock_type=ClockType.SYSTEM_TIME) if source else clock
         self._source = source
-        self._interval = _Interval(0.0, 0.0, 0, 0)
+        self._interval = _Interval(0.0, 0.0, newest, newest)
         self._origin = 0  # ROS time of simulated time 0 [ns]
         self._before = _Look(0, 0)
+
+    @property
+    def newest(self) -> int:
+        """Return the newest stamp [ns]."""
+        return self._interval.last
 
     def ready(self) -> bool:
         """Whether there is a time: with `use_sim_time` there is none before the first /clock."""

@@ -8,8 +8,7 @@ from typing import Any
 from builtin_interfaces.msg import Time
 from diagnostic_msgs.msg import DiagnosticArray
 from planetary_twin_msgs import msg
-from rclpy.node import Node
-from rclpy.publisher import Publisher
+from rclpy.lifecycle import LifecycleNode, LifecyclePublisher
 from rclpy.qos import DurabilityPolicy, QoSProfile
 from rosgraph_msgs.msg import Clock
 from sensor_msgs.msg import JointState
@@ -18,6 +17,7 @@ from tf2_msgs.msg import TFMessage
 
 from planetary_twin_py import OperatingPoint, Scene, Window
 from planetary_twin_py.recording.origin import Origin, makers_here
+from planetary_twin_py.robot import frames
 
 from .messages import (
     JointsMessage,
@@ -26,6 +26,7 @@ from .messages import (
     WaveformMessage,
     set_stamp,
 )
+from .simulation_parameters import SimulationParameters
 from .stamps import Rising, Stamps
 from .transforms import TransformsMessage
 
@@ -39,38 +40,45 @@ class Telemetry:
     """
     Publishes windows, operating points and diagnostics, stamped with their own ROS time.
 
-    `rate` is that of windows, per simulated second.
+    `before` has published on the same topics and is closed: its numbers and stamps are continued.
     """
 
     def __init__(
-        self,
-        node: Node,
-        scene: Scene,
-        frame: str,
-        transforms: TransformsMessage | None,
-        clock: bool,
-        rate: float,
+        self, node: LifecycleNode, given: SimulationParameters, before: Telemetry | None
     ) -> None:
-        kept = max(round(_KEPT * rate), _LEAST)
-        self._state = node.create_publisher(msg.GearboxState, "gearbox_state", kept)
-        self._waveform = node.create_publisher(msg.MeshWaveform, "mesh_waveform", kept)
-        self._joints = node.create_publisher(JointState, "joint_states", kept)
-        self._point = node.create_publisher(msg.OperatingPoint, "operating_point", _LATCHED)
-        self._description = node.create_publisher(String, "robot_description", _LATCHED)
-        self._origin_of_run = node.create_publisher(String, "run_origin", _LATCHED)
-        self._diagnostics = node.create_publisher(DiagnosticArray, "/diagnostics", _DEPTH)
-        self._tf = node.create_publisher(TFMessage, "/tf", kept) if transforms else None
-        self._clock = node.create_publisher(Clock, "/clock", kept) if clock else None
-        self._state_message = StateMessage(scene, frame)
-        self._waveform_message = WaveformMessage(scene, frame)
+        self._node = node
+        self._open(given)
+        frame = given.frame_prefix + given.frame
+        self._state_message = StateMessage(given.scene, frame)
+        self._waveform_message = WaveformMessage(given.scene, frame)
         self._joints_message: JointsMessage | None = None
+        self._continuous = given.continuous_joints
         self._point_message = OperatingPointMessage(frame)
         self._clock_message = Clock()
-        self._transforms_message = transforms
-        self._prepared: list[tuple[Publisher, Any, list[Time], float]] = []
+        self._transforms_message = TransformsMessage(
+            frames(given.scene.gearset, given.frame), given.frame_prefix
+        )
+        self._prepared: list[tuple[LifecyclePublisher, Any, list[Time], float]] = []
         self._end = 0.0
-        self._stamps = Stamps(node.get_clock(), source=clock)
-        self._now = Rising(node.get_clock())
+        newest = before._stamps.newest if before else 0
+        self._stamps = Stamps(node.get_clock(), given.clock, newest)
+        self._now = before._now if before else Rising(node.get_clock())
+        self._published = dict.fromkeys(self._topics, 0)
+        if before is not None:
+            self._continue(before)
+
+    def _open(self, given: SimulationParameters) -> None:
+        create = self._node.create_lifecycle_publisher
+        kept = max(round(_KEPT * given.rate), _LEAST)
+        self._state = create(msg.GearboxState, "gearbox_state", kept)
+        self._waveform = create(msg.MeshWaveform, "mesh_waveform", kept)
+        self._joints = create(JointState, "joint_states", kept)
+        self._point = create(msg.OperatingPoint, "operating_point", _LATCHED)
+        self._description = create(String, "robot_description", _LATCHED)
+        self._origin_of_run = create(String, "run_origin", _LATCHED)
+        self._diagnostics = create(DiagnosticArray, "/diagnostics", _DEPTH)
+        self._tf = create(TFMessage, "/tf", kept) if given.tf else None
+        self._clock = create(Clock, "/clock", kept) if given.clock else None
         publishers = (
             self._state,
             self._waveform,
@@ -82,7 +90,18 @@ class Telemetry:
             self._tf,
             self._clock,
         )
-        self._published = {publisher: 0 for publisher in publishers if publisher is not None}
+        self._topics = {p: p.topic_name for p in publishers if p is not None}
+
+    def _continue(self, before: Telemetry) -> None:
+        earlier = before._counts()
+        self._published = {p: earlier.get(topic, 0) for p, topic in self._topics.items()}
+        for name in ("_state_message", "_waveform_message", "_point_message"):
+            getattr(self, name).message.sequence = getattr(before, name).message.sequence
+
+    def close(self) -> None:
+        """Let the publishers go."""
+        for publisher in self._topics:
+            self._node.destroy_lifecycle_publisher(publisher)
 
     def describe(self, urdf: str) -> None:
         """Publish what the gearbox looks like."""
@@ -113,7 +132,7 @@ class Telemetry:
         so they stand in a recording by the time at which they were received.
         """
         if self._joints_message is None:
-            self._joints_message = JointsMessage(window.bodies)
+            self._joints_message = JointsMessage(window.bodies, self._continuous)
         self._end = window.end
         self._prepared.clear()
         if self._clock is not None:  # before what is stamped with it: nothing is of the future
@@ -125,7 +144,7 @@ class Telemetry:
         if len(window.waveform.time):  # a single step may be shorter than the sample period
             wave = self._waveform_message.fill(window)
             self._prepared.append((self._waveform, wave, [wave.header.stamp], wave.start_time))
-        if self._tf is not None and self._transforms_message is not None:
+        if self._tf is not None:
             transforms = self._transforms_message
             self._prepared.append(
                 (self._tf, transforms.fill(window), transforms.stamps, window.end)
@@ -148,13 +167,17 @@ class Telemetry:
 
     def diagnose(self, report: Callable[[Mapping[str, int]], DiagnosticArray]) -> DiagnosticArray:
         """Stamp and publish what `report` makes of the message counts, its own message counted."""
-        counts = dict(self._published)
-        counts[self._diagnostics] += 1
-        message = report({publisher.topic_name: n for publisher, n in counts.items()})
+        counts = self._counts()
+        counts[self._topics[self._diagnostics]] += 1
+        message = report(counts)
         set_stamp(message.header.stamp, self._now.now())
         self._send(self._diagnostics, message)
         return message
 
-    def _send(self, publisher: Publisher, message: Any) -> None:
+    def _counts(self) -> dict[str, int]:
+        """Return how many messages have been published, by topic."""
+        return {topic: self._published[publisher] for publisher, topic in self._topics.items()}
+
+    def _send(self, publisher: LifecyclePublisher, message: Any) -> None:
         publisher.publish(message)
         self._published[publisher] += 1

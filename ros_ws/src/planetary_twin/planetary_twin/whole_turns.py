@@ -1,0 +1,33 @@
+"""Whole turns of the bodies of a gearbox, whose angles are known modulo a turn."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from planetary_twin_py import Window
+from planetary_twin_py.recording.fields import TURN
+
+
+class WholeTurns:
+    """
+    Counts them from the first window of a run on.
+
+    Angle and mean speed of a window, and the angle before it, leave one whole number; none of it
+    is rounded along the way, so nothing drifts.
+    """
+
+    def __init__(self) -> None:
+        self._end = np.nan  # [s] of the window before
+        self._angle: NDArray[np.float64] = np.empty(0)  # [rad]
+        self._turns: NDArray[np.float64] = np.empty(0)
+
+    def after(self, window: Window) -> NDArray[np.float64]:
+        """Return the turns of each body at the end of `window`, shape (bodies,)."""
+        if window.start == self._end:
+            turned = window.mean_speed * (window.end - window.start)
+            self._turns = self._turns + np.rint((turned - window.angle + self._angle) / TURN)
+        else:
+            self._turns = np.zeros_like(window.angle)
+        self._end, self._angle = window.end, window.angle
+        return self._turns

@@ -1,0 +1,70 @@
+"""Joint positions that count whole turns: they go with the speed, and a recording verifies."""
+
+from __future__ import annotations
+
+import math
+from pathlib import Path
+
+import numpy as np
+from planetary_twin.messages import JointsMessage
+from planetary_twin_msgs.msg import GearboxState
+from sensor_msgs.msg import JointState
+
+import planetary_twin_py as pt
+from planetary_twin_py.recording.verify import verify
+
+from .conftest import Start
+from .peer import LONG, TWIN, Peer
+
+TURN = 2.0 * math.pi
+
+
+def positions(count: int, continuous: bool) -> tuple[np.ndarray, np.ndarray]:
+    """Joint positions of a twin after each of `count` windows of 10 ms, and its mean speeds."""
+    twin = pt.Twin(pt.load_scene("paper").replace(dynamics="quasi_static"))
+    message, found, speeds = None, [], []
+    for _ in range(count):
+        window = twin.advance(0.01)
+        message = message or JointsMessage(window.bodies, continuous)
+        found.append(np.array(message.fill(window).position))
+        speeds.append(window.mean_speed)
+    return np.array(found), np.array(speeds)
+
+
+def test_positions_are_the_integral_of_the_speed_and_modulo_a_turn_the_angle() -> None:
+    wrapped, speeds = positions(100, continuous=False)
+    counted, _ = positions(100, continuous=True)
+    assert wrapped.min() >= 0.0 and wrapped.max() <= TURN
+    integral = counted[0] + np.vstack((np.zeros_like(counted[0]), np.cumsum(speeds[1:], 0) * 0.01))
+    assert np.allclose(counted, integral, rtol=0.0, atol=1e-9)
+    assert np.abs(counted - counted[0]).max() > 10.0 * TURN
+    apart = np.mod(counted - wrapped + math.pi, TURN) - math.pi
+    assert np.abs(apart).max() < 1e-9
+
+
+def test_a_window_that_continues_none_counts_from_there() -> None:
+    scene = pt.load_scene("paper").replace(dynamics="quasi_static")
+    first, second = pt.Twin(scene), pt.Twin(scene)
+    message = JointsMessage(first.advance(0.1).bodies, True)
+    for twin in (first, second):  # a reset begins with another twin
+        begin = np.array(message.fill(twin.advance(0.1)).position)
+        assert begin.min() >= 0.0 and begin.max() <= TURN
+
+
+def test_a_node_publishes_them_where_asked_and_the_recording_verifies(
+    peer: Peer, start: Start, tmp_path: Path
+) -> None:
+    logger = start("planetary_twin.logger", "--ros-args", "-p", "name:=bag")
+    asked = ("-p", "continuous_joints:=true", "-p", "wait_for:=logger")
+    twin = start("planetary_twin.simulation", "--ros-args", *asked)
+    joints = peer.listen(JointState, f"{TWIN}/joint_states")
+    states = peer.listen(GearboxState, f"{TWIN}/gearbox_state")
+    peer.until(lambda: len(joints) > 60 and len(states) > 60)
+    sun = [joint.position[joint.name.index("sun_joint")] for joint in joints]
+    assert sun[-1] - sun[0] > 3.0 * TURN and min(np.diff(sun)) > 0.0
+    for process in (twin, logger):
+        process.terminate()
+        assert process.wait(LONG) == 0
+    verdict = verify(tmp_path / "recordings/bag", TWIN)
+    assert verdict.identical, verdict
+    assert verdict.messages["joint_states"] > 60
