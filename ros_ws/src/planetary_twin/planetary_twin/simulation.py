@@ -69,7 +69,7 @@ class Simulation(ManagedNode):
 
     def configure(self) -> None:
         """Build and compile the model at the operating point the parameters give."""
-        self._urdf = self._robot_description()
+        self._urdf = robot_description(self._given.scene.gearset, self._given.frame)
         self._twin = self._new_twin()
         # What is loaded now stays: a collection that looks at it all takes a tenth of a second.
         gc.collect()
@@ -180,15 +180,6 @@ class Simulation(ManagedNode):
         return TransformsMessage(
             frames(self._given.scene.gearset, self._given.frame), self._given.frame_prefix
         )
-
-    def _robot_description(self) -> str:
-        try:
-            return robot_description(self._given.scene.gearset, self._given.frame)
-        except OSError as reason:
-            raise NodeError(
-                f"{reason.filename}: {reason.strerror}: the gears' meshes are kept there, "
-                "or in another folder that XDG_CACHE_HOME names"
-            ) from None
 
     def _submit(self, parameters: list[Parameter]) -> None:
         if self._live is None:
