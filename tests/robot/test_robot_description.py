@@ -207,7 +207,9 @@ def test_the_solids_of_every_body_are_seen(gearset: Gearset) -> None:
 def test_stub_teeth_and_nearly_pointed_teeth_are_boxes_of_positive_size(
     gearset: Gearset, teeth: tuple[int, int, int], addendum: float
 ) -> None:
-    numbers = gearset.teeth.model_copy(update=dict(zip(("sun", "planet", "ring"), teeth)))
+    numbers = gearset.teeth.model_copy(
+        update=dict(zip(("sun", "planet", "ring"), teeth, strict=True))
+    )
     changed = gearset.model_copy(update={"teeth": numbers, "addendum": addendum})
     robot = ElementTree.fromstring(robot_description(changed))
     for body in ("sun", "planet_1", "ring"):
