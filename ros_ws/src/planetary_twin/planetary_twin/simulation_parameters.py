@@ -41,6 +41,13 @@ class SimulationParameters:
     def __init__(self, node: Node) -> None:
         self._node = node
         name = declare_fixed(node, "scene", "paper", "packaged scene, or path of a YAML file")
+        self.scene = pt.load_scene(name)
+        """As loaded, at the operating point given at the start."""
+        # First what may change: tools such as rqt_reconfigure list parameters in this order.
+        for tunable in self.scene.tunables.values():
+            default = getattr(self.scene.operating_point, tunable.name)
+            declare_tunable(node, tunable, default, "operating_point")
+        ladder_of(declare_tunable(node, TOLERANCE, AUTOMATIC, "/diagnostics"))
         self.frame: str = declare_fixed(node, "frame_id", "gearbox", "frame of the gearbox's base")
         self.frame_prefix: str = declare_fixed(
             node, "frame_prefix", "", "before the names of all frames; for several twins"
@@ -70,13 +77,7 @@ class SimulationParameters:
             (0.05, 0.9),
             "share of the time that computing may take where the tolerance is automatic [-]",
         )
-        ladder_of(declare_tunable(node, TOLERANCE, AUTOMATIC, "/diagnostics"))
-        self.scene = pt.load_scene(name)
-        """As loaded, at the operating point given at the start."""
         declare_geometry(node, "gearset", self.scene.gearset)
-        for tunable in self.scene.tunables.values():
-            default = getattr(self.scene.operating_point, tunable.name)
-            declare_tunable(node, tunable, default, "operating_point")
         self.scene = self.scene_now()
         check_point(self.scene, self.scene.operating_point)
         numbers = {*pt.TUNABLES, TOLERANCE.name}
