@@ -11,12 +11,13 @@ from ..gearset.involute import SpurGear
 from ..gearset.solid import TriangleMesh, circle, extrude
 from ..scene.gearset import Gearset
 
-SUN, PLANET, RING, CARRIER, PIN = (
+SUN, PLANET, RING, CARRIER, PIN, MARK = (
     (236, 176, 64),
     (92, 150, 214),
     (150, 158, 170),
     (176, 98, 84),
     (210, 214, 220),
+    (250, 250, 250),  # of tooth 0, so that slow turning shows
 )
 
 
@@ -31,28 +32,26 @@ def planet(gearset: Gearset) -> TriangleMesh:
 
 
 def ring(gearset: Gearset) -> TriangleMesh:
-    """The ring: an annulus with internal teeth, its rim two and a half modules thick."""
+    """The ring: an annulus with internal teeth."""
     gear = gear_of(gearset, gearset.teeth.ring, internal=True)
-    return _toothed_rim(gear, gear.root_radius + 2.5 * gear.module, 0.5 * gearset.face_width)
+    return _toothed_rim(gear, rim(gear), 0.5 * gearset.face_width)
 
 
 def pin(gearset: Gearset) -> TriangleMesh:
     """The pin that a planet turns on, from the carrier through the planet."""
-    radius = 0.33 * gear_of(gearset, gearset.teeth.planet).root_radius
-    return extrude(0.0, circle(radius), -0.7 * gearset.face_width, 0.56 * gearset.face_width)
+    low, high = -0.7 * gearset.face_width, 0.56 * gearset.face_width
+    return extrude(0.0, circle(pin_radius(gearset)), low, high)
 
 
 def spider(gearset: Gearset) -> TriangleMesh:
     """The carrier: a plate behind the gears with one arm per planet."""
-    width = 0.6 * gear_of(gearset, gearset.teeth.planet).root_radius
-    hub = 0.9 * gear_of(gearset, gearset.teeth.sun).root_radius
+    width, hub = arm_width(gearset), hub_radius(gearset)
     angles = np.linspace(0.0, 2.0 * math.pi, 720, endpoint=False)
     radius = np.full_like(angles, hub)
     for psi in gearset.planet_angles:
         radius = np.maximum(radius, _arm(angles - psi, carrier_radius(gearset), width))
     outline = np.column_stack((radius, angles))
-    back = -0.54 * gearset.face_width
-    return extrude(0.5 * hub, outline, back - 0.18 * gearset.face_width, back)
+    return extrude(0.5 * hub, outline, *plate(gearset))
 
 
 def gear_of(gearset: Gearset, teeth: int, internal: bool = False) -> SpurGear:
@@ -63,6 +62,31 @@ def gear_of(gearset: Gearset, teeth: int, internal: bool = False) -> SpurGear:
 def carrier_radius(gearset: Gearset) -> float:
     """Radius of the circle the planets' centres stand on [m]."""
     return 0.5 * gearset.module * (gearset.teeth.sun + gearset.teeth.planet)
+
+
+def rim(ring: SpurGear) -> float:
+    """Outer radius of the ring [m]: its rim is two and a half modules thick."""
+    return ring.root_radius + 2.5 * ring.module
+
+
+def pin_radius(gearset: Gearset) -> float:
+    """Radius of the pin in a planet [m]."""
+    return 0.33 * gear_of(gearset, gearset.teeth.planet).root_radius
+
+
+def arm_width(gearset: Gearset) -> float:
+    """Half the width of an arm of the carrier, and the radius of its end [m]."""
+    return 0.6 * gear_of(gearset, gearset.teeth.planet).root_radius
+
+
+def hub_radius(gearset: Gearset) -> float:
+    """Radius of the carrier's hub [m]."""
+    return 0.9 * gear_of(gearset, gearset.teeth.sun).root_radius
+
+
+def plate(gearset: Gearset) -> tuple[float, float]:
+    """Lower and upper z of the carrier's plate [m]."""
+    return -0.72 * gearset.face_width, -0.54 * gearset.face_width
 
 
 def _arm(angle: NDArray[np.float64], length: float, width: float) -> NDArray[np.float64]:

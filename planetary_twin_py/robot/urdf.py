@@ -9,12 +9,12 @@ angle of its body, and the mount turns only what is seen.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable
 from xml.etree.ElementTree import Element, SubElement, indent, tostring
 
 from ..gearset.mount import mount
 from ..scene.gearset import Gearset
-from . import parts
+from . import parts, shapes
 from .frames import Frame, frames
 
 _COLOURS = {
@@ -23,13 +23,19 @@ _COLOURS = {
     "ring": parts.RING,
     "carrier": parts.CARRIER,
     "pin": parts.PIN,
+    "mark": parts.MARK,
 }
 
 
-def urdf(gearset: Gearset, base: str, meshes: Mapping[str, str]) -> str:
-    """URDF text with root link `base`; `meshes` gives each part's mesh as a URI.
+def robot_description(gearset: Gearset, base: str = "gearbox") -> str:
+    """URDF of a gearset, made of boxes and cylinders, so that it refers to no file.
 
-    Joints are `sun_joint`, `planet_1_joint`, ..., `ring_joint`, `carrier_joint`; lengths [m].
+    Args:
+        gearset: what is described; lengths [m].
+        base: name of the root link.
+
+    Returns:
+        URDF text with the joints `sun_joint`, `planet_1_joint`, ..., `ring_joint`, `carrier_joint`.
     """
     robot = Element("robot", name="planetary_twin")
     for name, colour in _COLOURS.items():
@@ -38,15 +44,13 @@ def urdf(gearset: Gearset, base: str, meshes: Mapping[str, str]) -> str:
     SubElement(robot, "link", name=base)
     links = {frame.name: _turning(robot, frame) for frame in frames(gearset, base)}
     stand = mount(gearset.tooth_numbers, gearset.planet_angles)
-    _visual(links["sun"], "sun", meshes, angle=stand.sun)
-    _visual(links["ring"], "ring", meshes, angle=stand.ring)
-    _visual(links["carrier"], "carrier", meshes)
-    for frame in frames(gearset, base):
-        if frame.parent == "carrier":
-            _visual(links["carrier"], "pin", meshes, frame.at)
+    _show(links["sun"], shapes.wheel(gearset, gearset.teeth.sun, "sun", stand.sun))
+    _show(links["ring"], shapes.ring(gearset, stand.ring))
+    _show(links["carrier"], shapes.carrier(gearset))
     for number, angle in enumerate(stand.planets, start=1):
-        _visual(links[f"planet_{number}"], "planet", meshes, angle=angle)
-    indent(robot)
+        wheel = shapes.wheel(gearset, gearset.teeth.planet, "planet", angle)
+        _show(links[f"planet_{number}"], wheel)
+    indent(robot, space="")
     return '<?xml version="1.0"?>\n' + tostring(robot, encoding="unicode") + "\n"
 
 
@@ -55,7 +59,8 @@ def _turning(robot: Element, frame: Frame) -> Element:
     joint = SubElement(robot, "joint", name=f"{frame.name}_joint", type="continuous")
     SubElement(joint, "parent", link=frame.parent)
     SubElement(joint, "child", link=frame.name)
-    _origin(joint, frame.at)
+    x, y = frame.at
+    SubElement(joint, "origin", xyz=f"{x:.12g} {y:.12g} 0", rpy="0 0 0")
     SubElement(joint, "axis", xyz="0 0 1")
     if frame.body != frame.name:
         followed, sign = f"{frame.body}_joint", str(frame.sign)
@@ -63,18 +68,19 @@ def _turning(robot: Element, frame: Frame) -> Element:
     return SubElement(robot, "link", name=frame.name)
 
 
-def _visual(
-    link: Element,
-    part: str,
-    meshes: Mapping[str, str],
-    at: tuple[float, float] = (0.0, 0.0),
-    angle: float = 0.0,
-) -> None:
-    visual = SubElement(link, "visual")
-    _origin(visual, at, angle)
-    SubElement(SubElement(visual, "geometry"), "mesh", filename=meshes[part])
-    SubElement(visual, "material", name=part)
+def _show(link: Element, seen: Iterable[shapes.Shape]) -> None:
+    """Add shapes to what is seen of a link; six digits are far below what a screen resolves."""
+    for shape in seen:
+        visual = SubElement(link, "visual")
+        SubElement(visual, "origin", xyz=_numbers(shape.at), rpy=f"0 0 {shape.angle:.6g}")
+        geometry = SubElement(visual, "geometry")
+        if len(shape.size) == 3:
+            SubElement(geometry, "box", size=_numbers(shape.size))
+        else:
+            radius, length = shape.size
+            SubElement(geometry, "cylinder", radius=f"{radius:.6g}", length=f"{length:.6g}")
+        SubElement(visual, "material", name=shape.material)
 
 
-def _origin(element: Element, at: tuple[float, float], angle: float = 0.0) -> None:
-    SubElement(element, "origin", xyz=f"{at[0]:.12g} {at[1]:.12g} 0", rpy=f"0 0 {angle:.12g}")
+def _numbers(lengths: Iterable[float]) -> str:
+    return " ".join(f"{length:.6g}" for length in lengths)

@@ -18,6 +18,7 @@ from ..gearset.mount import mount
 from ..gearset.solid import TriangleMesh
 from ..robot.parts import (
     CARRIER,
+    MARK,
     PIN,
     PLANET,
     RING,
@@ -36,7 +37,6 @@ from .layer import Layer
 from .motion import Motion
 
 MILLIMETRES = 1e3
-MARK = (250, 250, 250)  # of tooth 0, so that slow turning shows
 
 
 def log_gears(layer: Layer, gearset: Gearset) -> None:

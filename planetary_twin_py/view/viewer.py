@@ -22,6 +22,8 @@ from urllib.parse import quote
 
 import rerun_cli
 
+from .own_page import served
+
 _PORTS = (9090, 9091)  # of the page and of its data, for those who forward them
 _ENDING = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
 _PATIENCE = 20.0  # [s] longest wait for the page and the data to be served
@@ -70,17 +72,21 @@ def window(*arguments: str) -> Iterator[Viewer]:
 def page(*arguments: str) -> Iterator[Viewer]:
     """A viewer in a browser, on ports that stay the same as long as they are free.
 
+    The page asks nothing of other hosts.
+
     Raises:
         ViewerError: what the viewer says where it cannot be.
     """
     shown, data = (free_port() if _answers(port) else port for port in _PORTS)
-    options = ["--serve-web", "--web-viewer-port", str(shown), *arguments]
+    origin = free_port()
+    options = ["--serve-web", "--web-viewer-port", str(origin), *arguments]
     with (
         tempfile.TemporaryFile() as output,
         _started(Viewer(start_viewer(data, options, output), data, shown)) as viewer,
+        served(shown, origin, data),
     ):
         deadline = time.monotonic() + _PATIENCE
-        while not (_answers(shown) and _answers(data)):
+        while not (_answers(origin) and _answers(data)):
             if time.monotonic() > deadline or viewer.process.poll() is not None:
                 raise ViewerError(f"the page cannot be served: {last_words(output)}")
             time.sleep(0.1)

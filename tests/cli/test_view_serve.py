@@ -7,12 +7,14 @@ import sys
 import time
 import urllib.request
 from pathlib import Path
-from urllib.parse import unquote
+from urllib.parse import unquote, urlsplit
 
 import psutil
 import pytest
 import rerun_cli
 from synthetic_recording import write_recording
+
+from planetary_twin_py.view.own_page import policy
 
 RUN = [sys.executable, "-c", "from planetary_twin_py.cli import main; main()"]
 RERUN = Path(rerun_cli.__file__).parent / "rerun"
@@ -31,6 +33,10 @@ def fetched(url, rrd):
     return b"/gears/sun" in rrd.read_bytes()
 
 
+def url_port(url):
+    return urlsplit(url.removeprefix("rerun+")).port
+
+
 @pytest.mark.slow
 @pytest.mark.parametrize("ending", [signal.SIGINT, signal.SIGTERM])
 def test_page_and_data_are_served_to_this_machine_alone_until_interrupted(
@@ -46,6 +52,8 @@ def test_page_and_data_are_served_to_this_machine_alone_until_interrupted(
         with urllib.request.urlopen(page, timeout=120) as answer:
             assert answer.status == 200
             assert b"<html" in answer.read().lower()
+            data = url_port(unquote(url))
+            assert answer.headers["Content-Security-Policy"] == policy(data)
         assert fetched(unquote(url), tmp_path / "got.rrd")
         served = psutil.Process(process.pid).children(recursive=True)
         sockets = [s for child in served for s in child.net_connections() if s.status == "LISTEN"]

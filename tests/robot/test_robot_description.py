@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import cmath
 import math
 from pathlib import Path
-from urllib.parse import unquote, urlparse
+from typing import NamedTuple
 from xml.etree import ElementTree
+from xml.etree.ElementTree import Element
 
 import numpy as np
 import pytest
@@ -19,14 +21,6 @@ from planetary_twin_py.scene.gearset import Gearset
 
 TURN = 2.0 * math.pi
 REFERENCE = {"carrier": "sun", "ring": "sun", "sun": "carrier"}
-
-
-@pytest.fixture(autouse=True)
-def cache(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> Path:
-    """A cache folder of this test's own, with a name that a URI must escape."""
-    folder = tmp_path / "a cache"
-    monkeypatch.setenv("XDG_CACHE_HOME", str(folder))
-    return folder
 
 
 @pytest.fixture
@@ -106,9 +100,8 @@ def test_the_teeth_one_sees_stand_in_the_gaps_of_their_mates(
     def pitches(body: str, direction: float, teeth: int) -> float:
         """Teeth between tooth 0 of what is seen of `body` and `direction`."""
         pose = _pose(tree, body, positions)
-        seen = robot.find(f"link[@name='{body}']/visual/origin")
-        assert seen is not None
-        tooth = math.atan2(pose[1, 0], pose[0, 0]) + float(seen.attrib["rpy"].split()[2])
+        boxes = [box.at for box in _boxes(robot, body) if box.material == "mark"]
+        tooth = math.atan2(pose[1, 0], pose[0, 0]) + cmath.phase(sum(boxes))
         return teeth * (direction - tooth) / TURN
 
     sun, planet, ring = gearset.tooth_numbers
@@ -130,50 +123,94 @@ def test_joints_are_those_of_the_joint_states_and_frames_that_follow(
     assert tree.root_link().name == "gearbox"
 
 
-def test_meshes_are_sound_stl_files_of_the_size_of_the_gears(gearset: Gearset, cache: Path) -> None:
+class Box(NamedTuple):
+    """What is seen of a link: at x + iy [m], turned about z [rad], of `size` x and y [m]."""
+
+    material: str
+    at: complex
+    angle: float
+    size: tuple[float, float]
+
+
+def _boxes(robot: Element, link: str) -> list[Box]:
+    found = []
+    for visual in robot.iterfind(f"link[@name='{link}']/visual"):
+        shape, origin, material = (
+            visual.find(f"{path}") for path in ("geometry/box", "origin", "material")
+        )
+        if shape is None or origin is None or material is None:
+            continue
+        x, y, _ = map(float, origin.attrib["xyz"].split())
+        *level, yaw = map(float, origin.attrib["rpy"].split())
+        assert level == [0.0, 0.0]
+        size_x, size_y, _ = map(float, shape.attrib["size"].split())
+        found.append(Box(material.attrib["name"], complex(x, y), yaw, (size_x, size_y)))
+    return found
+
+
+def _covered(points: np.ndarray, boxes: list[Box]) -> np.ndarray:
+    """Which of the points x + iy [m] lie in one of the boxes or more."""
+    inside = np.zeros(points.shape, dtype=bool)
+    for box in boxes:
+        seen = (points - box.at) * cmath.exp(-1j * box.angle)
+        inside |= (abs(seen.real) <= 0.5 * box.size[0]) & (abs(seen.imag) <= 0.5 * box.size[1])
+    return inside
+
+
+@pytest.mark.parametrize("scene", ["paper", "wind_turbine_stage"])
+@pytest.mark.parametrize("part", ["sun", "planet_1", "ring"])
+def test_boxes_fill_the_involute_teeth_to_less_than_a_sixth_of_a_module(
+    scene: str, part: str
+) -> None:
+    gearset = pt.load_scene(scene).gearset
     robot = ElementTree.fromstring(robot_description(gearset))
-    extents = {}
-    for mesh in robot.iter("mesh"):
-        file = Path(unquote(urlparse(mesh.attrib["filename"]).path))
-        assert cache in file.parents
-        corners = _read_stl(file)
-        extents[file.stem] = np.hypot(corners[..., 0], corners[..., 1]).max()
-        a, b, c = (corners[:, k].astype(float) for k in range(3))
-        volume = np.einsum("ij,ij->i", a, np.cross(b, c)).sum() / 6.0
-        assert 0.0 < volume < math.pi * extents[file.stem] ** 2 * 1.3 * gearset.face_width
-    assert set(extents) == {"sun", "planet", "ring", "carrier", "pin"}
-    for name, teeth in (("sun", gearset.teeth.sun), ("planet", gearset.teeth.planet)):
-        gear = SpurGear(teeth, gearset.module, gearset.pressure_angle, gearset.addendum)
-        assert math.isclose(extents[name], gear.tip_radius, rel_tol=1e-4)
+    teeth = getattr(gearset.teeth, part.split("_")[0])
+    internal = part == "ring"
+    gear = SpurGear(teeth, gearset.module, gearset.pressure_angle, gearset.addendum, internal)
+    boxes = _boxes(robot, part)
+    tooth_0 = cmath.phase(sum(box.at for box in boxes if box.material == "mark"))
+    allowed = 0.16 * gear.module
+    ends = sorted((gear.root_radius, gear.tip_radius))
+    radius = np.linspace(ends[0] + allowed, ends[1] - allowed, 60)[:, None]
+    for number in (0, 1, teeth // 2):
+        middle = tooth_0 + 2.0 * math.pi * number / teeth
+        half, within = gear.half_thickness(radius), allowed / radius
+        for sign in (-1.0, 1.0):
+            flank = middle + sign * half
+            inwards = flank - sign * np.linspace(within, half, 20)[..., 0].T
+            outwards = flank + sign * np.linspace(within, math.pi / teeth - half, 20)[..., 0].T
+            assert _covered(radius * np.exp(1j * inwards), boxes).all()
+            assert not _covered(radius * np.exp(1j * outwards), boxes).any()
 
 
-def _read_stl(file: Path) -> np.ndarray:
-    """Corners (triangles, 3, 3) of a binary STL whose normals and windings agree."""
-    content = file.read_bytes()
-    count = int.from_bytes(content[80:84], "little")
-    assert len(content) == 84 + 50 * count
-    rows = np.frombuffer(content[84:], dtype=np.uint8).reshape(count, 50)[:, :48]
-    numbers = rows.copy().view("<f4").reshape(count, 4, 3)
-    assert np.isfinite(numbers).all()
-    normal, corners = numbers[:, 0], numbers[:, 1:]
-    winding = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
-    assert (np.einsum("ij,ij->i", normal, winding) > 0.0).all()
-    return corners
+def test_it_refers_to_no_file_and_every_colour_is_defined_in_it(gearset: Gearset) -> None:
+    robot = ElementTree.fromstring(robot_description(gearset))
+    shapes = [shape for geometry in robot.iter("geometry") for shape in geometry]
+    assert {shape.tag for shape in shapes} == {"box", "cylinder"}
+    lengths = [float(n) for shape in shapes for text in shape.attrib.values() for n in text.split()]
+    assert min(lengths) > 0.0 and max(lengths) < gearset.module * (gearset.teeth.ring + 10)
+    assert not list(robot.iter("texture"))
+    defined = {material.attrib["name"] for material in robot.iterfind("material")}
+    assert {m.attrib["name"] for m in robot.iterfind("link/visual/material")} == defined
 
 
-def test_meshes_are_written_once_and_differ_with_the_gears(gearset: Gearset, cache: Path) -> None:
-    first = robot_description(gearset)
-    written = {file: file.stat().st_mtime_ns for file in cache.rglob("*.stl")}
-    assert len(written) == 5
-    assert robot_description(gearset) == first
-    assert {file: file.stat().st_mtime_ns for file in cache.rglob("*.stl")} == written
-    wider = gearset.model_copy(update={"face_width": 2.0 * gearset.face_width})
-    assert robot_description(wider) != first
-    assert len(list(cache.rglob("*.stl"))) == 10
-    assert len([file for file in cache.rglob("*") if file.is_file()]) == 10
+def test_the_solids_of_every_body_are_seen(gearset: Gearset) -> None:
+    robot = ElementTree.fromstring(robot_description(gearset))
+    for body in _angles(gearset, "carrier", 0.0):
+        assert robot.find(f"link[@name='{body}']/visual") is not None
+    disc = robot.find("link[@name='sun']/visual/geometry/cylinder")
+    sun = SpurGear(gearset.teeth.sun, gearset.module, gearset.pressure_angle, gearset.addendum)
+    assert disc is not None and math.isclose(float(disc.attrib["radius"]), sun.root_radius)
 
 
-def test_a_cache_that_cannot_be_written_is_told(gearset: Gearset, cache: Path) -> None:
-    cache.write_text("in the way")
-    with pytest.raises(OSError, match="a cache"):
-        robot_description(gearset)
+@pytest.mark.parametrize("teeth, addendum", [((12, 20, 52), 0.4), ((60, 18, 96), 1.2)])
+def test_stub_teeth_and_nearly_pointed_teeth_are_boxes_of_positive_size(
+    gearset: Gearset, teeth: tuple[int, int, int], addendum: float
+) -> None:
+    numbers = gearset.teeth.model_copy(
+        update=dict(zip(("sun", "planet", "ring"), teeth, strict=True))
+    )
+    changed = gearset.model_copy(update={"teeth": numbers, "addendum": addendum})
+    robot = ElementTree.fromstring(robot_description(changed))
+    for body in ("sun", "planet_1", "ring"):
+        assert min(min(box.size) for box in _boxes(robot, body)) > 0.0

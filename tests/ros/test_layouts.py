@@ -1,17 +1,38 @@
-"""Layouts for PlotJuggler and Foxglove plot what there is."""
+"""Layouts for PlotJuggler and Foxglove plot what there is, in keys that these tools read.
+
+The keys were read in the sources of Lichtblick 1.28 and PlotJuggler 3.17.
+"""
+
+from __future__ import annotations
 
 import json
+import math
 import re
+from collections.abc import Iterator
 from pathlib import Path
+from typing import Any
 from xml.etree import ElementTree
 
+import numpy as np
+import pytest
+from mcap.reader import make_reader
 from planetary_twin_msgs.msg import GearboxState
+from rclpy.serialization import deserialize_message
 
-LAYOUTS = Path(__file__).parents[2] / "ros_ws/src/planetary_twin/layouts"
-CURVE = re.compile(r"^/planetary_twin/gearbox_state[./](?P<field>\w+)(\[(?P<place>\d)\])?$")
+import planetary_twin_py as pt
+from planetary_twin_py.robot.parts import gear_of, rim
+
+ROOT = Path(__file__).parents[2]
+LAYOUTS = ROOT / "ros_ws/src/planetary_twin/layouts"
+STATE = "/planetary_twin/gearbox_state"
+CURVE = re.compile(rf"^{STATE}[./](?P<field>\w+)(\[(?P<place>\d)\])?$")
+FIELD = re.compile(r"^float64\S*\s+(?P<name>\w+)\s+# \[(?P<unit>[^]]+)\]", re.MULTILINE)
+UNITS = dict(FIELD.findall((ROOT / "msgs_spec/msg/GearboxState.msg").read_text()))
+TITLES = ("lichtblickPanelTitle", "foxglovePanelTitle")
 
 
-def assert_exists(curve: str) -> None:
+def field_of(curve: str) -> str:
+    """The field of GearboxState that a curve plots, which must have one value at its place."""
     match = CURVE.match(curve)
     assert match, curve
     kind = GearboxState.get_fields_and_field_types()[match["field"]]
@@ -19,26 +40,114 @@ def assert_exists(curve: str) -> None:
         assert kind == "double", curve
     else:
         assert kind == "double[7]" and int(match["place"]) < 3, curve
+    return match["field"]
 
 
-def test_every_curve_of_plotjuggler_is_a_field() -> None:
-    tree = ElementTree.parse(LAYOUTS / "plotjuggler.xml")
-    curves = [curve.attrib["name"] for curve in tree.iter("curve")]
-    assert len(curves) > 15
-    for curve in curves:
-        assert_exists(curve)
+@pytest.fixture(scope="module")
+def panels() -> dict[str, Any]:
+    panels: dict[str, Any] = json.loads((LAYOUTS / "foxglove.json").read_text())["configById"]
+    return panels
 
 
-def test_every_path_of_foxglove_is_a_field_and_every_panel_is_shown() -> None:
+@pytest.fixture(scope="module")
+def docks() -> list[ElementTree.Element]:
+    return list(ElementTree.parse(LAYOUTS / "plotjuggler.xml").iter("DockArea"))
+
+
+def plots(panels: dict[str, Any]) -> Iterator[dict[str, Any]]:
+    found = [panel for name, panel in panels.items() if name.startswith("Plot!")]
+    assert len(found) == 12
+    yield from found
+
+
+def test_every_panel_of_foxglove_is_shown() -> None:
     layout = json.loads((LAYOUTS / "foxglove.json").read_text())
-    panels = layout["configById"]
-    for panel in panels.values():
-        for path in panel.get("paths", []):
-            assert_exists(path["value"])
 
-    def shown(part: str | dict) -> set[str]:
+    def shown(part: str | dict[str, Any]) -> set[str]:
         if isinstance(part, str):
             return {part}
         return shown(part["first"]) | shown(part["second"])
 
-    assert shown(layout["layout"]) == set(panels)
+    assert shown(layout["layout"]) == set(layout["configById"])
+
+
+def test_every_panel_of_foxglove_has_a_title_of_its_own(panels: dict[str, Any]) -> None:
+    for key in TITLES:
+        titles = [panel[key] for panel in panels.values()]
+        assert len(set(titles)) == len(titles) and all(titles)
+
+
+def test_foxglove_plots_fields_in_their_unit_under_short_names_beside_the_curves(
+    panels: dict[str, Any],
+) -> None:
+    for panel in plots(panels):
+        (unit,) = {UNITS[field_of(path["value"])] for path in panel["paths"]}
+        assert all(panel[key].endswith(f" [{unit}]") for key in TITLES)
+        labels = [path["label"] for path in panel["paths"]]
+        assert len(set(labels)) == len(labels) and max(map(len, labels)) <= 16
+        assert panel["legendDisplay"] == "left" and panel["showLegend"]
+
+
+def test_foxglove_plots_over_the_time_that_its_time_bar_shows(panels: dict[str, Any]) -> None:
+    for panel in plots(panels):
+        assert {path["timestampMethod"] for path in panel["paths"]} == {"receiveTime"}
+
+
+def test_plots_of_lengths_have_bounds_that_hold_the_sample_recording(
+    panels: dict[str, Any],
+) -> None:
+    """Without both bounds, Lichtblick's axis has ticks no closer than 1e-3."""
+    (file,) = (ROOT / "recordings/sample").glob("*.mcap")
+    with file.open("rb") as stream:
+        found = make_reader(stream).iter_messages(topics=[STATE])
+        states = [deserialize_message(message.data, GearboxState) for *_, message in found]
+    for panel in plots(panels):
+        fields = [field_of(path["value"]) for path in panel["paths"]]
+        if UNITS[fields[0]] != "m":
+            assert "minYValue" not in panel and "maxYValue" not in panel
+            continue
+        values = np.array([[getattr(state, name)[:3] for name in fields] for state in states])
+        low, high = panel["minYValue"], panel["maxYValue"]
+        assert low <= values.min() and 0.25 * high < values.max() < high
+
+
+def test_the_gears_fill_the_view_of_foxglove(panels: dict[str, Any]) -> None:
+    gearset = pt.load_scene("paper").gearset
+    radius = rim(gear_of(gearset, gearset.teeth.ring, internal=True))
+    camera = panels["3D!gears"]["cameraState"]
+    seen = camera["distance"] * math.tan(0.5 * math.radians(camera["fovy"]))
+    assert radius < seen < 2.0 * radius
+    assert camera["near"] < camera["distance"] - radius - gearset.face_width
+    assert panels["3D!gears"]["scene"]["transforms"]["axisScale"] < radius
+
+
+def test_the_gears_of_foxglove_come_from_the_robot_description(panels: dict[str, Any]) -> None:
+    (layer,) = panels["3D!gears"]["layers"].values()
+    assert layer["layerId"] == "foxglove.Urdf" and layer["sourceType"] == "topic"
+    assert layer["topic"] == "/planetary_twin/robot_description"
+
+
+def test_plotjuggler_plots_fields_scaled_to_the_unit_in_the_title_of_the_plot(
+    docks: list[ElementTree.Element],
+) -> None:
+    assert len(docks) == 12
+    for dock in docks:
+        curves = list(dock.iter("curve"))
+        (unit,) = {UNITS[field_of(curve.attrib["name"])] for curve in curves}
+        shown, scale = ("µm", 1e6) if unit == "m" else (unit, 1.0)
+        assert dock.attrib["name"].endswith(f" [{shown}]")
+        for curve in curves:
+            transform = curve.find("transform[@name='Scale/Offset']")
+            assert transform is not None
+            options = transform.find("options")
+            assert options is not None and float(options.attrib["value_scale"]) == scale
+            assert {options.attrib[f"{of}_offset"] for of in ("time", "value")} == {"0"}
+
+
+def test_curves_of_plotjuggler_have_short_names_of_their_own(
+    docks: list[ElementTree.Element],
+) -> None:
+    for dock in docks:
+        names = [transform.attrib["alias"] for transform in dock.iter("transform")]
+        assert len(names) == len(list(dock.iter("curve"))) == len(set(names))
+        assert max(map(len, names)) <= 16

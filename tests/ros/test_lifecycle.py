@@ -19,8 +19,6 @@ from planetary_twin_msgs.srv import SetOperatingPoint, Step
 from rclpy.executors import SingleThreadedExecutor
 from std_srvs.srv import SetBool, Trigger
 
-from planetary_twin_py._compile import cache_folder
-
 from .conftest import Start
 from .peer import LATCHED, LONG, TRANSITION, TWIN, Peer
 from .recordings import counts
@@ -150,27 +148,6 @@ def test_a_logger_that_cannot_write_tells_why_and_is_mended(
     assert process.returncode == 0
     assert "directory = recordings: Not a directory" in errors
     assert counts(place / "bag") == {}
-
-
-def test_a_simulation_that_cannot_write_its_meshes_tells_why_and_is_mended(
-    peer: Peer, start: Start, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    cache = tmp_path / "cache"
-    cache.write_text("in the way")
-    # The compiled model has a cache of its own: only the meshes are under test.
-    monkeypatch.setenv("NUMBA_CACHE_DIR", str(cache_folder()))
-    monkeypatch.setenv("XDG_CACHE_HOME", str(cache))
-    process = begin(start, "simulation")
-    managed = Managed(peer, "simulation")
-    assert not managed.change("configure")
-    assert managed.state == "unconfigured"
-    cache.unlink()
-    assert managed.change("configure")
-    assert managed.state == "inactive"
-    process.terminate()
-    _, errors = process.communicate(timeout=LONG)
-    assert process.returncode == 0
-    assert f"{cache}/planetary_twin/meshes" in errors and "Traceback" not in errors
 
 
 def test_services_of_a_simulation_that_stands_still_answer_in_one_line(

@@ -16,6 +16,7 @@ from .conftest import Start
 from .peer import LONG, TWIN, Peer
 
 NODE = f"{TWIN}/simulation"
+BEFORE = ("autostart", "scene")  # on which the others depend
 ROS = ("use_sim_time", "start_type_description_service")  # what rclpy itself declares
 
 
@@ -47,6 +48,13 @@ def test_every_parameter_says_what_it_is_and_what_it_may_be(
         (limits,) = own[name].floating_point_range
         assert (limits.from_value, limits.to_value) == (tunable.minimum, tunable.maximum)
         assert f"[{tunable.unit or '-'}]" in own[name].description
+
+
+def test_what_may_change_is_listed_first(peer: Peer, points: list[OperatingPoint]) -> None:
+    """Tools such as rqt_reconfigure show parameters in the order in which a node lists them."""
+    own = [told for name, told in described(peer).items() if name not in (*ROS, *BEFORE)]
+    changing = [not told.read_only for told in own]
+    assert changing == sorted(changing, reverse=True) and changing[0] and not changing[-1]
 
 
 def test_geometry_is_that_of_the_scene_and_cannot_be_set(

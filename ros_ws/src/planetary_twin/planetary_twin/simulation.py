@@ -69,7 +69,7 @@ class Simulation(ManagedNode):
         self._given.read()
         self._telemetry = Telemetry(self, self._given, self._before)
         self._audience = Audience(self, self._given.wait_for)
-        self._urdf = self._robot_description()
+        self._urdf = robot_description(self._given.scene.gearset, self._given.frame)
         self._twin = self._new_twin()
         # What is loaded now stays: a collection that looks at it all takes a tenth of a second.
         gc.collect()
@@ -178,15 +178,6 @@ class Simulation(ManagedNode):
     def stamp(self, instant: float) -> int:
         """ROS time [ns] of a simulated instant [s]."""
         return self._telemetry.stamp(instant)
-
-    def _robot_description(self) -> str:
-        try:
-            return robot_description(self._given.scene.gearset, self._given.frame)
-        except OSError as reason:
-            raise NodeError(
-                f"{reason.filename}: {reason.strerror}: the gears' meshes are kept there, "
-                "or in another folder that XDG_CACHE_HOME names"
-            ) from None
 
     def _submit(self, parameters: list[Parameter]) -> None:
         if self._live is None:

@@ -58,11 +58,12 @@ class SimulationParameters:
         self._chosen = {name: number(name, given[name]) for name in pt.TUNABLES if name in given}
         """Quantities whose values are not the scene's own, whichever scene it is."""
         name = declare_fixed(node, "scene", "paper", "packaged scene, or path of a YAML file")
-        _declare_settings(node)
-        ladder_of(declare_tunable(node, TOLERANCE, AUTOMATIC, "/diagnostics"))
         self.scene = pt.load_scene(name)
         """As loaded, at the operating point given at the start."""
+        # First what may change: tools such as rqt_reconfigure list parameters in this order.
         self._declare_scene()
+        ladder_of(declare_tunable(node, TOLERANCE, AUTOMATIC, "/diagnostics"))
+        _declare_settings(node)
         self.scene = self.scene_now()
         check_point(self.scene, self.scene.operating_point)
         self._wanted = self.scene
@@ -108,11 +109,11 @@ class SimulationParameters:
         return Affordable(settings, self._compute_share, self.period, begin)
 
     def _declare_scene(self) -> None:
-        """Declare the geometry of the scene and its operating point."""
-        declare_geometry(self._node, _GEARSET, self.scene.gearset)
+        """Declare the operating point of the scene and its geometry."""
         for tunable in self.scene.tunables.values():
             own = getattr(self.scene.operating_point, tunable.name)
             declare_tunable(self._node, tunable, own, "operating_point")
+        declare_geometry(self._node, _GEARSET, self.scene.gearset)
 
     def _validate(self, parameters: list[Parameter]) -> SetParametersResult:
         values = {p.name: p.value for p in parameters}

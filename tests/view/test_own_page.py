@@ -1,0 +1,89 @@
+"""The page that `view --serve` shows asks nothing of the internet.
+
+What a browser loads by itself is read from the HTML; what the viewer's program asks for later is
+held back by the policy, which is read as the standard has it (W3C, Content Security Policy 3).
+"""
+
+from __future__ import annotations
+
+import urllib.request
+from collections.abc import Iterator
+from html.parser import HTMLParser
+from urllib.parse import urlsplit
+
+import pytest
+
+from planetary_twin_py.view.own_page import policy, without_other_hosts
+from planetary_twin_py.view.viewer import Viewer, page
+
+
+class Loaded(HTMLParser):
+    """Addresses that a browser asks for as it reads a page: not those of links to click on."""
+
+    def __init__(self, text: str) -> None:
+        super().__init__()
+        self.addresses: list[str] = []
+        self.feed(text)
+
+    def handle_starttag(self, tag: str, attrs: list[tuple[str, str | None]]) -> None:
+        for name, value in attrs:
+            if value and (name in ("src", "srcset", "data") or (tag, name) == ("link", "href")):
+                self.addresses.append(value)
+
+    @property
+    def hosts(self) -> set[str]:
+        return {urlsplit(address).netloc for address in self.addresses}
+
+
+@pytest.fixture(scope="module")
+def served_page() -> Iterator[Viewer]:
+    with page() as viewer:
+        yield viewer
+
+
+def fetched(viewer: Viewer, path: str) -> tuple[bytes, dict[str, str]]:
+    address = f"http://127.0.0.1:{viewer.page}/{path}"
+    with urllib.request.urlopen(address, timeout=60) as answer:
+        return answer.read(), dict(answer.headers)
+
+
+def test_the_page_loads_its_program_from_this_server_and_nothing_from_others(
+    served_page: Viewer,
+) -> None:
+    content, _ = fetched(served_page, "")
+    loaded = Loaded(content.decode())
+    assert "re_viewer.js" in loaded.addresses
+    assert loaded.hosts == {""}
+    for address in loaded.addresses:
+        fetched(served_page, address)  # raises where there is no such file
+
+
+def test_program_and_page_come_with_the_policy(served_page: Viewer) -> None:
+    for path in ("", "re_viewer.js", "re_viewer_bg.wasm"):
+        content, headers = fetched(served_page, path)
+        assert headers["Content-Security-Policy"] == policy(served_page.data)
+        assert len(content) == int(headers["Content-Length"]) > 1000
+    assert headers["Content-Type"] == "application/wasm"
+    assert content.startswith(b"\0asm")
+
+
+def test_the_policy_names_no_host_but_this_machine() -> None:
+    directives = dict(part.strip().split(" ", 1) for part in policy(9091).split(";"))
+    assert directives["default-src"] == "'self'"
+    sources = {source for listed in directives.values() for source in listed.split()}
+    hosts = {source for source in sources if not source.startswith("'")} - {"data:", "blob:"}
+    assert hosts == {"http://127.0.0.1:9091", "http://localhost:9091"}
+
+
+@pytest.mark.parametrize(
+    "element",
+    [
+        '<link rel="preconnect" href="https://fonts.gstatic.com" crossorigin />',
+        '<link\n  href="https://fonts.googleapis.com/css2?family=Inter"\n rel="stylesheet">',
+        "<link rel=stylesheet href=//other.host/style.css>",
+    ],
+)
+def test_references_to_other_hosts_are_taken_out_and_the_rest_stays(element: str) -> None:
+    own = '<link rel="icon" href="favicon.ico" /><a href="https://rerun.io">to click on</a>'
+    assert Loaded(element).hosts != {""}
+    assert without_other_hosts(f"<head>{element}{own}</head>") == f"<head>{own}</head>"

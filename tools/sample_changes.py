@@ -1,0 +1,56 @@
+"""Changes the twin that make_sample records, at instants of its own time; ends when it has run."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from functools import partial
+
+from planetary_twin.client import Client
+from planetary_twin_msgs.msg import GearboxState
+from planetary_twin_msgs.srv import SetOperatingPoint
+
+from planetary_twin_py import rpm
+
+CHANGES = {  # [s] simulated: what holds from the first interval after it, in SI
+    0.3: {"lambda_ratio": 2.0},
+    0.6: {"backlash": 3.5e-7},
+    0.9: {"input_speed": rpm(1500.0), "input_torque": 40.0},
+}
+END = 1.15  # [s] by then the motor has got there
+PATIENCE = 60.0  # [s]
+TOPIC = "gearbox_state"
+
+
+def main() -> None:
+    """Subscribe once the logger has: the simulation waits for this node, so for both."""
+    heard = [0.0]
+
+    def hear(state: GearboxState) -> None:
+        heard[0] = state.simulated_time
+
+    with Client("changes", "/planetary_twin") as client:
+        service = client.node.create_client(SetOperatingPoint, "simulation/set_operating_point")
+        wait(client, service.service_is_ready)
+        wait(client, lambda: client.node.count_subscribers(TOPIC) > 0)
+        client.node.create_subscription(GearboxState, TOPIC, hear, 10)
+        for instant, values in CHANGES.items():
+            wait(client, partial(reached, heard, instant))
+            request = SetOperatingPoint.Request(names=list(values), values=list(values.values()))
+            answer = client.call(service, request)
+            if answer is None or not answer.success:
+                raise SystemExit(f"{values}: {answer.message if answer else 'no answer'}")
+        wait(client, partial(reached, heard, END))
+
+
+def reached(heard: list[float], instant: float) -> bool:
+    """Whether the state heard of last is of `instant` [s] or later."""
+    return heard[0] >= instant
+
+
+def wait(client: Client, ready: Callable[[], bool]) -> None:
+    """Wait until `ready`, and give up where that does not come."""
+    if not client.wait(ready, PATIENCE):
+        raise SystemExit("the twin did not get there")
+
+
+main()
