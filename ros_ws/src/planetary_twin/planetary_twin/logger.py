@@ -43,7 +43,9 @@ class Logger(ManagedNode):
     def configure(self) -> None:
         """Create the recording's folder and file."""
         self._check_topics()
-        recorder = Recorder(self, self._wishes, self._own, self._cannot_go_on)
+        recorder = Recorder(
+            self, self._wishes, self._own, self._cannot_go_on, self._publish_status
+        )
         try:
             recorder.begin()
         except Refused as refusal:

@@ -19,6 +19,7 @@ from planetary_twin_py.robot import frames, robot_description
 from planetary_twin_py.runaway import RunawayError
 
 from .audience import Audience
+from .backlog import Backlog
 from .ledger_report import LedgerReport
 from .live import LiveTwin, Progress
 from .managed import ManagedNode, NodeError, run_node
@@ -27,7 +28,7 @@ from .ramps import LONGEST_RAMP
 from .real_time import KEEPS_UP, RealTimeReport
 from .simulation_parameters import TOLERANCE, SimulationParameters, tunables
 from .stamps import STEADY
-from .telemetry import Telemetry
+from .telemetry import STALL, Telemetry
 from .time_services import TimeServices
 from .transforms import TransformsMessage
 
@@ -62,6 +63,9 @@ class Simulation(ManagedNode):
             given.rate,
         )
         self._audience = Audience(self, given.wait_for)
+        # Half of what publishers keep: what is on its way meanwhile does not fill the rest.
+        room = round(0.5 * STALL * given.rate)
+        self._backlog = Backlog(self, given.wait_for, self._telemetry.streamed, room)
         self._timer = self.create_timer(_REPORT_PERIOD, self._diagnose, clock=STEADY)
         self.create_service(SetOperatingPoint, "~/set_operating_point", self._set_operating_point)
         self.create_service(NaturalModes, "~/natural_modes", self._natural_modes)
@@ -123,6 +127,10 @@ class Simulation(ManagedNode):
     def ready(self) -> bool:
         """Whether there is a ROS time to stamp with, and who is waited for is there."""
         return self._telemetry.ready() and self._audience.there()
+
+    def has_room(self) -> bool:
+        """Whether the node that `wait_for` names has kept up with recording."""
+        return self._backlog.has_room()
 
     def goes_on(self, twin: pt.Twin) -> None:
         """Let the twin's present time be now."""

@@ -20,6 +20,7 @@ URDF_ATTACHMENT = "robot_description.urdf"
 _DESCRIPTION = "/robot_description"
 _STRING = "std_msgs/msg/String"
 _NOTHING: tuple[bytes, ...] = ()
+_REPORTED = 100  # messages after which the recording's progress is told
 _BATCH = 200  # messages of one topic before it is another's turn
 _CDR_HEADER = 8  # bytes: encapsulation, then the length of the text with its closing zero
 
@@ -46,13 +47,20 @@ class Tap:
     """One recorded topic: its subscription, its channel in the sink, its account."""
 
     def __init__(
-        self, sink: Sink, topic: Topic, latched: bool, own: Collection[bytes], failed: Failed
+        self,
+        sink: Sink,
+        topic: Topic,
+        latched: bool,
+        own: Collection[bytes],
+        failed: Failed,
+        accounted: Callable[[], None],
     ) -> None:
         self.account = TopicAccount(latched)
         self.subscription: Subscription | None = None
         self._sink = sink
         self._own = own
         self._failed = failed
+        self._accounted = accounted
         self._channel = sink.add_topic(topic, self.account)
         self._describes = topic.type == _STRING and topic.name.endswith(_DESCRIPTION)
 
@@ -92,6 +100,7 @@ class Tap:
             self._failed(reason)
             return
         self.account.receive(number, self.publishers)
+        self._accounted()
 
     def told_of_loss(self, event: QoSMessageLostInfo) -> None:
         """Hear from the middleware of messages it could not deliver."""
@@ -101,6 +110,8 @@ class Tap:
 class Taps:
     """
     The taps of one recording; `failed` hears why the sink takes no more.
+
+    `progressed` is called after every 100 messages, of whatever topics.
 
     What the node itself has published, of late in `own`, is not recorded: so a recording of a
     replay holds what was replayed.
@@ -113,12 +124,15 @@ class Taps:
         own: Collection[bytes],
         sink: Sink,
         failed: Failed,
+        progressed: Callable[[], None],
     ) -> None:
         self._node = node
         self._chosen = chosen
         self._own = own
         self._sink = sink
         self._failed = failed
+        self._progressed = progressed
+        self._unreported = 0
         self._taps: dict[str, Tap] = {}
         self._refused: set[str] = set()
 
@@ -148,6 +162,12 @@ class Taps:
                 self._node.destroy_subscription(tap.subscription)
                 tap.subscription = None
 
+    def _count(self) -> None:
+        self._unreported += 1
+        if self._unreported >= _REPORTED:
+            self._unreported = 0
+            self._progressed()
+
     def _subscribe(self, name: str) -> None:
         tap = self._taps.get(name)
         everybody = self._node.get_publishers_info_by_topic(name)
@@ -166,7 +186,9 @@ class Taps:
         if tap is None:
             latched = qos.durability == DurabilityPolicy.TRANSIENT_LOCAL
             own = self._own if len(publishers) < len(everybody) else _NOTHING
-            tap = self._taps[name] = Tap(self._sink, topic, latched, own, self._failed)
+            tap = self._taps[name] = Tap(
+                self._sink, topic, latched, own, self._failed, self._count
+            )
         tap.subscription = self._listen(kind, name, tap, qos)
 
     def _listen(self, kind: type, name: str, tap: Tap, qos: QoSProfile) -> Subscription:

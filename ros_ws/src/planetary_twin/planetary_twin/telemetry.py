@@ -31,8 +31,8 @@ from .transforms import TransformsMessage
 
 _LATCHED = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
 _DEPTH = 10
-_KEPT = 1.0  # [s] of simulated time, for reliable subscribers that are held up
-_LEAST = 100  # messages, where more than a second of it passes in one
+STALL = 10.0
+"""Simulated time [s] for which a reliable subscriber may be held up without losing a message."""
 
 
 class Telemetry:
@@ -51,7 +51,7 @@ class Telemetry:
         clock: bool,
         rate: float,
     ) -> None:
-        kept = max(round(_KEPT * rate), _LEAST)
+        kept = round(STALL * rate)
         self._state = node.create_publisher(msg.GearboxState, "gearbox_state", kept)
         self._waveform = node.create_publisher(msg.MeshWaveform, "mesh_waveform", kept)
         self._joints = node.create_publisher(JointState, "joint_states", kept)
@@ -68,6 +68,8 @@ class Telemetry:
         self._clock_message = Clock()
         self._transforms_message = transforms
         self._prepared: list[tuple[Publisher, Any, list[Time], float]] = []
+        each = (self._clock, self._state, self._joints, self._waveform, self._tf)
+        self._streams = [publisher for publisher in each if publisher is not None]
         self._end = 0.0
         self._stamps = Stamps(node.get_clock(), source=clock)
         self._now = Rising(node.get_clock())
@@ -104,6 +106,10 @@ class Telemetry:
     def stamp(self, simulated: float) -> int:
         """ROS time [ns] of simulated time `simulated` [s], of the newest interval or its end."""
         return self._stamps.of(simulated)
+
+    def streamed(self) -> dict[Publisher, int]:
+        """Messages published so far on each topic that has one for each interval."""
+        return {stream: self._published[stream] for stream in self._streams}
 
     def prepare(self, window: Window) -> None:
         """

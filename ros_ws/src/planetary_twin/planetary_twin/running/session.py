@@ -95,6 +95,7 @@ def _simulation_parameters(plan: Plan) -> dict[str, object]:
         "rate_factor": plan.rate_factor,
         "tolerance": plan.tolerance,
         "autostart": "false",
+        "wait_for": "logger",
         **plan.values,
     }
 
