@@ -6,6 +6,7 @@ import time
 from collections.abc import Callable, Mapping
 
 from planetary_twin_msgs.msg import RecorderStatus
+from rclpy.callback_groups import CallbackGroup
 from rclpy.duration import Duration
 from rclpy.node import Node
 from rclpy.publisher import Publisher
@@ -14,6 +15,14 @@ from .audience import PATIENCE
 
 _NOW = Duration()
 _UNSEEN = 5  # messages of a topic; ROS's default subscription, rosbag2's too, has room for 10
+
+
+class _Taken(CallbackGroup):  # type: ignore[misc]
+    """Of a subscription that no executor touches: its messages are taken by who needs them."""
+
+    def can_execute(self, entity: object) -> bool:
+        """Never: the executor may be waiting for the answer of a twin that is held."""
+        return False
 
 
 class Backlog:
@@ -45,15 +54,20 @@ class Backlog:
         self._since = time.monotonic()  # of the last acknowledgement
         self._given_up = False
         self._status = (
-            node.create_subscription(RecorderStatus, f"{name}/status", self._hear, 1)
+            node.create_subscription(
+                RecorderStatus, f"{name}/status", self._hear, 1, callback_group=_Taken()
+            )
             if name
             else None
         )
 
     def has_room(self) -> bool:
-        """Whether the messages of another interval may be published; from any thread."""
+        """Whether the messages of another interval may be published; from one thread."""
         if self._status is None:
             return True
+        with self._status.handle:
+            while taken := self._status.handle.take_message(RecorderStatus, False):
+                self._hear(taken[0])
         if self._recorded and self._status.get_publisher_count():
             return self._is_close()
         return self._is_acknowledged()

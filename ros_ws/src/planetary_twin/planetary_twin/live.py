@@ -71,12 +71,12 @@ class Progress(NamedTuple):
     wall: float  # [s] steady clock
     ran: float  # [s] simulated by intervals, one after another
     lasted: float  # [s] of wall time that these took; none passes while time stands
-    held: float  # [s] of wall time that the twin has waited for its recorder
     cpu: float  # [s] processor time of the thread
     overruns: int
     repeats: bool  # steady running, which is not computed again
     state: State
     failure: str = ""  # why it has failed
+    held: float = 0.0  # [s] of wall time that the twin has waited for its recorder
 
 
 class LiveTwin:
@@ -310,10 +310,10 @@ class LiveTwin:
             time.monotonic(),
             self._ran,
             self._lasted,
-            self._hold.total,
             time.thread_time(),
             self._pace.overruns,
             self._repeated,
             self._state(),
             self._failure,
+            self._hold.total,
         )

@@ -29,7 +29,6 @@ from .messages import (
 from .stamps import Rising, Stamps
 from .transforms import TransformsMessage
 
-_LATCHED = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
 _DEPTH = 10
 STALL = 10.0
 """Simulated time [s] for which a reliable subscriber may be held up without losing a message."""
@@ -55,9 +54,12 @@ class Telemetry:
         self._state = node.create_publisher(msg.GearboxState, "gearbox_state", kept)
         self._waveform = node.create_publisher(msg.MeshWaveform, "mesh_waveform", kept)
         self._joints = node.create_publisher(JointState, "joint_states", kept)
-        self._point = node.create_publisher(msg.OperatingPoint, "operating_point", _LATCHED)
-        self._description = node.create_publisher(String, "robot_description", _LATCHED)
-        self._origin_of_run = node.create_publisher(String, "run_origin", _LATCHED)
+        # A late subscriber gets these, too: the newest is the last.
+        latched = QoSProfile(depth=kept, durability=DurabilityPolicy.TRANSIENT_LOCAL)
+        newest = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
+        self._point = node.create_publisher(msg.OperatingPoint, "operating_point", latched)
+        self._origin_of_run = node.create_publisher(String, "run_origin", latched)
+        self._description = node.create_publisher(String, "robot_description", newest)
         self._diagnostics = node.create_publisher(DiagnosticArray, "/diagnostics", _DEPTH)
         self._tf = node.create_publisher(TFMessage, "/tf", kept) if transforms else None
         self._clock = node.create_publisher(Clock, "/clock", kept) if clock else None
