@@ -32,10 +32,12 @@ Go = Callable[["Twin"], None]
 class Twin:
     """A simulation, the recorder it waits for, and what both report."""
 
-    def __init__(self, peer: Peer, start: Start, recorder: Program, name: str, rate: float) -> None:
+    def __init__(
+        self, peer: Peer, start: Start, recorder: Program, name: str, rate: float, *more: str
+    ) -> None:
         self.peer = peer
         self.recorder = recorder
-        parameters = (f"rate_factor:={rate}", f"wait_for:={name}")
+        parameters = (f"rate_factor:={rate}", f"wait_for:={name}", *more)
         options = [option for parameter in parameters for option in ("-p", parameter)]
         self.process = start("planetary_twin.simulation", "--ros-args", *options)
         self.status: list[RecorderStatus] = peer.listen(RecorderStatus, f"{TWIN}/{name}/status", 1)
@@ -168,13 +170,14 @@ def test_a_twin_waits_for_its_recorder_and_for_no_one_else(peer: Peer, start: St
     """A listener that stands still holds nothing up; the recorder holds simulated time."""
     logger = start("planetary_twin.logger")
     bystander = start("tests.ros.other_recorder")
-    twin = Twin(peer, start, logger, "logger", 0.0)
+    twin = Twin(peer, start, logger, "logger", 0.0, "sample_rate:=1000.0")
     twin.advance(0.5)
     bystander.send_signal(signal.SIGSTOP)
     twin.advance(2.0 * STALL)
-    held = float(figures(twin.reports[-1:])["held"])
-    with twin.stall(4.0):
-        peer.until(lambda: figures(twin.reports[-1:])["state"] == "waits")
-    peer.until(lambda: figures(twin.reports[-1:])["state"] == "running")
-    assert float(figures(twin.reports[-1:])["held"]) > held + 1.0
+    logger.send_signal(signal.SIGSTOP)
+    peer.until(lambda: figures(twin.reports[-1:])["state"] == "waits")
+    before = twin.states[-1].simulated_time
+    logger.send_signal(signal.SIGCONT)
     bystander.send_signal(signal.SIGCONT)
+    peer.until(lambda: twin.states[-1].simulated_time > before + STALL)
+    assert float(twin.end()["held"]) > 1.0

@@ -151,6 +151,11 @@ class Operator(Client):
             if key.startswith(prefix)
         }
 
+    def accounted(self) -> dict[str, int]:
+        """Messages the logger says it has recorded or missed, by topic."""
+        totals = zip(self.recorder.topics, self.recorder.recorded, self.recorder.lost, strict=True)
+        return {topic: recorded + lost for topic, recorded, lost in totals}
+
     def _client(self, kind: type, service: str) -> Service:
         return self.node.create_client(kind, f"{_NODE}/{service}")
 
