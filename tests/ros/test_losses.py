@@ -8,6 +8,7 @@ import threading
 import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+from pathlib import Path
 
 import pytest
 from diagnostic_msgs.msg import DiagnosticArray
@@ -27,6 +28,13 @@ STREAMS = (f"{TWIN}/gearbox_state", f"{TWIN}/mesh_waveform", f"{TWIN}/joint_stat
 STEP = 8.0  # [s]
 OFTEN = 5  # changes of the operating point while the recorder stands still
 Go = Callable[["Twin"], None]
+
+
+@pytest.fixture
+def other(start: Start, monkeypatch: pytest.MonkeyPatch) -> Program:
+    """A recorder that is not the logger."""
+    monkeypatch.setenv("PYTHONPATH", str(Path(__file__).parents[1]))
+    return start("ros.other_recorder")
 
 
 class Twin:
@@ -150,34 +158,36 @@ def test_the_logger_records_all_that_is_published(
 @pytest.mark.parametrize("stall", [0.0, 3.0])
 @pytest.mark.parametrize("rate", [0.1, 1.0, 20.0, 0.0])
 def test_another_recorder_hears_all_where_its_own_queue_is_long_enough(
-    peer: Peer, start: Start, rate: float, stall: float
+    peer: Peer, start: Start, other: Program, rate: float, stall: float
 ) -> None:
     """At real time its queue of 10 is what limits a stall; above, the twin waits for it."""
-    recorder = start("tests.ros.other_recorder")
-    twin = Twin(peer, start, recorder, NAME, rate)
+    twin = Twin(peer, start, other, NAME, rate)
     twin.advance(0.05)
     waits = rate > 1.0 or rate == 0.0
     with twin.stall(stall if waits else min(stall, 0.05)):
         pass
     twin.advance(0.05)
     sent = published(twin.end())
-    recorder.terminate()
-    output, _ = recorder.communicate()
+    other.terminate()
+    output, _ = other.communicate()
     assert json.loads(output) == {f"{TWIN}/{topic}": sent[f"{TWIN}/{topic}"] for topic in TOPICS}
 
 
-def test_a_twin_waits_for_its_recorder_and_for_no_one_else(peer: Peer, start: Start) -> None:
+def test_a_twin_waits_for_its_recorder_and_for_no_one_else(
+    peer: Peer, start: Start, other: Program
+) -> None:
     """A listener that stands still holds nothing up; the recorder holds simulated time."""
     logger = start("planetary_twin.logger")
-    bystander = start("tests.ros.other_recorder")
     twin = Twin(peer, start, logger, "logger", 0.0, "sample_rate:=1000.0")
     twin.advance(0.5)
-    bystander.send_signal(signal.SIGSTOP)
+    listeners = (other, logger, peer)
+    peer.until(lambda: peer.node.count_subscribers(STREAMS[0]) == len(listeners))
+    other.send_signal(signal.SIGSTOP)
     twin.advance(2.0 * STALL)
     logger.send_signal(signal.SIGSTOP)
     peer.until(lambda: figures(twin.reports[-1:])["state"] == "waits")
     before = twin.states[-1].simulated_time
     logger.send_signal(signal.SIGCONT)
-    bystander.send_signal(signal.SIGCONT)
+    other.send_signal(signal.SIGCONT)
     peer.until(lambda: twin.states[-1].simulated_time > before + STALL)
     assert float(twin.end()["held"]) > 1.0
