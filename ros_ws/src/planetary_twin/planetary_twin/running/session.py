@@ -115,11 +115,8 @@ def _bring_up(operator: Operator) -> None:
     """Build the model, and let it run once the logger hears every topic: nothing gets lost."""
     operator.bring("configure", "unconfigured", "inactive", _BUILD)
 
-    def heard() -> bool:
-        topics = operator.topics()
-        return bool(topics) and topics <= set(operator.recorder.topics)
-
-    operator.need("logger: hears every topic of the simulation", heard, _START)
+    if not operator.wait(lambda: not operator.unheard(), _START):
+        raise RunError(f"logger: after {_START:g} s it does not hear {operator.unheard()}")
     _refuse_company(operator)
     operator.bring("activate", "inactive", "active", _START)
 
