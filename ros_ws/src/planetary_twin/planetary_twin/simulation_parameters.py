@@ -55,8 +55,8 @@ class SimulationParameters:
             node,
             "wait_for",
             "",
-            f"node that must have subscribed before the twin begins, such as the logger that is "
-            f"to record it from the first message on; waits {PATIENCE:g} s at most",
+            f"node that records, such as the logger: the twin begins when it has subscribed, "
+            f"after {PATIENCE:g} s at most, and waits for it above real time and in steps",
         )
         self.clock: bool = declare_fixed(node, "clock", False, "publish simulated time on /clock")
         self.sample_rate = declare_bounded(
