@@ -37,7 +37,7 @@ class Recorder:
     """
     One recording after another; `failed` hears why one cannot go on.
 
-    `progressed` is called after every 100 messages.
+    `progressed` is called after every 400 messages.
 
     `own` are the newest messages that the node itself has published.
     Raises `Refused` where something cannot be done.

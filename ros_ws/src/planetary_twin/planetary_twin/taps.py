@@ -20,7 +20,7 @@ URDF_ATTACHMENT = "robot_description.urdf"
 _DESCRIPTION = "/robot_description"
 _STRING = "std_msgs/msg/String"
 _NOTHING: tuple[bytes, ...] = ()
-_REPORTED = 100  # messages after which the recording's progress is told
+_REPORTED = 400  # messages after which the recording's progress is told
 _DEAF = 3.0  # [s] for which a subscription may find none of the publishers that there are
 _BATCH = 200  # messages of one topic before it is another's turn
 _CDR_HEADER = 8  # bytes: encapsulation, then the length of the text with its closing zero
@@ -127,7 +127,7 @@ class Taps:
     """
     The taps of one recording; `failed` hears why the sink takes no more.
 
-    `progressed` is called after every 100 messages, of whatever topics.
+    `progressed` is called after every 400 messages, of whatever topics.
 
     What the node itself has published, of late in `own`, is not recorded: so a recording of a
     replay holds what was replayed.
