@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import errno
 import os
 import time
@@ -11,6 +12,7 @@ from pathlib import Path
 
 from mcap.writer import Writer
 
+from .chunk_indexes import ChunkIndexes
 from .rosbag2 import Extent, Topic
 from .storage import COMPRESSIONS, Storage
 
@@ -36,6 +38,7 @@ class McapFile:
             compression=COMPRESSIONS[storage.compression],
             enable_data_crcs=True,
         )
+        self._indexes = ChunkIndexes.replace(self._writer, path.parent)
         self._writer.start(profile="ros2", library=_LIBRARY)
 
     @property
@@ -96,11 +99,14 @@ class McapFile:
         self._check_place()
         os.fsync(self._stream.fileno())
         self._stream.close()
+        self._indexes.close()
 
     def abandon(self) -> None:
         """Let go of a file that cannot be written any more, e.g. on a full disk."""
         # Closing the buffered stream would try to write once more; the descriptor must not leak.
         self._stream.raw.close()
+        with contextlib.suppress(OSError):
+            self._indexes.close()
 
     def _check_place(self) -> None:
         """A file that was deleted or moved away can be written, and found by nobody."""

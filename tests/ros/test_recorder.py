@@ -14,7 +14,7 @@ from mcap.reader import make_reader
 from mcap.records import Message
 from planetary_twin.recording_report import RECORDING
 from planetary_twin_msgs.msg import RecorderStatus
-from rclpy.qos import QoSProfile
+from rclpy.qos import QoSProfile, ReliabilityPolicy
 from rclpy.serialization import deserialize_message
 from std_msgs.msg import String
 from std_srvs.srv import Trigger
@@ -293,3 +293,20 @@ def test_recorded_and_lost_are_what_was_published_under_overload(
     assert numbers[-1] == 20_001
     told = read_info(tmp_path / "recordings/bag").topics[TOPIC]
     assert (told.recorded, told.lost) == (recorded, lost)
+
+
+def test_a_publisher_that_offers_less_than_the_one_before_is_heard(
+    peer: Peer, start: Start
+) -> None:
+    logger = Logger(peer, start, "name:=bag", f"topics:=['{TOPIC}']")
+
+    def publish_until_heard(qos: QoSProfile) -> None:
+        publisher = peer.node.create_publisher(String, TOPIC, qos)
+        timer = peer.node.create_timer(0.01, lambda: publisher.publish(String(data="1 ")))
+        before = logger.recorded()
+        peer.until(lambda: logger.recorded() > before)
+        peer.node.destroy_timer(timer)
+        peer.node.destroy_publisher(publisher)
+
+    publish_until_heard(QoSProfile(depth=10))
+    publish_until_heard(QoSProfile(depth=10, reliability=ReliabilityPolicy.BEST_EFFORT))

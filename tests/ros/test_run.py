@@ -19,6 +19,7 @@ from lifecycle_msgs.srv import ChangeState
 from mcap.reader import make_reader
 from planetary_twin.running.session import SILENCE
 from planetary_twin.running.tour import LENGTH, tour_of
+from planetary_twin.telemetry import STALL
 from planetary_twin_msgs.msg import GearboxState
 from std_srvs.srv import SetBool, Trigger
 
@@ -129,6 +130,37 @@ def test_what_came_while_the_logger_was_stopped_is_told_and_both_recordings_are_
     assert len(held) == 2 and sum(held) == states["recorded"]
     assert states["recorded"] + states["lost"] == states["published"]
     assert "while the logger was stopped" in output
+
+
+def _logger_of(folder: Path) -> int:
+    """The process of the logger that a run in `folder` has started."""
+    commands = {n: Path(f"/proc/{n}/cmdline").read_bytes() for n in working_in(folder)}
+    (number,) = [n for n, command in commands.items() if b"planetary_twin.logger" in command]
+    return number
+
+
+def test_a_run_whose_logger_stands_for_longer_than_messages_are_kept_fails_and_says_what_is_lost(
+    run: Callable[..., subprocess.Popen[str]], peer: Peer, tmp_path: Path
+) -> None:
+    process = run("--duration", "600", "--no-tour", "--record", "bag", "--json", "figures.json")
+    _line(process, "rpm")
+    states = peer.listen(GearboxState, f"{TWIN}/gearbox_state")
+    peer.until(lambda: states)
+    logger = _logger_of(tmp_path)
+    os.kill(logger, signal.SIGSTOP)
+    until = states[-1].simulated_time + STALL + 1.0
+    peer.until(lambda: states[-1].simulated_time > until)
+    os.kill(logger, signal.SIGCONT)
+    again = states[-1].simulated_time + 1.0
+    peer.until(lambda: states[-1].simulated_time > again)
+    process.send_signal(signal.SIGINT)
+    _, errors = process.communicate(timeout=LONG)
+    assert process.returncode == 1
+    told = json.loads((tmp_path / "figures.json").read_text())["topics"][f"{TWIN}/gearbox_state"]
+    recorded = counts(tmp_path / "recordings/bag")[f"{TWIN}/gearbox_state"]
+    assert told["lost"] > 0 and told["recorded"] == recorded == told["published"] - told["lost"]
+    (line,) = [line for line in errors.splitlines() if line.startswith("planetary-twin: ")]
+    assert f"{told['lost']} of {TWIN}/gearbox_state" in line
 
 
 def test_ctrl_c_leaves_a_readable_recording_and_the_table(

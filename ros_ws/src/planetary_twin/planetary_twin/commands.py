@@ -99,6 +99,9 @@ def _run(
     outcome = run_session(plan, console)
     print_outcome(console, outcome)
     put_figures(outcome.figures(), target)
+    if losses := outcome.losses():
+        counts = ", ".join(f"{count} of {topic}" for topic, count in losses.items())
+        raise RuntimeError(f"{outcome.files[0].parent}: messages are lost: {counts}")
 
 
 def _folder(record: str | None, scene: str) -> Path:

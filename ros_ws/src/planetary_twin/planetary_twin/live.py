@@ -14,12 +14,14 @@ from planetary_twin_py import OperatingPoint, Twin, Window
 from planetary_twin_py.affordable import Affordable, Setting
 from planetary_twin_py.runaway import RunawayError
 
+from .hold import Hold
 from .orders import Orders
 from .pacing import Pace
 from .ramps import Ramps
 
 LONGEST_STEP = 10.0  # [s] that a paused twin makes at a time
 _ALERTNESS = 0.1  # [s] after which a paused twin looks whether it is to end
+_POLL = 2e-3  # [s] after which a twin looks again whether its recorder has caught up
 
 
 class Listener(Protocol):
@@ -42,6 +44,9 @@ class Listener(Protocol):
 
     def ready(self) -> bool:
         """Whether time can pass: what it waits for is there, such as a clock to follow."""
+
+    def has_room(self) -> bool:
+        """Whether the recorder has kept up, so that the next interval may be published."""
 
     def goes_on(self, twin: Twin) -> None:
         """At the start, after a stop, and while time stands: the present time of `twin` is now."""
@@ -71,6 +76,7 @@ class Progress(NamedTuple):
     repeats: bool  # steady running, which is not computed again
     state: State
     failure: str = ""  # why it has failed
+    held: float = 0.0  # [s] of wall time that the twin has waited for its recorder
 
 
 class LiveTwin:
@@ -80,6 +86,8 @@ class LiveTwin:
     It makes `rate_factor` simulated seconds per second, or as fast as it goes where that is 0.
     `affordable` chooses the setting, and may be replaced at any time, from any thread. Orders
     are carried out between two intervals; their futures give the simulated instant [s] of that.
+
+    Above real time and in steps it waits for its recorder; at real time and below it never does.
     """
 
     def __init__(
@@ -94,6 +102,7 @@ class LiveTwin:
         self._interval = interval
         self._stop = threading.Event()
         self._pace = Pace(interval / rate_factor if rate_factor else 0.0, self._stop.wait)
+        self._hold = Hold(lambda: 0.0 < rate_factor <= 1.0 or listener.has_room())
         self.affordable = affordable
         self._listener = listener
         self._orders = Orders(self._set)
@@ -141,20 +150,21 @@ class LiveTwin:
     def _run(self) -> None:
         try:
             while not self._stop.is_set():
-                answers = self._orders.carry_out(_ALERTNESS if self._halted() else 0.0)
+                answers = self._orders.carry_out(self._patience())
                 stood, self._stands = self._stands, self._halted()
                 if stood and not self._stands:
                     self._listener.goes_on(self._twin)
                     self._pace.start()
                     self._mark = time.monotonic()
-                if not self._stands:
+                going = not (self._stands or self._hold.active)
+                if going:
                     self._follow_ramps()
                 self._announce()
                 if answers:  # who asked may look at once where it stands
                     self.progress = self._standing()
                 for answer in answers:
                     answer()
-                if not self._stands and self._pass(self._interval, self._pace.wait):
+                if going and self._pass(self._interval, self._pace.wait):
                     before, self._mark = self._mark, time.monotonic()
                     self._ran += self._interval
                     self._lasted += self._mark - before
@@ -255,10 +265,18 @@ class LiveTwin:
             left = duration - n * self._interval
             self._follow_ramps()
             self._announce()
+            self._wait_for_room()
             self._pass(min(self._interval, left), lambda: None)
             self.progress = self._standing()
             self._refuse_after_failure()
         return self._twin.time
+
+    def _wait_for_room(self) -> None:
+        """Wait until the recorder has kept up; steps go as fast as they can."""
+        while not self._listener.has_room():
+            if self._stop.wait(_POLL):
+                raise ValueError("the simulation stops before the end of the step")
+            self.progress = self._standing()
 
     def _restart(self, twin: Twin) -> float:
         self._ramps.clear()
@@ -273,12 +291,20 @@ class LiveTwin:
     def _halted(self) -> bool:
         return bool(self._failure) or self._paused or not self._listener.ready()
 
+    def _patience(self) -> float:
+        """How long to wait for an order [s]."""
+        if self._halted():
+            self._hold.end()
+            return _ALERTNESS
+        self._hold.look()
+        return _POLL if self._hold.active else 0.0
+
     def _state(self) -> State:
         if self._failure:
             return State.FAILED
         if self._paused:
             return State.PAUSED
-        return State.WAITING if self._stands else State.RUNNING
+        return State.WAITING if self._stands or self._hold.long else State.RUNNING
 
     def _standing(self) -> Progress:
         return Progress(
@@ -291,4 +317,5 @@ class LiveTwin:
             self._repeated,
             self._state(),
             self._failure,
+            self._hold.total,
         )

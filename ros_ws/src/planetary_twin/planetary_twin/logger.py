@@ -46,7 +46,9 @@ class Logger(ManagedNode):
         """Create the recording's folder and file, and offer the topics."""
         self._wishes = wishes_of(self)
         self._check_topics()
-        recorder = Recorder(self, self._wishes, self._own, self._cannot_go_on)
+        recorder = Recorder(
+            self, self._wishes, self._own, self._cannot_go_on, self._publish_status
+        )
         try:
             recorder.begin()
         except Refused as refusal:

@@ -112,6 +112,7 @@ class RealTimeReport:
             "rate_factor": f"{self._rate_factor:g}",
             "simulated_time": f"{now.simulated:.6f}",
             "overruns": now.overruns,
+            "held": f"{now.held:.3f}",
             **self._cpu(now),
             "computing": f"{affordable.load:.3f}",
             "mesh_cycles": "repeated" if now.repeats else "computed",

@@ -37,6 +37,8 @@ class Recorder:
     """
     One recording after another; `failed` hears why one cannot go on.
 
+    `progressed` is called after every 400 messages.
+
     `own` are the newest messages that the node itself has published.
     Raises `Refused` where something cannot be done.
     """
@@ -47,11 +49,13 @@ class Recorder:
         wishes: Wishes,
         own: Collection[bytes],
         failed: Callable[[str], None],
+        progressed: Callable[[], None],
     ) -> None:
         self._node = node
         self._wishes = wishes
         self._own = own
         self._failed = failed
+        self._progressed = progressed
         self._scene = _scene_text(wishes.scene)
         self._sink: BagWriter | Ring | None = None
         self._taps: Taps | None = None
@@ -174,7 +178,9 @@ class Recorder:
         if self._scene:
             sink.attach("scene.yaml", self._scene, "application/yaml")
         self._sink = sink
-        self._taps = Taps(self._node, self._wishes.topics, self._own, sink, self._fail)
+        self._taps = Taps(
+            self._node, self._wishes.topics, self._own, sink, self._fail, self._progressed
+        )
         self._begun = time.monotonic()
         if self.file:
             self._node.get_logger().info(f"recording into {self.file}")

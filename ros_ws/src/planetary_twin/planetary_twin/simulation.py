@@ -20,6 +20,7 @@ from planetary_twin_py.runaway import RunawayError
 
 from . import simulation_services
 from .audience import Audience
+from .backlog import Backlog
 from .ledger_report import LedgerReport
 from .live import LiveTwin, Progress
 from .managed import ManagedNode, NodeError, run_node
@@ -29,7 +30,7 @@ from .real_time import KEEPS_UP, RealTimeReport
 from .simulation_parameters import TOLERANCE, SimulationParameters, tunables
 from .simulation_services import SimulationServices
 from .stamps import STEADY
-from .telemetry import Telemetry
+from .telemetry import STALL, Telemetry
 from .time_services import TimeServices
 
 _REPORT_PERIOD = 1.0  # [s]
@@ -57,6 +58,7 @@ class Simulation(ManagedNode):
         self._before: Telemetry | None = None  # of the life before, closed
         self._audience: Audience | None = None
         self.add_post_set_parameters_callback(self._submit)
+        self._backlog: Backlog | None = None
         self._timer = self.create_timer(_REPORT_PERIOD, self._diagnose, clock=STEADY)
         self.create_service(SetOperatingPoint, "~/set_operating_point", self._set_operating_point)
         self.create_service(NaturalModes, "~/natural_modes", self._natural_modes)
@@ -69,6 +71,9 @@ class Simulation(ManagedNode):
         self._given.read()
         self._telemetry = Telemetry(self, self._given, self._before)
         self._audience = Audience(self, self._given.wait_for)
+        # Half of what publishers keep: what is on its way meanwhile does not fill the rest.
+        room = round(0.5 * STALL * self._given.rate)
+        self._backlog = Backlog(self, self._given.wait_for, self._telemetry.streamed, room)
         self._urdf = robot_description(self._given.scene.gearset, self._given.frame)
         self._twin = self._new_twin()
         # What is loaded now stays: a collection that looks at it all takes a tenth of a second.
@@ -104,6 +109,9 @@ class Simulation(ManagedNode):
         if live is not None:
             live.stop()
         self._twin = self._report = self._audience = None
+        if self._backlog is not None:
+            self._backlog.close()
+            self._backlog = None
         if self._telemetry is not None:
             self._telemetry.close()
             self._before, self._telemetry = self._telemetry, None
@@ -126,6 +134,10 @@ class Simulation(ManagedNode):
     def ready(self) -> bool:
         """Whether there is a ROS time to stamp with, and who is waited for is there."""
         return self._telemetry.ready() and self._audience.there()
+
+    def has_room(self) -> bool:
+        """Whether the node that `wait_for` names has kept up with recording."""
+        return self._backlog.has_room()
 
     def goes_on(self, twin: pt.Twin) -> None:
         """Let the twin's present time be now."""

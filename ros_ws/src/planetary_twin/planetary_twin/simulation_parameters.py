@@ -167,8 +167,8 @@ def _declare_settings(node: ParameterNode) -> None:
         node,
         "wait_for",
         "",
-        f"node that must have subscribed before the twin begins, such as the logger that is "
-        f"to record it from the first message on; waits {PATIENCE:g} s at most",
+        f"node that records, such as the logger: the twin begins when it has subscribed, "
+        f"after {PATIENCE:g} s at most, and waits for it above real time and in steps",
     )
     declare_fixed(node, "clock", False, "publish simulated time on /clock")
     declare_bounded(node, "sample_rate", 50e3, (1e3, 1e6), "samples of mesh_waveform [Hz]")

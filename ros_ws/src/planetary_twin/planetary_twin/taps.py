@@ -20,6 +20,8 @@ URDF_ATTACHMENT = "robot_description.urdf"
 _DESCRIPTION = "/robot_description"
 _STRING = "std_msgs/msg/String"
 _NOTHING: tuple[bytes, ...] = ()
+_REPORTED = 400  # messages after which the recording's progress is told
+_DEAF = 3.0  # [s] for which a subscription may find none of the publishers that there are
 _BATCH = 200  # messages of one topic before it is another's turn
 _CDR_HEADER = 8  # bytes: encapsulation, then the length of the text with its closing zero
 
@@ -46,13 +48,21 @@ class Tap:
     """One recorded topic: its subscription, its channel in the sink, its account."""
 
     def __init__(
-        self, sink: Sink, topic: Topic, latched: bool, own: Collection[bytes], failed: Failed
+        self,
+        sink: Sink,
+        topic: Topic,
+        latched: bool,
+        own: Collection[bytes],
+        failed: Failed,
+        accounted: Callable[[], None],
     ) -> None:
         self.account = TopicAccount(latched)
         self.subscription: Subscription | None = None
+        self._matched = 0.0  # [s] when it last had a publisher, or was made
         self._sink = sink
         self._own = own
         self._failed = failed
+        self._accounted = accounted
         self._channel = sink.add_topic(topic, self.account)
         self._describes = topic.type == _STRING and topic.name.endswith(_DESCRIPTION)
 
@@ -60,6 +70,20 @@ class Tap:
         """Count the publishers matched now, this node's own left out."""
         own = self._own is not _NOTHING
         return self.subscription.get_publisher_count() - own if self.subscription else 0
+
+    def listen(self, subscription: Subscription | None) -> None:
+        """Take messages from `subscription`, or from none."""
+        self.subscription, self._matched = subscription, time.monotonic()
+
+    def deaf(self) -> bool:
+        """
+        Whether the subscription has found no publisher for 3 s.
+
+        Its QoS may be too strong for one that came later, or the match got lost.
+        """
+        if self.publishers():
+            self._matched = time.monotonic()
+        return time.monotonic() > self._matched + _DEAF
 
     def receive(self, raw: bytes, info: dict[str, Any]) -> None:
         """
@@ -92,6 +116,7 @@ class Tap:
             self._failed(reason)
             return
         self.account.receive(number, self.publishers)
+        self._accounted()
 
     def told_of_loss(self, event: QoSMessageLostInfo) -> None:
         """Hear from the middleware of messages it could not deliver."""
@@ -101,6 +126,8 @@ class Tap:
 class Taps:
     """
     The taps of one recording; `failed` hears why the sink takes no more.
+
+    `progressed` is called after every 400 messages, of whatever topics.
 
     What the node itself has published, of late in `own`, is not recorded: so a recording of a
     replay holds what was replayed.
@@ -113,12 +140,15 @@ class Taps:
         own: Collection[bytes],
         sink: Sink,
         failed: Failed,
+        progressed: Callable[[], None],
     ) -> None:
         self._node = node
         self._chosen = chosen
         self._own = own
         self._sink = sink
         self._failed = failed
+        self._progressed = progressed
+        self._unreported = 0
         self._taps: dict[str, Tap] = {}
         self._refused: set[str] = set()
 
@@ -144,17 +174,30 @@ class Taps:
     def close(self) -> None:
         """Listen no more; `discover` listens again."""
         for tap in self._taps.values():
-            if tap.subscription is not None:
-                self._node.destroy_subscription(tap.subscription)
-                tap.subscription = None
+            self._leave(tap)
+
+    def _count(self) -> None:
+        self._unreported += 1
+        if self._unreported >= _REPORTED:
+            self._unreported = 0
+            self._progressed()
+
+    def _leave(self, tap: Tap) -> None:
+        if tap.subscription is not None:
+            self._node.destroy_subscription(tap.subscription)
+            tap.listen(None)
 
     def _subscribe(self, name: str) -> None:
         tap = self._taps.get(name)
         everybody = self._node.get_publishers_info_by_topic(name)
         here = self._node.get_name(), self._node.get_namespace()
         publishers = [p for p in everybody if (p.node_name, p.node_namespace) != here]
-        if name in self._refused or not publishers or (tap and tap.subscription):
+        if name in self._refused or not publishers:
             return
+        if tap and tap.subscription:
+            if not tap.deaf():
+                return
+            self._leave(tap)
         try:
             topic = describe(name, publishers)
             kind = message_class(topic.type)
@@ -166,10 +209,12 @@ class Taps:
         if tap is None:
             latched = qos.durability == DurabilityPolicy.TRANSIENT_LOCAL
             own = self._own if len(publishers) < len(everybody) else _NOTHING
-            tap = self._taps[name] = Tap(self._sink, topic, latched, own, self._failed)
-        tap.subscription = self._listen(kind, name, tap, qos)
+            tap = self._taps[name] = Tap(
+                self._sink, topic, latched, own, self._failed, self._count
+            )
+        tap.listen(self._subscription(kind, name, tap, qos))
 
-    def _listen(self, kind: type, name: str, tap: Tap, qos: QoSProfile) -> Subscription:
+    def _subscription(self, kind: type, name: str, tap: Tap, qos: QoSProfile) -> Subscription:
         events = SubscriptionEventCallbacks(message_lost=tap.told_of_loss)
         return self._node.create_subscription(
             kind, name, tap.receive, qos, raw=True, event_callbacks=events

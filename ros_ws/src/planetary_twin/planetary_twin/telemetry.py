@@ -30,10 +30,9 @@ from .simulation_parameters import SimulationParameters
 from .stamps import Rising, Stamps
 from .transforms import TransformsMessage
 
-_LATCHED = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
 _DEPTH = 10
-_KEPT = 1.0  # [s] of simulated time, for reliable subscribers that are held up
-_LEAST = 100  # messages, where more than a second of it passes in one
+STALL = 10.0
+"""Simulated time [s] for which a reliable subscriber may be held up without losing a message."""
 
 
 class Telemetry:
@@ -69,13 +68,16 @@ class Telemetry:
 
     def _open(self, given: SimulationParameters) -> None:
         create = self._node.create_lifecycle_publisher
-        kept = max(round(_KEPT * given.rate), _LEAST)
+        kept = round(STALL * given.rate)
+        # A late subscriber gets these, too: the newest is the last.
+        latched = QoSProfile(depth=kept, durability=DurabilityPolicy.TRANSIENT_LOCAL)
+        newest = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
         self._state = create(msg.GearboxState, "gearbox_state", kept)
         self._waveform = create(msg.MeshWaveform, "mesh_waveform", kept)
         self._joints = create(JointState, "joint_states", kept)
-        self._point = create(msg.OperatingPoint, "operating_point", _LATCHED)
-        self._description = create(String, "robot_description", _LATCHED)
-        self._origin_of_run = create(String, "run_origin", _LATCHED)
+        self._point = create(msg.OperatingPoint, "operating_point", latched)
+        self._description = create(String, "robot_description", newest)
+        self._origin_of_run = create(String, "run_origin", latched)
         self._diagnostics = create(DiagnosticArray, "/diagnostics", _DEPTH)
         self._tf = create(TFMessage, "/tf", kept) if given.tf else None
         self._clock = create(Clock, "/clock", kept) if given.clock else None
@@ -91,6 +93,8 @@ class Telemetry:
             self._clock,
         )
         self._topics = {p: p.topic_name for p in publishers if p is not None}
+        each = (self._clock, self._state, self._joints, self._waveform, self._tf)
+        self._streams = [publisher for publisher in each if publisher is not None]
 
     def _continue(self, before: Telemetry) -> None:
         earlier = before._counts()
@@ -123,6 +127,10 @@ class Telemetry:
     def stamp(self, simulated: float) -> int:
         """ROS time [ns] of simulated time `simulated` [s], of the newest interval or its end."""
         return self._stamps.of(simulated)
+
+    def streamed(self) -> dict[LifecyclePublisher, int]:
+        """Messages published so far on each topic that has one for each interval."""
+        return {stream: self._published[stream] for stream in self._streams}
 
     def prepare(self, window: Window) -> None:
         """

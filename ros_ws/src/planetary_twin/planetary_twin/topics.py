@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from importlib import import_module
 
 from rclpy.node import Node
-from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
+from rclpy.qos import DurabilityPolicy, HistoryPolicy, QoSProfile, ReliabilityPolicy
 from rclpy.topic_endpoint_info import TopicEndpointInfo
 
 from planetary_twin_py.recording.rosbag2 import Topic
@@ -14,8 +14,6 @@ from planetary_twin_py.recording.schema import message_definition
 
 from .qos import to_words
 
-# Room for two seconds of every topic at 500 Hz while the disk is slow.
-_DEPTH = 1000
 _EVERYWHERE = ("/diagnostics", "/tf")
 
 
@@ -56,12 +54,17 @@ def message_class(type_name: str) -> type:
 
 
 def matching_qos(publishers: Sequence[TopicEndpointInfo]) -> QoSProfile:
-    """Return the strongest profile that every publisher still meets."""
+    """
+    Return the strongest profile that every publisher still meets.
+
+    It keeps all: what is received and waits for a slow disk is never overwritten. Where Fast DDS
+    has no more room (5000 messages), it leaves a reliable publisher to send the message again.
+    """
     offered = [publisher.qos_profile for publisher in publishers]
     reliable = all(qos.reliability == ReliabilityPolicy.RELIABLE for qos in offered)
     latched = all(qos.durability == DurabilityPolicy.TRANSIENT_LOCAL for qos in offered)
     return QoSProfile(
-        depth=_DEPTH,
+        history=HistoryPolicy.KEEP_ALL,
         reliability=ReliabilityPolicy.RELIABLE if reliable else ReliabilityPolicy.BEST_EFFORT,
         durability=DurabilityPolicy.TRANSIENT_LOCAL if latched else DurabilityPolicy.VOLATILE,
     )

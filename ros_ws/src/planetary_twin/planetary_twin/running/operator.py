@@ -5,7 +5,6 @@ from __future__ import annotations
 import time
 from collections.abc import Callable, Mapping
 from pathlib import Path
-from typing import Any
 
 import rclpy
 from diagnostic_msgs.msg import DiagnosticArray
@@ -48,11 +47,6 @@ class Operator(Client):
         self._change = self._client(ChangeState, "change_state")
         self._get = self._client(GetState, "get_state")
         self._set = self._client(SetParametersAtomically, "set_parameters_atomically")
-
-    def need(self, what: str, ready: Callable[[], Any], seconds: float) -> None:
-        """Return as soon as `ready`; raises `RunError` naming `what` after `seconds`."""
-        if not self.wait(ready, seconds):
-            raise RunError(f"{what}: not within {seconds:g} s")
 
     def next_state(self, after: int, seconds: float) -> GearboxState | None:
         """
@@ -142,6 +136,13 @@ class Operator(Client):
         names = {name for name, _ in found}
         return {n for n in names if n not in _MACHINERY and not n.endswith("/transition_event")}
 
+    def unheard(self) -> str:
+        """Topics of the simulation that the logger does not hear; empty if it hears them all."""
+        topics = self.topics()
+        if not topics:
+            return "the simulation, whose topics are not known"
+        return ", ".join(sorted(topics - set(self.recorder.topics)))
+
     def published(self) -> dict[str, int]:
         """Messages the simulation says it has published, by topic."""
         prefix = "published."
@@ -150,6 +151,11 @@ class Operator(Client):
             for key, value in self.figures.items()
             if key.startswith(prefix)
         }
+
+    def accounted(self) -> dict[str, int]:
+        """Messages the logger says it has recorded or missed, by topic."""
+        totals = zip(self.recorder.topics, self.recorder.recorded, self.recorder.lost, strict=True)
+        return {topic: recorded + lost for topic, recorded, lost in totals}
 
     def _client(self, kind: type, service: str) -> Service:
         return self.node.create_client(kind, f"{_NODE}/{service}")

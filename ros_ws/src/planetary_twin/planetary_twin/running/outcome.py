@@ -21,12 +21,12 @@ _STATE = "planetary_twin_msgs/msg/GearboxState"
 
 @dataclass(frozen=True)
 class Tally:
-    """One topic: what was published, what the file holds, and the gaps in its numbering."""
+    """Messages of one topic: published, in the file, and missing between two in the file."""
 
     type: str
     published: int
     recorded: int
-    gaps: int
+    missed: int
 
     @property
     def lost(self) -> int:
@@ -39,6 +39,7 @@ class Outcome:
     """A finished run; it has several `files` where the logger was told to split or to stop."""
 
     files: Sequence[Path]
+    stopped: bool  # whether somebody has stopped the logger on the way
     topics: Mapping[str, Tally]
     duration: float  # [s] simulated
     power_loss: float  # [W] mean; NaN without a state
@@ -48,6 +49,14 @@ class Outcome:
     tolerance: float  # in force at the end
     tolerance_choice: str
     sample_rates: tuple[float, float]  # [Hz] of the waveform, lowest and highest; NaN without
+
+    def losses(self) -> dict[str, int]:
+        """Messages by topic that should be in the file and are not."""
+        lost = {
+            name: tally.missed if self.stopped else tally.lost
+            for name, tally in self.topics.items()
+        }
+        return {name: count for name, count in lost.items() if count}
 
     def figures(self) -> dict[str, Any]:
         """For machines."""
@@ -74,12 +83,15 @@ class Outcome:
 
 
 def read_outcome(
-    folders: Sequence[Path], published: Mapping[str, int], figures: Mapping[str, str]
+    folders: Sequence[Path],
+    published: Mapping[str, int],
+    figures: Mapping[str, str],
+    stopped: bool,
 ) -> Outcome:
     """
     Count what the recordings in `folders` hold against what was `published`.
 
-    There are several where the logger was stopped and started again; `figures` are those of the
+    There are several where the logger was `stopped` and started again; `figures` are those of the
     simulation's last report.
     """
     info = read_info(*folders)
@@ -92,6 +104,7 @@ def read_outcome(
     rates = [state.sample_rate for state in states] or [float("nan")]
     return Outcome(
         files=info.files,
+        stopped=stopped,
         topics={name: _tally(topic, published.get(name)) for name, topic in info.topics.items()},
         duration=float(span.sum()),
         power_loss=float(np.sum(loss * span) / span.sum()) if states else float("nan"),
@@ -112,20 +125,21 @@ def _states(file: Path) -> Iterator[GearboxState]:
 
 
 def _tally(topic: TopicInfo, published: int | None) -> Tally:
-    gaps = (topic.lost or 0) - topic.before
+    missed = (topic.lost or 0) - topic.before
     # Where others publish, too, the twin's own counter is not all: numbering is all there is.
     own = published is not None and published >= topic.recorded
-    return Tally(topic.type, published if own else topic.recorded + gaps, topic.recorded, gaps)
+    total = published if own else topic.recorded + missed
+    return Tally(topic.type, total, topic.recorded, missed)
 
 
 def print_outcome(console: Console, outcome: Outcome) -> None:
     """Print a short table, and how to look at the recording."""
     table = Table(box=None, pad_edge=False)
     table.add_column("topic")
-    for title in ("published", "recorded", "lost", "gaps"):
+    for title in ("published", "recorded", "lost"):
         table.add_column(title, justify="right")
     for name, tally in sorted(outcome.topics.items()):
-        counts = (tally.published, tally.recorded, tally.lost, tally.gaps)
+        counts = (tally.published, tally.recorded, tally.lost)
         table.add_row(name, *map(str, counts), style="red" if tally.lost else None)
     console.print(table)
     rows = {
@@ -138,8 +152,12 @@ def print_outcome(console: Console, outcome: Outcome) -> None:
         "recording": _places(outcome.files),
         "view it": f"planetary-twin view {outcome.files[0].parent}",
     }
-    if any(tally.lost > tally.gaps for tally in outcome.topics.values()):
-        rows["lost, no gap"] = "published at an end, or while the logger was stopped"
+    missed = sum(tally.missed for tally in outcome.topics.values())
+    ends = sum(tally.lost for tally in outcome.topics.values()) - missed
+    if missed or ends:
+        rows["lost"] = (
+            f"{missed} between recorded messages, {ends} at an end or while the logger was stopped"
+        )
     console.print()
     for name, value in rows.items():
         console.print(f"{name:17} {value}", highlight=False, soft_wrap=True)

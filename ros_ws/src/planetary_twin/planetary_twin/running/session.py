@@ -17,6 +17,7 @@ from rich.console import Console
 from planetary_twin_py.tolerance import AUTOMATIC
 
 from ..network import stay_on_this_machine
+from ..telemetry import STALL
 from .children import Child, RunError
 from .operator import Operator
 from .outcome import Outcome, read_outcome
@@ -25,7 +26,7 @@ from .tour import Stop
 
 _START = 60.0  # [s] longest wait for the nodes to find one another
 _BUILD = 300.0  # [s] longest wait for the model, which a first run compiles
-_END = 3.0  # [s] longest wait for the last messages to reach the file
+_END = 3.0  # [s] longest wait for the twin's last report
 SILENCE = 10.0  # [s] longest silence of a running twin
 
 
@@ -78,7 +79,8 @@ def _run(plan: Plan, console: Console) -> Outcome:
             raise RunError(logger.last_words() or "logger: ended with an error")
     names = dict.fromkeys([plan.folder.name, *operator.recordings])
     folders = [plan.folder.with_name(name) for name in names]
-    return read_outcome(folders, operator.published(), operator.figures)
+    stopped = len(names) > 1 or not operator.recorder.file
+    return read_outcome(folders, operator.published(), operator.figures, stopped)
 
 
 def _logger_parameters(plan: Plan) -> dict[str, object]:
@@ -95,6 +97,7 @@ def _simulation_parameters(plan: Plan) -> dict[str, object]:
         "rate_factor": plan.rate_factor,
         "tolerance": plan.tolerance,
         "autostart": "false",
+        "wait_for": "logger",
         **plan.values,
     }
 
@@ -112,11 +115,8 @@ def _bring_up(operator: Operator) -> None:
     """Build the model, and let it run once the logger hears every topic: nothing gets lost."""
     operator.bring("configure", "unconfigured", "inactive", _BUILD)
 
-    def heard() -> bool:
-        topics = operator.topics()
-        return bool(topics) and topics <= set(operator.recorder.topics)
-
-    operator.need("logger: hears every topic of the simulation", heard, _START)
+    if not operator.wait(lambda: not operator.unheard(), _START):
+        raise RunError(f"logger: after {_START:g} s it does not hear {operator.unheard()}")
     _refuse_company(operator)
     operator.bring("activate", "inactive", "active", _START)
 
@@ -200,15 +200,22 @@ def _drive(operator: Operator, plan: Plan, show: Show) -> None:
 
 
 def _finish(operator: Operator) -> None:
-    """Stop the twin, then wait until the file holds what it says it has published."""
+    """
+    Stop the twin, then wait until the logger has accounted for what it says it has published.
+
+    A logger that stands still is waited for as long as publishers keep messages for it.
+    """
     operator.bring("deactivate", "active", "inactive", _END + 2.0)
     operator.wait(lambda: operator.figures.get("state") == "stopped", _END)
 
-    def written() -> bool:
-        recorded = dict(zip(operator.recorder.topics, operator.recorder.recorded, strict=True))
-        return all(recorded.get(name, 0) >= n for name, n in operator.published().items())
+    def done() -> bool:
+        accounted = operator.accounted()
+        everything = all(accounted.get(name, 0) >= n for name, n in operator.published().items())
+        return everything or not operator.recorder.file
 
-    operator.wait(written, _END)
+    before = -1
+    while (now := sum(operator.accounted().values())) > before and not operator.wait(done, STALL):
+        before = now
 
 
 @contextlib.contextmanager

@@ -1,0 +1,193 @@
+"""Nothing that is published is missing in the recording, at any speed and whatever stalls."""
+
+from __future__ import annotations
+
+import json
+import signal
+import threading
+import time
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from pathlib import Path
+
+import pytest
+from diagnostic_msgs.msg import DiagnosticArray
+from planetary_twin.telemetry import STALL
+from planetary_twin_msgs.msg import GearboxState, RecorderStatus
+from planetary_twin_msgs.srv import Step
+from std_srvs.srv import SetBool
+
+from .conftest import Program, Start
+from .other_recorder import NAME, TOPICS
+from .peer import TWIN, Peer
+from .recordings import counts
+from .told import figures, listen_to_reports
+
+NODE = f"{TWIN}/simulation"
+STREAMS = (f"{TWIN}/gearbox_state", f"{TWIN}/mesh_waveform", f"{TWIN}/joint_states", "/tf")
+STEP = 8.0  # [s]
+OFTEN = 5  # changes of the operating point while the recorder stands still
+Go = Callable[["Twin"], None]
+
+
+@pytest.fixture
+def other(start: Start, monkeypatch: pytest.MonkeyPatch) -> Program:
+    """A recorder that is not the logger."""
+    monkeypatch.setenv("PYTHONPATH", str(Path(__file__).parents[1]))
+    return start("ros.other_recorder")
+
+
+class Twin:
+    """A simulation, the recorder it waits for, and what both report."""
+
+    def __init__(
+        self, peer: Peer, start: Start, recorder: Program, name: str, rate: float, *more: str
+    ) -> None:
+        self.peer = peer
+        self.recorder = recorder
+        parameters = (f"rate_factor:={rate}", f"wait_for:={name}", *more)
+        options = [option for parameter in parameters for option in ("-p", parameter)]
+        self.process = start("planetary_twin.simulation", "--ros-args", *options)
+        self.status: list[RecorderStatus] = peer.listen(RecorderStatus, f"{TWIN}/{name}/status", 1)
+        self.states: list[GearboxState] = peer.listen(GearboxState, STREAMS[0], 1)
+        self.reports: list[DiagnosticArray] = listen_to_reports(peer)
+
+    def advance(self, seconds: float) -> None:
+        """Wait until it has simulated that much more."""
+        self.peer.until(lambda: self.states)
+        begin = self.states[-1].simulated_time
+        self.peer.until(lambda: self.states[-1].simulated_time > begin + seconds)
+
+    def pause(self, paused: bool) -> None:
+        assert self.peer.call(SetBool, f"{NODE}/pause", SetBool.Request(data=paused)).success
+
+    @contextmanager
+    def stall(self, seconds: float) -> Iterator[None]:
+        """Stop the recorder, as a machine does that has too much to do, for that long at least."""
+        end = time.monotonic() + seconds
+        if seconds:
+            self.recorder.send_signal(signal.SIGSTOP)
+        timer = threading.Timer(seconds, self.recorder.send_signal, [signal.SIGCONT])
+        timer.start()
+        yield
+        self.peer.until(lambda: time.monotonic() > end)
+        timer.join()
+
+    def end(self) -> dict[str, str]:
+        """Stop it; returns its last report's figures."""
+        self.peer.change_state(NODE, "deactivate")
+        self.peer.until(lambda: figures(self.reports[-1:]).get("state") == "stopped")
+        return figures(self.reports[-1:])
+
+
+def published(told: dict[str, str]) -> dict[str, int]:
+    prefix = "published."
+    return {k.removeprefix(prefix): int(v) for k, v in told.items() if k.startswith(prefix)}
+
+
+def run_on(twin: Twin) -> None:
+    """It runs while the recorder stands still, and the operating point changes."""
+    for number in range(OFTEN):
+        assert twin.peer.set(NODE, lambda_ratio=1.0 + 0.1 * number).successful
+
+
+def step(twin: Twin) -> None:
+    """Steps that publish more than any queue of the middleware holds."""
+    request = Step.Request(duration=STEP)
+    assert twin.peer.call(Step, f"{NODE}/step", request, 100.0).success
+
+
+def rest(twin: Twin) -> None:
+    """It is paused, and goes on while the recorder still stands."""
+    twin.pause(True)
+    twin.pause(False)
+
+
+def often(*cell: object, **name: str) -> object:
+    return pytest.param(*cell, **name)
+
+
+def seldom(*cell: object, **name: str) -> object:
+    return pytest.param(*cell, marks=pytest.mark.exhaustive, **name)
+
+
+CELLS = [
+    often(1.0, 2.0, run_on, id="real time, 2 s"),
+    often(0.0, 2.0, run_on, id="unpaced, 2 s"),
+    often(1.0, 2.0, step, id="steps, 2 s"),
+    *(
+        seldom(rate, stall, run_on, id=f"x {rate}, {stall:g} s")
+        for rate in (0.1, 1.0, 20.0, 0.0)
+        for stall in (0.0, 1.1, 7.0)
+    ),
+    *(seldom(1.0, stall, step, id=f"steps, {stall:g} s") for stall in (0.0, 7.0)),
+    *(seldom(rate, 3.0, rest, id=f"pause, x {rate}, 3 s") for rate in (0.1, 1.0, 20.0, 0.0)),
+]
+
+
+@pytest.mark.parametrize(("rate", "stall", "meanwhile"), CELLS)
+def test_the_logger_records_all_that_is_published(
+    peer: Peer, start: Start, tmp_path, rate: float, stall: float, meanwhile: Go
+) -> None:
+    assert stall < STALL
+    logger = start("planetary_twin.logger", "--ros-args", "-p", "name:=bag")
+    twin = Twin(peer, start, logger, "logger", rate)
+    twin.advance(0.05)
+    if meanwhile is step:
+        twin.pause(True)
+    with twin.stall(stall):
+        meanwhile(twin)
+    if meanwhile is not step:
+        twin.advance(0.05)
+    sent = published(twin.end())
+
+    def accounted() -> bool:
+        status = twin.status[-1]
+        known = zip(status.topics, status.recorded, status.lost, strict=True)
+        return {name: recorded + lost for name, recorded, lost in known} == sent
+
+    peer.until(accounted)
+    logger.terminate()
+    _, errors = logger.communicate()
+    assert logger.returncode == 0
+    assert "lost none" in errors
+    assert counts(tmp_path / "recordings/bag") == sent
+
+
+@pytest.mark.exhaustive
+@pytest.mark.parametrize("stall", [0.0, 3.0])
+@pytest.mark.parametrize("rate", [0.1, 1.0, 20.0, 0.0])
+def test_another_recorder_hears_all_where_its_own_queue_is_long_enough(
+    peer: Peer, start: Start, other: Program, rate: float, stall: float
+) -> None:
+    """At real time its queue of 10 is what limits a stall; above, the twin waits for it."""
+    twin = Twin(peer, start, other, NAME, rate)
+    twin.advance(0.05)
+    waits = rate > 1.0 or rate == 0.0
+    with twin.stall(stall if waits else min(stall, 0.05)):
+        pass
+    twin.advance(0.05)
+    sent = published(twin.end())
+    other.terminate()
+    output, _ = other.communicate()
+    assert json.loads(output) == {f"{TWIN}/{topic}": sent[f"{TWIN}/{topic}"] for topic in TOPICS}
+
+
+def test_a_twin_waits_for_its_recorder_and_for_no_one_else(
+    peer: Peer, start: Start, other: Program
+) -> None:
+    """A listener that stands still holds nothing up; the recorder holds simulated time."""
+    logger = start("planetary_twin.logger")
+    twin = Twin(peer, start, logger, "logger", 0.0, "sample_rate:=1000.0")
+    twin.advance(0.5)
+    listeners = (other, logger, peer)
+    peer.until(lambda: peer.node.count_subscribers(STREAMS[0]) == len(listeners))
+    other.send_signal(signal.SIGSTOP)
+    twin.advance(2.0 * STALL)
+    logger.send_signal(signal.SIGSTOP)
+    peer.until(lambda: figures(twin.reports[-1:])["state"] == "waits")
+    before = twin.states[-1].simulated_time
+    logger.send_signal(signal.SIGCONT)
+    other.send_signal(signal.SIGCONT)
+    peer.until(lambda: twin.states[-1].simulated_time > before + STALL)
+    assert float(twin.end()["held"]) > 1.0
