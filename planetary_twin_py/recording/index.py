@@ -17,8 +17,9 @@ from mcap.reader import make_reader
 from mcap.records import Channel, ChunkIndex, Message, Metadata, Schema
 from numpy.typing import NDArray
 
+from .framing import TORN
 from .integrity import damaged_data, damaged_summary
-from .records import TORN, section_at
+from .records import section_at
 
 _HEAD = struct.Struct("<BQHI")  # opcode, length, channel, bytes of entries (MCAP 0, Message Index)
 _ENTRY = np.dtype([("log_time", "<u8"), ("offset", "<u8")])

@@ -12,8 +12,9 @@ from mcap.reader import make_reader
 from mcap.records import Channel, ChunkIndex, Message, Schema
 from mcap.summary import Summary
 
+from .framing import TORN
 from .integrity import damaged_summary
-from .records import TORN, chunk_at, records_of
+from .records import chunk_at, records_of
 from .rosbag2 import Extent
 
 # Messages stand in a file in the order a recorder got to them: far less than this apart.
