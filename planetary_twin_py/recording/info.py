@@ -117,7 +117,7 @@ def read_info(*paths: Path) -> Info:
     for file in told.info.files:
         more = deepcopy(told)
         try:
-            more.look_up(Index(file))
+            more.look_up(file, Index(file))
         except UNSOUND:  # torn before it had an index, or damaged
             told.read(file)
         else:
@@ -135,7 +135,7 @@ class _Told:
 
     def read(self, file: Path) -> None:
         """Learn from every record of a file."""
-        decoder = Decoder(_tells)
+        decoder = Decoder(file, _tells)
         schemas: dict[int, Schema] = {}
         names: dict[int, str] = {}
         times: dict[str, list[int]] = {}
@@ -157,9 +157,9 @@ class _Told:
             self.info.topics[name].take(taken)
         self._settle(accounts)
 
-    def look_up(self, index: Index) -> None:
+    def look_up(self, file: Path, index: Index) -> None:
         """Learn the same from the index of a file, and from the few messages that are needed."""
-        decoder = Decoder(_tells)
+        decoder = Decoder(file, _tells)
         self._repeats.next_file()
         for schema in index.schemas.values():
             decoder.read(schema)

@@ -147,7 +147,7 @@ class _Found:
 
     def read(self, file: Path) -> None:
         """Take what a file holds."""
-        topics = Topics(lambda topic: topic.rpartition("/")[2] in TOPICS)
+        topics = Topics(file, lambda topic: topic.rpartition("/")[2] in TOPICS)
         sources: dict[int, Source] = {}
         self._repeats.next_file()
         for section in sections_of(file, self.remarks):

@@ -17,6 +17,7 @@ from mcap.records import Channel, DataEnd, Message, Schema
 from mcap.stream_reader import CRCValidationError
 
 from .damage import Damages
+from .foreign import how_stored
 from .framing import TORN, opened, piece_at
 from .integrity import MAGIC, damaged_summary, end_of_data
 from .walk import Lost, Sound, Walk
@@ -37,14 +38,19 @@ class Section(NamedTuple):
 
 def files_of(path: Path) -> list[Path]:
     """The MCAP files of the recording at `path`, in order; raises `RecordingError` without any."""
-    if path.is_dir():
-        files = sorted(path.glob("*.mcap"), key=lambda file: (len(file.name), file.name))
-        if not files:
-            raise RecordingError(f"{path}: no recording: the folder holds no .mcap file")
-        return files
     if not path.exists():
         raise RecordingError(f"{path}: no such file or folder")
-    return [path]
+    if not (path.is_dir() or path.is_file()):
+        raise RecordingError(f"{path}: neither a file nor a folder")
+    if stored := how_stored(path):
+        raise RecordingError(f"{path}: {stored}")
+    if not path.is_dir():
+        return [path]
+    found = (file for file in path.glob("*.mcap") if file.is_file())
+    files = sorted(found, key=lambda file: (len(file.name), file.name))
+    if not files:
+        raise RecordingError(f"{path}: no recording: the folder holds no .mcap file")
+    return files
 
 
 def records_of(file: Path, remarks: list[str]) -> Iterator[Any]:

@@ -101,7 +101,7 @@ def messages_of(
     wanted = {f"{namespace}/{name}": name for name in names}
     repeats = Repeats()
     for file in files_of(path):
-        decoder = Decoder(wanted.__contains__)
+        decoder = Decoder(file, wanted.__contains__)
         for record in unrepeated(file, remarks, repeats):
             if found := decoder.read(record):
                 yield wanted[found[0]], found[1]
