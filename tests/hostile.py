@@ -37,12 +37,12 @@ SCENES = {
 }
 
 
-def of(kind: type, name: str, **changes: Any) -> Alter:
-    """Change the records of a kind whose name, or topic, ends in `name`."""
+def of(kind: type, ending: str, **changes: Any) -> Alter:
+    """Change fields of the records of a kind whose name, or topic, ends so."""
 
     def alter(record: Any) -> Any:
         named = getattr(record, "topic", getattr(record, "name", ""))
-        if isinstance(record, kind) and named.endswith(name):
+        if isinstance(record, kind) and named.endswith(ending):
             return replace(
                 record, **{k: v(record) if callable(v) else v for k, v in changes.items()}
             )

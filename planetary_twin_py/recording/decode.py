@@ -25,6 +25,14 @@ class Described(NamedTuple):
     types: Typestore
 
 
+class MessageError(RecordingError):
+    """A message of `topic` is not what its definition says."""
+
+    def __init__(self, topic: str, text: str) -> None:
+        super().__init__(text)
+        self.topic = topic
+
+
 class Topics:
     """The topics of one source that are `wanted`, given its records in order.
 
@@ -54,6 +62,10 @@ class Topics:
             return self._channels[record.channel_id]
         return None
 
+    def __contains__(self, channel: int) -> bool:
+        """Whether messages of a channel are read, by its number."""
+        return channel in self._channels
+
     def _types(self, channel: Channel, schema: Schema) -> Typestore:
         if schema.encoding != "ros2msg" or channel.message_encoding != "cdr":
             raise RecordingError(
@@ -74,11 +86,16 @@ class Decoder:
         self._source = source
         self._topics = Topics(source, wanted)
 
+    def __contains__(self, channel: int) -> bool:
+        """Whether messages of a channel are decoded, by its number."""
+        return channel in self._topics
+
     def read(self, record: Any) -> tuple[str, Any] | None:
         """Topic and message, where the record is a message of a wanted topic.
 
         Raises:
             RecordingError: a wanted topic is encoded in a way that cannot be read.
+            MessageError: a message is not what its definition says.
         """
         found = self._topics.of(record)
         if found is None:
@@ -87,7 +104,8 @@ class Decoder:
             return found.topic, found.types.deserialize_cdr(record.data, found.kind)
         except Exception as reason:  # of many kinds: rosbags runs code that it has made
             why = one_line(_why(found, record.data, reason), _LONGEST_REASON)
-            raise RecordingError(f"{self._source}: {found.topic}: a message {why}") from None
+            text = f"{self._source}: {found.topic}: a message {why}"
+            raise MessageError(found.topic, text) from None
 
 
 def _why(found: Described, data: bytes, reason: Exception) -> str:

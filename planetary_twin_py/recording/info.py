@@ -169,6 +169,8 @@ class _Told:
             new, times = self._new(index, number), index.times[number]
             kind = index.schemas[channel.schema_id].name
             self.info.topics.setdefault(channel.topic, TopicInfo(kind)).take(times[new])
+            if number not in decoder:
+                continue
             messages = _Messages(index, number, decoder)
             if channel.topic.endswith(f"/{STATE}"):
                 self.info.simulated += _simulated(messages)
@@ -194,9 +196,14 @@ class _Told:
     def _settle(self, accounts: list[Mapping[str, str]]) -> None:
         """Add the losses of a file; it may tell of a topic that it has no message of."""
         for account in accounts:
-            if topic := self.info.topics.get(account["topic"]):
-                topic.lost = (topic.lost or 0) + int(account["lost"])
-                topic.before += int(account["lost"]) - int(account["missed"])
+            try:
+                name, lost, missed = account["topic"], int(account["lost"]), int(account["missed"])
+            except (KeyError, ValueError) as reason:
+                self.info.remarks.append(f"an account of losses cannot be read: {reason}")
+                continue
+            if topic := self.info.topics.get(name):
+                topic.lost = (topic.lost or 0) + lost
+                topic.before += lost - missed
 
     def _learn(self, topic: str, message: Any) -> None:
         """Take what a message tells of the run."""

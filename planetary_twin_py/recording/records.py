@@ -22,7 +22,7 @@ from .framing import TORN, opened, piece_at
 from .integrity import MAGIC, damaged_summary, end_of_data
 from .walk import Lost, Sound, Walk
 
-_MOST_TOPICS = 4096
+MOST_TOPICS = 2048
 
 
 class RecordingError(ValueError):
@@ -129,9 +129,9 @@ class _Known:
             if record.schema_id not in self._schemas:
                 return False
             self._channels.add(record.id)
-            if len(self._channels) > _MOST_TOPICS:
+            if len(self._channels) > MOST_TOPICS:
                 raise RecordingError(
-                    f"{self._file}: holds more than {_MOST_TOPICS} topics, which is the most that "
+                    f"{self._file}: holds more than {MOST_TOPICS} topics, which is the most that "
                     "are read"
                 )
         return True

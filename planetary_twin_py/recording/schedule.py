@@ -13,7 +13,7 @@ from typing import Any, NamedTuple
 from ..printable import one_line
 from ..scene import TUNABLES
 from ..twin import TICKS
-from .decode import Decoder
+from .decode import Decoder, MessageError
 from .origin import Origin, read_origin
 from .records import RecordingError, files_of
 from .repeats import Repeats, unrepeated
@@ -105,7 +105,14 @@ def messages_of(
     for file in files_of(path):
         decoder = Decoder(file, wanted.__contains__)
         for record in unrepeated(file, remarks, repeats):
-            if found := decoder.read(record):
+            try:
+                found = decoder.read(record)
+            except MessageError as reason:
+                if not reason.topic.endswith(f"/{ORIGIN}"):
+                    raise
+                remarks.append(f"{reason}; it is left out")  # other runs may have theirs
+                continue
+            if found:
                 yield wanted[found[0]], found[1]
 
 

@@ -2,15 +2,25 @@
 
 import os
 import subprocess
+import sys
 from typing import NamedTuple
 
 import pytest
-from command_line import COMMAND
 from hostile import MESSAGES, READ, REFUSED, SCENES, many_channels, messages_of, rewritten
 from twin_recording import record
 
 SECONDS = 2.0  # of the processor, so that a busy machine does not count
 MEGABYTES = 300.0
+
+# A child's own peak: what the kernel accounts to it begins with that of the process it is forked
+# from.
+COMMAND = """
+import atexit, pathlib, sys
+status, kept = pathlib.Path("/proc/self/status"), pathlib.Path(sys.argv.pop(1))
+atexit.register(lambda: kept.write_text(status.read_text().partition("VmHWM:")[2].split()[0]))
+from planetary_twin_py.cli import main
+main()
+"""
 
 
 class Done(NamedTuple):
@@ -24,13 +34,15 @@ class Done(NamedTuple):
 def run(*arguments, folder):
     """What a command prints, and what it took."""
     output, errors = folder / "output.txt", folder / "errors.txt"
+    command = [sys.executable, "-c", COMMAND, folder / "peak.txt", *map(str, arguments)]
     with output.open("wb") as out, errors.open("wb") as err:
-        child = subprocess.Popen([*COMMAND, *map(str, arguments)], stdout=out, stderr=err)
+        child = subprocess.Popen(command, stdout=out, stderr=err)
         _, status, used = os.wait4(child.pid, 0)
     child.returncode = os.waitstatus_to_exitcode(status)
     seconds = used.ru_utime + used.ru_stime
     texts = output.read_text("utf-8"), errors.read_text("utf-8")
-    return Done(child.returncode, *texts, seconds, used.ru_maxrss / 1024)
+    peak = int((folder / "peak.txt").read_text()) / 1024
+    return Done(child.returncode, *texts, seconds, peak)
 
 
 def check(done):
@@ -102,7 +114,7 @@ def test_more_topics_than_there_are_is_one_line(tmp_path):
     file = many_channels(tmp_path / "many.mcap")
     done = run("info", file, folder=tmp_path)
     check_refused(done)
-    assert "holds more than 4096 topics" in done.errors
+    assert "holds more than 2048 topics" in done.errors
 
 
 @pytest.mark.exhaustive
