@@ -28,9 +28,10 @@ def sound(tmp_path_factory):
 def stored(source, folder, plugin, mode=None):
     """The messages of a recording in a bag of rosbags' own making, without attachments."""
     types = get_typestore(Stores.ROS2_JAZZY)
-    with Reader(source.parent) as reader, Writer(folder, version=9, storage_plugin=plugin) as out:
-        if mode is not None:
-            out.set_compression(mode, CompressionFormat.ZSTD)
+    bag = Writer(folder, version=9, storage_plugin=plugin)
+    if mode is not None:
+        bag.set_compression(mode, CompressionFormat.ZSTD)
+    with Reader(source.parent) as reader, bag as out:
         made = {
             c.id: out.add_connection(
                 c.topic, c.msgtype, typestore=types, msgdef=c.msgdef.data, rihs01=c.digest
