@@ -49,13 +49,27 @@ class Topic:
         )
 
 
-@lru_cache(maxsize=1024)  # most topics of a bag offer the same
 def read_offered_qos(text: str) -> Sequence[Mapping[str, Any]]:
     """The profiles that `Topic.qos_yaml` has written, or rosbag2.
 
     Raises:
         ValueError: the text is something else.
     """
+    found = _profiles(text)
+    if isinstance(found, ValueError):
+        raise found
+    return found
+
+
+@lru_cache(maxsize=1024)  # most topics of a bag offer the same; a refusal is kept, too
+def _profiles(text: str) -> Sequence[Mapping[str, Any]] | ValueError:
+    try:
+        return _parsed(text)
+    except ValueError as reason:
+        return reason
+
+
+def _parsed(text: str) -> Sequence[Mapping[str, Any]]:
     found = read_yaml(text, _QOS) or []
     if not isinstance(found, list) or not all(isinstance(qos, dict) for qos in found):
         raise ValueError(f"{_QOS}: must be a list of mappings")
