@@ -58,8 +58,10 @@ def to_si(value: object, unit: str) -> object:
 
     Raises:
         UnitError: the text has a comma, or a unit of another quantity than `unit`.
-        ValueError: the text is no number with a unit.
+        ValueError: the text is no number with a unit, or the value is true or false.
     """
+    if isinstance(value, bool):
+        raise ValueError("must be a number, not true or false")
     if not isinstance(value, str):
         return value
     if "," in value:

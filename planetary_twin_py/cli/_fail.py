@@ -33,4 +33,8 @@ def need(extra: str, *modules: str) -> None:
 def _say(line: str, colour: str) -> None:
     from rich.console import Console  # which knows where colours are not wanted
 
-    Console(stderr=True).print(line, style=colour, markup=False, highlight=False, soft_wrap=True)
+    from ..printable import printable
+
+    Console(stderr=True).print(
+        printable(line), style=colour, markup=False, highlight=False, soft_wrap=True
+    )

@@ -9,11 +9,13 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import Any
 
-from rich.console import Console, Group, RenderableType
+from rich.console import Console, ConsoleOptions, Group, RenderableType, RenderResult
 from rich.measure import Measurement
 from rich.padding import Padding
 from rich.table import Column, Table
 from rich.text import Text
+
+from ..printable import printable
 
 _INDENT = 4
 _UNBOUND = 100_000  # characters, more than any table has
@@ -23,9 +25,24 @@ class TableConsole(Console):
     """A console that prints tables as `readable` makes them."""
 
     def print(self, *objects: Any, **how: Any) -> None:
-        """Print as Rich does; tables are fitted to the width."""
-        fitted = (readable(one, self) if isinstance(one, Table) else one for one in objects)
-        super().print(*fitted, **how)
+        """Print as Rich does; tables are fitted to the width, and no text steers the terminal."""
+        super().print(*(self._harmless(one) for one in objects), **how)
+
+    def _harmless(self, shown: Any) -> Any:
+        if isinstance(shown, str):
+            return printable(shown)
+        return _Harmless(readable(shown, self) if isinstance(shown, Table) else shown)
+
+
+class _Harmless:
+    """What Rich prints, with an escape for what steers a terminal: a name in a file may hold it."""
+
+    def __init__(self, shown: Any) -> None:
+        self._shown = shown
+
+    def __rich_console__(self, console: Console, options: ConsoleOptions) -> RenderResult:
+        for segment in console.render(self._shown, options):
+            yield segment if segment.control else segment._replace(text=printable(segment.text))
 
 
 def readable(table: Table, console: Console) -> RenderableType:

@@ -1,4 +1,4 @@
-"""`planetary-twin recover`: make a whole recording of a torn one."""
+"""`planetary-twin recover`: make a whole recording of a damaged one."""
 
 from __future__ import annotations
 
@@ -16,12 +16,14 @@ from ._output import check_recording
 def recover(
     file: FileArgument,
     out: Annotated[
-        Path | None, typer.Argument(help="New folder; by default beside FILE, its name and _whole.")
+        Path | None, typer.Option(help="New folder; by default beside FILE, its name and _whole.")
     ] = None,
 ) -> None:
-    """Write what is sound of FILE, torn by a power cut or a kill, as a recording that is whole.
+    """Write what is sound of FILE, torn or damaged anywhere, as a recording that is whole.
 
-    Example: planetary-twin recover recordings/paper_20260101_120000
+    Says what is missing: bytes, stretch of time, chunks, and messages where the index lists them.
+
+    Example: planetary-twin recover recordings/paper_20260101_120000 --out recordings/saved
     """
     need("recording", "mcap", "rosbags")
     from rich.table import Table
@@ -30,14 +32,14 @@ def recover(
     from ..recording.recover import recover as save
 
     folder = out or file.with_name(f"{file.stem}_whole")
-    check_recording("OUT", folder)
+    check_recording("--out", folder)
     try:
         saved = save(file, folder)
     except RecordingError as error:
         fail(error)
     except OSError as error:
         fail(f"{error.filename}: {error.strerror}")
-    for line in saved.remarks or ["nothing was torn: the copy is as whole as the recording was"]:
+    for line in saved.remarks or ["nothing is damaged: the copy holds all that the recording does"]:
         remark(line)
     table = Table("topic", "messages saved", box=None)
     for topic, count in saved.messages.items():

@@ -2,17 +2,19 @@
 
 from __future__ import annotations
 
-import struct
 from collections.abc import Callable
-from functools import lru_cache
 from typing import Any, NamedTuple
 
 from mcap.records import Channel, Message, Schema
-from rosbags.serde import SerdeError
-from rosbags.typesys import Stores, TypesysError, get_types_from_msg, get_typestore
 from rosbags.typesys.store import Typestore
 
+from ..printable import one_line
+from .definitions import KINDS
+from .layout import Layout, LayoutError
 from .records import RecordingError
+from .typestore import DefinitionError, types_of
+
+_LONGEST_REASON = 200  # characters
 
 
 class Described(NamedTuple):
@@ -23,10 +25,22 @@ class Described(NamedTuple):
     types: Typestore
 
 
-class Topics:
-    """The topics of one file that are `wanted`, given its records in order."""
+class MessageError(RecordingError):
+    """A message of `topic` is not what its definition says."""
 
-    def __init__(self, wanted: Callable[[str], bool]) -> None:
+    def __init__(self, topic: str, text: str) -> None:
+        super().__init__(text)
+        self.topic = topic
+
+
+class Topics:
+    """The topics of one source that are `wanted`, given its records in order.
+
+    A topic whose name is one of the twin's, but not its type, is another one and left out.
+    """
+
+    def __init__(self, source: object, wanted: Callable[[str], bool]) -> None:
+        self._source = source  # the file, for messages of errors
         self._wanted = wanted
         self._schemas: dict[int, Schema] = {}
         self._channels: dict[int, Described] = {}
@@ -40,50 +54,68 @@ class Topics:
         if isinstance(record, Schema):
             self._schemas[record.id] = record
         elif isinstance(record, Channel):
-            if self._wanted(record.topic):
-                schema = self._schemas[record.schema_id]
-                types = _types(record, schema)
+            schema = self._schemas[record.schema_id]
+            if self._wanted(record.topic) and _is_of_twin(record.topic, schema.name):
+                types = self._types(record, schema)
                 self._channels[record.id] = Described(record.topic, schema.name, types)
         elif isinstance(record, Message) and record.channel_id in self._channels:
             return self._channels[record.channel_id]
         return None
 
+    def __contains__(self, channel: int) -> bool:
+        """Whether messages of a channel are read, by its number."""
+        return channel in self._channels
+
+    def _types(self, channel: Channel, schema: Schema) -> Typestore:
+        if schema.encoding != "ros2msg" or channel.message_encoding != "cdr":
+            raise RecordingError(
+                f"{self._source}: {channel.topic}: encoded as {schema.encoding}/"
+                f"{channel.message_encoding}, only ros2msg/cdr can be read"
+            )
+        try:
+            return types_of(schema.data, schema.name)
+        except DefinitionError as reason:
+            why = one_line(str(reason), _LONGEST_REASON)
+            raise RecordingError(f"{self._source}: {channel.topic}: its definition {why}") from None
+
 
 class Decoder:
-    """Decodes the topics of one file that are `wanted`, given its records in order."""
+    """Decodes the topics of one source that are `wanted`, given its records in order."""
 
-    def __init__(self, wanted: Callable[[str], bool]) -> None:
-        self._topics = Topics(wanted)
+    def __init__(self, source: object, wanted: Callable[[str], bool]) -> None:
+        self._source = source
+        self._topics = Topics(source, wanted)
+
+    def __contains__(self, channel: int) -> bool:
+        """Whether messages of a channel are decoded, by its number."""
+        return channel in self._topics
 
     def read(self, record: Any) -> tuple[str, Any] | None:
         """Topic and message, where the record is a message of a wanted topic.
 
         Raises:
             RecordingError: a wanted topic is encoded in a way that cannot be read.
+            MessageError: a message is not what its definition says.
         """
         found = self._topics.of(record)
         if found is None:
             return None
         try:
             return found.topic, found.types.deserialize_cdr(record.data, found.kind)
-        except (SerdeError, struct.error, ValueError, IndexError) as reason:
-            raise RecordingError(f"{found.topic}: not as the file describes it: {reason}") from None
+        except Exception as reason:  # of many kinds: rosbags runs code that it has made
+            why = one_line(_why(found, record.data, reason), _LONGEST_REASON)
+            text = f"{self._source}: {found.topic}: a message {why}"
+            raise MessageError(found.topic, text) from None
 
 
-def _types(channel: Channel, schema: Schema) -> Typestore:
-    if schema.encoding != "ros2msg" or channel.message_encoding != "cdr":
-        raise RecordingError(
-            f"{channel.topic}: encoded as {schema.encoding}/{channel.message_encoding}, "
-            "only ros2msg/cdr can be read"
-        )
+def _why(found: Described, data: bytes, reason: Exception) -> str:
+    """What is wrong with a message, and in which field, as far as that can be found."""
     try:
-        return _types_of(schema.data, schema.name)
-    except (TypesysError, UnicodeDecodeError):
-        raise RecordingError(f"{channel.topic}: its definition cannot be read") from None
+        Layout(found.types.fielddefs, found.kind, data)
+    except LayoutError as error:
+        return str(error)
+    return f"is not as the file describes it: {reason or type(reason).__name__}"
 
 
-@lru_cache(maxsize=32)  # takes 20 ms, and the files of a recording have the same definitions
-def _types_of(definition: bytes, name: str) -> Typestore:
-    types = get_typestore(Stores.EMPTY)
-    types.register(get_types_from_msg(definition.decode(), name))
-    return types
+def _is_of_twin(topic: str, kind: str) -> bool:
+    return KINDS.get(topic.rpartition("/")[2], kind) == kind

@@ -30,10 +30,15 @@ def topics_of(namespace: str) -> list[Topic]:
 
 def _topic(name: str, kind: str, latched: bool) -> Topic:
     types = get_typestore(Stores.ROS2_JAZZY)
-    definition = message_definition(kind, _text)
+    definition = definition_of(kind)
     found = get_types_from_msg(definition, kind)
     types.register({name: made for name, made in found.items() if name not in types.types})
     return Topic(name, kind, types.hash_rihs01(kind), definition, [_offer(latched)])
+
+
+def definition_of(kind: str) -> str:
+    """Definition of a type of the twin's topics in MCAP's encoding `ros2msg`."""
+    return message_definition(kind, _text)
 
 
 def _text(kind: str) -> str:

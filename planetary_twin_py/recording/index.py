@@ -17,8 +17,9 @@ from mcap.reader import make_reader
 from mcap.records import Channel, ChunkIndex, Message, Metadata, Schema
 from numpy.typing import NDArray
 
+from .framing import TORN
 from .integrity import damaged_data, damaged_summary
-from .records import TORN, section_at
+from .records import MOST_TOPICS, section_at
 
 _HEAD = struct.Struct("<BQHI")  # opcode, length, channel, bytes of entries (MCAP 0, Message Index)
 _ENTRY = np.dtype([("log_time", "<u8"), ("offset", "<u8")])
@@ -42,6 +43,8 @@ class Index:
             summary = reader.get_summary()
             if summary is None or summary.statistics is None:
                 raise ValueError("no summary")
+            if len(summary.channels) > MOST_TOPICS:
+                raise ValueError("more topics than are read")
             self.schemas: dict[int, Schema] = summary.schemas
             self.channels: dict[int, Channel] = summary.channels
             self.metadata: list[Metadata] = list(reader.iter_metadata())

@@ -117,7 +117,7 @@ def read_info(*paths: Path) -> Info:
     for file in told.info.files:
         more = deepcopy(told)
         try:
-            more.look_up(Index(file))
+            more.look_up(file, Index(file))
         except UNSOUND:  # torn before it had an index, or damaged
             told.read(file)
         else:
@@ -135,7 +135,7 @@ class _Told:
 
     def read(self, file: Path) -> None:
         """Learn from every record of a file."""
-        decoder = Decoder(_tells)
+        decoder = Decoder(file, _tells)
         schemas: dict[int, Schema] = {}
         names: dict[int, str] = {}
         times: dict[str, list[int]] = {}
@@ -157,9 +157,9 @@ class _Told:
             self.info.topics[name].take(taken)
         self._settle(accounts)
 
-    def look_up(self, index: Index) -> None:
+    def look_up(self, file: Path, index: Index) -> None:
         """Learn the same from the index of a file, and from the few messages that are needed."""
-        decoder = Decoder(_tells)
+        decoder = Decoder(file, _tells)
         self._repeats.next_file()
         for schema in index.schemas.values():
             decoder.read(schema)
@@ -169,6 +169,8 @@ class _Told:
             new, times = self._new(index, number), index.times[number]
             kind = index.schemas[channel.schema_id].name
             self.info.topics.setdefault(channel.topic, TopicInfo(kind)).take(times[new])
+            if number not in decoder:
+                continue
             messages = _Messages(index, number, decoder)
             if channel.topic.endswith(f"/{STATE}"):
                 self.info.simulated += _simulated(messages)
@@ -194,9 +196,14 @@ class _Told:
     def _settle(self, accounts: list[Mapping[str, str]]) -> None:
         """Add the losses of a file; it may tell of a topic that it has no message of."""
         for account in accounts:
-            if topic := self.info.topics.get(account["topic"]):
-                topic.lost = (topic.lost or 0) + int(account["lost"])
-                topic.before += int(account["lost"]) - int(account["missed"])
+            try:
+                name, lost, missed = account["topic"], int(account["lost"]), int(account["missed"])
+            except (KeyError, ValueError) as reason:
+                self.info.remarks.append(f"an account of losses cannot be read: {reason}")
+                continue
+            if topic := self.info.topics.get(name):
+                topic.lost = (topic.lost or 0) + lost
+                topic.before += lost - missed
 
     def _learn(self, topic: str, message: Any) -> None:
         """Take what a message tells of the run."""

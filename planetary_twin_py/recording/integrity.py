@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+import mmap
 import struct
 import zlib
 from pathlib import Path
 
 MAGIC = b"\x89MCAP0\r\n"
 _DATA_END = struct.Struct("<BQI")  # opcode, length, checksum
+_DATA_END_HEAD = struct.pack("<BQ", 15, 4)
+_CHECKSUM = 4  # bytes
 _PIECE = 2**24  # bytes read at once
 _FOOTER = struct.Struct("<BQQQI")  # opcode, length, start of summary, of its offsets, checksum
 
@@ -51,3 +54,23 @@ def damaged_data(file: Path) -> bool:
             found = zlib.crc32(piece, found)
         _, _, expected = _DATA_END.unpack(stream.read(_DATA_END.size))
     return expected not in (0, found)
+
+
+def end_of_data(file: Path) -> int | None:
+    """Place of the record that ends the data, where a sound summary follows it; else None.
+
+    The footer tells it; in a file that has lost bytes, the summary's checksum does.
+    """
+    with file.open("rb") as stream, mmap.mmap(stream.fileno(), 0, access=mmap.ACCESS_READ) as data:
+        footer = len(data) - _FOOTER.size - len(MAGIC)
+        if footer < _DATA_END.size or data[footer + _FOOTER.size :] != MAGIC:
+            return None
+        *_, start, _, expected = _FOOTER.unpack_from(data, footer)
+        for place in (start - _DATA_END.size, data.rfind(_DATA_END_HEAD, 0, footer)):
+            summary = place + _DATA_END.size
+            if place < 0 or summary > footer or data[place:summary][:9] != _DATA_END_HEAD:
+                continue
+            found = zlib.crc32(data[summary : footer + _FOOTER.size - _CHECKSUM])
+            if found == expected or (expected == 0 and summary == start):
+                return int(place)
+    return None

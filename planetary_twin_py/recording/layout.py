@@ -15,12 +15,16 @@ import numpy as np
 from numpy.typing import NDArray
 from rosbags.interfaces import Nodetype
 
+from .foreign import CONVERT
+
 Fields = Iterable[tuple[str, Any]]
 Definitions = Mapping[str, tuple[Any, Fields]]
 """Constants and fields by the name of a type, as rosbags parses a definition."""
 _Field = tuple[str, Any, int]  # name, format, place
 _ENCAPSULATION = 4  # bytes before the body, from whose begin alignment counts
 _PADDING = 3  # bytes after the last field that a writer may fill up to whole words with
+_MOST_FIELDS = 20_000  # of a message, with each element of an array of texts or messages
+_ZSTD = b"\x28\xb5\x2f\xfd"
 _NUMBERS = {"bool": "?", "byte": "u1", "char": "u1", "float32": "f4", "float64": "f8"} | {
     f"{name}{8 * size}": f"{letter}{size}"
     for name, letter in (("int", "i"), ("uint", "u"))
@@ -90,6 +94,8 @@ class _Walk:
     """Goes through one message; `decisive` are the bytes on which depends where the others lie."""
 
     def __init__(self, definitions: Definitions, message: bytes) -> None:
+        if message[:4] == _ZSTD:
+            raise LayoutError(f"is compressed by itself; {CONVERT}")
         if message[:2] not in (b"\0\0", b"\0\1"):
             raise LayoutError(
                 f"begins with {message[:2].hex() or 'nothing'}, only plain CDR is read"
@@ -98,6 +104,8 @@ class _Walk:
         self._order = "<" if message[1] else ">"
         self._place = _ENCAPSULATION
         self.decisive = [0, 1]
+        self._path: list[str] = []  # names of the field that is looked at, and of those above it
+        self._count_of_fields = 0
 
     def whole(self, kind: str) -> np.dtype[Any]:
         """The message, from its encapsulation to its last byte."""
@@ -108,10 +116,18 @@ class _Walk:
         return self._structure(fields, 0, len(self._message))
 
     def _fields(self, kind: str) -> list[_Field]:
-        return [(name, *self._field(field)) for name, field in self._definitions[kind][1]]
+        found: list[_Field] = []
+        for name, description in self._definitions[kind][1]:
+            self._path.append(name)
+            found.append((name, *self._field(description)))
+            self._path.pop()
+        return found
 
     def _field(self, description: Any) -> tuple[Any, int]:
         """Format of a field, and its place."""
+        self._count_of_fields += 1
+        if self._count_of_fields > _MOST_FIELDS:
+            raise LayoutError(f"has more than {_MOST_FIELDS} fields{self._here()}")
         sort, of = description
         if sort == Nodetype.BASE:
             if of[0] == "string":
@@ -132,7 +148,7 @@ class _Walk:
 
     def _numbers(self, name: str, shape: tuple[int, ...]) -> tuple[Any, int]:
         if name not in _NUMBERS:
-            raise LayoutError(f"{name} is no type of a field that is read")
+            raise LayoutError(f"has a field of the type {name}, which is not read{self._here()}")
         form = np.dtype(self._order + _NUMBERS[name])
         count = int(np.prod(shape, dtype=int))
         if count:  # of nothing, not even the alignment is written
@@ -149,8 +165,11 @@ class _Walk:
         place = self._place
         self._place += size
         if self._place > len(self._message):
-            raise LayoutError(f"ends after {len(self._message)} bytes, before its last field")
+            raise LayoutError(f"ends after {len(self._message)} bytes{self._here()}")
         return place
+
+    def _here(self) -> str:
+        return f", in its field {'.'.join(self._path)}"
 
     @staticmethod
     def _structure(fields: list[_Field], begin: int, end: int) -> np.dtype[Any]:

@@ -82,6 +82,8 @@ def read_measurements(path: Path, units: Mapping[str, str]) -> Measurements:
 def _read(path: Path) -> pa.Table:
     if path.suffix not in _READERS:
         raise ValueError(f"{path}: must end in {' or '.join(_READERS)}")
+    if path.exists() and not path.is_file():
+        raise ValueError(f"{path}: must be a file")
     try:
         with path.open("rb") as stream:
             return _READERS[path.suffix](stream)

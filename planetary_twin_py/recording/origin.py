@@ -14,6 +14,7 @@ from typing import Any
 import yaml
 
 from ..scene import Scene, parse_scene
+from ..scene.yaml_text import read_yaml
 from .records import RecordingError
 
 SOFTWARE = ("planetary_twin_py", "numba", "llvmlite", "numpy", "scipy")
@@ -79,16 +80,44 @@ def read_origin(text: str) -> Origin:
         RecordingError: the text is something else.
     """
     try:
-        content = yaml.safe_load(text)
-        scene = parse_scene(yaml.safe_dump(content["scene"], sort_keys=False))
+        content = _mapping(text)
+        scene = parse_scene(_scene(content))
         begins = int(content["begins"])
         makers = _read_makers(content)
-    except (yaml.YAMLError, KeyError, TypeError, ValueError) as reason:
+    except KeyError as reason:
+        raise RecordingError(f"origin of the run: {reason}: missing") from None
+    except (TypeError, ValueError, OverflowError) as reason:
         raise RecordingError(f"origin of the run: cannot be read: {reason}") from None
     return Origin(scene, begins, makers)
+
+
+def scene_of_origin(text: str) -> str:
+    """YAML of the scene that `Origin.text` holds.
+
+    Raises:
+        RecordingError: the text is something else.
+    """
+    try:
+        return _scene(_mapping(text))
+    except (KeyError, ValueError) as reason:
+        raise RecordingError(f"origin of the run: cannot be read: {reason}") from None
+
+
+def _mapping(text: str) -> dict[str, Any]:
+    content = read_yaml(text, "text")
+    if not isinstance(content, dict):
+        raise ValueError("must be a mapping")
+    return content
+
+
+def _scene(content: dict[str, Any]) -> str:
+    return yaml.safe_dump(content["scene"], sort_keys=False)
 
 
 def _read_makers(content: dict[str, Any]) -> Makers | Measured:
     if "measured" in content:
         return Measured(content["measured"])
-    return Makers(content["kernels"], content["machine"], dict(content["software"]))
+    software = content["software"]
+    if not isinstance(software, dict):
+        raise ValueError("software: must be a mapping")
+    return Makers(content["kernels"], content["machine"], software)

@@ -13,16 +13,19 @@ import numpy as np
 from mcap.records import Attachment
 from numpy.typing import NDArray
 
+from ..printable import one_line
 from .decode import Topics
 from .layout import Layouts
 from .namespaces import choose_namespace
-from .records import files_of, sections_of
+from .origin import scene_of_origin
+from .records import RecordingError, files_of, sections_of
 from .repeats import Repeats
-from .topics import POINT, STATE, WAVEFORM
+from .topics import ORIGIN, POINT, STATE, WAVEFORM
 from .waveform import Blocks, Held, Ranges, Samples, Source, Stretch, Waveform, joined, stamps
 
 SCENE_ATTACHMENT = "scene.yaml"
 TOPICS = (STATE, WAVEFORM, POINT)
+_LONGEST = 300  # characters of a remark
 
 
 @dataclass
@@ -114,7 +117,18 @@ def read_recording(path: str | Path, namespace: str | None = None) -> Recording:
     rows = {name: found.rows.get(f"{namespace}/{name}", []) for name in (STATE, POINT)}
     blocks = found.blocks.get(f"{namespace}/{WAVEFORM}", Blocks())
     recording = assemble(rows, blocks, Path(path), namespace)
-    return replace(recording, scene_yaml=found.scene_yaml, remarks=found.remarks)
+    scene = found.scene_yaml or _scene(found.rows.get(f"{namespace}/{ORIGIN}", []), found.remarks)
+    return replace(recording, scene_yaml=scene, remarks=found.remarks)
+
+
+def _scene(origins: list[NDArray[Any]], remarks: list[str]) -> str | None:
+    """The scene of the newest run whose origin can be read, in YAML: any recorder's bag has it."""
+    for text in reversed([bytes(data) for rows in origins for data in rows["data"]]):
+        try:
+            return scene_of_origin(text.decode())
+        except (RecordingError, UnicodeDecodeError) as reason:
+            remarks.append(one_line(f"{ORIGIN}: {reason}", _LONGEST))
+    return None
 
 
 def assemble(
@@ -124,10 +138,18 @@ def assemble(
     one.
     """
     state = _series(rows[STATE])
+    planets = np.unique(state["planets"])
+    room = state["planet_angle"].shape[1]
+    if len(planets) != 1 or not 1 <= planets[0] <= room:
+        found = ", ".join(map(str, planets[:3]))
+        raise RecordingError(
+            f"{path}: {namespace}/{STATE}: planets = {found}: must be one number in all messages, "
+            f"within 1 and {room}"
+        )
     return Recording(
         path=path,
         namespace=namespace,
-        planets=int(state["planets"][0]),
+        planets=int(planets[0]),
         state=state,
         operating_point=_series(rows[POINT]),
         blocks=blocks,
@@ -147,7 +169,7 @@ class _Found:
 
     def read(self, file: Path) -> None:
         """Take what a file holds."""
-        topics = Topics(lambda topic: topic.rpartition("/")[2] in TOPICS)
+        topics = Topics(file, lambda topic: topic.rpartition("/")[2] in (*TOPICS, ORIGIN))
         sources: dict[int, Source] = {}
         self._repeats.next_file()
         for section in sections_of(file, self.remarks):
@@ -156,7 +178,7 @@ class _Found:
                 if self._repeats.repeated(record):
                     continue
                 if isinstance(record, Attachment) and record.name == SCENE_ATTACHMENT:
-                    self.scene_yaml = self.scene_yaml or record.data.decode()
+                    self.scene_yaml = self.scene_yaml or self._text(file, record)
                 elif found := topics.of(record):
                     channel = record.channel_id
                     if channel not in sources:
@@ -165,6 +187,17 @@ class _Found:
                     messages.setdefault(channel, []).append(record.data)
             for channel, data in messages.items():
                 self._take(sources[channel], section.place, data)
+
+    def _text(self, file: Path, attached: Attachment) -> str | None:
+        """Of an attachment; None and a remark where it is none."""
+        try:
+            return attached.data.decode()
+        except UnicodeDecodeError as reason:
+            self.remarks.append(
+                f"{file.name}: its attachment {SCENE_ATTACHMENT} must be in UTF-8, byte "
+                f"{reason.start + 1} is not"
+            )
+            return None
 
     def _take(self, source: Source, place: int, messages: list[bytes]) -> None:
         for rows in source.arrays(messages):
@@ -178,7 +211,7 @@ def _series(parts: list[NDArray[Any]]) -> Series:
     if not parts:
         return Series(np.empty(0), np.empty(0, np.int64), {})
     columns = {
-        name: _column([rows[name] for rows in parts])
+        name: _column(name, [rows[name] for rows in parts])
         for name in parts[0].dtype.names or ()
         if name != "header"
     }
@@ -186,8 +219,11 @@ def _series(parts: list[NDArray[Any]]) -> Series:
     return Series(columns["simulated_time"], stamp, columns)
 
 
-def _column(parts: list[NDArray[Any]]) -> NDArray[Any]:
-    column = np.concatenate(parts)
-    if column.dtype.kind == "S":
-        return np.asarray(np.char.decode(column, "utf-8"))
+def _column(name: str, parts: list[NDArray[Any]]) -> NDArray[Any]:
+    try:
+        column = np.concatenate(parts)
+        if column.dtype.kind == "S":
+            return np.asarray(np.char.decode(column, "utf-8"))
+    except ValueError as reason:  # of shapes, or of what is not UTF-8
+        raise RecordingError(f"field {name} of a message: {reason}") from None
     return column.astype(column.dtype.newbyteorder("="), copy=False)

@@ -24,7 +24,14 @@ class Recovered(NamedTuple):
 
 
 def recover(path: Path, folder: Path) -> Recovered:
-    """Write what is sound at `path`, a file or a folder of them, into a new `folder`.
+    """Write what is sound at `path` into a new `folder`.
+
+    Args:
+        path: of an MCAP file, or of a folder of them.
+        folder: of the recording to make.
+
+    Returns:
+        What was saved, and what is missing.
 
     Raises:
         RecordingError: there is nothing to save.

@@ -9,11 +9,10 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
-import yaml
 from mcap.records import Channel, Message
 
 from .records import records_of
-from .rosbag2 import is_latched
+from .rosbag2 import is_latched, read_offered_qos
 
 
 class Repeats:
@@ -59,6 +58,6 @@ def unrepeated(file: Path, remarks: list[str], repeats: Repeats) -> Iterator[Any
 
 def _latched(channel: Channel) -> bool:
     try:
-        return is_latched(yaml.safe_load(channel.metadata.get("offered_qos_profiles", "")) or [])
-    except (yaml.YAMLError, AttributeError):  # no profiles as rosbag2 writes them
+        return is_latched(read_offered_qos(channel.metadata.get("offered_qos_profiles", "")))
+    except ValueError:  # no profiles as rosbag2 writes them
         return False

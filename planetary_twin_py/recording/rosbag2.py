@@ -5,11 +5,15 @@ from __future__ import annotations
 import os
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
+from functools import lru_cache
 from typing import Any, NamedTuple
 
 import yaml
 
+from ..scene.yaml_text import read_yaml
+
 VERSION = 9
+_QOS = "offered_qos_profiles"
 _TRANSIENT_LOCAL = ("transient_local", 1)  # the number in bags before version 9
 
 
@@ -43,6 +47,36 @@ class Topic:
             for qos in self.offered_qos
             if qos.get("durability") in _TRANSIENT_LOCAL
         )
+
+
+def read_offered_qos(text: str) -> Sequence[Mapping[str, Any]]:
+    """The profiles that `Topic.qos_yaml` has written, or rosbag2.
+
+    Raises:
+        ValueError: the text is something else.
+    """
+    found = _profiles(text)
+    if isinstance(found, ValueError):
+        raise found
+    return found
+
+
+@lru_cache(maxsize=1024)  # most topics of a bag offer the same; a refusal is kept, too
+def _profiles(text: str) -> Sequence[Mapping[str, Any]] | ValueError:
+    try:
+        return _parsed(text)
+    except ValueError as reason:
+        return reason
+
+
+def _parsed(text: str) -> Sequence[Mapping[str, Any]]:
+    found = read_yaml(text, _QOS) or []
+    if not isinstance(found, list) or not all(isinstance(qos, dict) for qos in found):
+        raise ValueError(f"{_QOS}: must be a list of mappings")
+    for qos in found:
+        if not isinstance(qos.get("depth", 0), int):
+            raise ValueError(f"{_QOS}: depth = {qos['depth']!r}: must be a whole number")
+    return found
 
 
 def is_latched(offered_qos: Sequence[Mapping[str, Any]]) -> bool:

@@ -10,9 +10,10 @@ from itertools import pairwise
 from pathlib import Path
 from typing import Any, NamedTuple
 
+from ..printable import one_line
 from ..scene import TUNABLES
 from ..twin import TICKS
-from .decode import Decoder
+from .decode import Decoder, MessageError
 from .origin import Origin, read_origin
 from .records import RecordingError, files_of
 from .repeats import Repeats, unrepeated
@@ -21,6 +22,7 @@ from .topics import ORIGIN, POINT, STATE
 # With which is simulated what was measured, and so has neither: those of `planetary-twin simulate`.
 TOLERANCE = 1e-4
 SAMPLE_RATE = 50_000.0  # [Hz]
+_LONGEST = 300  # characters of a remark
 
 
 class Interval(NamedTuple):
@@ -59,7 +61,7 @@ def read_runs(path: Path, namespace: str, remarks: list[str]) -> list[Run]:
     Raises:
         RecordingError: no run is recorded from its start.
     """
-    told = _Told()
+    told = _Told(remarks)
     take: dict[str, Callable[[Any], None]] = {
         ORIGIN: told.origin,
         POINT: told.change,
@@ -101,22 +103,34 @@ def messages_of(
     wanted = {f"{namespace}/{name}": name for name in names}
     repeats = Repeats()
     for file in files_of(path):
-        decoder = Decoder(wanted.__contains__)
+        decoder = Decoder(file, wanted.__contains__)
         for record in unrepeated(file, remarks, repeats):
-            if found := decoder.read(record):
+            try:
+                found = decoder.read(record)
+            except MessageError as reason:
+                if not reason.topic.endswith(f"/{ORIGIN}"):
+                    raise
+                remarks.append(f"{reason}; it is left out")  # other runs may have theirs
+                continue
+            if found:
                 yield wanted[found[0]], found[1]
 
 
 class _Told:
     """All that was told, before it is sorted into runs."""
 
-    def __init__(self) -> None:
+    def __init__(self, remarks: list[str]) -> None:
+        self._remarks = remarks
         self._origins: dict[int, Origin] = {}
         self._changes: list[Change] = []
         self._intervals: list[Interval] = []
 
     def origin(self, message: Any) -> None:
-        origin = read_origin(message.data)
+        try:
+            origin = read_origin(message.data)
+        except RecordingError as reason:  # other runs may have theirs
+            self._remarks.append(one_line(f"a message of {ORIGIN} is left out: {reason}", _LONGEST))
+            return
         self._origins[origin.begins] = origin
 
     def change(self, message: Any) -> None:

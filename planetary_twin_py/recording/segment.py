@@ -12,8 +12,9 @@ from mcap.reader import make_reader
 from mcap.records import Channel, ChunkIndex, Message, Schema
 from mcap.summary import Summary
 
+from .framing import TORN
 from .integrity import damaged_summary
-from .records import TORN, chunk_at, records_of
+from .records import MOST_TOPICS, chunk_at, records_of
 from .rosbag2 import Extent
 
 # Messages stand in a file in the order a recorder got to them: far less than this apart.
@@ -48,7 +49,7 @@ class Segment(Protocol):
 def open_segment(file: Path, tell: Tell) -> Segment:
     """The file to read; `tell` hears in lines of what cannot be read, now and later."""
     summary = _summary(file)
-    if summary is None or summary.statistics is None:
+    if summary is None or summary.statistics is None or len(summary.channels) > MOST_TOPICS:
         return _InOrder(file, tell)
     if summary.statistics.message_count and not summary.chunk_indexes:
         return _InOrder(file, tell)

@@ -8,12 +8,11 @@ from collections.abc import Collection, Iterable, Iterator
 from pathlib import Path
 from typing import NamedTuple
 
-import yaml
 from mcap.records import Channel, Message, Schema
 
 from .records import RecordingError, files_of
 from .repeats import Repeats
-from .rosbag2 import Extent, Topic
+from .rosbag2 import Extent, Topic, read_offered_qos
 from .segment import DISORDER, open_segment
 
 
@@ -103,25 +102,36 @@ class Tape:
                 f"{path}: {channel.topic} is encoded as {channel.message_encoding or 'nothing'}, "
                 "only ROS 2 messages (cdr) can be played"
             )
-        known = self.topics.setdefault(channel.topic, _topic(channel, schema))
+        known = self.topics.setdefault(channel.topic, self._topic(channel, schema, path))
         if known.type != schema.name:
             raise RecordingError(
                 f"{path}: {channel.topic} holds both {known.type} and {schema.name}"
             )
 
+    def _topic(self, channel: Channel, schema: Schema, path: Path) -> Topic:
+        try:
+            definition = schema.data.decode()
+        except UnicodeDecodeError as reason:
+            raise RecordingError(
+                f"{path}: {channel.topic}: its definition must be in UTF-8, byte "
+                f"{reason.start + 1} is not"
+            ) from None
+        try:
+            offered_qos = read_offered_qos(channel.metadata.get("offered_qos_profiles", ""))
+        except ValueError as reason:
+            offered_qos = []
+            self._tell(f"{path}: {channel.topic}: taken as volatile: {reason}")
+        return Topic(
+            name=channel.topic,
+            type=schema.name,
+            type_hash=channel.metadata.get("topic_type_hash", ""),
+            definition=definition,
+            offered_qos=offered_qos,
+        )
+
     def _tell(self, remark: str) -> None:
         if remark not in self.remarks:
             self.remarks.append(remark)
-
-
-def _topic(channel: Channel, schema: Schema) -> Topic:
-    return Topic(
-        name=channel.topic,
-        type=schema.name,
-        type_hash=channel.metadata.get("topic_type_hash", ""),
-        definition=schema.data.decode(),
-        offered_qos=yaml.safe_load(channel.metadata.get("offered_qos_profiles", "")) or [],
-    )
 
 
 def _in_order(cues: Iterable[Cue]) -> Iterator[Cue]:

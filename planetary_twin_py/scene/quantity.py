@@ -9,7 +9,11 @@ from typing import Any, get_args, get_origin
 from pydantic import BaseModel, ConfigDict, Field, ValidationInfo, field_validator
 from pydantic.fields import FieldInfo
 
+from ..printable import one_line
 from ..units import UnitError, to_si
+
+_MOST_LINES = 30  # of a message, and characters of a line
+_LONGEST_LINE = 400
 
 
 class SceneError(ValueError):
@@ -21,10 +25,13 @@ class SceneError(ValueError):
 
 
 def listed(errors: Sequence[str]) -> str:
-    """Message of one or more errors, each a line."""
+    """Message of one or more errors, each a line; of very many, the first."""
     if len(errors) == 1:
-        return errors[0]
-    return "\n  ".join((f"the scene has {len(errors)} errors:", *errors))
+        return one_line(errors[0], _LONGEST_LINE)
+    lines = [one_line(error, _LONGEST_LINE) for error in errors[:_MOST_LINES]]
+    if len(errors) > _MOST_LINES:
+        lines.append(f"and {len(errors) - _MOST_LINES} more")
+    return "\n  ".join((f"the scene has {len(errors)} errors:", *lines))
 
 
 class Section(BaseModel):
@@ -35,12 +42,15 @@ class Section(BaseModel):
     @field_validator("*", mode="before")
     @classmethod
     def _units_at_the_edge(cls, value: object, info: ValidationInfo) -> object:
-        unit = unit_of(cls.model_fields[info.field_name or ""])
+        field = cls.model_fields[info.field_name or ""]
+        if isinstance(value, bool) and field.annotation is not bool:
+            raise ValueError("must not be true or false")  # which Python takes for 1 and 0
+        unit = unit_of(field)
         if unit is None:
             return value
         if isinstance(value, (list, tuple)):
             return tuple(to_si(item, unit) for item in value)
-        if isinstance(value, str) and _is_list(cls.model_fields[info.field_name or ""]):
+        if isinstance(value, str) and _is_list(field):
             raise UnitError(f"must be a list, e.g. [1 {unit}, 2 {unit}]".replace(" ]", "]"))
         return to_si(value, unit)
 

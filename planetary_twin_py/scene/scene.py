@@ -9,6 +9,7 @@ from typing import Any, Literal, Self
 
 from pydantic import Field, ValidationError, model_validator
 
+from ..printable import one_line
 from .defect import explain
 from .drive import Drive
 from .faults import MOST_FAULTS, Crack, Fault
@@ -21,7 +22,7 @@ from .operating_point import TUNABLES, OperatingPoint, Tunable
 from .paths import NoSuchPath, paths, put
 from .quantity import SceneError, Section, listed
 from .supports import Supports
-from .yaml_text import read_yaml
+from .yaml_text import LONGEST, read_yaml
 
 _LIMITS = {  # fields of the drive that bound a quantity
     "input_speed": "speed_limit",
@@ -160,15 +161,30 @@ def load_scene(name_or_path: str | Path) -> Scene:
     if str(name_or_path) in packaged_scenes():
         text = (resources.files(__package__) / "packaged" / f"{name_or_path}.yaml").read_text()
     else:
-        try:
-            text = Path(name_or_path).read_text()
-        except OSError as error:
-            raise SceneError(
-                f"scene = {str(name_or_path)!r}: neither a readable file ({error.strerror}) nor "
-                f"one of {', '.join(packaged_scenes())}"
-                f"{did_you_mean(str(name_or_path), packaged_scenes())}"
-            ) from None
+        text = _read(Path(name_or_path))
     return parse_scene(text)
+
+
+def _read(path: Path) -> str:
+    """The text of a file: no more of it than a scene may have, and nothing of a pipe."""
+    try:
+        if path.exists() and not path.is_file():
+            raise SceneError(f"scene = {str(path)!r}: must be a file")
+        with path.open("rb") as stream:
+            return stream.read(4 * LONGEST + 1).decode()  # bytes of a character, at most
+    except UnicodeDecodeError as error:
+        raise SceneError(
+            f"scene = {str(path)!r}: must be in UTF-8, byte {error.start + 1} is not"
+        ) from None
+    except (OSError, ValueError) as error:
+        if isinstance(error, SceneError):
+            raise
+        reason = error.strerror if isinstance(error, OSError) else error
+        raise SceneError(
+            f"scene = {str(path)!r}: neither a readable file ({reason}) nor "
+            f"one of {', '.join(packaged_scenes())}"
+            f"{did_you_mean(str(path), packaged_scenes())}"
+        ) from None
 
 
 def parse_scene(text: str) -> Scene:
@@ -185,9 +201,10 @@ def parse_scene(text: str) -> Scene:
     if "base" in data:
         base = data.pop("base")
         if base not in packaged_scenes():
+            name = one_line(str(base), 60)
             raise SceneError(
-                f"base = {base!r}: must be one of {', '.join(packaged_scenes())}"
-                f"{did_you_mean(str(base), packaged_scenes())}"
+                f"base = {name!r}: must be one of {', '.join(packaged_scenes())}"
+                f"{did_you_mean(name, packaged_scenes())}"
             )
         data = _overlaid(load_scene(base).model_dump(), data)
     return _validated(data)

@@ -43,7 +43,7 @@ class LiveView:
         self._begin = begin
         self._chosen = scene
         self._told: Scene | None = None
-        self._topics = Topics(lambda topic: True)
+        self._topics = Topics("the running twin", lambda topic: True)
         self._layouts: dict[str, Layouts] = {}
         self._waiting: Messages = {name: [] for name in TOPICS}
         self._run: _Run | None = None

@@ -14,9 +14,10 @@ from planetary_twin_py.recording.bag import BagWriter
 from planetary_twin_py.recording.compose import Composer
 from planetary_twin_py.recording.definitions import topics_of
 from planetary_twin_py.recording.info import read_info
+from planetary_twin_py.recording.integrity import MAGIC
 from planetary_twin_py.recording.origin import Origin, makers_here
 from planetary_twin_py.recording.reader import read_recording
-from planetary_twin_py.recording.records import MAGIC, RecordingError
+from planetary_twin_py.recording.records import RecordingError
 from planetary_twin_py.recording.recover import recover
 from planetary_twin_py.recording.tape import Tape
 from planetary_twin_py.recording.topics import ORIGIN, POINT, STATE

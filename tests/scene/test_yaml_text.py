@@ -1,5 +1,7 @@
 """YAML of a scene: a key that stands twice is refused, with both of its lines."""
 
+from itertools import pairwise
+
 import pytest
 import yaml
 
@@ -42,5 +44,56 @@ def test_other_text_is_read_as_yaml_reads_it(text):
     assert read_yaml(text) == yaml.safe_load(text)
 
 
-def test_a_list_that_holds_itself_ends():
-    assert pt.SceneError and refusal("&a [*a]").startswith("scene is not a YAML mapping")
+LAUGHS = "a: &a [lol, lol]\n" + "".join(
+    f"{new}: &{new} [{', '.join([f'*{old}'] * 9)}]\n" for old, new in pairwise("abcdefghij")
+)
+
+
+@pytest.mark.parametrize(
+    ("text", "reason"),
+    [
+        ("&a [*a]", "scene holds itself: *a stands in &a"),
+        (LAUGHS, "scene has more than 5000 values, the most that are read"),
+        (f"base: {LAUGHS.replace(chr(10), ', ')}", "scene is not YAML: mapping values"),
+        ("[" * 3000 + "]" * 3000, "scene is nested deeper than 50 levels"),
+        ("base: paper\nmesh: " + "{a: " * 3000 + "}" * 3000, "nested deeper than 50 levels"),
+        ("faults:\n" + "- {kind: crack}\n" * 100_000, "1600008 characters: must be at most"),
+        ("faults:\n" + "- {kind: x}\n" * 3000, "more than 5000 values"),
+        ("a: " + "9" * 5000, "scene holds what is not of its tag: Exceeds the limit"),
+        ("a: !!timestamp x", "scene holds what is not of its tag"),
+        ("a: !!python/object/apply:os.system [x]", "could not determine a constructor"),
+        ('a: "\\ud800"', "scene holds what is not of its tag: 'utf-8' codec"),
+        ('base: paper\n"\\e[31mred": 1', "\\x1b[31mred: no such field"),
+        ("base: [paper]", "base = \"['paper']\": must be one of"),
+    ],
+)
+def test_a_hostile_text_is_refused_in_one_short_line(text, reason):
+    message = refusal(text)
+    assert reason in message
+    assert len(message) < 500 and "\n" not in message
+
+
+def test_many_errors_are_a_short_list():
+    message = refusal("base: paper\n" + "".join(f"{'k' * 900}{n}: 1\n" for n in range(100)))
+    assert "and 70 more" in message and len(message) < 15_000
+
+
+def test_aliases_of_a_scene_that_is_not_large_are_followed():
+    scene = pt.parse_scene(
+        "base: paper\nfaults: [&f {kind: wear, gear: sun, depth: 1 um}, *f, {<<: *f, tooth: 3}]"
+    )
+    assert [fault.tooth for fault in scene.faults] == [0, 0, 3]
+
+
+@pytest.mark.parametrize(
+    ("text", "told"),
+    [
+        ("operating_point: {input_torque: yes}", "input_torque = True: must be a number within"),
+        ("gearset: {planet_angles: [yes, no]}", "gearset.planet_angles = [True, False]"),
+        ("faults: [{kind: wear, gear: sun, depth: 1e-6, tooth: on}]", "faults.0.tooth = True"),
+    ],
+)
+def test_yes_is_no_number(text, told):
+    assert told in refusal(f"base: paper\n{text}")
+    with pytest.raises(pt.SceneError, match="input_torque = True"):
+        pt.load_scene("paper").replace(input_torque=True)

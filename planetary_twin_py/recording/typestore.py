@@ -1,0 +1,94 @@
+"""The types that a message definition in a file describes, checked before code is made of them."""
+
+from __future__ import annotations
+
+from functools import lru_cache
+from typing import Any
+
+from rosbags.interfaces import Nodetype
+from rosbags.typesys import Stores, get_types_from_msg, get_typestore
+from rosbags.typesys.store import Typestore
+
+from .definitions import KINDS, definition_of
+
+_LONGEST = 100_000  # bytes of a definition
+_MOST_FIELDS = 10_000  # of a message with all those below it, and with each element of an array
+_BOUNDED = (Nodetype.ARRAY, Nodetype.SEQUENCE)
+
+
+class DefinitionError(ValueError):
+    """A definition that none can read, or that is not of the type it is named."""
+
+
+@lru_cache(maxsize=32)  # takes 20 ms, and the files of a recording have the same definitions
+def types_of(definition: bytes, kind: str) -> Typestore:
+    """The type `kind` and those below it.
+
+    Args:
+        definition: text in MCAP's encoding `ros2msg`.
+        kind: name of the type, `pkg/msg/Name`.
+
+    Returns:
+        A store that decodes messages of this type.
+
+    Raises:
+        DefinitionError: the text is no definition of `kind`, has no end, or is another one than
+            that of the twin's type of this name.
+    """
+    if len(definition) > _LONGEST:
+        raise DefinitionError(f"has {len(definition)} bytes: must be at most {_LONGEST}")
+    try:
+        found = get_types_from_msg(definition.decode(), kind)
+    except UnicodeDecodeError as reason:
+        raise DefinitionError(f"must be in UTF-8, byte {reason.start + 1} is not") from None
+    except Exception as reason:  # of many kinds, of a text that is no definition
+        raise DefinitionError(f"is none: {str(reason) or type(reason).__name__}") from None
+    _fields(found, kind, ())
+    if kind in KINDS.values():
+        _compare(found, kind)
+    types = get_typestore(Stores.EMPTY)
+    try:
+        types.register(found)
+    except Exception as reason:  # of names that Python does not take
+        raise DefinitionError(f"is none: {str(reason) or type(reason).__name__}") from None
+    return types
+
+
+def _fields(types: Any, kind: str, above: tuple[str, ...]) -> int:
+    """How many fields a message of a type has, with those below it."""
+    if kind not in types:
+        raise DefinitionError(f"does not describe {kind}")
+    if kind in above:
+        raise DefinitionError(f"has no end: {kind} holds itself")
+    count, known = 0, dict[str, int]()
+    for _, (sort, of) in types[kind][1]:
+        times = 1
+        if sort in _BOUNDED:
+            (sort, of), size = of
+            times = size if sort == Nodetype.NAME else 1
+        if sort != Nodetype.NAME:
+            count += 1
+            continue
+        if of not in known:
+            known[of] = _fields(types, of, (*above, kind))
+        count += max(times, 1) * known[of]
+        if count > _MOST_FIELDS:
+            raise DefinitionError(f"has more than {_MOST_FIELDS} fields in {kind}")
+    return count
+
+
+def _compare(types: Any, kind: str) -> None:
+    """Raise `DefinitionError` where a field that the twin's type has is missing or another."""
+    for name, (_, fields) in _own(kind).items():
+        if name not in types:
+            raise DefinitionError(f"does not describe {name}")
+        there = dict(types[name][1])
+        for field, description in fields:
+            if there.get(field) != description:
+                wrong = "is another" if field in there else "is missing"
+                raise DefinitionError(f"is not that of this version: {name}.{field} {wrong}")
+
+
+@lru_cache(maxsize=len(KINDS))
+def _own(kind: str) -> Any:
+    return get_types_from_msg(definition_of(kind), kind)

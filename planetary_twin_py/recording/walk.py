@@ -1,0 +1,158 @@
+"""All sound records of a file in their order, and what lies between them where it is damaged.
+
+Where a record is not sound but another follows it, that one alone is lost. Where none follows, as
+after a wrong length or a missing byte, the next sound chunk is searched for.
+"""
+
+from __future__ import annotations
+
+import os
+import zlib
+from collections import deque
+from collections.abc import Callable, Iterator
+from concurrent.futures import ThreadPoolExecutor
+from functools import partial
+from pathlib import Path
+from typing import Any, BinaryIO, NamedTuple
+
+from mcap.exceptions import InvalidMagic, McapError
+from mcap.opcode import Opcode
+from mcap.records import DataEnd
+from mcap.stream_reader import CRCValidationError
+
+from .framing import TORN, Piece, next_chunk, opened, piece_at, unpacked_size
+from .integrity import MAGIC, end_of_data
+
+_AHEAD = 16 * (os.cpu_count() or 1)  # records; with a chunk come as many as there are topics
+_BYTES_AHEAD = 2**25  # of chunks that are unpacked ahead
+_OF_SUMMARY = (
+    *(Opcode.STATISTICS, Opcode.CHUNK_INDEX, Opcode.ATTACHMENT_INDEX),
+    *(Opcode.METADATA_INDEX, Opcode.SUMMARY_OFFSET),
+)
+
+
+class Sound(NamedTuple):
+    """A record of the file, and those that it holds."""
+
+    piece: Piece
+    records: list[Any]
+
+
+class Lost(NamedTuple):
+    """Bytes of the file that cannot be read; `opcode` where they are one record, else 0."""
+
+    place: int
+    end: int
+    opcode: int
+    reason: Exception
+
+
+class Walk:
+    """Goes through a file once; chunks are unpacked ahead on the other cores."""
+
+    def __init__(self, file: Path, stream: BinaryIO) -> None:
+        self._file, self._stream = file, stream
+        self._reached = len(MAGIC)
+        """Up to here all was yielded."""
+        self._vouched = len(MAGIC)
+        """Up to here nothing else can be: the end of the last sound chunk."""
+        self._ended = False
+
+    def __iter__(self) -> Iterator[Sound | Lost | Exception]:
+        """All there is; last comes what is wrong behind the data, or with their checksum."""
+        with ThreadPoolExecutor(os.cpu_count()) as threads:
+            while True:
+                try:
+                    yield from self._in_frames(threads)
+                    return
+                except TORN as reason:
+                    if self._ended:
+                        yield reason
+                        return
+                    size = self._file.stat().st_size
+                    resumed = self._resume() or size
+                    begin = self._reached if self._reached <= resumed else self._vouched
+                    yield Lost(begin, resumed, 0, reason)
+                    if resumed == size:
+                        return
+                    self._reached = self._vouched = resumed
+
+    def _resume(self) -> int | None:
+        found = next_chunk(self._stream, self._vouched)
+        if found is None and (end := end_of_data(self._file)) and end >= self._reached:
+            return end
+        return found
+
+    def _in_frames(self, threads: ThreadPoolExecutor) -> Iterator[Sound | Lost]:
+        """Record after record; raises one of `TORN` where a damaged one is followed by none."""
+        failed: Lost | None = None
+        pieces = _pieces(self._stream, self._reached)
+        for piece, open_it in _in_order(pieces, threads):
+            try:
+                if piece.opcode in _OF_SUMMARY and not self._ended:
+                    raise McapError("a summary before the end of the data")
+                records = open_it()
+            except TORN as reason:
+                if failed:
+                    raise
+                failed = Lost(piece.place, piece.end, piece.opcode, reason)
+                continue
+            if failed:
+                yield failed
+                failed = None
+            self._reached = piece.end
+            if piece.opcode == Opcode.CHUNK:
+                self._vouched = piece.end
+            self._ended = self._ended or piece.opcode == Opcode.DATA_END
+            yield Sound(piece, records)
+
+
+def _in_order(
+    pieces: Iterator[Piece | Exception], threads: ThreadPoolExecutor
+) -> Iterator[tuple[Piece, Callable[[], list[Any]]]]:
+    """Each record with what opens it, which the threads have begun to do for those that come."""
+    waiting: deque[tuple[Piece, Callable[[], list[Any]]]] = deque()
+    ahead = 0
+    for piece in pieces:
+        if isinstance(piece, Exception):
+            yield from waiting
+            raise piece
+        open_it = partial(opened, piece)
+        large = piece.opcode == Opcode.CHUNK
+        ahead += unpacked_size(piece)
+        waiting.append((piece, threads.submit(open_it).result if large else open_it))
+        while len(waiting) > _AHEAD or (waiting and ahead > _BYTES_AHEAD):
+            ahead -= unpacked_size(waiting[0][0])
+            yield waiting.popleft()
+    yield from waiting
+
+
+def _pieces(stream: BinaryIO, begin: int) -> Iterator[Piece | Exception]:
+    """Every record from `begin` to the footer; last is the exception where the file is torn.
+
+    The checksum of the data is that of all of them, so it is compared where all were read.
+    """
+    stream.seek(begin)
+    checksum = zlib.crc32(MAGIC)
+    try:
+        while True:
+            piece = piece_at(stream)
+            yield piece
+            if piece.opcode == Opcode.DATA_END and begin == len(MAGIC):
+                _check(piece, checksum)
+            if piece.opcode == Opcode.FOOTER:
+                break
+            checksum = zlib.crc32(piece.content, zlib.crc32(piece.head, checksum))
+        if (magic := stream.read(len(MAGIC))) != MAGIC:
+            raise InvalidMagic(magic)
+    except TORN as reason:
+        yield reason
+
+
+def _check(piece: Piece, checksum: int) -> None:
+    """Raise `CRCValidationError` of a data end whose checksum is another."""
+    if len(piece.content) != 4:
+        return  # not sound, which who opens it finds
+    expected = int.from_bytes(piece.content, "little")
+    if expected not in (0, checksum):
+        raise CRCValidationError(expected, checksum, DataEnd(expected))

@@ -1,0 +1,129 @@
+"""Hostile files: one line, no traceback, and neither 2 s of processor nor 300 MB of memory."""
+
+import os
+import subprocess
+import sys
+from typing import NamedTuple
+
+import pytest
+from hostile import MESSAGES, READ, REFUSED, SCENES, many_channels, messages_of, rewritten
+from twin_recording import record
+
+SECONDS = 2.0  # of the processor, so that a busy machine does not count
+MEGABYTES = 300.0
+
+# A child's own peak: what the kernel accounts to it begins with that of the process it is forked
+# from.
+COMMAND = """
+import atexit, pathlib, sys
+status, kept = pathlib.Path("/proc/self/status"), pathlib.Path(sys.argv.pop(1))
+atexit.register(lambda: kept.write_text(status.read_text().partition("VmHWM:")[2].split()[0]))
+from planetary_twin_py.cli import main
+main()
+"""
+
+
+class Done(NamedTuple):
+    code: int
+    output: str
+    errors: str
+    seconds: float
+    megabytes: float
+
+
+def run(*arguments, folder):
+    """What a command prints, and what it took."""
+    output, errors = folder / "output.txt", folder / "errors.txt"
+    command = [sys.executable, "-c", COMMAND, folder / "peak.txt", *map(str, arguments)]
+    with output.open("wb") as out, errors.open("wb") as err:
+        child = subprocess.Popen(command, stdout=out, stderr=err)
+        _, status, used = os.wait4(child.pid, 0)
+    child.returncode = os.waitstatus_to_exitcode(status)
+    seconds = used.ru_utime + used.ru_stime
+    texts = output.read_text("utf-8"), errors.read_text("utf-8")
+    peak = int((folder / "peak.txt").read_text()) / 1024
+    return Done(child.returncode, *texts, seconds, peak)
+
+
+def check(done):
+    """Whatever it was, the command has ended as a command does."""
+    assert done.code in (0, 1, 2), done.errors[-2000:]
+    assert "Traceback" not in done.errors
+    assert "\x1b" not in done.output + done.errors and "\x07" not in done.output + done.errors
+    assert max(map(len, [*done.errors.splitlines(), ""])) < 1000
+    assert done.seconds < SECONDS
+    assert done.megabytes < MEGABYTES
+
+
+def check_refused(done):
+    check(done)
+    assert done.code != 0 and done.output == ""
+    assert done.errors.startswith("planetary-twin: ") and done.errors.count("\n") == 1
+
+
+@pytest.fixture(scope="module")
+def sound(tmp_path_factory):
+    return record(tmp_path_factory.mktemp("sound") / "bag")
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", SCENES)
+def test_a_hostile_scene_is_refused_in_one_line(tmp_path, name):
+    scene = tmp_path / "scene.yaml"
+    scene.write_bytes(SCENES[name])
+    check_refused(run("explain", scene, folder=tmp_path))
+
+
+@pytest.mark.parametrize("command", [["explain"], ["info"], ["import", "--out", "x.mcap"]])
+def test_a_pipe_is_no_file_to_wait_for(tmp_path, command):
+    os.mkfifo(pipe := tmp_path / "pipe.csv")
+    check_refused(run(*command, pipe, folder=tmp_path))
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", REFUSED)
+def test_a_recording_with_a_hostile_definition_is_refused_in_one_line(sound, tmp_path, name):
+    file = rewritten(sound, tmp_path / "hostile.mcap", REFUSED[name])
+    done = run("info", file, folder=tmp_path)
+    check_refused(done)
+    assert "hostile.mcap: /planetary_twin/gearbox_state: " in done.errors
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", READ)
+def test_of_a_recording_that_is_hostile_in_parts_the_others_are_read(sound, tmp_path, name):
+    file = rewritten(sound, tmp_path / "hostile.mcap", READ[name])
+    done = run("info", file, folder=tmp_path)
+    check(done)
+    assert done.code == 0 and "gearbox_state" in done.output
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", MESSAGES)
+def test_a_hostile_message_is_told_with_its_file_and_topic(sound, tmp_path, name):
+    topic, data = MESSAGES[name]
+    file = rewritten(sound, tmp_path / "hostile.mcap", messages_of(topic, data))
+    done = run("verify", file, folder=tmp_path)
+    check(done)
+    assert done.code != 0
+    assert topic in done.errors + done.output
+
+
+@pytest.mark.slow
+def test_more_topics_than_there_are_is_one_line(tmp_path):
+    file = many_channels(tmp_path / "many.mcap")
+    done = run("info", file, folder=tmp_path)
+    check_refused(done)
+    assert "holds more than 2048 topics" in done.errors
+
+
+@pytest.mark.exhaustive
+@pytest.mark.parametrize("command", ["info", "recover", "verify", "export", "spectrum"])
+@pytest.mark.parametrize("name", [*REFUSED, *READ, *MESSAGES])
+def test_no_command_stumbles_over_a_hostile_recording(sound, tmp_path, command, name):
+    alter = REFUSED.get(name) or READ.get(name) or messages_of(*MESSAGES[name])
+    file = rewritten(sound, tmp_path / "hostile.mcap", alter)
+    out = ["--out", tmp_path / "out"] if command in ("recover", "export") else []
+    done = run(command, file, *out, folder=tmp_path)
+    assert done.code in (0, 1, 2) and "Traceback" not in done.errors, done.errors[-2000:]
+    assert "\x1b" not in done.output + done.errors
