@@ -1,8 +1,8 @@
 """The shares of friction of pairs that hold, in the stages of Rosenbrock's method.
 
 Each share z depends on itself and on the sliding V of its pair alone, so it is eliminated before
-the linear system of a stage is solved: (1/(gamma h) + decay) u_z = r_z + gain u_V. With the friction
-f (z + tau dz/dt), f the full one and tau `RELAXATION`, a pair adds
+the linear system of a stage is solved: (1/(gamma h) + decay) u_z = r_z + gain u_V. Its friction is
+f (z + tau dz/dt), f the full one and tau `RELAXATION`; so a pair adds
 f gain (1 + tau/(gamma h))/(1/(gamma h) + decay) to the damping matrix.
 """
 
