@@ -10,6 +10,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 
+from .dynamics.bodies import rigid_ratios
 from .dynamics.creep import CREEPING
 from .gearset.geometry import pitch_radius
 from .result import Result
@@ -45,9 +46,13 @@ def accuracy_warnings(scene: Scene, run: Result) -> Iterator[str]:
 def _unsettled(scene: Scene, run: Result) -> str | None:
     """Say so where creeping gears have hardly moved."""
     gearset, friction, point = scene.gearset, scene.lubrication, scene.operating_point
-    if not friction.friction or point.input_speed == point.second_input_speed == 0.0:
+    if not friction.friction:
         return None
-    sun, carrier = (run.mean_speed[run.bodies.index(name)] for name in ("sun", "carrier"))
+    ratios, inputs = rigid_ratios(scene), (point.input_speed, point.second_input_speed)
+    sun, carrier = (
+        sum(float(ratio) * speed for ratio, speed in zip(ratios[name], inputs, strict=False))
+        for name in ("sun", "carrier")
+    )
     radius = pitch_radius(gearset.teeth.sun, gearset.module) * math.sin(gearset.pressure_angle)
     rolling = radius * abs(sun - carrier)  # of both flanks at the pitch point [m/s]
     rolled, enough = rolling * run.duration, SETTLED * friction.presliding_displacement
