@@ -11,6 +11,7 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
+    from .accuracy import AccuracyWarning
     from .analysis.orders import (
         ByAngle,
         OrderMap,
@@ -59,6 +60,7 @@ _HOME = {
         "Line", "PowerDensity", "Spectrum", "amplitude_spectrum", "power_density",
         "strongest_lines",
     ),
+    "accuracy": ("AccuracyWarning",),
     "batch": ("Outcome", "simulate_many"),
     "ledger_check": ("LedgerWarning",),
     "modal.modes": ("NaturalModes",),
@@ -79,6 +81,7 @@ _MODULE_OF = {name: module for module, names in _HOME.items() for name in names}
 
 __all__ = [
     "TUNABLES",
+    "AccuracyWarning",
     "ByAngle",
     "Change",
     "Energy",

@@ -10,6 +10,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from .accuracy import AccuracyWarning, accuracy_warnings
 from .dynamics.bodies import body_names, mesh_names
 from .dynamics.mesh_sums import MeshSums, in_order
 from .dynamics.observe import (
@@ -68,6 +69,7 @@ def simulate(
 
     Warns:
         LedgerWarning: the energy ledger does not close, see `ledger_check`.
+        AccuracyWarning: figures are less accurate than the tolerance says, see `accuracy`.
     """
     check_run(duration, sample_rate, method, tolerance)
     if not 0.0 <= settling < math.inf:
@@ -86,6 +88,8 @@ def simulate(
     result = _result(scene, engine, (samples, speed, sums), sample_rate, before, wall)
     if text := ledger_warning(balance_of_run(result.energy), tolerance):
         warnings.warn(text, LedgerWarning, stacklevel=2)
+    for text in accuracy_warnings(scene, result):
+        warnings.warn(text, AccuracyWarning, stacklevel=2)
     return result
 
 

@@ -32,6 +32,7 @@ def explain(
     Example: planetary-twin explain cracked_tooth --duration 0.2
     """
 
+    from ..accuracy import AccuracyWarning
     from ..explanation.measure import explain as measure
     from ..explanation.meshes import describe_meshes
     from ..ledger_check import LedgerWarning
@@ -39,7 +40,8 @@ def explain(
     from ..scene.summary import gears
 
     console = console_beside(json_)
-    warnings.simplefilter("ignore", LedgerWarning)  # it is among the remarks
+    for kind in (AccuracyWarning, LedgerWarning):  # they are among the remarks
+        warnings.simplefilter("ignore", kind)
     try:
         loaded = load_scene(scene)
         meshes = describe_meshes(loaded)

@@ -46,6 +46,7 @@ def simulate(
     Example: planetary-twin simulate paper --duration 0.5 --set lambda_ratio=1.5 --out run.npz
     """
 
+    from ..accuracy import AccuracyWarning
     from ..explanation.remarks import remarks
     from ..ledger_check import LedgerWarning
     from ..scene.summary import gears, operating_point
@@ -53,7 +54,8 @@ def simulate(
     from ..simulation import simulate as run
 
     console = console_beside(json_)
-    warnings.simplefilter("ignore", LedgerWarning)  # it is among the remarks
+    for kind in (AccuracyWarning, LedgerWarning):  # they are among the remarks
+        warnings.simplefilter("ignore", kind)
     try:
         if out is not None:
             _check(out)

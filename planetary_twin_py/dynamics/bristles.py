@@ -12,7 +12,7 @@ import numpy as np
 from .._compile import kernel, law
 from .._overwrite import copy_array
 from .._records import Record
-from ..lubrication.presliding import bristle_rate
+from ..lubrication.presliding import RELAXATION, bristle_rate
 from .creep import CREEPING
 
 LEAST_FRICTION = 1e-12  # [N] a pair with less has no bristles to bend
@@ -42,17 +42,20 @@ def hold(oil: Record, pairs: Record) -> None:
         full, share = pairs.boundary[k] + pairs.viscous[k], pairs.bristle[k]
         pairs.full[k] = full
         pairs.bristle_rate[k] = pairs.bristle_decay[k] = pairs.bristle_gain[k] = 0.0
-        pairs.slip[k] = 0.0
+        pairs.lost[k], force = 0.0, share
         if full > LEAST_FRICTION:
             steady, slope = pairs.friction[k] / full, pairs.slope[k] / full
             rate, decay, gain, slip = bristle_rate(
                 share, pairs.sliding[k], steady, slope, oil.presliding
             )
             pairs.bristle_rate[k], pairs.bristle_decay[k] = rate, decay
-            pairs.bristle_gain[k], pairs.slip[k] = gain, slip
-        pairs.friction[k] = full * share
-        pairs.boundary[k] *= abs(share)
-        pairs.viscous[k] *= abs(share)
+            pairs.bristle_gain[k] = gain
+            damping = RELAXATION * rate
+            force += damping
+            pairs.lost[k] = full * (share * slip + damping * pairs.sliding[k])
+        pairs.friction[k] = full * force
+        pairs.boundary[k] *= abs(force)
+        pairs.viscous[k] *= abs(force)
 
 
 @kernel

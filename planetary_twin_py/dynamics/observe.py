@@ -58,6 +58,5 @@ def observe(
             if train.friction:
                 out[BOUNDARY, i] += pairs.boundary[k]
                 out[VISCOUS, i] += pairs.viscous[k]
-                slip = pairs.slip[k] if pairs.held else pairs.sliding[k]
-                taken = pairs.friction[k] * slip + pairs.rolling_power[k]
-                out[POWER_LOSS, i] += taken
+                lost = pairs.lost[k] if pairs.held else pairs.friction[k] * pairs.sliding[k]
+                out[POWER_LOSS, i] += lost + pairs.rolling_power[k]

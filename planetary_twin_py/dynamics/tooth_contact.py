@@ -41,6 +41,7 @@ def tooth_contact(
     oil: Record,
     laws: Laws,
     pair: tuple[float, float, float, float, float, float],
+    slowest_rolling: float = SLOWEST_ROLLING,
 ) -> tuple[float, float, float, float, float, float, float, float]:
     """Friction of a tooth pair, positive against the sliding of the first flank on the second.
 
@@ -50,6 +51,8 @@ def tooth_contact(
             a loop over pairs, from which the compiler then takes their branches out.
         pair: radii of curvature of both flanks [m], +1 for an external mesh and -1 for an
             internal one, speeds of both gears relative to the carrier [rad/s], normal load [N].
+        slowest_rolling: rolling speed [m/s] that sets the least width of the layer in which
+            friction reverses.
 
     Returns:
         Signed friction [N], boundary and viscous friction [N], logarithm of the film in metres,
@@ -63,7 +66,7 @@ def tooth_contact(
     speed = abs(0.5 * (u1 + u2))
     # Three divisions in one, as they take longest of all in a loop over pairs.
     distance, loaded = rho2 + external * rho1, load + LIGHTEST_LOAD
-    threshold = oil.sliding_threshold * max(speed, SLOWEST_ROLLING)
+    threshold = oil.sliding_threshold * max(speed, slowest_rolling)
     inverse = 1.0 / (distance * loaded * threshold)
     radius = rho1 * rho2 * (loaded * threshold * inverse)
     steepness = distance * loaded * inverse

@@ -16,14 +16,18 @@ from ..lubrication.traction import EYRING, PLATEAU
 from .bristles import hold
 from .creep import CREEPING
 from .state import ROOM
-from .tooth_contact import Laws, choices, tooth_contact
+from .tooth_contact import SLOWEST_ROLLING, Laws, choices, tooth_contact
 
+# Friction reverses within a layer as wide as at this part of the rolling speed without vibration,
+# at least: where vibration stops the gears, the layer would vanish and no step could resolve it.
+SLOWEST = 0.1
 NARROWEST = 5e-3  # slide-to-roll ratio: friction that reverses within less is passed as a step
 SLOWEST_TURN = 1e-3  # [rad/s] below which the printed torque fades out
 
 # Entry p * meshes + i is pair p of mesh i; one that is absent, or parted, has no load.
 TOOTH_PAIRS = layout(
     count=WHOLE,
+    slowest_rolling=REAL,  # that sets the least width of the layer in which friction reverses [m/s]
     share=(REAL, (ROOM,)),  # of the mesh force [-]
     rho1=(REAL, (ROOM,)),  # radii of curvature [m]
     rho2=(REAL, (ROOM,)),
@@ -45,7 +49,7 @@ TOOTH_PAIRS = layout(
     bristle_rate=(REAL, (ROOM,)),  # of the share [1/s]
     bristle_decay=(REAL, (ROOM,)),  # by which that falls as the share grows [1/s]
     bristle_gain=(REAL, (ROOM,)),  # by which it grows with the sliding [1/m]
-    slip=(REAL, (ROOM,)),  # part of the sliding that dissipates [m/s]
+    lost=(REAL, (ROOM,)),  # power that is not stored in the bristles [W]
 )
 
 # What the friction of a mesh does to its gears and the carrier.
@@ -59,6 +63,8 @@ DRAG_OF_MESHES = layout(
 def turn_pairs(train: Record, moment: Record, v: np.ndarray, pairs: Record) -> None:
     """Speeds of the gears of all pairs."""
     meshes = train.meshes
+    rolling = SLOWEST * train.rolling_advance * abs(moment.cycle_rate)
+    pairs.slowest_rolling = max(rolling, SLOWEST_ROLLING)
     for i in range(meshes):
         first, second, carrier = train.body[i, 0], train.body[i, 1], train.body[i, 2]
         frame = moment.rigid[carrier] + v[carrier] * train.inverse_radius[carrier]
@@ -99,6 +105,7 @@ def evaluate(model: Record, pairs: Record) -> None:
 @law
 def _evaluate(model: Record, laws: Laws, pairs: Record) -> None:
     """Whole registers of pairs, so that lanes beyond `count` are idle."""
+    slowest = pairs.slowest_rolling
     for p in range(-(-pairs.count // REGISTER) * REGISTER):
         signed, boundary, viscous, log_film, sliding, slope, rolling, taken = tooth_contact(
             model.oil,
@@ -111,6 +118,7 @@ def _evaluate(model: Record, laws: Laws, pairs: Record) -> None:
                 pairs.speed2[p],
                 pairs.load[p],
             ),
+            slowest,
         )
         pairs.friction[p] = signed
         pairs.boundary[p] = boundary

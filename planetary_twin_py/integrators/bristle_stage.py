@@ -1,8 +1,9 @@
 """The shares of friction of pairs that hold, in the stages of Rosenbrock's method.
 
 Each share z depends on itself and on the sliding V of its pair alone, so it is eliminated before
-the linear system of a stage is solved: (1/(gamma h) + decay) u_z = r_z + gain u_V, and a pair of
-full friction f adds f gain/(1/(gamma h) + decay) to the damping matrix.
+the linear system of a stage is solved: (1/(gamma h) + decay) u_z = r_z + gain u_V. Its friction is
+f (z + tau dz/dt), f the full one and tau `RELAXATION`; so a pair adds
+f gain (1 + tau/(gamma h))/(1/(gamma h) + decay) to the damping matrix.
 """
 
 from __future__ import annotations
@@ -12,6 +13,7 @@ import numpy as np
 from .._compile import kernel
 from .._records import Record
 from ..dynamics.tooth_friction import add_outer, sliding_row
+from ..lubrication.presliding import RELAXATION
 
 
 @kernel
@@ -23,6 +25,7 @@ def bristle_damping(
         i = k % train.meshes
         sliding_row(train, pairs, k, row)
         damping = pairs.full[k] * pairs.bristle_gain[k] / (1.0 / step + pairs.bristle_decay[k])
+        damping *= 1.0 + RELAXATION / step
         add_outer(matrix, train.body[i], row, train.copies[i] * damping)
 
 
@@ -71,7 +74,9 @@ def pull_bristles(
             rate += weights[s] * work.bend[s, k] / h
         work.bend[stage, k] = rate
         sliding_row(train, start, k, work.row)
-        pull = train.copies[i] * start.full[k] * rate / (1.0 / step + start.bristle_decay[k])
+        decay = start.bristle_decay[k]
+        pull = train.copies[i] * start.full[k] * rate / (1.0 / step + decay)
+        pull *= 1.0 - RELAXATION * decay
         for j in range(3):
             right[train.body[i, j]] -= pull * work.row[j]
 

@@ -31,7 +31,7 @@ from .window_sums import count_step
 
 # Errors of speeds, over the layer in which friction reverses, in tolerances: where pairs slide, and
 # where they hold and the gears may stick and slip.
-SLIDING_SHARE, CREEPING_SHARE = 100.0, 10.0
+SLIDING_SHARE, CREEPING_SHARE = 60.0, 1.0
 
 
 @kernel

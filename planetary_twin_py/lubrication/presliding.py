@@ -9,7 +9,8 @@ and (10). Friction is a share z of what steady sliding would give, and z follows
 z_s the share in steady sliding, delta the presliding displacement. The bristle is elastic (a = 0)
 below a part of z_s, so a load that swings below break-away moves nothing for good; above it the
 contact yields until it slides (a = 1). While the flanks roll, z_s is the traction curve and the
-same equation says how bristles that leave the contact are replaced.
+same equation says how bristles that leave the contact are replaced. The friction is that share and
+a part that damps, z + RELAXATION dz/dt, of the full friction.
 """
 
 from __future__ import annotations
@@ -19,6 +20,9 @@ import math
 from .._compile import law
 
 ELASTIC = 0.7  # part of the steady share below which nothing slides
+# Damping of the bristles over their stiffness [s], sigma_1/sigma_0 of the model: as in Canudas de
+# Wit, Olsson, Astrom and Lischinsky 1995, it damps what swings on them about half critically.
+RELAXATION = 2e-5
 
 
 @law
