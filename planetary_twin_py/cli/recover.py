@@ -15,6 +15,9 @@ from ._output import check_recording
 
 def recover(
     file: FileArgument,
+    folder: Annotated[
+        Path | None, typer.Argument(metavar="[OUT]", help="Older way to give --out.")
+    ] = None,
     out: Annotated[
         Path | None, typer.Option(help="New folder; by default beside FILE, its name and _whole.")
     ] = None,
@@ -31,7 +34,9 @@ def recover(
     from ..recording.records import RecordingError
     from ..recording.recover import recover as save
 
-    folder = out or file.with_name(f"{file.stem}_whole")
+    if out is not None and folder is not None:
+        fail(f"--out = {str(out)!r}: the argument {str(folder)!r} names another folder")
+    folder = out or folder or file.with_name(f"{file.stem}_whole")
     check_recording("--out", folder)
     try:
         saved = save(file, folder)
