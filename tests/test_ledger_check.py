@@ -136,7 +136,7 @@ BAD = {"tolerance": 0.1, "method": "rosenbrock"}
 def test_a_bad_integration_is_warned_of_and_a_tight_one_is_not():
     with pytest.warns(pt.LedgerWarning, match="tighten the tolerance from 0.1 to"):
         bad = pt.simulate(HARD, 0.05, 5000.0, **BAD)
-    (line,) = remarks(HARD, bad, BAD["tolerance"])
+    line, *_ = remarks(HARD, bad, BAD["tolerance"])
     assert line == ledger_warning(balance_of_run(bad.energy), 0.1)
     with warnings.catch_warnings():
         warnings.simplefilter("error", pt.LedgerWarning)
