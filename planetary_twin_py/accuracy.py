@@ -1,8 +1,9 @@
 """Runs whose figures are less accurate than their tolerance says.
 
-A tolerance bounds the error of a step. Two kinds of motion make more of it than a sum of such
-errors: flanks that meet and part without ever coming to the same motion again, and friction that
-has not slid far enough to forget how the gears stood at the start.
+A tolerance bounds the error of a step. Three kinds of motion make more of it than a sum of such
+errors: flanks that meet and part without ever coming to the same motion again, vibration that stops
+gears so that friction reverses, and friction that has not slid far enough to forget how the gears
+stood at the start.
 """
 
 from __future__ import annotations
@@ -35,6 +36,12 @@ def accuracy_warnings(scene: Scene, run: Result) -> Iterator[str]:
     if text := _unsettled(scene, run):
         yield text
     stats = run.stats
+    if stats.reversals > 0:
+        yield (
+            f"vibration stops gears against the carrier, or nearly so, in {stats.reversals} steps: "
+            "where friction reverses small errors grow, so figures may be off by some tolerances "
+            "more than ten; compare a run at a tighter tolerance"
+        )
     if stats.flank_events > 0 and stats.repeated_steps == 0:
         yield (
             f"flanks meet and part {stats.flank_events} times, and the motion does not repeat from "

@@ -76,6 +76,8 @@ class Stats:
     """Tooth pairs that began or ended to enter or leave."""
     flank_events: int
     """Flanks that met or parted."""
+    reversals: int
+    """Steps in which vibration may have stopped or reversed a gear against the carrier."""
     wall_time: float
     """[s]"""
     real_time_factor: float

@@ -173,6 +173,7 @@ def _result(
             evaluations=int(count.evaluations),
             pair_events=int(count.pair_events),
             flank_events=int(count.flank_events),
+            reversals=int(count.reversals),
             wall_time=wall,
             real_time_factor=float(engine.reached) / wall,
         ),

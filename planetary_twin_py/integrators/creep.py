@@ -49,4 +49,5 @@ def avoid_reversals(model: Record, march: Record) -> None:
             speed = rigid + v[body] * train.inverse_radius[body] - turning
             if speed * rigid < STICKING * rigid * rigid:
                 control.detour = DETOUR
+                control.reversals += 1
                 return

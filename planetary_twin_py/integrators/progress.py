@@ -42,6 +42,7 @@ CONTROL = layout(
     evaluations=WHOLE,
     pair_events=WHOLE,
     flank_events=WHOLE,
+    reversals=WHOLE,  # steps in which vibration may reverse friction, see `creep`
 )
 
 # A run in progress: the step from `begin` to `end`, and what interpolates it.
