@@ -44,24 +44,19 @@ def accuracy_warnings(scene: Scene, run: Result) -> Iterator[str]:
         )
     if stats.flank_events > 0 and stats.repeated_steps == 0:
         yield (
-            f"flanks meet and part {stats.flank_events} times, and the motion does not repeat from "
-            "one mesh cycle to the next: small errors grow from hit to hit, so single values of "
-            "the waveform are uncertain, means less so; compare a run at a tighter tolerance"
+            f"flanks meet and part {stats.flank_events} times, and the motion has not come to repeat "
+            "itself: small errors may grow from hit to hit, so single values of the waveform may be "
+            "less accurate than the tolerance; compare a run at a tighter one"
         )
 
 
 def _unsettled(scene: Scene, run: Result) -> str | None:
     """Say so where creeping gears have hardly moved."""
-    gearset, friction, point = scene.gearset, scene.lubrication, scene.operating_point
+    gearset, friction = scene.gearset, scene.lubrication
     if not friction.friction:
         return None
-    ratios, inputs = rigid_ratios(scene), (point.input_speed, point.second_input_speed)
-    sun, carrier = (
-        sum(float(ratio) * speed for ratio, speed in zip(ratios[name], inputs, strict=False))
-        for name in ("sun", "carrier")
-    )
     radius = pitch_radius(gearset.teeth.sun, gearset.module) * math.sin(gearset.pressure_angle)
-    rolling = radius * abs(sun - carrier)  # of both flanks at the pitch point [m/s]
+    rolling = radius * _turning(scene)  # of both flanks at the pitch point [m/s]
     rolled, enough = rolling * run.duration, SETTLED * friction.presliding_displacement
     if rolling >= CREEPING or rolled >= enough or rolled == 0.0:
         return None
@@ -71,3 +66,14 @@ def _unsettled(scene: Scene, run: Result) -> str | None:
         "transmission error are those of friction that settles; simulate "
         f"{run.duration * enough / rolled:.2g} s"
     )
+
+
+def _turning(scene: Scene) -> float:
+    """Magnitude of the sun's speed against the carrier [rad/s], as it is set."""
+    point, ratios = scene.operating_point, rigid_ratios(scene)
+    inputs = point.input_speed, point.second_input_speed
+    sun, carrier = (
+        sum(float(ratio) * speed for ratio, speed in zip(ratios[name], inputs, strict=False))
+        for name in ("sun", "carrier")
+    )
+    return abs(sun - carrier)

@@ -15,8 +15,9 @@ RATTLE = {
     "mesh.damping.damping_ratio": 0.01,
 }
 STOPPING = {
-    "input_speed": pt.rpm(20),
-    "input_torque": 200.0,
+    "input_speed": pt.rpm(100),
+    "input_torque": 260.0,
+    "mesh.double_pair_ratio": 1.9,
     "mesh.damping.law": "viscous",
     "mesh.ramp": 0.0,
 }

@@ -38,7 +38,7 @@ def avoid_reversals(model: Record, march: Record) -> None:
     change of its nodes shows.
     """
     control, train, moment, v = march.control, model.train, march.moment, march.begin.v
-    if not control.slow:
+    if control.creeping or not control.slow:
         return
     for i in range(train.meshes):
         carrier = train.body[i, 2]
