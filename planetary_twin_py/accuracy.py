@@ -44,9 +44,9 @@ def accuracy_warnings(scene: Scene, run: Result) -> Iterator[str]:
         )
     if stats.flank_events > 0 and stats.repeated_steps == 0:
         yield (
-            f"flanks meet and part {stats.flank_events} times, and the motion has not come to repeat "
-            "itself: small errors may grow from hit to hit, so single values of the waveform may be "
-            "less accurate than the tolerance; compare a run at a tighter one"
+            f"flanks meet and part {stats.flank_events} times, and the motion has not come to "
+            "repeat itself: small errors may grow from hit to hit, so single values of the "
+            "waveform may be less accurate than the tolerance; compare a run at a tighter one"
         )
 
 
