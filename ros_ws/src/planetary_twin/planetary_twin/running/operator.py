@@ -40,6 +40,7 @@ class Operator(Client):
         self.recordings: dict[str, None] = {}  # names of their folders, in their order
         self.figures: dict[str, str] = {}
         self._told = 0.0  # [s] when they came
+        self._moved = 0.0  # [s] when the newest state came
         listen = self.node.create_subscription
         listen(GearboxState, "gearbox_state", self._hear_state, 10)
         listen(RecorderStatus, "logger/status", self._hear_recorder, 10)
@@ -78,9 +79,9 @@ class Operator(Client):
         return f"was made {label} by a request to its life cycle"
 
     def stands(self) -> str:
-        """`paused`, `waits` or nothing, as the twin's last report says, if that is new."""
+        """`paused`, `waits` or nothing, as a report says that came lately and after all states."""
         told = self.figures.get("state", "")
-        recent = time.monotonic() < self._told + _REPORTED
+        recent = max(time.monotonic() - _REPORTED, self._moved) < self._told
         return told if recent and told in ("paused", "waits") else ""
 
     def company(self) -> list[str]:
@@ -161,7 +162,7 @@ class Operator(Client):
         return self.node.create_client(kind, f"{_NODE}/{service}")
 
     def _hear_state(self, message: GearboxState) -> None:
-        self.state = message
+        self.state, self._moved = message, time.monotonic()
 
     def _hear_recorder(self, message: RecorderStatus) -> None:
         self.recorder = message

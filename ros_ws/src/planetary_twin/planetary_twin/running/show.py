@@ -20,7 +20,7 @@ class Show:
         self._console = console
         self._duration = duration
         self._next_line = 0.0
-        self._stands = False
+        self._stands = ""
         self._bar = Progress(
             TextColumn("{task.completed:5.1f} / {task.total:g} s"),
             BarColumn(bar_width=24),
@@ -51,15 +51,15 @@ class Show:
     def stand(self, simulated: float, why: str) -> None:
         """Show that simulated time stands."""
         self._bar.update(self._task, description=why)
-        if not self._console.is_terminal and not self._stands:
+        if not self._console.is_terminal and why != self._stands:
             self.say(simulated, why)
-        self._stands = True
+        self._stands = why
 
     def update(self, state: GearboxState, real_time_factor: str) -> None:
         """Show the newest state."""
         line = _line(state, real_time_factor)
         self._bar.update(self._task, completed=state.simulated_time, description=line)
-        self._stands = False
+        self._stands = ""
         now = state.simulated_time
         due = now >= self._next_line or now < self._next_line - _PLAIN_PERIOD  # it began anew
         if not self._console.is_terminal and due:
