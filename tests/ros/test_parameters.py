@@ -50,9 +50,9 @@ def test_every_parameter_says_what_it_is_and_what_it_may_be(
         assert f"[{tunable.unit or '-'}]" in own[name].description
 
 
-def test_what_may_change_is_listed_first(peer: Peer, points: list[OperatingPoint]) -> None:
+def test_what_may_change_is_listed_first(user: Peer, points: list[OperatingPoint]) -> None:
     """Tools such as rqt_reconfigure show parameters in the order in which a node lists them."""
-    own = [told for name, told in described(peer).items() if name not in (*ROS, *BEFORE)]
+    own = [told for name, told in described(user).items() if name not in (*ROS, *BEFORE)]
     changing = [not told.read_only for told in own]
     assert changing == sorted(changing, reverse=True) and changing[0] and not changing[-1]
 

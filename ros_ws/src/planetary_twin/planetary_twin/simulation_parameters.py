@@ -61,8 +61,8 @@ class SimulationParameters:
         self.scene = pt.load_scene(name)
         """As loaded, at the operating point given at the start."""
         # First what may change: tools such as rqt_reconfigure list parameters in this order.
-        self._declare_scene()
         ladder_of(declare_tunable(node, TOLERANCE, AUTOMATIC, "/diagnostics"))
+        self._declare_scene()
         _declare_settings(node)
         self.scene = self.scene_now()
         check_point(self.scene, self.scene.operating_point)
