@@ -86,17 +86,19 @@ def damages(data):
         yield f"cut at {place}", data[:place]
 
 
-def values(file):
-    """What the reader reads, value by value, and its remarks."""
+def values(file, remarks=()):
+    """What the reader reads, value by value, and its remarks beside those there were before."""
     recording = read_recording(file)
-    assert recording.scene_yaml in (SCENE, None) or recording.remarks
+    remarks = [*remarks, *recording.remarks]
+    # Where the attachment is lost, and said to be, the scene is that of `run_origin`.
+    assert recording.scene_yaml in (SCENE, None) or remarks
     series = (recording.state, recording.operating_point)
     rows = [
         tuple(np.asarray(one[name][row]).tobytes() for name in one.columns)
         for one in series
         for row in range(len(one))
     ]
-    return rows, recording.remarks
+    return rows, remarks
 
 
 def counted(file):
@@ -109,7 +111,7 @@ def recovered(file):
     folder = file.with_name("saved")
     shutil.rmtree(folder, ignore_errors=True)
     saved = recover(file, folder)
-    return values(saved.file)[0], saved.remarks
+    return values(saved.file, saved.remarks)
 
 
 def played(file):

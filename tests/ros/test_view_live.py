@@ -64,15 +64,15 @@ def test_rerun_itself_finds_gears_that_turn_and_named_joints_in_the_file(
     peer.until(lambda: len(states) > 100)
     logger.terminate()
     peer.until(lambda: logger.poll() is not None)
-    solids, names, turning = set(), [], 0
+    drawn, names, turning = set(), [], 0
     for chunk in McapReader(tmp_path / "recordings/bag/bag_0.mcap").stream():
         columns = chunk.to_record_batch()
-        if "Asset3D:blob" in columns.schema.names:
-            solids.add(chunk.entity_path.split("/")[-2])
+        if {"Boxes3D:half_sizes", "Cylinders3D:radii"} & set(columns.schema.names):
+            drawn.add(chunk.entity_path.split("/")[-2])
         if "SeriesLines:names" in columns.schema.names:
             names += columns.column("SeriesLines:names").to_pylist()[0]
         if chunk.entity_path == "/tf" and "Transform3D:quaternion" in columns.schema.names:
             turning += chunk.num_rows
-    assert {"sun", "planet_3", "ring", "carrier"} <= solids
+    assert {"sun", "planet_3", "ring", "carrier"} <= drawn
     assert {"sun_joint", "planet_3_joint"} <= set(names)
     assert turning > 100
