@@ -39,14 +39,14 @@ def accuracy_warnings(scene: Scene, run: Result) -> Iterator[str]:
     if stats.reversals > 0:
         yield (
             f"vibration stops gears against the carrier, or nearly so, in {stats.reversals} steps: "
-            "where friction reverses small errors grow, so figures may be off by some tolerances "
-            "more than ten; compare a run at a tighter tolerance"
+            "small errors grow where friction reverses, so errors may exceed ten times the "
+            "tolerance; compare with a run at a tighter one"
         )
     if stats.flank_events > 0 and stats.repeated_steps == 0:
         yield (
             f"flanks meet and part {stats.flank_events} times, and the motion has not come to "
             "repeat itself: small errors may grow from hit to hit, so single values of the "
-            "waveform may be less accurate than the tolerance; compare a run at a tighter one"
+            "waveform may be less accurate than the tolerance; compare with a run at a tighter one"
         )
 
 
