@@ -1,4 +1,4 @@
-"""Hostile files: one line, no traceback, and neither 2 s of processor nor 300 MB of memory."""
+"""Hostile files: one line, no traceback, and little more processor and memory than sound ones."""
 
 import os
 import subprocess
@@ -9,7 +9,7 @@ import pytest
 from hostile import MESSAGES, READ, REFUSED, SCENES, many_channels, messages_of, rewritten
 from twin_recording import record
 
-SECONDS = 2.0  # of the processor, so that a busy machine does not count
+SLOWER = 2.0  # than `verify` of a sound recording; both take longer on a busy machine
 MEGABYTES = 300.0
 
 # A child's own peak: what the kernel accounts to it begins with that of the process it is forked
@@ -45,18 +45,18 @@ def run(*arguments, folder):
     return Done(child.returncode, *texts, seconds, peak)
 
 
-def check(done):
+def check(done, usual):
     """Whatever it was, the command has ended as a command does."""
     assert done.code in (0, 1, 2), done.errors[-2000:]
     assert "Traceback" not in done.errors
     assert "\x1b" not in done.output + done.errors and "\x07" not in done.output + done.errors
     assert max(map(len, [*done.errors.splitlines(), ""])) < 1000
-    assert done.seconds < SECONDS
+    assert done.seconds < SLOWER * usual
     assert done.megabytes < MEGABYTES
 
 
-def check_refused(done):
-    check(done)
+def check_refused(done, usual):
+    check(done, usual)
     assert done.code != 0 and done.output == ""
     assert done.errors.startswith("planetary-twin: ") and done.errors.count("\n") == 1
 
@@ -66,54 +66,62 @@ def sound(tmp_path_factory):
     return record(tmp_path_factory.mktemp("sound") / "bag")
 
 
+@pytest.fixture(scope="module")
+def usual(sound, tmp_path_factory):
+    """Time of the processor [s] that a sound recording takes, on this machine as busy as it is."""
+    done = run("verify", sound, folder=tmp_path_factory.mktemp("usual"))
+    assert done.code == 0, done.errors
+    return done.seconds
+
+
 @pytest.mark.slow
 @pytest.mark.parametrize("name", SCENES)
-def test_a_hostile_scene_is_refused_in_one_line(tmp_path, name):
+def test_a_hostile_scene_is_refused_in_one_line(usual, tmp_path, name):
     scene = tmp_path / "scene.yaml"
     scene.write_bytes(SCENES[name])
-    check_refused(run("explain", scene, folder=tmp_path))
+    check_refused(run("explain", scene, folder=tmp_path), usual)
 
 
 @pytest.mark.parametrize("command", [["explain"], ["info"], ["import", "--out", "x.mcap"]])
-def test_a_pipe_is_no_file_to_wait_for(tmp_path, command):
+def test_a_pipe_is_no_file_to_wait_for(usual, tmp_path, command):
     os.mkfifo(pipe := tmp_path / "pipe.csv")
-    check_refused(run(*command, pipe, folder=tmp_path))
+    check_refused(run(*command, pipe, folder=tmp_path), usual)
 
 
 @pytest.mark.slow
 @pytest.mark.parametrize("name", REFUSED)
-def test_a_recording_with_a_hostile_definition_is_refused_in_one_line(sound, tmp_path, name):
+def test_a_recording_with_a_hostile_definition_is_refused_in_one_line(usual, sound, tmp_path, name):
     file = rewritten(sound, tmp_path / "hostile.mcap", REFUSED[name])
     done = run("info", file, folder=tmp_path)
-    check_refused(done)
+    check_refused(done, usual)
     assert "hostile.mcap: /planetary_twin/gearbox_state: " in done.errors
 
 
 @pytest.mark.slow
 @pytest.mark.parametrize("name", READ)
-def test_of_a_recording_that_is_hostile_in_parts_the_others_are_read(sound, tmp_path, name):
+def test_of_a_recording_that_is_hostile_in_parts_the_others_are_read(usual, sound, tmp_path, name):
     file = rewritten(sound, tmp_path / "hostile.mcap", READ[name])
     done = run("info", file, folder=tmp_path)
-    check(done)
+    check(done, usual)
     assert done.code == 0 and "gearbox_state" in done.output
 
 
 @pytest.mark.slow
 @pytest.mark.parametrize("name", MESSAGES)
-def test_a_hostile_message_is_told_with_its_file_and_topic(sound, tmp_path, name):
+def test_a_hostile_message_is_told_with_its_file_and_topic(usual, sound, tmp_path, name):
     topic, data = MESSAGES[name]
     file = rewritten(sound, tmp_path / "hostile.mcap", messages_of(topic, data))
     done = run("verify", file, folder=tmp_path)
-    check(done)
+    check(done, usual)
     assert done.code != 0
     assert topic in done.errors + done.output
 
 
 @pytest.mark.slow
-def test_more_topics_than_there_are_is_one_line(tmp_path):
+def test_more_topics_than_there_are_is_one_line(usual, tmp_path):
     file = many_channels(tmp_path / "many.mcap")
     done = run("info", file, folder=tmp_path)
-    check_refused(done)
+    check_refused(done, usual)
     assert "holds more than 2048 topics" in done.errors
 
 

@@ -6,7 +6,6 @@ import time
 from collections.abc import Callable, Mapping
 from pathlib import Path
 
-import rclpy
 from diagnostic_msgs.msg import DiagnosticArray
 from lifecycle_msgs.srv import ChangeState, GetState
 from planetary_twin_msgs.msg import GearboxState, RecorderStatus
@@ -16,13 +15,13 @@ from rclpy.parameter import Parameter
 
 from ..client import Client
 from ..reports import real_time_figures
+from ..topics import wanted_topics
 from .children import RunError
 
 _NODE = "simulation"
 _POLL = 0.1  # [s]
 _UNKNOWN = "_NODE_NAME_UNKNOWN_"  # of whom discovery has not told yet
 _REPORTED = 3.0  # [s] for which a report, one each second, tells how it is now
-_MACHINERY = ("/rosout", "/parameter_events")
 
 
 class Operator(Client):
@@ -128,18 +127,15 @@ class Operator(Client):
                 return
         raise RunError(f"simulation: no answer to setting {', '.join(values)}")
 
-    def topics(self) -> set[str]:
-        """Topics the simulation publishes, without those of ROS itself."""
-        try:
-            found = self.node.get_publisher_names_and_types_by_node(_NODE, self.namespace)
-        except rclpy.node.NodeNameNonExistentError:
-            return set()
-        names = {name for name, _ in found}
-        return {n for n in names if n not in _MACHINERY and not n.endswith("/transition_event")}
-
     def unheard(self) -> str:
-        """Topics of the simulation that the logger does not hear; empty if it hears them all."""
-        topics = self.topics()
+        """
+        Topics of the simulation that the logger does not hear; empty if it hears them all.
+
+        They are found as the logger finds them: by their names. Which node publishes a topic is
+        another message of the middleware, which may never come.
+        """
+        wanted = wanted_topics(self.node, ())
+        topics = {name for name in wanted if self.node.count_publishers(name)}
         if not topics:
             return "the simulation, whose topics are not known"
         return ", ".join(sorted(topics - set(self.recorder.topics)))
