@@ -22,11 +22,11 @@ import numpy as np
 from mcap.records import Attachment, Channel, Message
 from rosbags.typesys import Stores, get_types_from_msg, get_typestore
 
-from planetary_twin_py.recording.bag import BagWriter
-from planetary_twin_py.recording.layout import Layouts
-from planetary_twin_py.recording.records import files_of, records_of
-from planetary_twin_py.recording.tape import Tape
-from planetary_twin_py.recording.topics import JOINTS, POINT, STATE, WAVEFORM
+from planetary_twin_py.recording.container.records import files_of, records_of
+from planetary_twin_py.recording.ros2.bag import BagWriter
+from planetary_twin_py.recording.ros2.layout import Layouts
+from planetary_twin_py.recording.ros2.tape import Tape
+from planetary_twin_py.recording.ros2.topics import JOINTS, POINT, STATE, WAVEFORM
 
 REPEATED = (STATE, WAVEFORM, JOINTS, POINT, "/tf", "/diagnostics")
 TIMES = ("simulated_time", "start_time")  # fields that go on with the run [s]

@@ -6,9 +6,9 @@ from pathlib import Path
 from mcap.records import Channel, Message
 from mcap.stream_reader import StreamReader
 
-from planetary_twin_py.recording.bag import BagWriter
-from planetary_twin_py.recording.rosbag2 import Topic
-from planetary_twin_py.recording.storage import Storage
+from planetary_twin_py.recording.container.storage import Storage
+from planetary_twin_py.recording.ros2.bag import BagWriter
+from planetary_twin_py.recording.ros2.metadata import Topic
 
 START = 1_790_000_000_000_000_000  # [ns]
 PERIOD = 1_000_000  # [ns]

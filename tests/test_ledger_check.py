@@ -20,8 +20,8 @@ from planetary_twin_py.ledger_check import (
     balance_of_window,
     ledger_warning,
 )
-from planetary_twin_py.recording.offline import Plan, record
-from planetary_twin_py.recording.verify import verify
+from planetary_twin_py.recording.runs.offline import Plan, record
+from planetary_twin_py.recording.runs.verify import verify
 from planetary_twin_py.studies.axes import Axis
 from planetary_twin_py.studies.measures import EXCESS, measure
 from planetary_twin_py.studies.plan import Settings, grid

@@ -7,11 +7,11 @@ from pathlib import Path
 from synthetic_recording import START_NS
 
 import planetary_twin_py as pt
-from planetary_twin_py.recording.bag import BagWriter
-from planetary_twin_py.recording.compose import Composer, Row
-from planetary_twin_py.recording.definitions import topics_of
-from planetary_twin_py.recording.origin import Makers, Origin, makers_here
-from planetary_twin_py.recording.storage import Storage
+from planetary_twin_py.recording.container.storage import Storage
+from planetary_twin_py.recording.ros2.bag import BagWriter
+from planetary_twin_py.recording.ros2.definitions import topics_of
+from planetary_twin_py.recording.runs.compose import Composer, Row
+from planetary_twin_py.recording.runs.origin import Makers, Origin, makers_here
 
 NAMESPACE = "/planetary_twin"
 Alter = Callable[[str, int, Row], Row | None]

@@ -11,9 +11,9 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.interpolate import PchipInterpolator
 
-from ..recording.reader import Recording, read_recording
-from ..recording.records import RecordingError
-from ..recording.unwrapping import unwrap
+from ..recording.container.records import RecordingError
+from ..recording.runs.reader import Recording, read_recording
+from ..recording.runs.unwrapping import unwrap
 from .stretches import full_rate, longest_stretch, sample_rate
 
 Array = NDArray[np.float64]

@@ -30,8 +30,8 @@ def export(
     need("analysis", "mcap", "rosbags", "pyarrow")
     from rich.progress import Progress
 
-    from ..recording.export import Export
-    from ..recording.export import export as write
+    from ..recording.tables.export import Export
+    from ..recording.tables.export import export as write
 
     console = make_console()
     chosen = Export(out, format_, [name for name in topics.split(",") if name], namespace)

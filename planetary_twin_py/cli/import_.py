@@ -15,7 +15,7 @@ from ._output import check_recording
 from ._settings import changed_scene, settings
 
 if TYPE_CHECKING:
-    from ..recording.measured import Imported
+    from ..recording.tables.rig_recording import Imported
 
 
 def import_(
@@ -44,7 +44,7 @@ def import_(
     """
     check_recording("--out", out)
     need("analysis", "mcap", "rosbags", "pyarrow")
-    from ..recording.measured import write_measured
+    from ..recording.tables.rig_recording import write_measured
 
     try:
         done = write_measured(table, changed_scene(scene, settings(set_ or [])), out)

@@ -14,9 +14,9 @@ from ._figures import console_beside, put_figures
 if TYPE_CHECKING:
     from rich.console import Console
 
-    from ..recording.events import Event
-    from ..recording.info import Info
-    from ..recording.ramps import Ramp
+    from ..recording.runs.events import Event
+    from ..recording.runs.info import Info
+    from ..recording.runs.ramps import Ramp
 
 
 def info(
@@ -32,8 +32,8 @@ def info(
     """
 
     need("recording", "mcap", "rosbags")
-    from ..recording.info import read_info
-    from ..recording.records import RecordingError
+    from ..recording.container.records import RecordingError
+    from ..recording.runs.info import read_info
 
     try:
         found = read_info(file)
@@ -59,8 +59,8 @@ def info(
 
 def _events(file: Path, found: Info) -> list[tuple[str, Event]]:
     """What happened to each gearbox."""
-    from ..recording.events import read_events
-    from ..recording.topics import STATE
+    from ..recording.ros2.topics import STATE
+    from ..recording.runs.events import read_events
 
     names = [
         topic.removesuffix(f"/{STATE}") for topic in found.topics if topic.endswith(f"/{STATE}")
@@ -71,7 +71,7 @@ def _events(file: Path, found: Info) -> list[tuple[str, Event]]:
 def _tell(console: Console, found: Info) -> None:
     from rich.table import Table
 
-    from ..recording.ramps import ramps
+    from ..recording.runs.ramps import ramps
 
     table = Table(box=None, pad_edge=False)
     table.add_column("topic")

@@ -31,8 +31,8 @@ def recover(
     need("recording", "mcap", "rosbags")
     from rich.table import Table
 
-    from ..recording.records import RecordingError
-    from ..recording.recover import recover as save
+    from ..recording.container.records import RecordingError
+    from ..recording.ros2.recover import recover as save
 
     if out is not None and folder is not None:
         fail(f"--out = {str(out)!r}: the argument {str(folder)!r} names another folder")

@@ -40,10 +40,10 @@ def resimulate(
     need("recording", "mcap", "rosbags")
     from rich.progress import Progress
 
-    from ..recording.branch import Branch
-    from ..recording.namespaces import choose_namespace
-    from ..recording.resimulate import resimulate as simulate_again
-    from ..recording.tape import Tape
+    from ..recording.ros2.namespaces import choose_namespace
+    from ..recording.ros2.tape import Tape
+    from ..recording.runs.branch import Branch
+    from ..recording.runs.what_if import resimulate as simulate_again
 
     folder = out or file.with_name(f"{file.stem}_again")
     check_recording("--out", folder)

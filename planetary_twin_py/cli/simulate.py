@@ -98,7 +98,7 @@ def _check(out: Path) -> None:
 def _record(console: Console, out: Path, scene: Scene, *how: float) -> None:
     from rich.progress import Progress
 
-    from ..recording.offline import Plan, record
+    from ..recording.runs.offline import Plan, record
 
     plan = Plan(scene, *how)
     with Progress(console=console, transient=True, disable=not console.is_terminal) as progress:

@@ -132,7 +132,7 @@ def _labels(asked: Options) -> tuple[str, str]:
 
 def _steady(file: Path, signal: Signal) -> Signal:
     """The longest part at one operating point; all of what tells of none."""
-    from ..recording.steadiness import steady_span
+    from ..recording.runs.steadiness import steady_span
 
     if file.suffix == ".npz":
         return signal.within(None, None)

@@ -13,7 +13,7 @@ from ._figures import console_beside, put_figures
 if TYPE_CHECKING:
     from rich.console import Console
 
-    from ..recording.verify import Verdict
+    from ..recording.runs.verify import Verdict
 
 
 def verify(
@@ -30,10 +30,10 @@ def verify(
     """
 
     need("recording", "mcap", "rosbags")
-    from ..recording.namespaces import choose_namespace
-    from ..recording.records import RecordingError
-    from ..recording.tape import Tape
-    from ..recording.verify import verify as compare
+    from ..recording.container.records import RecordingError
+    from ..recording.ros2.namespaces import choose_namespace
+    from ..recording.ros2.tape import Tape
+    from ..recording.runs.verify import verify as compare
 
     console = console_beside(json_)
     try:
@@ -54,7 +54,7 @@ def verify(
 
 
 def _tell(console: Console, verdict: Verdict) -> None:
-    from ..recording.verify import BOUND
+    from ..recording.runs.verify import BOUND
 
     for remark in filter(None, (*verdict.remarks, verdict.ledger)):
         console.print(f"warning: {remark}", style="yellow", soft_wrap=True, highlight=False)

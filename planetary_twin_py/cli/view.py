@@ -18,8 +18,8 @@ from ._live import look_at_twin, tell
 from ._output import output_file
 
 if TYPE_CHECKING:
-    from ..recording.reader import Recording
-    from ..recording.waveform import Stretch
+    from ..recording.runs.reader import Recording
+    from ..recording.runs.waveform import Stretch
     from ..scene import Scene
 
 
@@ -109,7 +109,7 @@ class _Shown(NamedTuple):
 def _one_line_errors() -> Iterator[None]:
     os.environ.setdefault("RUST_LOG", "off")  # what goes wrong is raised, too, and told once
     need("view", "rerun", "mcap", "rosbags")
-    from ..recording.records import RecordingError
+    from ..recording.container.records import RecordingError
     from ..scene import SceneError
     from ..view.viewer import ViewerError
 
@@ -122,7 +122,7 @@ def _one_line_errors() -> Iterator[None]:
 
 
 def _read(file: Path, namespace: str | None) -> Recording:
-    from ..recording.reader import read_recording
+    from ..recording.runs.reader import read_recording
 
     recording = read_recording(file, namespace)
     for line in recording.remarks:
@@ -158,7 +158,7 @@ def _read_stretch(text: str | None) -> Stretch | None:
 
 def _detail(recording: Recording, asked: Stretch | None) -> Stretch | None:
     """The stretch that is asked for, None where it is left to the viewer."""
-    from ..recording.records import RecordingError
+    from ..recording.container.records import RecordingError
 
     if asked is None:
         return None
@@ -177,7 +177,7 @@ def _save(shown: _Shown, rrd: Path) -> None:
 
 
 def _picture(shown: _Shown, png: Path, at: float | None) -> None:
-    from ..recording.records import RecordingError
+    from ..recording.container.records import RecordingError
     from ..view.blueprint import PICTURE
     from ..view.screenshot import save_screenshot
     from ..view.show import save

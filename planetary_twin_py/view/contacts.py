@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 from ..dynamics.pair_loads import pair_loads
 from ..gearset.geometry import base_pitch, pitch_radius
 from ..gearset.line_of_action import COAST, DRIVE, line_of_action
-from ..recording.reader import Recording
+from ..recording.runs.reader import Recording
 from ..scene import Scene
 from ..scene.gearset import Gearset
 from . import timeline

@@ -14,8 +14,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ..recording.reader import Recording, Series
-from ..recording.waveform import Stretch
+from ..recording.runs.reader import Recording, Series
+from ..recording.runs.waveform import Stretch
 
 MOST_SAMPLES = 750_000  # 15 s at 50 kHz: some 55 MB of a file, which the viewer opens in a second
 MOST_ROWS = 4_000  # of the overview, besides those in detail

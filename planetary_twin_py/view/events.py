@@ -6,7 +6,7 @@ import numpy as np
 import rerun as rr
 
 from ..quantities import OPERATING_POINT
-from ..recording.reader import Recording
+from ..recording.runs.reader import Recording
 from . import timeline
 from .layer import Layer
 

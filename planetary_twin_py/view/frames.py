@@ -9,7 +9,7 @@ import rerun as rr
 from numpy.typing import NDArray
 
 from ..analysis.stretches import even_stretches, thinned
-from ..recording.reader import Recording
+from ..recording.runs.reader import Recording
 from . import timeline
 
 Array = NDArray[np.float64]

@@ -9,12 +9,12 @@ from typing import Any
 import rerun as rr
 from numpy.typing import NDArray
 
-from ..recording.decode import Described, Topics
-from ..recording.layout import Layouts
-from ..recording.origin import read_origin
-from ..recording.reader import TOPICS, Recording, assemble
-from ..recording.topics import ORIGIN, POINT, STATE, WAVEFORM
-from ..recording.waveform import Held, waveform_of
+from ..recording.ros2.decode import Described, Topics
+from ..recording.ros2.layout import Layouts
+from ..recording.ros2.topics import ORIGIN, POINT, STATE, WAVEFORM
+from ..recording.runs.origin import read_origin
+from ..recording.runs.reader import TOPICS, Recording, assemble
+from ..recording.runs.waveform import Held, waveform_of
 from ..scene import Scene
 from .blueprint import LIVE
 from .events import log_events

@@ -12,8 +12,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from ..recording.reader import Recording, Series
-from ..recording.unwrapping import unwrap
+from ..recording.runs.reader import Recording, Series
+from ..recording.runs.unwrapping import unwrap
 
 Column = NDArray[np.float64]
 STEPS_PER_PITCH = 6  # the eye then sees a tooth move on rather than the wheel run backwards

@@ -8,9 +8,9 @@ from dataclasses import replace
 
 import numpy as np
 
-from ..recording.reader import Recording
-from ..recording.records import RecordingError
-from ..recording.waveform import Held, Waveform
+from ..recording.container.records import RecordingError
+from ..recording.runs.reader import Recording
+from ..recording.runs.waveform import Held, Waveform
 
 DIFFERENCE = "difference"
 """What the differences stand below."""

@@ -10,7 +10,7 @@ import rerun as rr
 from numpy.typing import NDArray
 
 from ..quantities import MESH, TRAIN
-from ..recording.reader import Recording
+from ..recording.runs.reader import Recording
 from . import timeline
 from .layer import Colour, Layer
 

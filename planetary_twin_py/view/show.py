@@ -8,9 +8,9 @@ from pathlib import Path
 
 import rerun as rr
 
-from ..recording.reader import Recording
-from ..recording.records import RecordingError
-from ..recording.waveform import Stretch
+from ..recording.container.records import RecordingError
+from ..recording.runs.reader import Recording
+from ..recording.runs.waveform import Stretch
 from ..scene import Scene, SceneError, parse_scene
 from .blueprint import FILE, Mode, blueprint
 from .contacts import log_contacts

@@ -13,8 +13,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..quantities import WAVEFORM
-from ..recording.reader import Recording
-from ..recording.waveform import Ranges, Stretch, Waveform
+from ..recording.runs.reader import Recording
+from ..recording.runs.waveform import Ranges, Stretch, Waveform
 from . import timeline
 from .detail import first_rows
 from .layer import Layer

@@ -15,7 +15,7 @@ from typer.testing import CliRunner
 import planetary_twin_py as pt
 from planetary_twin_py.analysis.signals import of_recording
 from planetary_twin_py.cli import build_app
-from planetary_twin_py.recording.reader import read_recording
+from planetary_twin_py.recording.runs.reader import read_recording
 from planetary_twin_py.scene import load_scene
 
 pytestmark = pytest.mark.slow

@@ -11,7 +11,7 @@ from planetary_twin_msgs.msg import GearboxState
 from sensor_msgs.msg import JointState
 
 import planetary_twin_py as pt
-from planetary_twin_py.recording.verify import verify
+from planetary_twin_py.recording.runs.verify import verify
 
 from .conftest import Start
 from .peer import LONG, TWIN, Peer

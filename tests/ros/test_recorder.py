@@ -19,9 +19,9 @@ from rclpy.serialization import deserialize_message
 from std_msgs.msg import String
 from std_srvs.srv import Trigger
 
-from planetary_twin_py.recording.info import read_info
-from planetary_twin_py.recording.records import files_of, records_of
-from planetary_twin_py.recording.topics import is_status
+from planetary_twin_py.recording.container.records import files_of, records_of
+from planetary_twin_py.recording.ros2.topics import is_status
+from planetary_twin_py.recording.runs.info import read_info
 
 from .conftest import Start
 from .peer import LATCHED, LONG, TWIN, Peer

@@ -27,8 +27,8 @@ from rosbags.rosbag2 import Reader, StoragePlugin, Writer
 from rosbags.typesys import Stores, get_types_from_msg, get_typestore
 from std_msgs.msg import String
 
-from planetary_twin_py.recording.bag import BagWriter
-from planetary_twin_py.recording.rosbag2 import Topic
+from planetary_twin_py.recording.ros2.bag import BagWriter
+from planetary_twin_py.recording.ros2.metadata import Topic
 
 from .peer import LONG, TWIN, Peer
 from .processes import holding

@@ -21,9 +21,9 @@ from rclpy.serialization import serialize_message
 from rosgraph_msgs.msg import Clock
 from std_srvs.srv import SetBool
 
-from planetary_twin_py.recording.bag import BagWriter
-from planetary_twin_py.recording.rosbag2 import Topic
-from planetary_twin_py.recording.schema import message_definition
+from planetary_twin_py.recording.ros2.bag import BagWriter
+from planetary_twin_py.recording.ros2.metadata import Topic
+from planetary_twin_py.recording.ros2.schema import message_definition
 
 from .conftest import Start
 from .peer import LATCHED, LONG, TWIN, Peer

@@ -12,7 +12,7 @@ from planetary_twin_msgs.msg import GearboxState, RecorderStatus
 from planetary_twin_msgs.srv import SetOperatingPoint
 from std_srvs.srv import SetBool, Trigger
 
-from planetary_twin_py.recording.verify import verify
+from planetary_twin_py.recording.runs.verify import verify
 
 from .conftest import Start
 from .peer import TWIN, Peer

@@ -9,7 +9,7 @@ from synthetic_recording import write_recording
 from planetary_twin_py.gearset.geometry import pitch_radius, planet_ring_path, sun_planet_path
 from planetary_twin_py.gearset.kinematics import speed_ratios
 from planetary_twin_py.gearset.mount import mount
-from planetary_twin_py.recording.reader import read_recording
+from planetary_twin_py.recording.runs.reader import read_recording
 from planetary_twin_py.robot.parts import carrier_radius, gear_of
 from planetary_twin_py.scene import load_scene
 from planetary_twin_py.view.contacts import contacts, forces, newtons

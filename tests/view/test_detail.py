@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from synthetic_recording import SAMPLE_PERIOD, TOUR, write_recording
 
-from planetary_twin_py.recording.reader import read_recording
+from planetary_twin_py.recording.runs.reader import read_recording
 from planetary_twin_py.view import detail, waveform
 
 

@@ -8,8 +8,8 @@ from mcap.records import Message
 from rerun.chunk import RrdReader
 from twin_recording import record
 
-from planetary_twin_py.recording.reader import read_recording
-from planetary_twin_py.recording.records import records_of
+from planetary_twin_py.recording.container.records import records_of
+from planetary_twin_py.recording.runs.reader import read_recording
 from planetary_twin_py.view.live import LiveView
 from planetary_twin_py.view.show import save, scene_of, to_file
 

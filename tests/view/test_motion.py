@@ -3,7 +3,7 @@
 import numpy as np
 from synthetic_recording import write_recording
 
-from planetary_twin_py.recording.reader import read_recording
+from planetary_twin_py.recording.runs.reader import read_recording
 from planetary_twin_py.view.motion import STEPS_PER_PITCH, motion
 
 

@@ -9,8 +9,8 @@ import pytest
 from rerun.chunk import RrdReader
 from synthetic_recording import write_recording
 
-from planetary_twin_py.recording.reader import read_recording
-from planetary_twin_py.recording.records import RecordingError
+from planetary_twin_py.recording.container.records import RecordingError
+from planetary_twin_py.recording.runs.reader import read_recording
 from planetary_twin_py.view.overlay import difference, names_of
 from planetary_twin_py.view.show import save
 

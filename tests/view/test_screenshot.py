@@ -11,7 +11,7 @@ import rerun as rr
 from PIL import Image
 from synthetic_recording import write_recording
 
-from planetary_twin_py.recording.reader import read_recording
+from planetary_twin_py.recording.runs.reader import read_recording
 from planetary_twin_py.scene import load_scene
 from planetary_twin_py.view.blueprint import PICTURE
 from planetary_twin_py.view.gears import SUN

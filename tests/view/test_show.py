@@ -8,8 +8,8 @@ import pytest
 import rerun_cli
 from synthetic_recording import write_recording
 
-from planetary_twin_py.recording.reader import read_recording
-from planetary_twin_py.recording.records import RecordingError
+from planetary_twin_py.recording.container.records import RecordingError
+from planetary_twin_py.recording.runs.reader import read_recording
 from planetary_twin_py.scene import load_scene
 from planetary_twin_py.view.events import sentence
 from planetary_twin_py.view.show import save, scene_of

@@ -10,7 +10,7 @@ import rerun as rr
 import rerun_cli
 from synthetic_recording import BLOCK, write_recording
 
-from planetary_twin_py.recording.reader import read_recording
+from planetary_twin_py.recording.runs.reader import read_recording
 from planetary_twin_py.scene import load_scene
 from planetary_twin_py.view.chart import Chart
 from planetary_twin_py.view.colour_map import shade

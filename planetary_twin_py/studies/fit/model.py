@@ -9,7 +9,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ...recording.fields import POWER_FLOW
+from ...recording.ros2.fields import POWER_FLOW
 from ...scene import TUNABLES
 from ...twin import LONGEST_WINDOW, TICKS, Twin
 from ...window import Window

@@ -11,7 +11,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from ...recording.fields import MEMBERS, POWER_FLOW, state_fields
+from ...recording.ros2.fields import MEMBERS, POWER_FLOW, state_fields
 from ...window import Window
 from ..measures import MESH, SIDES
 from .stretch import Stretch

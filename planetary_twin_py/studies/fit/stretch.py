@@ -11,12 +11,12 @@ from typing import Any
 
 import numpy as np
 
-from ...recording.namespaces import choose_namespace
-from ...recording.records import RecordingError
-from ...recording.schedule import Change, Interval, Run, messages_of, read_runs, stamp_of
-from ...recording.steadiness import between, length, longest_steady_part, settling
-from ...recording.tape import Tape
-from ...recording.topics import STATE, WAVEFORM
+from ...recording.container.records import RecordingError
+from ...recording.ros2.namespaces import choose_namespace
+from ...recording.ros2.tape import Tape
+from ...recording.ros2.topics import STATE, WAVEFORM
+from ...recording.runs.schedule import Change, Interval, Run, messages_of, read_runs, stamp_of
+from ...recording.runs.steadiness import between, length, longest_steady_part, settling
 from ...scene import Scene
 from ...twin import TICKS, Twin
 

@@ -105,7 +105,7 @@ def _run(
 
 
 def _folder(record: str | None, scene: str) -> Path:
-    from planetary_twin_py.recording.bag import free_folder, named_folder
+    from planetary_twin_py.recording.ros2.bag import free_folder, named_folder
 
     if record is None:
         return free_folder(RECORDINGS, Path(scene).stem)

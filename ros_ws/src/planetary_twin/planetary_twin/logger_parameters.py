@@ -7,7 +7,7 @@ from pathlib import Path
 
 from rclpy.node import Node
 
-from planetary_twin_py.recording.storage import CHUNK_SIZES, COMPRESSIONS, Storage
+from planetary_twin_py.recording.container.storage import CHUNK_SIZES, COMPRESSIONS, Storage
 
 from .parameter_node import ParameterNode
 from .parameters import declare_bounded, declare_fixed

@@ -15,7 +15,7 @@ from planetary_twin_msgs import msg
 from sensor_msgs.msg import JointState
 
 from planetary_twin_py import TUNABLES, OperatingPoint, Scene, Window
-from planetary_twin_py.recording.fields import MEMBERS, POWER_FLOW, TURN, WAVES, mesh_field
+from planetary_twin_py.recording.ros2.fields import MEMBERS, POWER_FLOW, TURN, WAVES, mesh_field
 
 from .whole_turns import WholeTurns
 

@@ -9,8 +9,8 @@ from rclpy.duration import Duration
 from rclpy.exceptions import NameValidationException
 from rclpy.lifecycle import LifecycleNode, LifecyclePublisher
 
-from planetary_twin_py.recording.rosbag2 import Topic
-from planetary_twin_py.recording.tape import Cue
+from planetary_twin_py.recording.ros2.metadata import Topic
+from planetary_twin_py.recording.ros2.tape import Cue
 
 from .managed import NodeError
 from .qos import publisher_qos

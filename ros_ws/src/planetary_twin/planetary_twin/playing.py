@@ -8,8 +8,8 @@ from collections.abc import Callable, Iterator, Mapping
 from concurrent.futures import Future
 from typing import NamedTuple, Protocol
 
-from planetary_twin_py.recording.tape import Cue
-from planetary_twin_py.recording.transport import Transport
+from planetary_twin_py.recording.ros2.tape import Cue
+from planetary_twin_py.recording.ros2.transport import Transport
 
 from .orders import Orders
 

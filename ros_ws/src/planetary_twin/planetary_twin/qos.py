@@ -15,7 +15,7 @@ from rclpy.qos import (
     ReliabilityPolicy,
 )
 
-from planetary_twin_py.recording.rosbag2 import Topic
+from planetary_twin_py.recording.ros2.metadata import Topic
 
 # What a publisher keeps for retransmission where the recorder could not learn the depth: most
 # middleware does not tell it.

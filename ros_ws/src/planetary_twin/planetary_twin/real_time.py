@@ -10,7 +10,7 @@ from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus, KeyValue
 
 from planetary_twin_py import Change
 from planetary_twin_py.affordable import Affordable
-from planetary_twin_py.recording.topics import REAL_TIME, status_name
+from planetary_twin_py.recording.ros2.topics import REAL_TIME, status_name
 
 from .live import Progress, State
 

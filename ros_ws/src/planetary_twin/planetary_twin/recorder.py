@@ -11,10 +11,10 @@ from rclpy.logging import get_logger
 from rclpy.node import Node
 
 import planetary_twin_py as pt
-from planetary_twin_py.recording.account import TopicAccount
-from planetary_twin_py.recording.bag import BagWriter, free_folder, named_folder
-from planetary_twin_py.recording.clocks import SOFTWARE_RECORD, host_clocks, software
-from planetary_twin_py.recording.ring import Ring
+from planetary_twin_py.recording.ros2.account import TopicAccount
+from planetary_twin_py.recording.ros2.bag import BagWriter, free_folder, named_folder
+from planetary_twin_py.recording.ros2.provenance import SOFTWARE_RECORD, host_clocks, software
+from planetary_twin_py.recording.ros2.ring import Ring
 
 from .logger_parameters import Wishes
 from .taps import Taps

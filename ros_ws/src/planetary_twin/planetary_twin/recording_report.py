@@ -6,8 +6,8 @@ from collections.abc import Mapping
 
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus, KeyValue
 
-from planetary_twin_py.recording.account import TopicAccount
-from planetary_twin_py.recording.topics import status_name
+from planetary_twin_py.recording.ros2.account import TopicAccount
+from planetary_twin_py.recording.ros2.topics import status_name
 
 RECORDING = "logger: recording"
 

@@ -13,9 +13,9 @@ from rcl_interfaces.msg import SetParametersResult
 from rclpy.logging import get_logger
 from rclpy.parameter import Parameter
 
-from planetary_twin_py.recording.clock import CLOCK, with_clock
-from planetary_twin_py.recording.renaming import moved
-from planetary_twin_py.recording.tape import Cue, Tape
+from planetary_twin_py.recording.ros2.clock_messages import CLOCK, with_clock
+from planetary_twin_py.recording.ros2.renaming import moved
+from planetary_twin_py.recording.ros2.tape import Cue, Tape
 
 from .managed import ManagedNode, NodeError, run_node
 from .outlets import Outlets

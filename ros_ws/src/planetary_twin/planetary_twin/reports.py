@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from diagnostic_msgs.msg import DiagnosticArray
 
-from planetary_twin_py.recording.topics import REAL_TIME, is_status
+from planetary_twin_py.recording.ros2.topics import REAL_TIME, is_status
 
 
 def real_time_figures(message: DiagnosticArray, namespace: str) -> dict[str, str]:

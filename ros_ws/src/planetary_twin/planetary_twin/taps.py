@@ -11,8 +11,8 @@ from rclpy.node import Node
 from rclpy.qos import DurabilityPolicy, QoSProfile
 from rclpy.subscription import Subscription
 
-from planetary_twin_py.recording.account import TopicAccount
-from planetary_twin_py.recording.rosbag2 import Topic
+from planetary_twin_py.recording.ros2.account import TopicAccount
+from planetary_twin_py.recording.ros2.metadata import Topic
 
 from .topics import describe, matching_qos, message_class, wanted_topics
 

@@ -9,8 +9,8 @@ from rclpy.node import Node
 from rclpy.qos import DurabilityPolicy, HistoryPolicy, QoSProfile, ReliabilityPolicy
 from rclpy.topic_endpoint_info import TopicEndpointInfo
 
-from planetary_twin_py.recording.rosbag2 import Topic
-from planetary_twin_py.recording.schema import message_definition
+from planetary_twin_py.recording.ros2.metadata import Topic
+from planetary_twin_py.recording.ros2.schema import message_definition
 
 from .qos import to_words
 

@@ -12,9 +12,9 @@ from typing import Any
 from mcap.records import Channel, Message, Schema
 from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
 
-from planetary_twin_py.recording.records import RecordingError
-from planetary_twin_py.recording.schema import message_definition
-from planetary_twin_py.recording.topics import ORIGIN, POINT, STATE, WAVEFORM
+from planetary_twin_py.recording.container.records import RecordingError
+from planetary_twin_py.recording.ros2.schema import message_definition
+from planetary_twin_py.recording.ros2.topics import ORIGIN, POINT, STATE, WAVEFORM
 
 from .client import Client
 from .network import stay_on_this_machine

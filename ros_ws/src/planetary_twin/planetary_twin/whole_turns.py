@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from planetary_twin_py import Window
-from planetary_twin_py.recording.fields import TURN
+from planetary_twin_py.recording.ros2.fields import TURN
 
 
 class WholeTurns:

@@ -14,7 +14,7 @@ from rclpy.serialization import deserialize_message
 from rich.console import Console
 from rich.table import Table
 
-from planetary_twin_py.recording.info import TopicInfo, read_info
+from planetary_twin_py.recording.runs.info import TopicInfo, read_info
 
 _STATE = "planetary_twin_msgs/msg/GearboxState"
 

@@ -1,0 +1,173 @@
+"""One MCAP file of a recording, read from any instant: by its chunk index, or in order without."""
+
+from __future__ import annotations
+
+from collections import Counter, deque
+from collections.abc import Callable, Iterator, Mapping
+from itertools import takewhile
+from pathlib import Path
+from typing import NamedTuple, Protocol
+
+from mcap.reader import make_reader
+from mcap.records import Channel, ChunkIndex, Message, Schema
+from mcap.summary import Summary
+
+from .extent import Extent
+from .framing import TORN
+from .integrity import damaged_summary
+from .records import MOST_TOPICS, chunk_at, records_of
+
+# Messages stand in a file in the order a recorder got to them: far less than this apart.
+DISORDER = 1_000_000_000  # [ns]
+
+Tell = Callable[[str], None]
+
+
+class Contents(NamedTuple):
+    """What a file holds: each channel with its schema, messages by topic, first and last log time.
+
+    A channel whose schema is missing has none.
+    """
+
+    channels: dict[int, tuple[Channel, Schema | None]]
+    counts: Counter[str]
+    extent: Extent
+
+
+class Segment(Protocol):
+    """A file that can be read from any log time [ns]."""
+
+    contents: Contents
+
+    def messages(self, begin: int) -> Iterator[tuple[str, Message]]:
+        """Messages from `begin` on with their topics, in file order."""
+
+    def newest(self, kept: Mapping[str, int], before: int) -> dict[str, list[Message]]:
+        """By topic the last so many messages before an instant, oldest first."""
+
+
+def open_segment(file: Path, tell: Tell) -> Segment:
+    """The file to read; `tell` hears in lines of what cannot be read, now and later."""
+    summary = _summary(file)
+    if summary is None or summary.statistics is None or len(summary.channels) > MOST_TOPICS:
+        return _InOrder(file, tell)
+    if summary.statistics.message_count and not summary.chunk_indexes:
+        return _InOrder(file, tell)
+    return _Indexed(file, summary, tell)
+
+
+class _Indexed:
+    """A finished file: its summary tells which chunks there are to look at."""
+
+    def __init__(self, file: Path, summary: Summary, tell: Tell) -> None:
+        self._file = file
+        self._tell = tell
+        self._chunks = sorted(summary.chunk_indexes, key=lambda index: index.chunk_start_offset)
+        self._topics = {number: channel.topic for number, channel in summary.channels.items()}
+        self.contents = _contents(summary)
+
+    def messages(self, begin: int) -> Iterator[tuple[str, Message]]:
+        for index in self._chunks:
+            if index.message_end_time >= begin:
+                for topic, message in self._read(index):
+                    if message.log_time >= begin:
+                        yield topic, message
+
+    def newest(self, kept: Mapping[str, int], before: int) -> dict[str, list[Message]]:
+        return {topic: self._last(topic, count, before) for topic, count in kept.items()}
+
+    def _last(self, topic: str, count: int, before: int) -> list[Message]:
+        channels = {number for number, name in self._topics.items() if name == topic}
+        found: list[Message] = []
+        for index in reversed(self._chunks):
+            held = index.message_index_offsets
+            if index.message_start_time >= before or (held and not channels & held.keys()):
+                continue
+            here = [m for name, m in self._read(index) if name == topic and m.log_time < before]
+            found = here + found
+            if len(found) >= count:
+                break
+        return found[-count:]
+
+    def _read(self, index: ChunkIndex) -> Iterator[tuple[str, Message]]:
+        """Messages of a chunk; a damaged one is told of and left out."""
+        try:
+            records = chunk_at(self._file, index.chunk_start_offset)
+        except TORN as reason:
+            begin = self.contents.extent.start
+            first, last = index.message_start_time - begin, index.message_end_time - begin
+            self._tell(
+                f"{self._file.name}: damaged from {first * 1e-9:.3f} to {last * 1e-9:.3f} s "
+                f"({type(reason).__name__}), which is left out"
+            )
+            return
+        for record in records:
+            if isinstance(record, Message):
+                yield self._topics[record.channel_id], record
+
+
+class _InOrder:
+    """A file without an index, torn or written without chunks: every record is looked at."""
+
+    def __init__(self, file: Path, tell: Tell) -> None:
+        self._file = file
+        self._tell = tell
+        self.contents = Contents({}, Counter(), Extent())
+        schemas: dict[int, Schema] = {}
+        for record in self._records():
+            if isinstance(record, Schema):
+                schemas[record.id] = record
+            elif isinstance(record, Channel):
+                self.contents.channels[record.id] = record, schemas.get(record.schema_id)
+            elif isinstance(record, Message):
+                self.contents.extent.include(record.log_time)
+                self.contents.counts[self._topic(record)] += 1
+
+    def messages(self, begin: int) -> Iterator[tuple[str, Message]]:
+        for record in self._records():
+            if isinstance(record, Message) and record.log_time >= begin:
+                yield self._topic(record), record
+
+    def newest(self, kept: Mapping[str, int], before: int) -> dict[str, list[Message]]:
+        found = {topic: deque[Message](maxlen=count) for topic, count in kept.items()}
+        near = takewhile(lambda pair: pair[1].log_time < before + DISORDER, self.messages(0))
+        for topic, message in near:
+            if topic in found and message.log_time < before:
+                found[topic].append(message)
+        return {topic: list(messages) for topic, messages in found.items()}
+
+    def _topic(self, message: Message) -> str:
+        return self.contents.channels[message.channel_id][0].topic
+
+    def _records(self) -> Iterator[object]:
+        remarks: list[str] = []
+        yield from records_of(self._file, remarks)
+        for remark in remarks:
+            self._tell(remark)
+
+
+def _summary(file: Path) -> Summary | None:
+    """What a finished file says of itself; nothing where it was torn before it could, or where
+    that is damaged, which whoever reads the records then tells.
+    """
+    if damaged_summary(file):
+        return None
+    with file.open("rb") as stream:
+        try:
+            return make_reader(stream).get_summary()
+        except TORN:
+            return None
+
+
+def _contents(summary: Summary) -> Contents:
+    statistics = summary.statistics
+    assert statistics is not None
+    extent = Extent()
+    if statistics.message_count:
+        extent.include(statistics.message_start_time)
+        extent.include(statistics.message_end_time)
+    counts: Counter[str] = Counter()
+    for number, count in statistics.channel_message_counts.items():
+        counts[summary.channels[number].topic] += count
+    channels = {n: (c, summary.schemas.get(c.schema_id)) for n, c in summary.channels.items()}
+    return Contents(channels, counts, extent)

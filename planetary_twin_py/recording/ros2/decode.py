@@ -1,0 +1,121 @@
+"""Turns records of a file into messages, by the definitions that the file itself carries."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any, NamedTuple
+
+from mcap.records import Channel, Message, Schema
+from rosbags.typesys.store import Typestore
+
+from ...printable import one_line
+from ..container.records import RecordingError
+from .definitions import KINDS
+from .layout import Layout, LayoutError
+from .typestore import DefinitionError, types_of
+
+_LONGEST_REASON = 200  # characters
+
+
+class Described(NamedTuple):
+    """A topic, its type, and the types that its definition tells."""
+
+    topic: str
+    kind: str
+    types: Typestore
+
+
+class MessageError(RecordingError):
+    """A message of `topic` is not what its definition says."""
+
+    def __init__(self, topic: str, text: str) -> None:
+        super().__init__(text)
+        self.topic = topic
+
+
+class Topics:
+    """The topics of one source that are `wanted`, given its records in order.
+
+    A topic whose name is one of the twin's, but not its type, is another one and left out.
+    """
+
+    def __init__(self, source: object, wanted: Callable[[str], bool]) -> None:
+        self._source = source  # the file, for messages of errors
+        self._wanted = wanted
+        self._schemas: dict[int, Schema] = {}
+        self._channels: dict[int, Described] = {}
+
+    def of(self, record: Any) -> Described | None:
+        """The topic, where the record is a message of a wanted topic.
+
+        Raises:
+            RecordingError: a wanted topic is encoded in a way that cannot be read.
+        """
+        if isinstance(record, Schema):
+            self._schemas[record.id] = record
+        elif isinstance(record, Channel):
+            schema = self._schemas[record.schema_id]
+            if self._wanted(record.topic) and _is_of_twin(record.topic, schema.name):
+                types = self._types(record, schema)
+                self._channels[record.id] = Described(record.topic, schema.name, types)
+        elif isinstance(record, Message) and record.channel_id in self._channels:
+            return self._channels[record.channel_id]
+        return None
+
+    def __contains__(self, channel: int) -> bool:
+        """Whether messages of a channel are read, by its number."""
+        return channel in self._channels
+
+    def _types(self, channel: Channel, schema: Schema) -> Typestore:
+        if schema.encoding != "ros2msg" or channel.message_encoding != "cdr":
+            raise RecordingError(
+                f"{self._source}: {channel.topic}: encoded as {schema.encoding}/"
+                f"{channel.message_encoding}, only ros2msg/cdr can be read"
+            )
+        try:
+            return types_of(schema.data, schema.name)
+        except DefinitionError as reason:
+            why = one_line(str(reason), _LONGEST_REASON)
+            raise RecordingError(f"{self._source}: {channel.topic}: its definition {why}") from None
+
+
+class Decoder:
+    """Decodes the topics of one source that are `wanted`, given its records in order."""
+
+    def __init__(self, source: object, wanted: Callable[[str], bool]) -> None:
+        self._source = source
+        self._topics = Topics(source, wanted)
+
+    def __contains__(self, channel: int) -> bool:
+        """Whether messages of a channel are decoded, by its number."""
+        return channel in self._topics
+
+    def read(self, record: Any) -> tuple[str, Any] | None:
+        """Topic and message, where the record is a message of a wanted topic.
+
+        Raises:
+            RecordingError: a wanted topic is encoded in a way that cannot be read.
+            MessageError: a message is not what its definition says.
+        """
+        found = self._topics.of(record)
+        if found is None:
+            return None
+        try:
+            return found.topic, found.types.deserialize_cdr(record.data, found.kind)
+        except Exception as reason:  # of many kinds: rosbags runs code that it has made
+            why = one_line(_why(found, record.data, reason), _LONGEST_REASON)
+            text = f"{self._source}: {found.topic}: a message {why}"
+            raise MessageError(found.topic, text) from None
+
+
+def _why(found: Described, data: bytes, reason: Exception) -> str:
+    """What is wrong with a message, and in which field, as far as that can be found."""
+    try:
+        Layout(found.types.fielddefs, found.kind, data)
+    except LayoutError as error:
+        return str(error)
+    return f"is not as the file describes it: {reason or type(reason).__name__}"
+
+
+def _is_of_twin(topic: str, kind: str) -> bool:
+    return KINDS.get(topic.rpartition("/")[2], kind) == kind

@@ -1,0 +1,67 @@
+"""The topics of a twin as its nodes offer them, told without ROS."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+from rosbags.typesys import Stores, get_types_from_msg, get_typestore
+
+from .metadata import Topic
+from .schema import installed_definition, message_definition
+from .topics import DESCRIPTION, JOINTS, ORIGIN, POINT, STATE, WAVEFORM
+
+KINDS = {
+    ORIGIN: "std_msgs/msg/String",
+    DESCRIPTION: "std_msgs/msg/String",
+    POINT: "planetary_twin_msgs/msg/OperatingPoint",
+    STATE: "planetary_twin_msgs/msg/GearboxState",
+    JOINTS: "sensor_msgs/msg/JointState",
+    WAVEFORM: "planetary_twin_msgs/msg/MeshWaveform",
+}
+_LATCHED = (ORIGIN, DESCRIPTION, POINT)
+_NEVER = {"sec": 9_223_372_036, "nsec": 854_775_807}
+
+
+def topics_of(namespace: str) -> list[Topic]:
+    """What a twin in `namespace` publishes and can be told from its windows alone."""
+    return [_topic(f"{namespace}/{name}", kind, name in _LATCHED) for name, kind in KINDS.items()]
+
+
+def _topic(name: str, kind: str, latched: bool) -> Topic:
+    types = get_typestore(Stores.ROS2_JAZZY)
+    definition = definition_of(kind)
+    found = get_types_from_msg(definition, kind)
+    types.register({name: made for name, made in found.items() if name not in types.types})
+    return Topic(name, kind, types.hash_rihs01(kind), definition, [_offer(latched)])
+
+
+def definition_of(kind: str) -> str:
+    """Definition of a type of the twin's topics in MCAP's encoding `ros2msg`."""
+    return message_definition(kind, _text)
+
+
+def _text(kind: str) -> str:
+    """Text of one .msg file: ours are part of the package, the others stand in rosbags."""
+    package, _, name = kind.split("/")
+    if package == "planetary_twin_msgs":
+        own = Path(__file__).parent / "msg" / f"{name}.msg"
+        # Installed as a ROS package, the model has none of its own and those of the interfaces.
+        return own.read_text(encoding="utf-8") if own.is_file() else installed_definition(kind)
+    text, _ = get_typestore(Stores.ROS2_JAZZY).generate_msgdef(kind, ros_version=2)
+    return text.partition("=" * 80)[0]
+
+
+def _offer(latched: bool) -> dict[str, Any]:
+    """Quality of service as the nodes offer it, in rosbag2's words."""
+    return {
+        "history": "keep_last",
+        "depth": 1 if latched else 10,
+        "reliability": "reliable",
+        "durability": "transient_local" if latched else "volatile",
+        "deadline": _NEVER,
+        "lifespan": _NEVER,
+        "liveliness": "automatic",
+        "liveliness_lease_duration": _NEVER,
+        "avoid_ros_namespace_conventions": False,
+    }

@@ -1,0 +1,96 @@
+"""Which quantity of a window stands in which field of the twin's messages."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from ...window import Window
+
+MEMBERS = ("sun", "ring", "carrier")
+POWER_FLOW = (
+    "mesh_frequency",
+    "input_speed",
+    "input_torque",
+    "second_input_speed",
+    "second_input_torque",
+    "output_speed",
+    "output_torque",
+    "input_power",
+    "output_power",
+    "power_loss",
+    "stored_power",
+    "efficiency",
+)
+WAVES = ("dte", "mesh_force", "friction")
+ROOM = 7  # planets that a message has room for
+TURN = 2.0 * np.pi  # [rad]
+
+
+def mesh_field(name: str, planets: int) -> tuple[str, int] | None:
+    """Statistic of the meshes that a field of GearboxState shows, and its first mesh; or None."""
+    for kind, first in (("sun_planet_", 0), ("planet_ring_", planets)):
+        if name.startswith(kind):
+            return name.removeprefix(kind), first
+    return None
+
+
+def state_fields(window: Window, names: list[str]) -> dict[str, Any]:
+    """What a GearboxState shows of `window`: those of the fields `names` that are simulated."""
+    planets = len(window.meshes) // 2
+    found: dict[str, Any] = {
+        "planets": planets,
+        "simulated_time": window.end,
+        "interval": window.end - window.start,
+    }
+    found |= {name: float(getattr(window, name)) for name in POWER_FLOW}
+    for member in MEMBERS:
+        body = window.bodies.index(member)
+        found[f"{member}_angle"] = float(window.angle[body])
+        found[f"{member}_speed"] = float(window.mean_speed[body])
+    first = window.bodies.index("planet_1")
+    found["planet_angle"] = _with_room(window.angle[first : first + planets])
+    found["planet_speed"] = _with_room(window.mean_speed[first : first + planets])
+    for name in names:
+        if shown := mesh_field(name, planets):
+            statistic, mesh = shown
+            found[name] = _with_room(window.mesh[statistic][mesh : mesh + planets])
+    return found
+
+
+def waveform_fields(window: Window) -> dict[str, Any]:
+    """What a MeshWaveform shows of `window`, whose waveform is not empty."""
+    wave = window.waveform
+    return {
+        "start_time": float(wave.time[0]),
+        "sample_period": wave.period,
+        "planets": len(window.meshes) // 2,
+        "samples": len(wave.time),
+        **{name: getattr(wave, name).T.astype(np.float32).ravel() for name in WAVES},
+    }
+
+
+def joint_fields(window: Window) -> dict[str, Any]:
+    """What a JointState shows of `window`."""
+    return {"position": window.angle, "velocity": window.mean_speed}
+
+
+def joint_fields_like(window: Window, recorded: np.ndarray) -> dict[str, Any]:
+    """
+    What a JointState shows of `window` where it counts whole turns as the `recorded` one does.
+
+    Parameters:
+        window: an interval.
+        recorded: positions of a recorded message [rad], shape (bodies,). Their whole turns depend
+            on where the run began, so they are taken from here, and the rest from `window`.
+    """
+    found = joint_fields(window)
+    if recorded.shape == window.angle.shape:
+        turns = np.rint((recorded - window.angle) / TURN)
+        found["position"] = window.angle + TURN * np.where(np.isfinite(turns), turns, 0.0)
+    return found
+
+
+def _with_room(values: np.ndarray) -> np.ndarray:
+    return np.append(values, np.full(ROOM - len(values), np.nan))

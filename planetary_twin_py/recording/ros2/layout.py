@@ -1,0 +1,184 @@
+"""Where the fields of a serialised message lie (CDR), so that many are read as one array.
+
+What a message holds follows its definition without gaps, but for alignment; only the lengths of
+strings and sequences decide where what comes after them lies. So messages with the same lengths
+are rows of one structured array, whose fields are the message's.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from itertools import groupby
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+from rosbags.interfaces import Nodetype
+
+from ..container.foreign import CONVERT
+
+Fields = Iterable[tuple[str, Any]]
+Definitions = Mapping[str, tuple[Any, Fields]]
+"""Constants and fields by the name of a type, as rosbags parses a definition."""
+_Field = tuple[str, Any, int]  # name, format, place
+_ENCAPSULATION = 4  # bytes before the body, from whose begin alignment counts
+_PADDING = 3  # bytes after the last field that a writer may fill up to whole words with
+_MOST_FIELDS = 20_000  # of a message, with each element of an array of texts or messages
+_ZSTD = b"\x28\xb5\x2f\xfd"
+_NUMBERS = {"bool": "?", "byte": "u1", "char": "u1", "float32": "f4", "float64": "f8"} | {
+    f"{name}{8 * size}": f"{letter}{size}"
+    for name, letter in (("int", "i"), ("uint", "u"))
+    for size in (1, 2, 4, 8)
+}
+
+
+class LayoutError(ValueError):
+    """Bytes are no message of their type."""
+
+
+class Layout:
+    """Of all messages that have the lengths of the one it is made from.
+
+    `dtype`: text is bytes; a message within is a structure, and an array of text or messages a
+    structure with fields "0", "1", ...
+    """
+
+    def __init__(self, definitions: Definitions, kind: str, message: bytes) -> None:
+        """Follow the definition of type `kind` through `message`.
+
+        Raises:
+            LayoutError: it ends before its last field, goes on behind it, or is no plain CDR.
+        """
+        walk = _Walk(definitions, message)
+        self.dtype = walk.whole(kind)
+        self._places = np.array(walk.decisive)
+        self._decisive = np.frombuffer(message, np.uint8)[self._places]
+
+    def fits(self, raw: NDArray[np.uint8]) -> NDArray[np.bool_]:
+        """Which rows of `raw` (messages, bytes) lie like this; each must be as long."""
+        return np.asarray((raw[:, self._places] == self._decisive).all(axis=1))
+
+
+class Layouts:
+    """The layouts met among messages of one type."""
+
+    def __init__(self, definitions: Definitions, kind: str) -> None:
+        self._definitions, self._kind = definitions, kind
+        self._known: dict[int, list[Layout]] = {}
+
+    def arrays(self, messages: Sequence[bytes]) -> Iterator[NDArray[Any]]:
+        """All messages in their order: a structured array for those in a row that lie alike.
+
+        Raises:
+            LayoutError: one is no message of this type.
+        """
+        for size, alike in groupby(messages, len):
+            raw = np.frombuffer(b"".join(alike), np.uint8).reshape(-1, size)
+            while len(raw):
+                layout = self._layout(raw[:1])
+                fits = layout.fits(raw)
+                count = len(raw) if fits.all() else int(np.argmin(fits))
+                yield raw[:count].view(layout.dtype)[:, 0]
+                raw = raw[count:]
+
+    def _layout(self, raw: NDArray[np.uint8]) -> Layout:
+        known = self._known.setdefault(raw.shape[1], [])
+        for layout in known:
+            if layout.fits(raw)[0]:
+                return layout
+        known.append(Layout(self._definitions, self._kind, raw.tobytes()))
+        return known[-1]
+
+
+class _Walk:
+    """Goes through one message; `decisive` are the bytes on which depends where the others lie."""
+
+    def __init__(self, definitions: Definitions, message: bytes) -> None:
+        if message[:4] == _ZSTD:
+            raise LayoutError(f"is compressed by itself; {CONVERT}")
+        if message[:2] not in (b"\0\0", b"\0\1"):
+            raise LayoutError(
+                f"begins with {message[:2].hex() or 'nothing'}, only plain CDR is read"
+            )
+        self._definitions, self._message = definitions, message
+        self._order = "<" if message[1] else ">"
+        self._place = _ENCAPSULATION
+        self.decisive = [0, 1]
+        self._path: list[str] = []  # names of the field that is looked at, and of those above it
+        self._count_of_fields = 0
+
+    def whole(self, kind: str) -> np.dtype[Any]:
+        """The message, from its encapsulation to its last byte."""
+        fields = self._fields(kind)
+        behind = len(self._message) - self._place
+        if behind > _PADDING:
+            raise LayoutError(f"{behind} bytes go on behind the last field of {kind}")
+        return self._structure(fields, 0, len(self._message))
+
+    def _fields(self, kind: str) -> list[_Field]:
+        found: list[_Field] = []
+        for name, description in self._definitions[kind][1]:
+            self._path.append(name)
+            found.append((name, *self._field(description)))
+            self._path.pop()
+        return found
+
+    def _field(self, description: Any) -> tuple[Any, int]:
+        """Format of a field, and its place."""
+        self._count_of_fields += 1
+        if self._count_of_fields > _MOST_FIELDS:
+            raise LayoutError(f"has more than {_MOST_FIELDS} fields{self._here()}")
+        sort, of = description
+        if sort == Nodetype.BASE:
+            if of[0] == "string":
+                size = self._count()
+                return f"S{size}", self._skip(size)
+            return self._numbers(of[0], ())
+        if sort == Nodetype.NAME:
+            begin = self._place
+            return self._structure(self._fields(of), begin, self._place), begin
+        element, size = of
+        if sort == Nodetype.SEQUENCE:
+            size = self._count()
+        if element[0] == Nodetype.BASE and element[1][0] != "string":
+            return self._numbers(element[1][0], (size,))
+        begin = self._place
+        elements = [(str(i), *self._field(element)) for i in range(size)]
+        return self._structure(elements, begin, self._place), begin
+
+    def _numbers(self, name: str, shape: tuple[int, ...]) -> tuple[Any, int]:
+        if name not in _NUMBERS:
+            raise LayoutError(f"has a field of the type {name}, which is not read{self._here()}")
+        form = np.dtype(self._order + _NUMBERS[name])
+        count = int(np.prod(shape, dtype=int))
+        if count:  # of nothing, not even the alignment is written
+            self._skip(-(self._place - _ENCAPSULATION) % form.itemsize)
+        return (form, shape), self._skip(count * form.itemsize)
+
+    def _count(self) -> int:
+        (form, _), place = self._numbers("uint32", ())
+        self.decisive += range(place, place + 4)
+        return int(np.frombuffer(self._message, form, 1, place)[0])
+
+    def _skip(self, size: int) -> int:
+        """Go on; returns the place before."""
+        place = self._place
+        self._place += size
+        if self._place > len(self._message):
+            raise LayoutError(f"ends after {len(self._message)} bytes{self._here()}")
+        return place
+
+    def _here(self) -> str:
+        return f", in its field {'.'.join(self._path)}"
+
+    @staticmethod
+    def _structure(fields: list[_Field], begin: int, end: int) -> np.dtype[Any]:
+        names, formats, places = zip(*fields, strict=True) if fields else ((), (), ())
+        return np.dtype(
+            {
+                "names": names,
+                "formats": formats,
+                "offsets": [place - begin for place in places],
+                "itemsize": end - begin,
+            }
+        )

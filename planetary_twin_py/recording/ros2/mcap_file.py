@@ -1,0 +1,119 @@
+"""One MCAP file in the making, as rosbag2 reads it."""
+
+from __future__ import annotations
+
+import contextlib
+import errno
+import os
+import time
+from collections import Counter
+from collections.abc import Mapping
+from pathlib import Path
+
+from mcap.writer import Writer
+
+from ..container.chunk_indexes import ChunkIndexes
+from ..container.extent import Extent
+from ..container.storage import COMPRESSIONS, Storage
+from .metadata import Topic
+
+_LIBRARY = "planetary_twin"
+
+
+class McapFile:
+    """What `flush` has returned for survives a kill and a power cut; what came later may not.
+
+    Every method raises `OSError` where the file cannot be written any more.
+    """
+
+    def __init__(self, path: Path, storage: Storage) -> None:
+        self.path = path
+        self.extent = Extent()
+        self.counts: Counter[int] = Counter()
+        """Messages by channel."""
+        self._storage = storage
+        self._stream = path.open("xb")
+        self._writer = Writer(
+            self._stream,
+            chunk_size=storage.chunk_bytes,
+            compression=COMPRESSIONS[storage.compression],
+            enable_data_crcs=True,
+        )
+        self._indexes = ChunkIndexes.replace(self._writer, path.parent)
+        self._writer.start(profile="ros2", library=_LIBRARY)
+
+    @property
+    def closed(self) -> bool:
+        """Whether the file is finished, or given up."""
+        return self._stream.closed
+
+    @property
+    def size(self) -> int:
+        """Bytes of the file so far; the chunk in progress comes on top."""
+        return self._stream.tell()
+
+    def full(self, log_time: int) -> bool:
+        """Whether a message received at `log_time` [ns] belongs into the next file."""
+        begun = self.extent.start
+        return bool(begun) and (
+            log_time - begun >= self._storage.longest or self.size >= self._storage.largest
+        )
+
+    def attach(self, name: str, data: bytes, media_type: str) -> None:
+        """Add a file beside the messages."""
+        now = time.time_ns()
+        self._writer.add_attachment(now, now, name, media_type, data)
+
+    def note(self, name: str, values: Mapping[str, str]) -> None:
+        """Add a metadata record."""
+        self._writer.add_metadata(name, dict(values))
+
+    def add_topic(self, topic: Topic) -> int:
+        """Open a channel; numbers count from 1 in the order of the calls."""
+        schema = self._writer.register_schema(topic.type, "ros2msg", topic.definition.encode())
+        return self._writer.register_channel(
+            topic.name,
+            "cdr",
+            schema,
+            {"offered_qos_profiles": topic.qos_yaml, "topic_type_hash": topic.type_hash},
+        )
+
+    def write(
+        self, channel: int, data: bytes, log_time: int, publish_time: int, sequence: int
+    ) -> None:
+        """Append a message."""
+        # MCAP keeps 32 bits of the sequence number.
+        self._writer.add_message(channel, log_time, data, publish_time, sequence & 0xFFFFFFFF)
+        self.counts[channel] += 1
+        self.extent.include(log_time)
+
+    def flush(self) -> None:
+        """Bring everything written so far onto the disk."""
+        self._writer.flush()  # type: ignore[no-untyped-call]
+        self._check_place()
+        os.fsync(self._stream.fileno())
+
+    def finish(self) -> None:
+        """Write the indexes and close the file."""
+        self._writer.finish()  # type: ignore[no-untyped-call]
+        self._stream.flush()
+        self._check_place()
+        os.fsync(self._stream.fileno())
+        self._stream.close()
+        self._indexes.close()
+
+    def abandon(self) -> None:
+        """Let go of a file that cannot be written any more, e.g. on a full disk."""
+        # Closing the buffered stream would try to write once more; the descriptor must not leak.
+        self._stream.raw.close()
+        with contextlib.suppress(OSError):
+            self._indexes.close()
+
+    def _check_place(self) -> None:
+        """A file that was deleted or moved away can be written, and found by nobody."""
+        try:
+            here = os.path.samestat(os.stat(self.path), os.fstat(self._stream.fileno()))
+        except FileNotFoundError:
+            here = False
+        if not here:
+            raise FileNotFoundError(errno.ENOENT, "deleted or moved away", str(self.path))

@@ -1,0 +1,78 @@
+"""Keeps the last seconds of what is heard in memory, until somebody wants them on disk."""
+
+from __future__ import annotations
+
+from collections import deque
+from collections.abc import Iterator
+from functools import partial
+
+from .account import TopicAccount
+from .bag import BagWriter
+from .latched import Latched, Serialised
+from .metadata import Topic
+
+
+class Ring:
+    """Takes messages as a `BagWriter` does, and forgets those older than `duration` [s].
+
+    Messages of latched topics that still hold are kept however old they are.
+    """
+
+    def __init__(self, duration: float) -> None:
+        self.size = 0
+        """Bytes of the messages in memory."""
+        self._duration = round(duration * 1e9)
+        self._topics: list[Topic] = []  # of channels 1, 2, 3, ...
+        self._attached: dict[str, tuple[bytes, str]] = {}
+        self._messages: deque[Serialised] = deque()
+        self._latched = Latched()  # of what has been forgotten
+
+    def attach(self, name: str, data: bytes, media_type: str) -> None:
+        """Keep a file that goes with the messages."""
+        self._attached[name] = data, media_type
+
+    def add_topic(self, topic: Topic, account: TopicAccount) -> int:
+        """Open a channel; the number returned is the one `write` takes.
+
+        A snapshot counts for itself, so `account` is not told in it.
+        """
+        self._topics.append(topic)
+        channel = len(self._topics)
+        self._latched.add_topic(channel, topic)
+        return channel
+
+    def write(
+        self, channel: int, data: bytes, log_time: int, publish_time: int, sequence: int
+    ) -> None:
+        """Keep one serialised message, and forget what is too old."""
+        messages = self._messages
+        messages.append(Serialised(channel, data, log_time, publish_time, sequence))
+        self.size += len(data)
+        while messages[0].log_time < log_time - self._duration:
+            old = messages.popleft()
+            self.size -= len(old.data)
+            if old.channel in self._latched:
+                self._latched.keep(old)
+
+    def flush(self) -> None:
+        """Nothing is on its way to a disk."""
+
+    def pour(self, bag: BagWriter) -> None:
+        """Write what is kept into `bag`."""
+        for name, content in self._attached.items():
+            bag.attach(name, *content)
+        # What came before the window is not lost to it.
+        accounts = [TopicAccount(latched=True) for _ in self._topics]
+        channels = [bag.add_topic(*pair) for pair in zip(self._topics, accounts, strict=True)]
+        for message in self._window():
+            place = message.channel - 1
+            bag.write(channels[place], *message[1:])
+            senders = partial(len, self._topics[place].offered_qos)
+            accounts[place].receive(message.sequence, senders)
+
+    def _window(self) -> Iterator[Serialised]:
+        """Latched messages that hold when the window begins, then the window."""
+        begin = self._messages[0].log_time if self._messages else 0
+        for message in self._latched:
+            yield message._replace(log_time=max(message.log_time, begin))
+        yield from self._messages

@@ -1,0 +1,148 @@
+"""A recording as it is played again: serialised messages at their instants; needs no ROS."""
+
+from __future__ import annotations
+
+import heapq
+from collections import Counter
+from collections.abc import Collection, Iterable, Iterator
+from pathlib import Path
+from typing import NamedTuple
+
+from mcap.records import Channel, Message, Schema
+
+from ..container.extent import Extent
+from ..container.records import RecordingError, files_of
+from ..container.segment import DISORDER, open_segment
+from .metadata import Topic, read_offered_qos
+from .repeats import Repeats
+
+
+class Cue(NamedTuple):
+    """A serialised message; `time` [ns] is its log time after the tape's first message."""
+
+    time: int
+    topic: str
+    data: bytes
+
+
+class Tape:
+    """What there is to play at `path`: an .mcap file, also a torn one, or a folder of them.
+
+    `chosen` are the topics to play, by default all. `topics` has them by name, `counts` their
+    messages; `start` [ns] is the log time of the first message of any topic, `length` [ns] the time
+    from it to the last; `remarks` says in lines what could not be read, and grows while a damaged
+    file is played.
+    Raises `RecordingError` where there is nothing to play.
+    """
+
+    def __init__(self, path: Path, chosen: Collection[str] = ()) -> None:
+        self.remarks: list[str] = []
+        self.topics: dict[str, Topic] = {}
+        self.counts: Counter[str] = Counter()
+        extent = Extent()
+        self._segments = [open_segment(file, self._tell) for file in files_of(path)]
+        held = {c.topic for s in self._segments for c, _ in s.contents.channels.values()}
+        for name in chosen:
+            if name not in held:
+                raise RecordingError(f"topics: {name}: {path} holds {', '.join(sorted(held))}")
+        for segment in self._segments:
+            for channel, schema in segment.contents.channels.values():
+                if not chosen or channel.topic in chosen:
+                    self._add(channel, schema, path)
+            self.counts += segment.contents.counts
+            if segment.contents.extent.start:
+                extent.include(segment.contents.extent.start)
+                extent.include(segment.contents.extent.end)
+        if not extent.start:
+            raise RecordingError(f"{path}: holds no message")
+        self.start = extent.start
+        self.length = extent.end - extent.start
+
+    def cues(self, begin: int = 0, end: int | None = None) -> Iterator[Cue]:
+        """Messages from `begin` to `end` [ns after the first message] in the order of log time.
+
+        Before them, at `begin`, come the messages a subscriber joining then would still get:
+        the newest ones of latched topics.
+        """
+        repeats = Repeats()
+        for topic, message in self._latched(self.start + begin):
+            if not repeats.known(topic, message):
+                yield Cue(begin, topic, message.data)
+        for cue in _in_order(self._read(begin, repeats)):
+            if end is not None and cue.time > end:
+                return
+            yield cue
+
+    def _read(self, begin: int, repeats: Repeats) -> Iterator[Cue]:
+        """Messages from `begin` on, in file order, but those that `repeats` knows."""
+        for segment in self._segments:
+            if segment.contents.extent.end >= self.start + begin:
+                for topic, message in segment.messages(self.start + begin):
+                    if topic not in self.topics:
+                        continue
+                    if self.topics[topic].kept and repeats.known(topic, message):
+                        continue
+                    yield Cue(message.log_time - self.start, topic, message.data)
+
+    def _latched(self, before: int) -> list[tuple[str, Message]]:
+        """What is in force before a log time [ns], oldest first."""
+        missing = {name: topic.kept for name, topic in self.topics.items() if topic.kept}
+        found: list[tuple[str, Message]] = []
+        for segment in reversed(self._segments):
+            if not missing or before <= self.start:
+                break
+            for name, messages in segment.newest(missing, before).items():
+                found += [(name, message) for message in messages]
+                missing[name] -= len(messages)
+            missing = {name: count for name, count in missing.items() if count}
+        return sorted(found, key=lambda pair: pair[1].log_time)
+
+    def _add(self, channel: Channel, schema: Schema | None, path: Path) -> None:
+        if schema is None or channel.message_encoding != "cdr":
+            raise RecordingError(
+                f"{path}: {channel.topic} is encoded as {channel.message_encoding or 'nothing'}, "
+                "only ROS 2 messages (cdr) can be played"
+            )
+        known = self.topics.setdefault(channel.topic, self._topic(channel, schema, path))
+        if known.type != schema.name:
+            raise RecordingError(
+                f"{path}: {channel.topic} holds both {known.type} and {schema.name}"
+            )
+
+    def _topic(self, channel: Channel, schema: Schema, path: Path) -> Topic:
+        try:
+            definition = schema.data.decode()
+        except UnicodeDecodeError as reason:
+            raise RecordingError(
+                f"{path}: {channel.topic}: its definition must be in UTF-8, byte "
+                f"{reason.start + 1} is not"
+            ) from None
+        try:
+            offered_qos = read_offered_qos(channel.metadata.get("offered_qos_profiles", ""))
+        except ValueError as reason:
+            offered_qos = []
+            self._tell(f"{path}: {channel.topic}: taken as volatile: {reason}")
+        return Topic(
+            name=channel.topic,
+            type=schema.name,
+            type_hash=channel.metadata.get("topic_type_hash", ""),
+            definition=definition,
+            offered_qos=offered_qos,
+        )
+
+    def _tell(self, remark: str) -> None:
+        if remark not in self.remarks:
+            self.remarks.append(remark)
+
+
+def _in_order(cues: Iterable[Cue]) -> Iterator[Cue]:
+    """The same sorted by time, equal times in their given order; holds a second of them."""
+    waiting: list[tuple[int, int, Cue]] = []
+    newest = 0
+    for number, cue in enumerate(cues):
+        heapq.heappush(waiting, (cue.time, number, cue))
+        newest = max(newest, cue.time)
+        while waiting[0][0] < newest - DISORDER:
+            yield heapq.heappop(waiting)[2]
+    while waiting:
+        yield heapq.heappop(waiting)[2]

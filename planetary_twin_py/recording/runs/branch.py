@@ -1,0 +1,97 @@
+"""How a run is to differ from a recorded one, and the run that follows from it."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from itertools import pairwise
+from typing import Any
+
+from ...scene import TUNABLES, Scene, SceneError
+from ...twin import TICKS
+from .origin import Origin, makers_here
+from .schedule import Change, Interval, Run, nanoseconds
+
+LONGEST = 3600.0  # [s] of a run that goes on beyond what is recorded
+
+
+@dataclass(frozen=True)
+class Branch:
+    """How a run is to differ from the recorded one.
+
+    `settings` hold from `start` [s] on, whatever the recorded changes after it say of the same
+    names; those of other names happen as recorded. Names are those of `Scene.replace`; what is not
+    of the operating point can only hold from 0 on. A run is as long as the recorded one unless it
+    has a `duration` [s]; beyond the recorded end nothing changes any more.
+    """
+
+    settings: Mapping[str, Any]
+    start: float = 0.0
+    duration: float | None = None
+    run: int | None = None
+    """Which of the runs in the file, from 1; the last unless given."""
+
+
+def branched(run: Run, branch: Branch) -> tuple[float, Run]:
+    """The instant [s] of the branch, and the run that follows from it.
+
+    Raises:
+        ValueError: a setting, the start or the duration cannot be.
+    """
+    intervals = _stretched(run.intervals, branch.duration)
+    last = intervals[-1].begin / TICKS
+    if not 0.0 <= branch.start <= last:
+        raise ValueError(f"from = {branch.start:g} s: must be within 0 and {last:g} s")
+    begins = next(i.begin for i in intervals if i.begin >= round(branch.start * TICKS)) / TICKS
+    values, scene = _values(run.origin.scene, branch)
+    before = [change for change in run.changes if change.time < begins]
+    after = [change for change in run.changes if change.time >= begins]
+    if not after or after[0].time > begins:
+        in_force = before[-1].values if before else scene.operating_point.model_dump()
+        after.insert(0, Change(0, _stamp_at(run, intervals, begins), begins, in_force))
+    after = [change._replace(values=change.values | values) for change in after]
+    after = after[:1] + [now for last, now in pairwise(after) if now.values != last.values]
+    for change in after:
+        scene.replace(**change.values)
+    origin = Origin(scene, run.origin.begins, makers_here())
+    return begins, Run(origin, intervals, before + after)
+
+
+def _values(scene: Scene, branch: Branch) -> tuple[dict[str, float], Scene]:
+    """Values of the operating point that hold from the branch on, and the scene of the run."""
+    changed = scene.replace(**branch.settings)
+    tuned = [name for name in branch.settings if name in TUNABLES]
+    others = [name for name in branch.settings if name not in TUNABLES]
+    if others and branch.start > 0.0:
+        raise SceneError(
+            f"{others[0]}: makes another model, which runs from = 0 only; from then on can change "
+            f"{', '.join(TUNABLES)}"
+        )
+    values = {name: getattr(changed.operating_point, name) for name in tuned}
+    return values, changed if branch.start == 0.0 else scene
+
+
+def _stretched(intervals: list[Interval], duration: float | None) -> list[Interval]:
+    """The intervals that make `duration` [s]: cut off, or with more like the longest at the end."""
+    if duration is None:
+        return intervals
+    longest = max(LONGEST, intervals[-1].end / TICKS)
+    if not 1.0 / TICKS <= duration <= longest:
+        raise ValueError(f"duration = {duration!r} s: must be above 0 and at most {longest:g}")
+    end = round(duration * TICKS)
+    kept = [interval for interval in intervals if interval.begin < end]
+    length = max(interval.end - interval.begin for interval in intervals)
+    while kept[-1].end < end:
+        last = kept[-1]
+        stamp = last.stamp + nanoseconds(length)
+        setting = last.tolerance, last.sample_rate
+        kept.append(Interval(last.number + 1, stamp, last.end, last.end + length, *setting))
+    over = kept[-1].end - end
+    kept[-1] = kept[-1]._replace(end=end, stamp=kept[-1].stamp - nanoseconds(over))
+    return kept
+
+
+def _stamp_at(run: Run, intervals: list[Interval], time: float) -> int:
+    """ROS time [ns] of the instant at which an interval begins."""
+    ends = [interval.stamp for interval in intervals if interval.end / TICKS <= time]
+    return ends[-1] if ends else run.origin.begins

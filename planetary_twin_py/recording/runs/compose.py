@@ -1,0 +1,115 @@
+"""Writes what a twin shows into a bag, in the messages the nodes publish; needs no ROS."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from typing import Any
+
+import numpy as np
+from rosbags.typesys import Stores, get_types_from_msg, get_typestore
+
+from ...robot import robot_description
+from ...scene import TUNABLES, OperatingPoint
+from ...window import Window
+from ..container.records import RecordingError
+from ..ros2.bag import BagWriter
+from ..ros2.definitions import KINDS
+from ..ros2.fields import joint_fields, state_fields, waveform_fields
+from ..ros2.metadata import Topic
+from ..ros2.topics import DESCRIPTION, JOINTS, ORIGIN, POINT, STATE, WAVEFORM
+from .origin import Origin
+
+Row = dict[str, Any]
+
+
+class Composer:
+    """Turns windows and operating points into messages of those topics a bag is to hold.
+
+    Args:
+        bag: where they go.
+        topics: as the bag describes them; those that are not the twin's are left alone.
+        namespace: of the twin.
+        frame: of the gearbox's base.
+    """
+
+    def __init__(
+        self, bag: BagWriter, topics: Iterable[Topic], namespace: str, frame: str = "gearbox"
+    ) -> None:
+        self._bag = bag
+        self._frame = frame
+        self._types = get_typestore(Stores.EMPTY)
+        self._kinds: dict[str, str] = {}
+        self._channels: dict[str, int] = {}
+        known = {f"{namespace}/{name}": name for name in KINDS}
+        for topic in topics:
+            if topic.name in known:
+                self._add(known[topic.name], topic)
+        self._counts = dict.fromkeys(self._kinds, 0)
+        self._last: OperatingPoint | None = None
+
+    def begin(self, origin: Origin) -> None:
+        """Tell what the run that begins now follows from, and what its gearbox looks like."""
+        self.write(ORIGIN, {"data": origin.text()}, origin.begins, origin.begins)
+        if DESCRIPTION in self._kinds:
+            text = robot_description(origin.scene.gearset, self._frame)
+            self.write(DESCRIPTION, {"data": text}, origin.begins, origin.begins)
+
+    def point(self, point: OperatingPoint, time: float, stamp: int) -> None:
+        """Tell the operating point in force from `time` [s], whose ROS time is `stamp` [ns]."""
+        last, self._last = self._last, point
+        changed = [n for n in TUNABLES if last is None or getattr(point, n) != getattr(last, n)]
+        row = {"simulated_time": time, "changed": ",".join(changed), **point.model_dump()}
+        self.write(POINT, row, stamp, stamp)
+
+    def window(self, window: Window, stamp: int, first: int) -> None:
+        """Tell of a window.
+
+        Args:
+            window: what to tell of.
+            stamp: ROS time of its end [ns].
+            first: ROS time of its first sample [ns].
+        """
+        self.write(STATE, self._state(window), stamp, stamp)
+        names = [f"{body}_joint" for body in window.bodies]
+        joints = {"name": names, **joint_fields(window), "effort": np.empty(0)}
+        self.write(JOINTS, joints, stamp, stamp)
+        if len(window.waveform.time):
+            self.write(WAVEFORM, waveform_fields(window), first, stamp)
+
+    def write(self, topic: str, row: Row, stamp: int, sent: int) -> None:
+        """Write the next message of a topic, if the bag is to hold it; both times in [ns]."""
+        if topic not in self._kinds:
+            return
+        self._counts[topic] += 1
+        number = self._counts[topic]
+        message = self._message(topic, {"sequence": number, **row}, stamp)
+        data = bytes(self._types.serialize_cdr(message, self._kinds[topic]))
+        self._bag.write(self._channels[topic], data, sent, sent, number)
+
+    def _state(self, window: Window) -> Row:
+        if STATE not in self._kinds:
+            return {}
+        setting = {"tolerance": window.tolerance, "sample_rate": window.sample_rate}
+        return state_fields(window, self._fields(STATE)) | setting
+
+    def _message(self, topic: str, row: Row, stamp: int) -> Any:
+        types = self._types.types
+        if "header" in self._fields(topic):
+            time = types["builtin_interfaces/msg/Time"](*divmod(stamp, 1_000_000_000))
+            # Joints stand in no frame.
+            frame = "" if topic == JOINTS else self._frame
+            row = {"header": types["std_msgs/msg/Header"](time, frame), **row}
+        unknown = [name for name in self._fields(topic) if name not in row]
+        if unknown:
+            kind = self._kinds[topic]
+            raise RecordingError(f"{kind}.{unknown[0]}: a field that the model does not know")
+        return types[self._kinds[topic]](**{name: row[name] for name in self._fields(topic)})
+
+    def _fields(self, topic: str) -> list[str]:
+        return [name for name, _ in self._types.fielddefs[self._kinds[topic]][1]]
+
+    def _add(self, name: str, topic: Topic) -> None:
+        found = get_types_from_msg(topic.definition, topic.type)
+        self._types.register({k: v for k, v in found.items() if k not in self._types.types})
+        self._kinds[name] = topic.type
+        self._channels[name] = self._bag.add_topic(topic)

@@ -1,0 +1,283 @@
+"""What a recording holds: topics with their rates and losses, and what was changed when."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from copy import deepcopy
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any, NamedTuple
+
+import numpy as np
+from mcap.records import Channel, Message, Metadata, Schema
+from numpy.typing import NDArray
+
+from ...scene import TUNABLES
+from ..container.message_index import UNSOUND, Index
+from ..container.records import files_of
+from ..ros2.bag import ACCOUNT_RECORD
+from ..ros2.decode import Decoder
+from ..ros2.repeats import Repeats, unrepeated
+from ..ros2.topics import POINT, REAL_TIME, STATE, is_status
+from .schedule import stamp_of
+
+REPORT = "/diagnostics"
+REPORTED = {"real_time_factor_mean", "overruns"}
+_ROUNDING = 1e3  # [ns]; intervals are many times as long
+
+
+@dataclass
+class TopicInfo:
+    """One topic; `first` and `last` are log times [ns]."""
+
+    type: str
+    recorded: int = 0
+    lost: int | None = None
+    """Messages published but not received, by the recorder's account; None without one."""
+    before: int = 0
+    """Of these, published before the recording heard the first one."""
+    first: int = 0
+    last: int = 0
+    longest_gap: int = 0
+    """Between two messages [ns]."""
+
+    @property
+    def rate(self) -> float:
+        """Messages per second of log time; NaN with fewer than two."""
+        span = self.last - self.first
+        return (self.recorded - 1) / (span * 1e-9) if span > 0 else math.nan
+
+    def take(self, times: Sequence[int] | NDArray[np.int64]) -> None:
+        """Count messages by their log times, which come after those taken before."""
+        if not len(times):
+            return
+        if not self.recorded:
+            self.first = self.last = int(times[0])
+        newest = np.maximum.accumulate([self.last, *times])
+        self.longest_gap = max(self.longest_gap, int((times - newest[:-1]).max()))
+        self.last = int(newest[-1])
+        self.recorded += len(times)
+
+
+class Changed(NamedTuple):
+    """Values of an operating point that are new, and the simulated instant [s]."""
+
+    time: float
+    namespace: str
+    values: Mapping[str, float]
+
+
+@dataclass
+class Info:
+    """What `read_info` has found; `remarks` says in lines what could not be read."""
+
+    files: list[Path]
+    topics: dict[str, TopicInfo] = field(default_factory=dict)
+    changes: list[Changed] = field(default_factory=list)
+    simulated: float = 0.0
+    """Simulated time that all gearbox states together cover [s]."""
+    report: dict[str, str] = field(default_factory=dict)
+    """Figures of the simulation's last report in /diagnostics."""
+    remarks: list[str] = field(default_factory=list)
+
+    def figures(self) -> dict[str, Any]:
+        """For machines, as those of a run."""
+        topics = {
+            name: {
+                "type": topic.type,
+                "published": topic.recorded + (topic.lost or 0),
+                "recorded": topic.recorded,
+                "lost": topic.lost,
+                "before": topic.before,
+                "rate_hz": None if math.isnan(topic.rate) else topic.rate,
+                "longest_gap_s": topic.longest_gap * 1e-9,
+            }
+            for name, topic in self.topics.items()
+        }
+        factor = self.report.get("real_time_factor_mean")
+        overruns = self.report.get("overruns")
+        return {
+            "topics": topics,
+            "duration_s": self.simulated,
+            "real_time_factor": None if factor is None else float(factor),
+            "overruns": None if overruns is None else int(overruns),
+            "file": str(self.files[0]),
+        }
+
+
+def read_info(*paths: Path) -> Info:
+    """Read the recording at a path, an .mcap file or a folder of them; several one after another.
+
+    A finished file is asked for its index, and no more of it is read than must be.
+    Raises:
+        RecordingError: there is none.
+    """
+    told = _Told(Info([file for path in paths for file in files_of(path)]))
+    for file in told.info.files:
+        more = deepcopy(told)
+        try:
+            more.look_up(file, Index(file))
+        except UNSOUND:  # torn before it had an index, or damaged
+            told.read(file)
+        else:
+            told = more
+    return told.info
+
+
+class _Told:
+    """What the files so far have told."""
+
+    def __init__(self, info: Info) -> None:
+        self.info = info
+        self._points: dict[str, dict[str, float]] = {}
+        self._repeats = Repeats()
+
+    def read(self, file: Path) -> None:
+        """Learn from every record of a file."""
+        decoder = Decoder(file, _tells)
+        schemas: dict[int, Schema] = {}
+        names: dict[int, str] = {}
+        times: dict[str, list[int]] = {}
+        accounts: list[Mapping[str, str]] = []
+        for record in unrepeated(file, self.info.remarks, self._repeats):
+            if isinstance(record, Schema):
+                schemas[record.id] = record
+            elif isinstance(record, Channel):
+                names[record.id] = record.topic
+                kind = schemas[record.schema_id].name
+                self.info.topics.setdefault(record.topic, TopicInfo(kind))
+            elif isinstance(record, Message):
+                times.setdefault(names[record.channel_id], []).append(record.log_time)
+            elif isinstance(record, Metadata) and record.name == ACCOUNT_RECORD:
+                accounts.append(record.metadata)
+            if found := decoder.read(record):
+                self._learn(*found)
+        for name, taken in times.items():
+            self.info.topics[name].take(taken)
+        self._settle(accounts)
+
+    def look_up(self, file: Path, index: Index) -> None:
+        """Learn the same from the index of a file, and from the few messages that are needed."""
+        decoder = Decoder(file, _tells)
+        self._repeats.next_file()
+        for schema in index.schemas.values():
+            decoder.read(schema)
+        changes = []
+        for number, channel in index.channels.items():
+            decoder.read(channel)
+            new, times = self._new(index, number), index.times[number]
+            kind = index.schemas[channel.schema_id].name
+            self.info.topics.setdefault(channel.topic, TopicInfo(kind)).take(times[new])
+            if number not in decoder:
+                continue
+            messages = _Messages(index, number, decoder)
+            if channel.topic.endswith(f"/{STATE}"):
+                self.info.simulated += _simulated(messages)
+            elif channel.topic.endswith(f"/{POINT}"):
+                changes += [(times[k], channel.topic, messages[k]) for k in new]
+            elif channel.topic == REPORT:
+                self.info.report |= _report(messages)
+        for _, topic, message in sorted(changes, key=lambda change: change[0]):
+            self._learn(topic, message)
+        self._settle(
+            [record.metadata for record in index.metadata if record.name == ACCOUNT_RECORD]
+        )
+
+    def _new(self, index: Index, channel: int) -> NDArray[np.intp]:
+        """Numbers of a channel's messages that the files before did not have."""
+        count = len(index.times[channel])
+        self._repeats.repeated(index.channels[channel])
+        if not self._repeats.is_latched(channel):
+            return np.arange(count)
+        fresh = [k for k in range(count) if not self._repeats.repeated(index.message(channel, k))]
+        return np.array(fresh, dtype=np.intp)
+
+    def _settle(self, accounts: list[Mapping[str, str]]) -> None:
+        """Add the losses of a file; it may tell of a topic that it has no message of."""
+        for account in accounts:
+            try:
+                name, lost, missed = account["topic"], int(account["lost"]), int(account["missed"])
+            except (KeyError, ValueError) as reason:
+                self.info.remarks.append(f"an account of losses cannot be read: {reason}")
+                continue
+            if topic := self.info.topics.get(name):
+                topic.lost = (topic.lost or 0) + lost
+                topic.before += lost - missed
+
+    def _learn(self, topic: str, message: Any) -> None:
+        """Take what a message tells of the run."""
+        if topic.endswith(f"/{STATE}"):
+            self.info.simulated += message.interval
+        elif topic == REPORT:
+            self.info.report |= _figures(message)
+        else:
+            last = self._points.get(topic)
+            values = {name: getattr(message, name) for name in TUNABLES}
+            new = {k: v for k, v in values.items() if last is None or v != last[k]}
+            self._points[topic] = values
+            namespace = topic.removesuffix(f"/{POINT}")
+            self.info.changes.append(Changed(message.simulated_time, namespace, new))
+
+
+class _Messages(Sequence[Any]):
+    """The messages of a channel, each decoded when it is asked for."""
+
+    def __init__(self, index: Index, channel: int, decoder: Decoder) -> None:
+        self._index, self._channel, self._decoder = index, channel, decoder
+
+    def __len__(self) -> int:
+        return len(self._index.times[self._channel])
+
+    def __getitem__(self, number: Any) -> Any:
+        found = self._decoder.read(self._index.message(self._channel, number))
+        return found[1] if found else None
+
+
+def _simulated(states: Sequence[Any]) -> float:
+    """Simulated time that states cover [s].
+
+    Those of one run, of which none is missing, cover what lies between their ends: so only the
+    halves are looked at in which a run ends or a message is missing.
+    """
+
+    def covered(first: int, last: int) -> float:
+        """By the states after `first`."""
+        if first == last:
+            return 0.0
+        begin, end = states[first], states[last]
+        if end.sequence - begin.sequence == last - first and _same_run(begin, end):
+            return float(end.simulated_time - begin.simulated_time)
+        if last == first + 1:
+            return float(end.interval)
+        middle = (first + last) // 2
+        return covered(first, middle) + covered(middle, last)
+
+    return states[0].interval + covered(0, len(states) - 1) if len(states) else 0.0
+
+
+def _same_run(begin: Any, end: Any) -> bool:
+    """Whether ROS time and simulated time went on by the same."""
+    simulated = end.simulated_time - begin.simulated_time
+    return abs(stamp_of(end) - stamp_of(begin) - simulated * 1e9) < _ROUNDING
+
+
+def _report(reports: Sequence[Any]) -> dict[str, str]:
+    """The newest figures of each name that is asked for, as far back as there are others."""
+    found: dict[str, str] = {}
+    for number in reversed(range(len(reports))):
+        found = _figures(reports[number]) | found
+        if found.keys() >= REPORTED:
+            break
+    return found
+
+
+def _figures(report: Any) -> dict[str, str]:
+    """What the simulation's report of its real time says, if this is one."""
+    statuses = [status for status in report.status if is_status(status.name, REAL_TIME)]
+    return {item.key: item.value for status in statuses for item in status.values}
+
+
+def _tells(topic: str) -> bool:
+    """Whether messages of a topic are read, not only counted."""
+    return topic == REPORT or topic.endswith((f"/{STATE}", f"/{POINT}"))

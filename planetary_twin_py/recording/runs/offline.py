@@ -1,0 +1,72 @@
+"""A run without ROS, recorded as the nodes would have published it."""
+
+from __future__ import annotations
+
+import math
+import time
+from collections.abc import Callable
+from pathlib import Path
+from typing import NamedTuple
+
+import yaml
+
+from ...scene import Scene
+from ...twin import TICKS
+from ..ros2.bag import BagWriter, write_as
+from ..ros2.definitions import topics_of
+from .compose import Composer
+from .origin import Origin, makers_here
+from .reader import SCENE_ATTACHMENT
+from .schedule import Change, Interval, Run, nanoseconds
+from .written import write_run
+
+NAMESPACE = "/planetary_twin"
+INTERVAL = 0.01  # [s], as the simulation node publishes by default
+
+
+class Plan(NamedTuple):
+    """What to simulate: see `simulate`."""
+
+    scene: Scene
+    duration: float
+    sample_rate: float
+    tolerance: float
+
+
+def record(plan: Plan, out: Path, progress: Callable[[float], None] = lambda time: None) -> Path:
+    """Simulate `plan` into `out`: a bag folder, or one file if it ends in .mcap; returns the file.
+
+    `progress` hears the simulated time reached [s].
+
+    Raises:
+        ValueError: a value of the plan cannot be.
+        FileExistsError: `out` exists.
+        OSError: it cannot be written.
+    """
+    return write_as(out, lambda folder: _record(plan, folder, progress))
+
+
+def _record(plan: Plan, folder: Path, progress: Callable[[float], None]) -> Path:
+    run = _run(plan)
+    bag = BagWriter(folder)
+    try:
+        scene = yaml.safe_dump(plan.scene.model_dump(mode="json"), sort_keys=False)
+        bag.attach(SCENE_ATTACHMENT, scene.encode(), "application/yaml")
+        for reached in write_run(Composer(bag, topics_of(NAMESPACE), NAMESPACE), run):
+            progress(reached)
+    finally:  # what is there is true, however far it goes
+        bag.close()
+    return bag.file
+
+
+def _run(plan: Plan) -> Run:
+    """The run from now on, in intervals of which the last may be shorter."""
+    begins, end, length = time.time_ns(), round(plan.duration * TICKS), round(INTERVAL * TICKS)
+    ends = [min((n + 1) * length, end) for n in range(math.ceil(end / length))]
+    intervals = [
+        Interval(n + 1, begins + nanoseconds(to), n * length, to, plan.tolerance, plan.sample_rate)
+        for n, to in enumerate(ends)
+    ]
+    point = plan.scene.operating_point.model_dump()
+    change = Change(1, begins, 0.0, point)
+    return Run(Origin(plan.scene, begins, makers_here()), intervals, [change])

@@ -1,0 +1,93 @@
+"""Runs that are recorded, simulated again interval by interval."""
+
+from __future__ import annotations
+
+from bisect import bisect_left
+from collections import OrderedDict, deque
+from collections.abc import Iterator
+from dataclasses import replace
+from typing import Any, NamedTuple
+
+from ...twin import TICKS, Twin
+from ...window import Window
+from ..ros2.topics import WAVEFORM
+from .schedule import Change, Interval, Run, stamp_of, without_gaps
+
+KEPT = 1000  # intervals that wait for their messages
+
+
+class Again:
+    """Runs simulated again, interval by interval, as far as they are asked for."""
+
+    def __init__(self, runs: list[Run], remarks: list[str]) -> None:
+        self._stamps = [interval.stamp for run in runs for interval in run.intervals]
+        self._begins = [run.origin.begins for run in runs for _ in run.intervals]
+        self._windows = _windows(runs, remarks)
+        self._made: OrderedDict[int, tuple[Interval, Window]] = OrderedDict()
+        self._count = 0
+
+    def interval_of(self, topic: str, message: Any) -> tuple[Interval, Window] | None:
+        """What a message tells of, simulated again; None where that cannot be."""
+        stamp = stamp_of(message)
+        place = bisect_left(self._stamps, stamp)
+        if place == len(self._stamps) or stamp < self._begins[place]:
+            return None
+        if topic == WAVEFORM:  # stamped with its first sample
+            for candidate in (place, place + 1):  # where it is rounded down to the end before
+                found = self._at(candidate)
+                if found and _holds(found[1], message):
+                    return found
+            return None
+        return self._at(place) if self._stamps[place] == stamp else None
+
+    def _at(self, place: int) -> tuple[Interval, Window] | None:
+        while self._count <= place:
+            made = next(self._windows, None)
+            if made is None:
+                break
+            self._made[self._count] = made
+            self._count += 1
+            if len(self._made) > KEPT:
+                self._made.popitem(last=False)
+        return self._made.get(place)
+
+
+def _holds(window: Window, block: Any) -> bool:
+    """Whether a block of samples is that of an interval."""
+    time = window.waveform.time
+    return len(time) > 0 and bool(time[0] == block.start_time)
+
+
+class Step(NamedTuple):
+    """An interval simulated again, and the changes from its begin on."""
+
+    interval: Interval
+    changes: list[Change]
+    window: Window
+
+
+def steps(run: Run) -> Iterator[Step]:
+    """The intervals of a run, simulated one after another."""
+    first = run.intervals[0]
+    twin = Twin(run.origin.scene, first.sample_rate, first.tolerance)
+    waiting = deque(run.changes)
+    for interval in run.intervals:
+        changes = []
+        while waiting and waiting[0].time <= twin.time:
+            changes.append(waiting.popleft())
+            twin.set(**changes[-1].values)
+        twin.set_tolerance(interval.tolerance)
+        twin.set_sample_rate(interval.sample_rate)
+        window = twin.advance((interval.end - interval.begin) / TICKS)
+        yield Step(interval, changes, window)
+
+
+def _windows(runs: list[Run], remarks: list[str]) -> Iterator[tuple[Interval, Window]]:
+    """Every recorded interval simulated again, run after run."""
+    for run in runs:
+        whole = without_gaps(run, remarks)
+        for interval, _, window in steps(replace(run, intervals=whole)):
+            if interval.recorded:
+                yield interval, window
+        if whole[-1] != run.intervals[-1]:
+            return

@@ -1,0 +1,255 @@
+"""Every sample of the vibration: its range at once, the samples of a stretch when they are needed.
+
+A minute holds 18 million samples of each quantity, so a long recording is not held whole.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any, NamedTuple, Protocol
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..container.records import RecordingError, section_at
+from ..ros2.layout import LayoutError, Layouts
+
+QUANTITIES = ("dte", "mesh_force", "friction")
+Values = dict[str, NDArray[np.float32]]
+Stretch = tuple[float, float]
+"""Begin and end in simulated time [s]."""
+
+
+@dataclass
+class Waveform:
+    """Every sample of every mesh: `time` [s] and `stamp` [ns] (n,), the rest (n, meshes).
+
+    `block` holds the index of the first sample of each recorded block.
+    """
+
+    time: NDArray[np.float64]
+    stamp: NDArray[np.int64]
+    block: NDArray[np.int64]
+    dte: NDArray[np.float32]
+    mesh_force: NDArray[np.float32]
+    friction: NDArray[np.float32]
+
+
+@dataclass
+class Ranges:
+    """Smallest and largest sample of each recorded block.
+
+    `time` [s] and `stamp` [ns] (blocks,) are those of its first sample, `period` [s] is from one
+    sample to the next; `lowest[name]` and `highest[name]` (blocks, meshes), for "dte" [m],
+    "mesh_force" [N] and "friction" [N]; a sample that is NaN does not count.
+    """
+
+    time: NDArray[np.float64]
+    stamp: NDArray[np.int64]
+    period: NDArray[np.float64]
+    lowest: Values
+    highest: Values
+
+
+class Source(NamedTuple):
+    """A topic's messages in a file, and how they are read."""
+
+    file: Path
+    channel: int
+    topic: str
+    layouts: Layouts
+
+    def arrays(self, messages: list[bytes]) -> Iterator[NDArray[Any]]:
+        """Structured arrays of messages, in their order.
+
+        Raises:
+            RecordingError: one is not what its definition says.
+        """
+        try:
+            yield from self.layouts.arrays(messages)
+        except LayoutError as reason:
+            raise RecordingError(f"{self.file}: {self.topic}: a message {reason}") from None
+
+
+class _Batch(NamedTuple):
+    """Of messages in a row in one section: where it is, and what is kept of them."""
+
+    source: Source
+    place: int
+    time: NDArray[np.float64]
+    stamp: NDArray[np.int64]
+    period: NDArray[np.float64]
+    begin: float  # simulated time of the first sample [s]
+    end: float  # and of the last
+    lowest: list[NDArray[np.float32]]  # in the order of QUANTITIES
+    highest: list[NDArray[np.float32]]
+
+
+class Samples(Protocol):
+    """The recorded blocks of one gearbox, wherever they are."""
+
+    def ranges(self) -> Ranges | None:
+        """Of all blocks; None without any."""
+
+    def waveform(self, begin: float, end: float) -> Waveform | None:
+        """The samples of all blocks that touch the stretch of simulated time [s]; None if none."""
+
+
+@dataclass
+class Held:
+    """Blocks in memory."""
+
+    held: Waveform | None
+
+    def ranges(self) -> Ranges | None:
+        """Of all blocks; None without any."""
+        if self.held is None:
+            return None
+        wave, block = self.held, self.held.block
+        lowest, highest = (
+            {name: reduce.reduceat(getattr(wave, name), block, axis=0) for name in QUANTITIES}
+            for reduce in (np.fmin, np.fmax)
+        )
+        following = np.minimum(block + 1, len(wave.time) - 1)
+        period = wave.time[following] - wave.time[block]
+        return Ranges(wave.time[block], wave.stamp[block], period, lowest, highest)
+
+    def waveform(self, begin: float, end: float) -> Waveform | None:
+        """The samples of all blocks that touch the stretch of simulated time [s]; None if none."""
+        wave = self.held
+        if wave is None:
+            return None
+        counts = np.diff(np.append(wave.block, len(wave.time)))
+        last = wave.time[wave.block + counts - 1]
+        touched = (wave.time[wave.block] <= end) & (last >= begin)
+        if not touched.any():
+            return None
+        rows = np.repeat(touched, counts)
+        first = np.concatenate(([0], np.cumsum(counts[touched])))[:-1]
+        columns = {name: getattr(wave, name)[rows] for name in QUANTITIES}
+        return Waveform(wave.time[rows], wave.stamp[rows], first, **columns)
+
+
+class Blocks:
+    """The recorded blocks of one gearbox, in file order."""
+
+    def __init__(self) -> None:
+        self._batches: list[_Batch] = []
+
+    def take(self, source: Source, place: int, rows: NDArray[Any]) -> None:
+        """Remember messages that the section of a file at `place` holds.
+
+        Raises:
+            RecordingError: their samples are not as many as they say.
+        """
+        rows = rows[rows["samples"] > 0]
+        if not len(rows):
+            return
+        told = 2 * rows["planets"].astype(int) * rows["samples"]
+        if any((told != rows.dtype[name].shape[0]).any() for name in QUANTITIES):
+            raise RecordingError(f"{source.file}: {source.topic}: samples are missing in a message")
+        samples = [_samples(rows, name) for name in QUANTITIES]
+        last = rows["start_time"] + (rows["samples"] - 1) * rows["sample_period"]
+        self._batches.append(
+            _Batch(
+                source,
+                place,
+                rows["start_time"].astype(np.float64),
+                stamps(rows),
+                rows["sample_period"].astype(np.float64),
+                float(rows["start_time"].min()),
+                float(last.max()),
+                [np.fmin.reduce(values, axis=2) for values in samples],
+                [np.fmax.reduce(values, axis=2) for values in samples],
+            )
+        )
+
+    def ranges(self) -> Ranges | None:
+        """Of all blocks; None without any."""
+        if not self._batches:
+            return None
+        ends = [
+            {
+                name: np.concatenate([getattr(batch, end)[k] for batch in self._batches])
+                for k, name in enumerate(QUANTITIES)
+            }
+            for end in ("lowest", "highest")
+        ]
+        time, stamp, period = (
+            np.concatenate([getattr(batch, name) for batch in self._batches])
+            for name in ("time", "stamp", "period")
+        )
+        return Ranges(time, stamp, period, *ends)
+
+    def waveform(self, begin: float, end: float) -> Waveform | None:
+        """The samples of all blocks that touch the stretch of simulated time [s]; None if none."""
+        return waveform_of(list(self._read(begin, end)))
+
+    def _read(self, begin: float, end: float) -> Iterator[NDArray[Any]]:
+        """The messages again whose blocks touch the stretch."""
+        wanted = {
+            (batch.source, batch.place): None
+            for batch in self._batches
+            if batch.begin <= end and batch.end >= begin
+        }
+        for source, place in wanted:
+            records = section_at(source.file, place)
+            data = [r.data for r in records if getattr(r, "channel_id", None) == source.channel]
+            for rows in source.arrays(data):
+                last = rows["start_time"] + (rows["samples"] - 1.0) * rows["sample_period"]
+                yield rows[(rows["start_time"] <= end) & (last >= begin) & (rows["samples"] > 0)]
+
+
+def waveform_of(messages: Iterable[NDArray[Any]]) -> Waveform | None:
+    """The samples of structured arrays of MeshWaveform; None if there are none."""
+    found = [rows[rows["samples"] > 0] for rows in messages]
+    found = [rows for rows in found if len(rows)]
+    if not found:
+        return None
+    counts = np.concatenate([rows["samples"] for rows in found]).astype(np.int64)
+    first = np.concatenate(([0], np.cumsum(counts)))
+    offset = np.concatenate(
+        [
+            np.arange(count) * period
+            for rows in found
+            for count, period in zip(rows["samples"], rows["sample_period"], strict=True)
+        ]
+    )
+    start = np.concatenate([rows["start_time"] for rows in found])
+    stamp = np.concatenate([stamps(rows) for rows in found])
+    columns = {
+        name: np.concatenate(
+            [mesh.T for rows in found for mesh in _samples(rows, name)], dtype=np.float32
+        )
+        for name in QUANTITIES
+    }
+    return Waveform(
+        np.repeat(start, counts) + offset,
+        np.repeat(stamp, counts) + np.rint(offset * 1e9).astype(np.int64),
+        first[:-1],
+        **columns,
+    )
+
+
+def joined(parts: Sequence[Waveform]) -> Waveform | None:
+    """Parts after one another; None if there are none."""
+    if not parts:
+        return None
+    before = np.cumsum([0, *(len(part.time) for part in parts)])
+    block = np.concatenate([part.block + n for part, n in zip(parts, before, strict=False)])
+    names = ("time", "stamp", *QUANTITIES)
+    columns = {name: np.concatenate([getattr(part, name) for part in parts]) for name in names}
+    return Waveform(block=block, **columns)
+
+
+def stamps(rows: NDArray[Any]) -> NDArray[np.int64]:
+    """ROS time of messages [ns]."""
+    stamp = rows["header"]["stamp"]
+    return np.asarray(stamp["sec"].astype(np.int64) * 1_000_000_000 + stamp["nanosec"])
+
+
+def _samples(rows: NDArray[Any], name: str) -> NDArray[np.float32]:
+    """Of messages that lie alike: (messages, meshes, samples)."""
+    return np.asarray(rows[name].reshape(len(rows), 2 * int(rows["planets"][0]), -1))

@@ -1,0 +1,41 @@
+"""A run that is simulated and written, interval by interval."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import Any
+
+from ...scene import OperatingPoint
+from ...twin import TICKS
+from .compose import Composer
+from .resimulation import steps
+from .schedule import Interval, Run, nanoseconds
+
+_PAUSE = 1_000_000_000  # [ns] by which stamps run ahead of simulated time only where it stood
+
+
+def write_run(composer: Composer, run: Run) -> Iterator[float]:
+    """Simulate `run` and write all that it shows; yields the time reached [s]."""
+    composer.begin(run.origin)
+    stamp = run.origin.begins
+    for interval, changes, window in steps(run):
+        for change in changes:
+            composer.point(OperatingPoint(**change.values), change.time, change.stamp)
+        first = _stamp_within(interval, stamp, window.waveform.time)
+        composer.window(window, interval.stamp, first)
+        stamp = interval.stamp
+        yield window.end
+
+
+def _stamp_within(interval: Interval, before: int, times: Any) -> int:
+    """ROS time [ns] of the first of the samples at `times` [s], as the nodes tell it.
+
+    `before` is that of the end of the interval before.
+    """
+    if not len(times):
+        return interval.stamp
+    begin, end = interval.begin / TICKS, interval.end / TICKS
+    span = interval.stamp - before
+    stood = span - nanoseconds(interval.end - interval.begin) > _PAUSE
+    pace = 1e9 if stood else span / (end - begin)
+    return interval.stamp + round((times[0] - end) * pace)

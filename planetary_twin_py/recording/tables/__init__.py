@@ -1,0 +1,1 @@
+"""Recordings as tables for other tools, and tables of measurements as recordings."""

@@ -1,0 +1,129 @@
+"""A recording as tables for other tools; holds only a batch of it in memory."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from pathlib import Path
+from typing import NamedTuple
+
+from ..container.records import RecordingError
+from ..ros2.namespaces import choose_namespace
+from ..ros2.tape import Tape
+from ..runs.schedule import messages_of, stamp_of
+from .message_tables import TABLES, Batch, Table
+from .table_files import FORMATS, TableFile
+
+Progress = Callable[[int, int], None]
+
+
+class Export(NamedTuple):
+    """What to write.
+
+    `out` is a folder, for a file per topic; or a file with the ending of a format, for one topic.
+    """
+
+    out: Path
+    format: str | None = None
+    """Of `FORMATS`; without it the ending of `out` tells it, or Parquet."""
+    topics: Sequence[str] = ()
+    """Of `TABLES`; all that are recorded without any."""
+    namespace: str | None = None
+
+
+class Exported(NamedTuple):
+    """Files with the number of their rows; `remarks` says in lines what could not be read."""
+
+    rows: dict[Path, int]
+    remarks: list[str]
+
+
+def export(path: Path, chosen: Export, progress: Progress = lambda done, length: None) -> Exported:
+    """Write the tables of the recording at `path`.
+
+    `progress` hears the ROS time that is done, and the whole [ns].
+
+    Raises:
+        RecordingError: there is nothing to read.
+        ValueError: format or topics cannot be.
+        FileExistsError: a file is there already.
+        OSError: one cannot be written.
+    """
+    kind, single = _format(chosen)
+    tape = Tape(path)
+    namespace = choose_namespace(tape.topics, chosen.namespace, path)
+    names = _topics(tape, namespace, chosen.topics)
+    if single and len(names) > 1:
+        raise ValueError(
+            f"out = {chosen.out}: one file, but topics = {','.join(names)}; choose one, or a folder"
+        )
+    files = {name: chosen.out if single else chosen.out / f"{name}.{kind}" for name in names}
+    for file in files.values():
+        if file.exists():
+            raise FileExistsError(f"{file}: exists; choose a free name")
+        file.parent.mkdir(parents=True, exist_ok=True)
+    writers = {
+        name: _Writer(Table(name, tape.topics[f"{namespace}/{name}"].definition), file, kind)
+        for name, file in files.items()
+    }
+    remarks: list[str] = []
+    first: int | None = None
+    try:
+        for name, message in messages_of(path, namespace, tuple(names), remarks):
+            writers[name].add(message)
+            first = first or stamp_of(message)
+            progress(stamp_of(message) - first, tape.length)
+    finally:  # what is written is true, however far it goes
+        for writer in writers.values():
+            writer.close()
+    rows = {writer.path: writer.rows for writer in writers.values() if writer.rows}
+    return Exported(rows, remarks)
+
+
+class _Writer:
+    """A table and its file, which begins with the first rows: they tell the columns."""
+
+    def __init__(self, table: Table, path: Path, kind: str) -> None:
+        self.path = path
+        self.rows = 0
+        self._table = table
+        self._kind = kind
+        self._file: TableFile | None = None
+
+    def add(self, message: object) -> None:
+        for batch in self._table.add(message):
+            self._write(batch)
+
+    def close(self) -> None:
+        for batch in self._table.rest():
+            self._write(batch)
+        if self._file is not None:
+            self._file.close()
+
+    def _write(self, batch: Batch) -> None:
+        if self._file is None:
+            self._file = FORMATS[self._kind](self.path, self._table.describe(batch))
+        self._file.write(batch)
+        self.rows += len(next(iter(batch.values())))
+
+
+def _format(chosen: Export) -> tuple[str, bool]:
+    """The format, and whether all goes into one file."""
+    ending = chosen.out.suffix.removeprefix(".")
+    if not chosen.format and ending and ending not in FORMATS:
+        raise ValueError(
+            f"out = {str(chosen.out)!r}: must end in {', '.join(f'.{kind}' for kind in FORMATS)}, "
+            "or give a format for a folder of this name"
+        )
+    kind = chosen.format or ending or "parquet"
+    if kind not in FORMATS:
+        raise ValueError(f"format = {kind!r}: must be one of {', '.join(FORMATS)}")
+    return kind, ending == kind
+
+
+def _topics(tape: Tape, namespace: str, wanted: Sequence[str]) -> list[str]:
+    """Topics to write: those `wanted`, or all there are."""
+    there = [name for name in TABLES if f"{namespace}/{name}" in tape.topics]
+    for name in wanted:
+        if name not in there:
+            raise RecordingError(f"topics = {name}: must be of {', '.join(there)}")
+    return list(dict.fromkeys(wanted)) or there

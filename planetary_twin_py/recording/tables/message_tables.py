@@ -1,0 +1,120 @@
+"""Messages as tables of plain columns, batch by batch."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import fields
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from ..container.records import RecordingError
+from ..ros2.fields import ROOM, WAVES
+from ..ros2.message_units import units_of
+from ..ros2.topics import POINT, STATE, WAVEFORM
+from ..runs.schedule import stamp_of
+
+Batch = dict[str, np.ndarray]
+STAMP = "stamp"  # ROS time since the epoch; numbers beside it are in SI
+MESSAGES = 4096  # of a batch, at most
+ROWS = 2**17  # about which a batch ends
+TABLES = (STATE, POINT, WAVEFORM)
+"""Topics that make a table."""
+
+
+class Column(NamedTuple):
+    """A column of a table."""
+
+    name: str
+    unit: str
+    """Empty where there is none, as of a text."""
+    kind: np.dtype[Any]
+
+
+class Table:
+    """Gathers the messages of one topic into batches of columns.
+
+    GearboxState and OperatingPoint: one row per message; of the arrays a column for each planet
+    there is, `name_1`, `name_2`, .... MeshWaveform: one row per sample, with its `time` and a
+    column for each quantity and mesh, `dte_sun_planet_1`.
+    """
+
+    def __init__(self, topic: str, definition: str) -> None:
+        self._columns = _waves if topic == WAVEFORM else _rows
+        self._units = {STAMP: "ns", "time": "s", **units_of(definition)}
+        self._waiting: list[Any] = []
+        self._planets: int | None = None
+        self._count = 0
+
+    def add(self, message: Any) -> Iterator[Batch]:
+        """Take a message; yields a batch where that makes it full.
+
+        Raises:
+            RecordingError: the gearbox has another number of planets than before.
+        """
+        planets = getattr(message, "planets", None)
+        if self._planets not in (None, planets):
+            raise RecordingError(
+                f"planets = {planets}: another gearbox than before, with {self._planets}; "
+                "one table cannot hold both"
+            )
+        self._planets = planets
+        self._waiting.append(message)
+        self._count += getattr(message, "samples", 1)
+        if self._count >= ROWS or len(self._waiting) >= MESSAGES:
+            yield from self.rest()
+
+    def rest(self) -> Iterator[Batch]:
+        """What is left."""
+        if self._waiting:
+            yield self._columns(self._waiting)
+        self._waiting, self._count = [], 0
+
+    def describe(self, batch: Batch) -> list[Column]:
+        """The columns of a batch with their units."""
+        return [Column(name, self._unit(name), column.dtype) for name, column in batch.items()]
+
+    def _unit(self, column: str) -> str:
+        """That of the field which `column` shows: the longest name it begins with."""
+        if column in self._units:
+            return self._units[column]
+        parts = column.split("_")
+        stems = ("_".join(parts[:n]) for n in range(len(parts) - 1, 0, -1))
+        return next((self._units[stem] for stem in stems if stem in self._units), "")
+
+
+def _rows(messages: list[Any]) -> Batch:
+    """One row per message."""
+    batch = {STAMP: _stamps(messages)}
+    for name in _names(messages[0]):
+        values = np.array([getattr(message, name) for message in messages])
+        if values.ndim == 1:
+            batch[name] = values
+            continue
+        for planet in range(messages[0].planets if values.shape[1] == ROOM else values.shape[1]):
+            batch[f"{name}_{planet + 1}"] = values[:, planet]
+    return batch
+
+
+def _waves(messages: list[Any]) -> Batch:
+    """One row per sample."""
+    planets = messages[0].planets
+    meshes = [f"{kind}_{n + 1}" for kind in ("sun_planet", "planet_ring") for n in range(planets)]
+    counts = [message.samples for message in messages]
+    offset = np.concatenate([np.arange(m.samples) * m.sample_period for m in messages])
+    stamp = np.repeat(_stamps(messages), counts) + np.rint(offset * 1e9).astype(np.int64)
+    start = np.repeat([message.start_time for message in messages], counts)
+    batch = {STAMP: stamp, "time": start + offset}
+    for name in WAVES:
+        blocks = [getattr(message, name).reshape(len(meshes), -1) for message in messages]
+        samples = np.concatenate(blocks, axis=1)
+        batch |= {f"{name}_{mesh}": samples[m] for m, mesh in enumerate(meshes)}
+    return batch
+
+
+def _names(message: Any) -> list[str]:
+    return [f.name for f in fields(message) if f.name not in ("header", "__msgtype__")]
+
+
+def _stamps(messages: list[Any]) -> np.ndarray:
+    return np.array([stamp_of(message) for message in messages], dtype=np.int64)

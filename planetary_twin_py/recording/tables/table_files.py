@@ -1,0 +1,136 @@
+"""Files that a table is written into batch by batch: Parquet, CSV and NumPy's .npz."""
+
+from __future__ import annotations
+
+import json
+import shutil
+import tempfile
+import zipfile
+from collections.abc import Sequence
+from contextlib import ExitStack
+from pathlib import Path
+from typing import Any, Protocol
+
+import numpy as np
+import pyarrow as pa
+from pyarrow import csv, parquet
+
+from .message_tables import Batch, Column
+
+
+class TableFile(Protocol):
+    """A table in the making; all batches have the same columns."""
+
+    def write(self, batch: Batch) -> None:
+        """Append rows."""
+
+    def close(self) -> None:
+        """Finish the file."""
+
+
+class Parquet:
+    """Units stand in the metadata of the columns."""
+
+    def __init__(self, path: Path, columns: Sequence[Column]) -> None:
+        self._schema = _schema(columns)
+        self._writer = parquet.ParquetWriter(path, self._schema, compression="zstd")
+
+    def write(self, batch: Batch) -> None:
+        """Append rows, as a row group of their own."""
+        self._writer.write_table(_table(batch, self._schema))
+
+    def close(self) -> None:
+        """Finish the file."""
+        self._writer.close()
+
+
+class Csv:
+    """Units stand in a file beside, NAME.units.json; numbers have all the digits they need."""
+
+    def __init__(self, path: Path, columns: Sequence[Column]) -> None:
+        self._schema = _schema(columns)
+        options = csv.WriteOptions(quoting_style="needed")
+        self._writer = csv.CSVWriter(path, self._schema, write_options=options)
+        units = {column.name: column.unit for column in columns}
+        path.with_suffix(".units.json").write_text(json.dumps(units, indent=2) + "\n", "utf-8")
+
+    def write(self, batch: Batch) -> None:
+        """Append rows."""
+        self._writer.write_table(_table(batch, self._schema))
+
+    def close(self) -> None:
+        """Finish the file."""
+        self._writer.close()
+
+
+class Npz:
+    """An array per column; `columns` and `units` hold their names and units.
+
+    Arrays lie in temporary files until it is known how long they are.
+    """
+
+    def __init__(self, path: Path, columns: Sequence[Column]) -> None:
+        self._path = path
+        self._columns = columns
+        self._rows = 0
+        self._kinds = [column.kind for column in columns]
+        self._open = ExitStack()
+        enter = self._open.enter_context
+        self._spools = [enter(tempfile.TemporaryFile()) for _ in columns]  # noqa: SIM115
+        self._texts: dict[str, list[np.ndarray]] = {}
+
+    def write(self, batch: Batch) -> None:
+        """Append rows."""
+        for column, spool in zip(self._columns, self._spools, strict=True):
+            values = batch[column.name]
+            if column.kind.kind == "U":  # each batch has its own longest text
+                self._texts.setdefault(column.name, []).append(values)
+            else:
+                np.ascontiguousarray(values, column.kind).tofile(spool)
+        self._rows += len(values)
+
+    def close(self) -> None:
+        """Finish the file."""
+        with self._open, zipfile.ZipFile(self._path, "w") as archive:
+            for column, spool in zip(self._columns, self._spools, strict=True):
+                if texts := self._texts.get(column.name):
+                    _store(archive, column.name, np.concatenate(texts))
+                    continue
+                spool.seek(0)
+                with archive.open(f"{column.name}.npy", "w", force_zip64=True) as member:
+                    header = {
+                        "descr": np.lib.format.dtype_to_descr(column.kind),
+                        "fortran_order": False,
+                        "shape": (self._rows,),
+                    }
+                    np.lib.format.write_array_header_1_0(member, header)
+                    shutil.copyfileobj(spool, member)
+            _store(archive, "columns", np.array([column.name for column in self._columns]))
+            _store(archive, "units", np.array([column.unit for column in self._columns]))
+
+
+FORMATS: dict[str, Any] = {"parquet": Parquet, "csv": Csv, "npz": Npz}
+
+
+def _schema(columns: Sequence[Column]) -> pa.Schema:
+    return pa.schema(
+        [
+            pa.field(
+                column.name,
+                pa.string() if column.kind.kind == "U" else pa.from_numpy_dtype(column.kind),
+                metadata={"unit": column.unit},
+            )
+            for column in columns
+        ]
+    )
+
+
+def _table(batch: Batch, schema: pa.Schema) -> pa.Table:
+    # A number that is none stays NaN: it was published, nothing is missing.
+    arrays = [pa.array(batch[field.name], field.type, from_pandas=False) for field in schema]
+    return pa.Table.from_arrays(arrays, schema=schema)
+
+
+def _store(archive: zipfile.ZipFile, name: str, values: np.ndarray) -> None:
+    with archive.open(f"{name}.npy", "w") as member:
+        np.lib.format.write_array(member, values, allow_pickle=False)

@@ -1,0 +1,101 @@
+"""Bags of other recorders: read where they can be, else converted as the refusal says."""
+
+import shlex
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+from hostile import messages_of, of, rewritten, string
+from mcap.records import Attachment
+from rosbags.rosbag2 import CompressionFormat, CompressionMode, Reader, StoragePlugin, Writer
+from rosbags.typesys import Stores, get_typestore
+from twin_recording import NAMESPACE, record
+
+from planetary_twin_py.recording.container.foreign import how_stored
+from planetary_twin_py.recording.container.records import RecordingError
+from planetary_twin_py.recording.runs.reader import read_recording
+from planetary_twin_py.recording.runs.schedule import read_runs
+from planetary_twin_py.recording.runs.verify import verify
+from planetary_twin_py.view.show import scene_of
+
+
+@pytest.fixture(scope="module")
+def sound(tmp_path_factory):
+    return record(tmp_path_factory.mktemp("sound") / "bag")
+
+
+def stored(source, folder, plugin, mode=None):
+    """The messages of a recording in a bag of rosbags' own making, without attachments."""
+    types = get_typestore(Stores.ROS2_JAZZY)
+    bag = Writer(folder, version=9, storage_plugin=plugin)
+    if mode is not None:
+        bag.set_compression(mode, CompressionFormat.ZSTD)
+    with Reader(source.parent) as reader, bag as out:
+        made = {
+            c.id: out.add_connection(
+                c.topic, c.msgtype, typestore=types, msgdef=c.msgdef.data, rihs01=c.digest
+            )
+            for c in reader.connections
+        }
+        for connection, time, data in reader.messages():
+            out.write(made[connection.id], time, data)
+    return folder
+
+
+@pytest.mark.parametrize(
+    ("plugin", "mode", "told"),
+    [
+        (StoragePlugin.SQLITE3, None, "a bag in SQLite;"),
+        (StoragePlugin.SQLITE3, "FILE", "a bag in SQLite, compressed by file;"),
+        (StoragePlugin.MCAP, "FILE", "a bag compressed by file;"),
+        (StoragePlugin.MCAP, "MESSAGE", "a bag compressed by message;"),
+    ],
+)
+def test_a_bag_that_is_not_read_is_converted_as_the_refusal_says(
+    sound, tmp_path, monkeypatch, plugin, mode, told
+):
+    chosen = mode and CompressionMode[mode]
+    folder = stored(sound, tmp_path / "bag", plugin, chosen)
+    monkeypatch.chdir(tmp_path)
+    with pytest.raises(RecordingError) as refusal:
+        read_recording(Path("bag"))
+    assert f"bag: {told}" in str(refusal.value) and "\n" not in str(refusal.value)
+    command = str(refusal.value).partition("; ")[2].partition(" makes one")[0]
+    name, *arguments = shlex.split(command)
+    subprocess.run([Path(sys.executable).with_name(name), *arguments], check=True)
+    assert len(read_recording(Path("bag_mcap")).state) == len(read_recording(sound).state)
+    assert verify(Path("bag_mcap"), NAMESPACE).identical
+    assert how_stored(folder) is not None and how_stored(Path("bag_mcap")) is None
+
+
+def test_a_bag_without_attachments_has_its_scene_from_the_origin_of_its_run(sound, tmp_path):
+    folder = stored(sound, tmp_path / "bag", StoragePlugin.MCAP)
+    scene, remark = scene_of(read_recording(folder))
+    assert remark is None
+    assert scene == read_runs(sound, NAMESPACE, [])[-1].origin.scene
+
+
+def test_a_scene_that_cannot_be_read_of_an_origin_is_told(sound, tmp_path):
+    without = rewritten(sound, tmp_path / "a.mcap", of(Attachment, "", name="another"))
+    bad = messages_of("run_origin", lambda data: string("{"))
+    recording = read_recording(rewritten(without, tmp_path / "b.mcap", bad))
+    assert recording.scene_yaml is None
+    assert "run_origin: origin of the run: cannot be read" in recording.remarks[0]
+
+
+@pytest.mark.parametrize("text", ["{", b"\xff", "begins: 1\n"])
+def test_a_bad_message_of_one_origin_leaves_the_other_run_to_verify(sound, tmp_path, text):
+    first = True
+
+    def spoil(data):
+        nonlocal first
+        first, spoiled = False, first
+        return string(text) if spoiled else data
+
+    file = rewritten(sound, tmp_path / "bad.mcap", messages_of("run_origin", spoil))
+    verdict = verify(file, NAMESPACE)
+    assert verdict.first_difference is None and not verdict.identical
+    assert verdict.messages["gearbox_state"] == 10  # of the second run
+    assert any("run_origin" in remark for remark in verdict.remarks)
+    assert any("31 intervals of a run whose start or origin" in line for line in verdict.remarks)

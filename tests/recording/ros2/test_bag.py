@@ -1,0 +1,121 @@
+"""A bag folder is readable by others, never overwritten, and survives a torn end."""
+
+from __future__ import annotations
+
+import struct
+from pathlib import Path
+
+import pytest
+import yaml
+from mcap.exceptions import McapError
+from mcap.reader import make_reader
+from mcap.records import Message
+from mcap.stream_reader import StreamReader
+from numbered import NUMBERS
+from rosbags.rosbag2 import Reader
+
+from planetary_twin_py.recording.ros2.account import TopicAccount
+from planetary_twin_py.recording.ros2.bag import (
+    ACCOUNT_RECORD,
+    BagWriter,
+    free_folder,
+    named_folder,
+)
+from planetary_twin_py.recording.ros2.schema import message_definition
+
+_TYPES = {
+    "demo_msgs/msg/Reading": "# a comment\nstd_msgs/Header header\nfloat64[<=3] v\nPart[2] parts\n",
+    "std_msgs/msg/Header": "builtin_interfaces/Time stamp\nstring frame_id\n",
+    "builtin_interfaces/msg/Time": "int32 sec\nuint32 nanosec\n",
+    "demo_msgs/msg/Part": "uint8 SMALL=1\nstring<=8 name\n",
+}
+
+
+def _number(value: float) -> bytes:
+    return b"\x00\x01\x00\x00" + struct.pack("<d", value)
+
+
+def _write(bag: BagWriter, channel: int, values: range) -> None:
+    for value in values:
+        bag.write(channel, _number(value), 1000 + value, 900 + value, value + 1)
+
+
+def test_a_definition_brings_every_type_it_refers_to() -> None:
+    text = message_definition("demo_msgs/msg/Reading", _TYPES.__getitem__)
+    headings = [line for line in text.splitlines() if line.startswith("MSG: ")]
+    assert text.startswith(_TYPES["demo_msgs/msg/Reading"])
+    assert headings == [
+        "MSG: std_msgs/Header",
+        "MSG: demo_msgs/Part",
+        "MSG: builtin_interfaces/Time",
+    ]
+    assert text.count("=" * 80) == 3
+
+
+def test_an_independent_reader_finds_every_message(tmp_path: Path) -> None:
+    bag = BagWriter(tmp_path / "bag")
+    _write(bag, bag.add_topic(NUMBERS, TopicAccount(recorded=100)), range(100))
+    bag.close()
+    with Reader(tmp_path / "bag") as reader:
+        messages = list(reader.messages())
+        assert [connection.msgtype for connection in reader.connections] == [NUMBERS.type]
+        assert reader.message_count == len(messages) == 100
+    assert [data for _, _, data in messages] == [_number(value) for value in range(100)]
+
+
+def test_the_file_holds_the_account_and_both_times(tmp_path: Path) -> None:
+    bag = BagWriter(tmp_path / "bag")
+    _write(bag, bag.add_topic(NUMBERS, TopicAccount(recorded=3, missed=2)), range(3))
+    bag.close()
+    with bag.file.open("rb") as stream:
+        reader = make_reader(stream)
+        _, _, first = next(iter(reader.iter_messages()))
+        records = {record.name: record.metadata for record in reader.iter_metadata()}
+        assert reader.get_header().profile == "ros2"
+    assert (first.log_time, first.publish_time, first.sequence) == (1000, 900, 1)
+    assert records[ACCOUNT_RECORD]["lost"] == "2"
+    # rosbag2 decodes this at once, and opens no file in which it finds another mapping.
+    told = yaml.safe_load(records["rosbag2"]["serialized_metadata"])
+    assert told["version"] == 9 and told["message_count"] == 3
+    written = yaml.safe_load((tmp_path / "bag" / "metadata.yaml").read_text())
+    assert written == {"rosbag2_bagfile_information": told}
+
+
+def test_what_was_flushed_is_readable_from_a_torn_file(tmp_path: Path) -> None:
+    bag = BagWriter(tmp_path / "bag")
+    channel = bag.add_topic(NUMBERS)
+    _write(bag, channel, range(50))
+    bag.flush()
+    torn = bag.file.read_bytes()
+    _write(bag, channel, range(50, 60))
+    bag.close()
+    copy = tmp_path / "torn.mcap"
+    copy.write_bytes(torn)
+    messages = 0
+    with copy.open("rb") as stream, pytest.raises((McapError, EOFError)):
+        for record in StreamReader(stream).records:
+            messages += isinstance(record, Message)
+    assert messages == 50
+
+
+def test_an_existing_recording_is_never_overwritten(tmp_path: Path) -> None:
+    BagWriter(tmp_path / "bag").close()
+    with pytest.raises(FileExistsError):
+        BagWriter(tmp_path / "bag")
+
+
+def test_a_free_folder_is_found_beside_an_existing_one(tmp_path: Path) -> None:
+    first = free_folder(tmp_path, "paper")
+    first.mkdir()
+    second = free_folder(tmp_path, "paper")
+    assert not second.exists()
+    assert second != first
+
+
+@pytest.mark.parametrize(
+    "name", ["", ".", "..", "a/b", "/a", "../a", "a/", "a\0b", "a\nb", "\u00e9" * 101]
+)
+def test_a_name_that_is_no_plain_one_leads_nowhere(tmp_path: Path, name: str) -> None:
+    with pytest.raises(ValueError, match="must be a plain name"):
+        named_folder(tmp_path, name)
+    assert named_folder(tmp_path, "ein Lauf.1") == tmp_path / "ein Lauf.1"

@@ -1,0 +1,111 @@
+"""Whatever moment a writer is killed at, all that was flushed is there, nothing wrong or doubled.
+
+`PYTHONPATH=tests python tests/recording/ros2/test_kill.py TRIES` makes as many tries and tells what they
+have cost.
+"""
+
+import itertools
+import mmap
+import os
+import random
+import signal
+import struct
+import sys
+import tempfile
+import time
+from pathlib import Path
+from typing import NamedTuple
+
+import pytest
+from numbered import COMPRESSIONS, Numbered, read_numbers
+
+from planetary_twin_py.recording.container.records import files_of
+from planetary_twin_py.recording.container.storage import Storage
+from planetary_twin_py.recording.ros2.recover import recover
+
+pytestmark = pytest.mark.slow
+
+FLUSH_PERIODS = (0.01, 0.05, 0.2)  # [s]
+CHUNK_SIZES = (0.002, 1.0)  # [MB]
+SPLITS = (0.0, 0.08)  # [s]
+CASES = list(itertools.product(COMPRESSIONS, FLUSH_PERIODS, CHUNK_SIZES, SPLITS))
+_COUNTS = struct.Struct("<QQ")  # written, flushed
+
+
+class Lost(NamedTuple):
+    """What a kill has cost: of `written` messages, one each millisecond, `kept` are there."""
+
+    written: int
+    flushed: int
+    kept: int
+
+
+def write_until_killed(folder: Path, storage: Storage, period: float, told: mmap.mmap) -> None:
+    """One message each millisecond, flushed every `period` [s]; the counts are told in memory."""
+    numbered = Numbered(folder, storage, size=100)
+    numbered.settle(1)
+    begin = last = time.monotonic()
+    flushed = 0
+    while True:
+        numbered.write(1)
+        now = time.monotonic()
+        if now - last >= period:
+            numbered.bag.flush()
+            last, flushed = time.monotonic(), numbered.written
+        _COUNTS.pack_into(told, 0, numbered.written, flushed)
+        time.sleep(max(begin + numbered.written * 1e-3 - time.monotonic(), 0.0))
+
+
+def kill_amid_writing(folder: Path, case: tuple, lifetime: float) -> Lost:
+    """Kill a writer `lifetime` [s] after its first flush; check all that is left."""
+    compression, period, chunk_size, split = case
+    told = mmap.mmap(-1, _COUNTS.size)
+    child = os.fork()
+    if child == 0:
+        try:
+            write_until_killed(folder, Storage(compression, chunk_size, split), period, told)
+        finally:  # whatever happens, no second test runner goes on
+            os._exit(1)
+    while _COUNTS.unpack_from(told)[1] == 0:
+        assert os.waitpid(child, os.WNOHANG) == (0, 0)
+        time.sleep(0.001)
+    time.sleep(lifetime)  # the very thing under test: an arbitrary moment
+    os.kill(child, signal.SIGKILL)
+    os.waitpid(child, 0)
+    written, flushed = _COUNTS.unpack_from(told)
+
+    kept = [number for file in files_of(folder) for number in read_numbers(file)]
+    assert kept == list(range(1, len(kept) + 1))
+    assert flushed <= len(kept) <= written + 1
+    saved = recover(folder, folder.with_name("saved"))
+    assert read_numbers(saved.file) == kept
+    assert read_numbers(saved.file, "/settings") == [1]
+    return Lost(written, flushed, len(kept))
+
+
+def cases(tries: int, seed: int) -> list[tuple[tuple, float]]:
+    """Every combination in turn, in random order, each with a random lifetime [s]."""
+    generator = random.Random(seed)
+    order = itertools.cycle(generator.sample(CASES, len(CASES)))
+    return [(case, generator.uniform(0.0, 0.3)) for case in itertools.islice(order, tries)]
+
+
+@pytest.mark.parametrize(("case", "lifetime"), cases(20, seed=1))
+def test_what_was_flushed_survives_a_kill(tmp_path, case, lifetime):
+    kill_amid_writing(tmp_path / "bag", case, lifetime)
+
+
+def main(tries: int) -> None:
+    """Print each try, and the most that any has cost for each flush period."""
+    cost = dict.fromkeys(FLUSH_PERIODS, 0)
+    for number, (case, lifetime) in enumerate(cases(tries, seed=2), start=1):
+        with tempfile.TemporaryDirectory() as place:
+            done = kill_amid_writing(Path(place) / "bag", case, lifetime)
+        cost[case[1]] = max(cost[case[1]], done.written - done.kept)
+        print(number, *case, f"{lifetime:.3f} s:", *done, flush=True)
+    for period, messages in cost.items():
+        print(f"flushed every {period * 1e3:g} ms: at most {messages} messages of 1 ms are lost")
+
+
+if __name__ == "__main__":
+    main(int(sys.argv[1]))

@@ -1,0 +1,125 @@
+"""Where the fields of a message lie: the same values as rosbags decodes, of every type."""
+
+import dataclasses
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from rosbags.interfaces import Nodetype
+from rosbags.typesys import Stores, get_types_from_msg, get_typestore
+from synthetic_recording import definition
+
+from planetary_twin_py.recording.ros2.layout import Layout, LayoutError, Layouts
+
+TYPES = get_typestore(Stores.ROS2_JAZZY)
+for _name in ("GearboxState", "MeshWaveform", "OperatingPoint"):
+    _found = get_types_from_msg(definition(_name), f"planetary_twin_msgs/msg/{_name}")
+    TYPES.register({k: v for k, v in _found.items() if k not in TYPES.types})
+WAVEFORM = "planetary_twin_msgs/msg/MeshWaveform"
+KINDS = sorted(TYPES.fielddefs)
+SIZES = st.integers(0, 3)
+
+
+@st.composite
+def values(draw, field):
+    sort, of = field
+    if sort == Nodetype.NAME:
+        return draw(messages(of))
+    if sort == Nodetype.BASE:
+        return draw(
+            st.text(max_size=5).filter(str.isprintable) if of[0] == "string" else number(of[0])
+        )
+    element, size = of
+    size = draw(SIZES) if sort == Nodetype.SEQUENCE else size
+    if element[0] == Nodetype.BASE and element[1][0] != "string":
+        form = {"bool": "?", "byte": "u1", "char": "u1"}.get(element[1][0], element[1][0])
+        raw = np.random.default_rng(draw(st.integers(0, 9))).integers(0, 2, (size, 8), np.uint8)
+        return raw.view(np.uint8)[:, : np.dtype(form).itemsize].copy().view(form).ravel()
+    return [draw(values(element)) for _ in range(size)]
+
+
+def number(name):
+    if name == "bool":
+        return st.booleans()
+    if name.startswith("float"):
+        return st.floats(width=int(name[5:]))
+    # rosbags takes a byte for a signed number, as its arrays of them are not.
+    low, high = (
+        (0, {"byte": 127, "char": 255}[name])
+        if name in ("byte", "char")
+        else (np.iinfo(name).min, np.iinfo(name).max)
+    )
+    return st.integers(int(low), int(high))
+
+
+def messages(kind):
+    fields = TYPES.fielddefs[kind][1]
+    return st.builds(TYPES.types[kind], **{name: values(field) for name, field in fields})
+
+
+def assert_same(row, message):
+    """A row of a structured array, and a message that rosbags has decoded."""
+    if dataclasses.is_dataclass(message):
+        for name, _ in TYPES.fielddefs[message.__msgtype__][1]:
+            assert_same(row[name], getattr(message, name))
+    elif isinstance(message, list):
+        assert len(row.dtype) == len(message)
+        for k, element in enumerate(message):
+            assert_same(row[str(k)], element)
+    elif isinstance(message, str):
+        assert row.decode() == message
+    else:
+        np.testing.assert_array_equal(row, message)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("little_endian", [True, False])
+@settings(max_examples=400, deadline=None)
+@given(data=st.data())
+def test_fields_are_those_that_rosbags_decodes(little_endian, data):
+    kind = data.draw(st.sampled_from(KINDS))
+    written = data.draw(messages(kind))
+    raw = bytes(TYPES.serialize_cdr(written, kind, little_endian=little_endian))
+    (rows,) = Layouts(TYPES.fielddefs, kind).arrays([raw, raw])
+    assert rows.shape == (2,)
+    for row in rows:
+        assert_same(row, TYPES.deserialize_cdr(raw, kind))
+
+
+def diagnostics(names):
+    status = TYPES.types["diagnostic_msgs/msg/DiagnosticStatus"]
+    return TYPES.types["diagnostic_msgs/msg/DiagnosticArray"](
+        TYPES.types["std_msgs/msg/Header"](TYPES.types["builtin_interfaces/msg/Time"](1, 2), ""),
+        [status(0, name, "", "none", []) for name in names],
+    )
+
+
+def test_messages_of_the_same_size_that_lie_otherwise_are_told_apart():
+    kind = "diagnostic_msgs/msg/DiagnosticArray"
+    order = [("ab", "abcdef"), ("ab", "abcdef"), ("abcdef", "ab"), ("cd", "ghijkl"), ("a",)]
+    raw = [bytes(TYPES.serialize_cdr(diagnostics(names), kind)) for names in order]
+    assert len({len(message) for message in raw[:4]}) == 1
+    arrays = list(Layouts(TYPES.fielddefs, kind).arrays(raw))
+    assert [len(rows) for rows in arrays] == [2, 1, 1, 1]
+    found = [
+        [str(status["name"], "utf-8") for status in row["status"]] for a in arrays for row in a
+    ]
+    assert found == [list(names) for names in order]
+
+
+def test_no_message_is_read_beyond_its_end_or_with_something_behind_it():
+    kind = "sensor_msgs/msg/JointState"
+    numbers = np.arange(3.0)
+    header = diagnostics(()).header
+    whole = bytes(
+        TYPES.serialize_cdr(TYPES.types[kind](header, ["a", "b"], numbers, numbers, numbers), kind)
+    )
+    for size in range(len(whole)):
+        with pytest.raises(LayoutError):
+            Layout(TYPES.fielddefs, kind, whole[:size])
+    assert Layout(TYPES.fielddefs, kind, whole + b"\0\0\0").dtype.itemsize == len(whole) + 3
+    with pytest.raises(LayoutError, match="go on behind the last field"):
+        Layout(TYPES.fielddefs, kind, whole + bytes(4))
+    with pytest.raises(LayoutError, match="only plain CDR"):
+        Layout(TYPES.fielddefs, kind, b"\0\7" + whole[2:])

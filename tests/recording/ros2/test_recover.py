@@ -1,0 +1,156 @@
+"""What is sound of a damaged recording becomes a whole one."""
+
+import random
+import re
+from collections import Counter
+
+import pytest
+from mcap.data_stream import ReadDataStream
+from mcap.reader import make_reader
+from mcap.records import Chunk, Message
+from mcap.stream_reader import breakup_chunk
+from twin_recording import NAMESPACE, record
+from typer.testing import CliRunner
+
+from planetary_twin_py.cli import build_app
+from planetary_twin_py.recording.container.records import RecordingError, records_of
+from planetary_twin_py.recording.ros2.recover import recover
+from planetary_twin_py.recording.runs.verify import verify
+
+
+@pytest.fixture(scope="module")
+def sound(tmp_path_factory):
+    return record(tmp_path_factory.mktemp("sound") / "bag")
+
+
+def lost_chunks(file, begin, end):
+    """Messages of the chunks that have a byte from `begin` up to `end`, by mcap's own index."""
+    with file.open("rb") as stream:
+        reader = make_reader(stream)
+        lost = Counter()
+        for index in reader.get_summary().chunk_indexes:
+            place = index.chunk_start_offset
+            if place < end and begin < place + index.chunk_length:
+                stream.seek(place + 9)
+                chunk = Chunk.read(ReadDataStream(stream))
+                lost.update(keys(breakup_chunk(chunk)))
+        return lost
+
+
+def keys(records):
+    """What tells messages of a recording apart."""
+    return [(m.log_time, m.sequence, m.data) for m in records if isinstance(m, Message)]
+
+
+def damages(size, count):
+    """A kind of damage, and its first byte: one in six at the ends, where the structure is."""
+    chance = random.Random(17)
+    for number in range(count):
+        ends = (*range(8, 60), *range(size - 60, size))
+        place = chance.randrange(size) if number % 6 else chance.choice(ends)
+        yield ("flip", "cut out", "cut off")[number % 3], place, chance.randrange(8)
+
+
+def damaged(whole, kind, place, bit):
+    if kind == "flip":
+        return whole[:place] + bytes([whole[place] ^ 1 << bit]) + whole[place + 1 :]
+    return whole[:place] + (whole[place + 1 :] if kind == "cut out" else b"")
+
+
+def messages(file):
+    """Topic, times, number and bytes of every message, by a reader that goes by the index."""
+    with file.open("rb") as stream:
+        return [
+            (channel.topic, m.log_time, m.publish_time, m.sequence, m.data)
+            for _, channel, m in make_reader(stream, validate_crcs=True).iter_messages()
+        ]
+
+
+@pytest.mark.parametrize("share", [0.4, 0.6, 0.95])
+def test_a_torn_file_becomes_whole_with_all_that_was_sound(sound, tmp_path, share):
+    whole = sound.read_bytes()
+    torn = tmp_path / "torn.mcap"
+    torn.write_bytes(whole[: int(share * len(whole))])
+    saved = recover(torn, tmp_path / "saved")
+    assert list(records_of(saved.file, remarks := [])) and remarks == []
+    kept = messages(saved.file)
+    assert len(kept) == sum(saved.messages.values()) > 30
+    assert kept == messages(sound)[: len(kept)]
+    assert "ends torn" in saved.remarks[0]
+    verdict = verify(saved.file.parent, NAMESPACE)
+    assert verdict.identical
+
+
+@pytest.mark.parametrize("count", [60, pytest.param(500, marks=pytest.mark.exhaustive)])
+def test_a_bit_flipped_or_a_byte_cut_costs_its_own_chunk_and_nothing_is_invented(
+    sound, tmp_path, count
+):
+    whole = sound.read_bytes()
+    file = tmp_path / "damaged.mcap"
+    there = Counter((log, number, data) for _, log, _, number, data in messages(sound))
+    for kind, place, bit in damages(len(whole), count):
+        file.write_bytes(damaged(whole, kind, place, bit))
+        end = len(whole) if kind == "cut off" else place + 1
+        expected = there - lost_chunks(sound, place, end)
+        found, remarks = Counter(), []
+        try:
+            found.update(keys(records_of(file, remarks)))
+        except RecordingError as refusal:
+            remarks.append(str(refusal))
+        assert found - there == Counter() and expected - found == Counter(), (kind, place, bit)
+        assert remarks and not any("\n" in line for line in remarks), (kind, place, bit)
+
+
+def test_damage_in_the_middle_is_left_out_and_told_with_its_time_and_number_of_messages(
+    sound, tmp_path
+):
+    with sound.open("rb") as stream:
+        first, _, index, *_, last = make_reader(stream).get_summary().chunk_indexes
+    torn = tmp_path / "torn.mcap"
+    place = index.chunk_start_offset + index.chunk_length // 2
+    torn.write_bytes(damaged(sound.read_bytes(), "flip", place, 3))
+    saved = recover(torn, tmp_path / "saved")
+    lost = lost_chunks(sound, place, place + 1)
+    kept = messages(saved.file)
+    assert kept == [m for m in messages(sound) if (m[1], m[3], m[4]) not in lost]
+    assert kept[-1][1] == last.message_end_time
+    (remark,) = saved.remarks
+    assert f"{index.chunk_length} bytes from byte {index.chunk_start_offset} on" in remark
+    assert f"1 chunk, {lost.total()} messages by the index" in remark
+    begin, end = map(float, re.search(r"from (\S+) to (\S+) s", remark).groups())
+    start = first.message_start_time
+    assert begin <= (index.message_start_time - start) * 1e-9 + 5e-4
+    assert end >= (index.message_end_time - start) * 1e-9 - 5e-4
+
+
+def test_what_is_whole_stays_as_it_is(sound, tmp_path):
+    saved = recover(sound.parent, tmp_path / "saved")
+    assert messages(saved.file) == messages(sound)
+    assert saved.remarks == []
+
+
+def test_nothing_is_made_of_nothing(sound, tmp_path):
+    torn = tmp_path / "torn.mcap"
+    torn.write_bytes(sound.read_bytes()[:60])
+    with pytest.raises(RecordingError):
+        recover(torn, tmp_path / "saved")
+    assert not (tmp_path / "saved").exists()
+
+
+def test_the_command_says_what_is_lost_and_overwrites_nothing(sound, tmp_path):
+    torn = tmp_path / "torn.mcap"
+    torn.write_bytes(sound.read_bytes()[:-5000])
+    answer = CliRunner().invoke(build_app(), ["recover", str(torn)])
+    assert answer.exit_code == 0
+    assert "not readable" in answer.output
+    assert "gearbox_state" in answer.output
+    elsewhere = tmp_path / "elsewhere"
+    chosen = CliRunner().invoke(build_app(), ["recover", str(torn), "--out", str(elsewhere)])
+    assert chosen.exit_code == 0
+    assert messages(next(elsewhere.glob("*.mcap"))) == messages(
+        next(tmp_path.glob("torn_*/*.mcap"))
+    )
+    again = CliRunner().invoke(build_app(), ["recover", str(torn)])
+    assert again.exit_code == 2
+    assert len(again.output.strip().splitlines()) == 1
+    assert "exists" in again.output

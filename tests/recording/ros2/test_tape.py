@@ -1,0 +1,148 @@
+"""A tape gives the same messages from any instant, however its files are laid out."""
+
+import struct
+
+import pytest
+
+from planetary_twin_py.recording.container.records import RecordingError
+from planetary_twin_py.recording.ros2.bag import BagWriter
+from planetary_twin_py.recording.ros2.clock_messages import CLOCK, with_clock
+from planetary_twin_py.recording.ros2.metadata import Topic
+from planetary_twin_py.recording.ros2.renaming import moved
+from planetary_twin_py.recording.ros2.tape import Tape
+
+START = 1_790_000_000_000_000_000
+STEP = 10_000_000  # [ns] between two messages of a topic
+LATCHED = [{"durability": "transient_local", "depth": 1}]
+HEADER = "# text\n\nstd_msgs/Header header\nfloat64 x\n"
+
+
+def stamped(time):
+    return b"\0\1\0\0" + struct.pack("<iI", *divmod(time, 10**9))
+
+
+def write(folder, steps, pace=1.0):
+    """Ten chunks a second; `pace` stamped seconds per recorded second, of another epoch."""
+    bag = BagWriter(folder)
+    kinds = [("/twin/state", HEADER, []), ("/twin/point", "float64 x\n", LATCHED)]
+    kinds += [("/twin/model", "string data\n", LATCHED), ("/diagnostics", HEADER, [])]
+    state, point, model, diagnostics = (
+        bag.add_topic(Topic(name, "pkg/msg/" + name[1:].replace("/", "_"), "", text, qos))
+        for name, text, qos in kinds
+    )
+    for k in steps:
+        now = START + k * STEP
+        stamp = 10**9 + round(k * STEP * pace)
+        if k % 10 == 0:
+            bag.flush()
+            bag.write(diagnostics, stamped(now), now, now, k)
+        if k == 1:
+            bag.write(model, b"model", now, now, k)
+        if k % 25 == 0:
+            bag.write(point, b"point %d" % k, now, now, k)
+        bag.write(state, stamped(stamp) + b"%d" % k, now, now, k)
+    bag.close()
+    return bag.file
+
+
+@pytest.fixture(scope="module")
+def whole(tmp_path_factory):
+    return write(tmp_path_factory.mktemp("tape") / "bag", range(301))
+
+
+@pytest.fixture(params=["indexed", "torn", "split", "split and torn"])
+def tape(request, whole, tmp_path):
+    """The same messages in several layouts; of a torn one the last chunk's are missing."""
+    if request.param == "indexed":
+        return Tape(whole)
+    if request.param == "torn":
+        file = tmp_path / "torn.mcap"
+        file.write_bytes(whole.read_bytes()[:-2000])
+        return Tape(file)
+    folder = tmp_path / "split"
+    folder.mkdir()
+    for n, steps in enumerate([range(100), range(100, 200), range(200, 301)]):
+        file = write(tmp_path / f"part_{n}", steps)
+        data = file.read_bytes()
+        torn = n == 2 and "torn" in request.param
+        (folder / f"split_{9 + n}.mcap").write_bytes(data[:-2000] if torn else data)
+    return Tape(folder)
+
+
+@pytest.mark.parametrize("begin", [0, 1, 25, 26, 100, 251, 270])
+def test_it_begins_anywhere_with_what_is_latched_there(tape, begin):
+    cues = list(tape.cues(begin * STEP, 275 * STEP))
+    latched = [cue for cue in cues if cue.time == begin * STEP and cue.data[:1] in b"mp"]
+    newest = 25 * ((begin - 1) // 25)
+    expected = [b"point %d" % newest] * (begin > 0) + [b"model"] * (begin > 0)
+    if begin % 25 == 0:
+        expected.append(b"point %d" % begin)
+    assert sorted(cue.data for cue in latched) == sorted(expected)
+    states = [cue for cue in cues if cue.topic == "/twin/state"]
+    assert [int(cue.data[12:]) for cue in states] == list(range(begin, 276))
+    assert [cue.time for cue in states] == [k * STEP for k in range(begin, 276)]
+    assert [cue.time for cue in cues] == sorted(cue.time for cue in cues)
+
+
+def test_only_what_is_damaged_in_the_middle_is_missing(whole, tmp_path):
+    data = bytearray(whole.read_bytes())
+    data[len(data) // 3] ^= 1
+    file = tmp_path / "damaged.mcap"
+    file.write_bytes(data)
+    tape = Tape(file)
+    heard = {int(cue.data[12:]) for cue in tape.cues() if cue.topic == "/twin/state"}
+    missing = sorted(set(range(301)) - heard)
+    assert missing == list(range(missing[0], missing[0] + 10))
+    remark = f"damaged from {missing[0] * 0.01:.3f} to {missing[-1] * 0.01:.3f} s"
+    assert len(tape.remarks) == 1 and remark in tape.remarks[0]
+
+
+def test_a_damaged_index_is_not_gone_by(whole, tmp_path):
+    data = bytearray(whole.read_bytes())
+    data[-700] ^= 1
+    file = tmp_path / "damaged.mcap"
+    file.write_bytes(data)
+    tape = Tape(file)
+    assert [cue.data for cue in tape.cues(STEP)] == [cue.data for cue in Tape(whole).cues(STEP)]
+    assert "its summary is damaged" in tape.remarks[0]
+
+
+def test_topics_are_chosen(whole):
+    tape = Tape(whole, ["/twin/point"])
+    assert {cue.topic for cue in tape.cues()} == set(tape.topics) == {"/twin/point"}
+    assert tape.length == 300 * STEP
+    with pytest.raises(RecordingError, match=r"topics: /odd: .* holds /diagnostics, /twin/model"):
+        Tape(whole, ["/odd"])
+
+
+@pytest.mark.parametrize("pace", [0.5, 1.0, 3.0])
+def test_the_clock_tells_what_messages_are_stamped_with(tmp_path, pace):
+    tape = Tape(write(tmp_path / "bag", range(301), pace))
+    told, newest, off = [], 0, []
+    for cue in with_clock(tape, 0, tape.length, 200.0):
+        if cue.topic == CLOCK.name:
+            seconds, nanoseconds = struct.unpack("<4xiI", cue.data)
+            told.append(seconds * 10**9 + nanoseconds)
+            off.append(told[-1] - newest)
+        elif cue.topic == "/twin/state":
+            seconds, nanoseconds = struct.unpack_from("<4xiI", cue.data)
+            newest = seconds * 10**9 + nanoseconds
+    assert told == sorted(told)
+    assert len(told) == 601
+    assert min(off) >= 0 and max(off) <= STEP
+
+
+def test_without_stamps_the_clock_tells_the_recorders_time(whole):
+    cues = list(with_clock(Tape(whole, ["/twin/point"]), STEP, 2 * STEP, 1000.0))
+    ticks = [cue for cue in cues if cue.topic == CLOCK.name]
+    assert [cue.time for cue in ticks] == [STEP + k * 1_000_000 for k in range(11)]
+    assert all(cue.data == stamped(START + cue.time) for cue in ticks)
+
+
+def test_topics_move_below_another_namespace():
+    names = ["/twin/state", "/twin/logger/status", "/tf"]
+    assert list(moved(names, "b/c").values()) == ["/b/c/state", "/b/c/logger/status", "/tf"]
+    assert list(moved(names, "/").values()) == ["/state", "/logger/status", "/tf"]
+    assert list(moved(["/a/x", "/b/x", "/tf"], "n").values()) == ["/n/a/x", "/n/b/x", "/tf"]
+    with pytest.raises(ValueError, match="namespace = n: nothing"):
+        moved(["/tf"], "n")

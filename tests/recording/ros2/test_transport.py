@@ -1,0 +1,74 @@
+"""A tape stands where its rate has taken it, and nothing makes it jump but a seek."""
+
+import math
+
+import pytest
+
+from planetary_twin_py.recording.ros2.transport import AS_FAST_AS_IT_GOES, Transport
+
+FAR = 10**18  # [ns] what comes next is never reached
+
+
+def running(rate_factor=1.0, position=0):
+    transport = Transport(position, rate_factor)
+    transport.go(100.0)
+    return transport
+
+
+@pytest.mark.parametrize("rate_factor", [0.01, 1.0, 4.0])
+def test_it_runs_at_its_rate(rate_factor):
+    transport = running(rate_factor, 5_000)
+    assert transport.position(102.0, FAR) == 5_000 + round(2e9 * rate_factor)
+    assert transport.remaining(5_000 + 10**9, 100.0) == pytest.approx(1 / rate_factor)
+
+
+def test_held_it_stands_and_nothing_is_ever_due():
+    transport = running()
+    transport.hold(101.0, FAR)
+    assert transport.position(500.0, FAR) == 10**9
+    assert transport.remaining(0, 500.0) == math.inf
+    transport.hold(600.0, FAR)
+    transport.go(700.0)
+    assert transport.position(700.5, FAR) == 1_500_000_000
+
+
+def test_going_on_while_it_runs_changes_nothing():
+    transport = running()
+    transport.go(101.0)
+    assert transport.position(102.0, FAR) == 2 * 10**9
+
+
+def test_another_rate_holds_from_where_it_is():
+    transport = running()
+    transport.set_rate(10.0, 101.0, FAR)
+    assert transport.position(101.0, FAR) == 10**9
+    assert transport.position(102.0, FAR) == 11 * 10**9
+
+
+def test_what_is_late_has_not_been_reached():
+    transport = running(100.0)
+    late = 5 * 10**9  # due at 100.05
+    transport.set_rate(1.0, 101.0, late)
+    assert transport.position(101.5, FAR) == late + 500_000_000
+
+
+def test_without_limit_all_is_due_at_once():
+    transport = running(AS_FAST_AS_IT_GOES)
+    assert transport.remaining(FAR, 100.0) == 0.0
+    transport.set_rate(1.0, 101.0, 7)
+    assert transport.position(101.0, FAR) == 7
+
+
+def test_moved_while_held_it_stays_held():
+    transport = Transport(0, 1.0)
+    transport.place(50, 10.0)
+    assert transport.position(99.0, FAR) == 50
+    transport.go(99.0)
+    assert transport.position(99.0, FAR) == 50
+
+
+def test_a_turn_of_a_loop_takes_no_time_of_its_own():
+    transport = running(2.0)
+    due = transport.remaining(10**9, 100.7)
+    transport.shift(-(10**9))
+    assert transport.remaining(0, 100.7) == pytest.approx(due)

@@ -1,0 +1,229 @@
+"""A recording tells what it holds, what it lacks, and what was changed when."""
+
+import json
+
+import numpy as np
+import pytest
+from mcap.records import Message
+from synthetic_recording import START_NS
+from twin_recording import NAMESPACE, TwinRecording, record
+from typer.testing import CliRunner
+
+import planetary_twin_py as pt
+from planetary_twin_py.cli import build_app
+from planetary_twin_py.recording.container.message_index import Index
+from planetary_twin_py.recording.container.records import records_of
+from planetary_twin_py.recording.runs.events import read_events
+from planetary_twin_py.recording.runs.info import Changed, read_info
+from planetary_twin_py.recording.runs.ramps import ramps
+
+
+@pytest.fixture(scope="module")
+def sound(tmp_path_factory):
+    return record(tmp_path_factory.mktemp("sound") / "bag")
+
+
+def test_topics_rates_and_gaps_are_those_that_were_written(sound):
+    info = read_info(sound.parent)
+    state = info.topics[f"{NAMESPACE}/gearbox_state"]
+    assert (state.type, state.recorded) == ("planetary_twin_msgs/msg/GearboxState", 41)
+    assert state.rate == pytest.approx(40 / 1.09)
+    assert state.longest_gap == pytest.approx(0.7099e9)  # from 0.3001 s to the next run's 1.01 s
+    assert info.topics[f"{NAMESPACE}/run_origin"].recorded == 2
+    assert info.simulated == pytest.approx(0.4001)
+    assert info.remarks == []
+
+
+def test_a_pipe_gets_a_line_for_every_topic(sound, monkeypatch):
+    def lines():
+        printed = CliRunner().invoke(build_app(), ["info", str(sound)]).output
+        return [line for line in printed.splitlines() if f"{NAMESPACE}/operating_point" in line]
+
+    monkeypatch.delenv("COLUMNS", raising=False)
+    (line,) = lines()
+    assert line.rstrip().endswith(" OperatingPoint")
+    monkeypatch.setenv("COLUMNS", "80")
+    assert max(map(len, lines())) <= 80
+
+
+def test_changes_are_told_with_their_instants(sound):
+    first, second, third = read_info(sound).changes
+    assert first.time == 0.0 and len(first.values) == 7
+    assert second.time == pytest.approx(0.1)
+    assert second.values == {"backlash": 3e-7, "lambda_ratio": 1.5}
+    assert third.values == {"backlash": 2e-7, "lambda_ratio": 1.0, "input_speed": 150.0}
+
+
+def test_the_command_prints_them_and_its_figures_are_those_of_a_run(sound, tmp_path):
+    answer = CliRunner().invoke(
+        build_app(), ["info", str(sound), "--json", str(tmp_path / "figures.json")]
+    )
+    assert answer.exit_code == 0, answer.output
+    assert "backlash = 3e-07 m, lambda_ratio = 1.5" in answer.output
+    figures = json.loads((tmp_path / "figures.json").read_text())
+    assert set(figures) == {"topics", "duration_s", "real_time_factor", "overruns", "file"}
+    assert figures["topics"][f"{NAMESPACE}/joint_states"]["recorded"] == 41
+
+
+def test_what_is_no_recording_is_refused_in_one_line(tmp_path):
+    answer = CliRunner().invoke(build_app(), ["info", str(tmp_path)])
+    assert answer.exit_code == 2
+    assert len(answer.output.strip().splitlines()) == 1
+
+
+def without_index(file):
+    raise ValueError("no index")
+
+
+def test_the_index_of_a_file_tells_the_same_as_all_its_records(tmp_path, monkeypatch):
+    def lose(topic, number, row):
+        return None if topic == "gearbox_state" and number in (7, 8, 20) else row
+
+    file = record(tmp_path / "bag", lose)
+    by_index = read_info(file)
+    monkeypatch.setattr("planetary_twin_py.recording.runs.info.Index", without_index)
+    by_records = read_info(file)
+    assert by_index.simulated == pytest.approx(by_records.simulated, rel=1e-12)
+    by_index.simulated = by_records.simulated
+    assert by_index == by_records
+
+
+def test_the_index_leads_to_every_message(sound):
+    index, found = Index(sound), {}
+    for entry in records_of(sound, []):
+        if isinstance(entry, Message):
+            found.setdefault(entry.channel_id, []).append(entry)
+    for channel, messages in found.items():
+        assert index.times[channel].tolist() == [message.log_time for message in messages]
+        for number, message in enumerate(messages):
+            assert index.message(channel, number) == message
+
+
+def test_a_file_without_a_sound_index_or_with_a_damaged_chunk_is_read_whole(sound, tmp_path):
+    whole = sound.read_bytes()
+    flipped = bytearray(whole)
+    flipped[whole.index(b"zstd") + 100] ^= 1  # in the first chunk, which tells the operating point
+    for name, data, remarks in (
+        ("torn", whole[: len(whole) // 2], 1),
+        ("cut", whole[:20], 1),
+        ("damaged", bytes(flipped), 1),
+        ("unsummed", whole[:-300] + bytes([whole[-300] ^ 1]) + whole[-299:], 1),
+    ):
+        file = tmp_path / f"{name}.mcap"
+        file.write_bytes(data)
+        assert len(read_info(file).remarks) == remarks
+
+
+def test_the_command_tells_what_happened(sound, tmp_path):
+    file = tmp_path / "figures.json"
+    answer = CliRunner().invoke(build_app(), ["info", str(sound), "--events", "--json", str(file)])
+    assert answer.exit_code == 0, answer.output
+    figures = json.loads(file.read_text())
+    events = [(event["run"], round(event["time"], 9), event["text"]) for event in figures["events"]]
+    assert [event for event in events if "contact" not in event[2]] == [
+        (1, 0.0, "starts"),
+        (1, 0.0, "tolerance = 0.001"),
+        (1, 0.0, "waveform at 10000 Hz"),
+        (1, 0.15, "tolerance = 0.01"),
+        (1, 0.2, "waveform at 5000 Hz"),
+        (2, 0.0, "starts again, after a reset"),
+        (2, 0.0, "tolerance = 0.001"),
+        (2, 0.0, "waveform at 10000 Hz"),
+    ]
+    assert all(text in answer.output for _, _, text in events)
+    assert figures["changes"][1]["values"] == {"backlash": 3e-7, "lambda_ratio": 1.5}
+    state = figures["topics"][f"{NAMESPACE}/gearbox_state"]
+    assert state["rate_hz"] == pytest.approx(40 / 1.09)
+    assert state["longest_gap_s"] == pytest.approx(0.7099)
+
+
+def test_contact_that_is_lost_and_messages_that_are_missing_are_told(tmp_path):
+    def alter(topic, number, row):
+        if topic != "gearbox_state" or number not in (4, 5, 8):
+            return {**row} if topic != "gearbox_state" else {**row, **_kept(row)}
+        return None if number == 8 else {**row, **_kept(row), "sun_planet_contact_fraction": APART}
+
+    file = record(tmp_path / "bag", alter)
+    told = [(round(e.time, 9), e.text) for e in read_events(file, NAMESPACE, []) if e.run == 1]
+    assert told[3:6] == [
+        (0.03, "contact is lost for a time at sun_planet_2"),
+        (0.05, "contact is kept at every mesh"),
+        (0.08, "1 messages of gearbox_state are missing before"),
+    ]
+
+
+APART = np.array([1.0, 0.9, 1.0, *[np.nan] * 4])
+
+
+def _kept(row):
+    names = ("sun_planet_contact_fraction", "planet_ring_contact_fraction")
+    return {name: np.where(np.isnan(row[name]), np.nan, 1.0) for name in names}
+
+
+def ramped(folder, *legs):
+    """A recording of ramps, as the node makes them: a step before each interval of 10 ms."""
+    recording, twin = TwinRecording(folder), pt.Twin(pt.load_scene("paper"), 1000.0, 1e-3)
+    recording.begin(twin, START_NS)
+    for steps, values in legs:
+        first = {name: getattr(twin.operating_point, name) for name in values}
+        for n in range(1, steps + 1):
+            twin.set(**{k: first[k] + (v - first[k]) * n / steps for k, v in values.items()})
+            recording.point(twin)
+            recording.advance(twin, 0.01)
+        recording.advance(twin, 0.05)
+    recording.finish()
+    return recording.file
+
+
+def changes_told(file):
+    printed = CliRunner().invoke(build_app(), ["info", str(file)]).output.splitlines()
+    lines = printed[[line.startswith("changes") for line in printed].index(True) :]
+    return [line.removeprefix("changes").strip() for line in lines]
+
+
+def test_a_ramp_is_one_line(tmp_path):
+    legs = (50, {"input_torque": 30.0}), (20, {"backlash": 4e-7, "lambda_ratio": 2.0})
+    start, *ways = changes_told(ramped(tmp_path / "bag", *legs))
+    assert start.startswith("0.0000 s  backlash = 2e-07 m")
+    assert ways == [
+        "0.0000 s  input_torque from 63 to 30 N m in 50 steps over 0.5 s",
+        "0.5500 s  backlash from 2e-07 to 4e-07 m, lambda_ratio from 1 to 2 in 20 steps over 0.2 s",
+    ]
+
+
+def test_a_ramp_to_where_it_begins_is_at_most_one_line(tmp_path):
+    assert len(changes_told(ramped(tmp_path / "bag", (50, {"input_torque": 63.0})))) <= 2
+
+
+def test_the_figures_of_a_ramp_are_still_those_of_every_step(tmp_path):
+    file, out = ramped(tmp_path / "bag", (50, {"input_torque": 30.0})), tmp_path / "figures.json"
+    CliRunner().invoke(build_app(), ["info", str(file), "--events", "--json", str(out)])
+    assert len(json.loads(out.read_text())["changes"]) == 51
+
+
+def turned(*points, name="input_torque", namespace="/one"):
+    return [Changed(time, namespace, {name: value}) for time, value in points]
+
+
+def test_only_what_goes_on_at_the_same_pace_is_one_ramp():
+    """What turns back, pauses, begins anew or is of another field or gearbox is told on its own."""
+    begin = turned((0.0, 1.0))
+    up = turned((1.0, 2.0), (1.01, 3.0), (1.02, 4.0))
+    assert [len(ramp.times) for ramp in ramps(begin + up)] == [1, 3]
+    for other in (
+        turned((1.03, 3.0)),
+        turned((1.05, 5.0)),
+        turned((0.0, 5.0)),
+        turned((1.03, 5.0), name="backlash"),
+        turned((1.03, 5.0), namespace="/two"),
+    ):
+        assert [len(ramp.times) for ramp in ramps(begin + up + other)] == [1, 3, 1]
+    by_hand = turned((1.0, 2.0), (3.0, 3.0), (5.0, 4.0))
+    assert [len(ramp.times) for ramp in ramps(begin + by_hand)] == [1, 1, 1, 1]
+
+
+def test_ramps_of_two_gearboxes_at_once_are_one_each():
+    both = [turned((0.0, 1.0), namespace=n)[0] for n in ("/one", "/two")]
+    for step in range(1, 11):
+        both += turned((step / 100, 1.0 + step)) + turned((step / 100, 1 - step), namespace="/two")
+    assert [len(ramp.times) for ramp in ramps(both)] == [1, 1, 10, 10]

@@ -1,0 +1,62 @@
+"""A run without ROS is recorded as the nodes would have published it."""
+
+import json
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+from rosbags.highlevel import AnyReader
+from typer.testing import CliRunner
+
+import planetary_twin_py as pt
+from planetary_twin_py.cli import build_app
+from planetary_twin_py.recording.ros2.definitions import KINDS, topics_of
+from planetary_twin_py.recording.runs.offline import NAMESPACE
+from planetary_twin_py.recording.runs.reader import read_recording
+from planetary_twin_py.recording.runs.verify import verify
+
+MSGS_SPEC = Path(__file__).parents[3] / "msgs_spec"
+
+
+def simulate(*arguments):
+    return CliRunner().invoke(build_app(), ["simulate", *map(str, arguments)])
+
+
+@pytest.mark.parametrize("name", ["run.mcap", "run"])
+def test_a_run_is_written_as_file_or_folder(tmp_path, name):
+    answer = simulate("paper", "--duration", "0.045", "--out", tmp_path / name)
+    assert answer.exit_code == 0, answer.output
+    assert [path.name for path in tmp_path.iterdir()] == [name]
+    recording = read_recording(tmp_path / name)
+    assert np.array_equal(recording.state.time, [0.01, 0.02, 0.03, 0.04, 0.045])
+    assert np.array_equal(recording.operating_point["changed"], [",".join(pt.TUNABLES)])
+    wave = pt.simulate(pt.load_scene("paper"), 0.045)
+    assert np.array_equal(recording.waveform.dte, wave.dte.astype(np.float32))
+    verdict = verify(tmp_path / name, NAMESPACE)
+    assert verdict.identical and verdict.messages["mesh_waveform"] == 5
+    with AnyReader([tmp_path / name]) as bag:
+        assert bag.message_count == 3 * 5 + 3
+    assert simulate("paper", "--duration", "0.045", "--out", tmp_path / name).exit_code == 2
+
+
+def test_the_topics_are_those_of_the_interfaces_that_are_built():
+    for topic in topics_of(NAMESPACE):
+        package, _, name = topic.type.split("/")
+        installed = Path(sys.prefix, "share", package, "msg", f"{name}.json").read_text()
+        (digest,) = {
+            entry["hash_string"]
+            for entry in json.loads(installed)["type_hashes"]
+            if entry["type_name"] == topic.type
+        }
+        assert topic.type_hash == digest
+
+
+def test_the_definitions_are_those_of_the_interface_package():
+    own = Path(pt.__file__).parent / "recording" / "ros2" / "msg"
+    assert own.resolve() == MSGS_SPEC / "msg"
+    for kind in KINDS.values():
+        if kind.startswith("planetary_twin_msgs"):
+            (topic,) = [topic for topic in topics_of("") if topic.type == kind]
+            text = (MSGS_SPEC / "msg" / f"{kind.rpartition('/')[2]}.msg").read_text()
+            assert topic.definition.startswith(text)

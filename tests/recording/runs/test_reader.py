@@ -1,0 +1,171 @@
+"""A recording becomes arrays; a torn one keeps its sound part; what is none says so in one line."""
+
+import numpy as np
+import pytest
+from mcap.records import Attachment, Channel, DataEnd, Message, Metadata, Schema
+from mcap.stream_reader import StreamReader
+from synthetic_recording import BLOCK, SAMPLE_PERIOD, START_NS, state, waveform, write_recording
+
+from planetary_twin_py.recording.container.framing import TORN
+from planetary_twin_py.recording.container.integrity import damaged_summary
+from planetary_twin_py.recording.container.records import RecordingError, records_of
+from planetary_twin_py.recording.runs.reader import read_recording
+
+DURATION = 0.3
+
+
+@pytest.fixture(scope="module")
+def sound(tmp_path_factory):
+    return write_recording(tmp_path_factory.mktemp("bag") / "bag_0.mcap", DURATION)
+
+
+def test_arrays_hold_what_was_written(sound):
+    recording = read_recording(sound)
+    assert recording.remarks == []
+    assert recording.namespace == "/planetary_twin"
+    assert recording.meshes[::3] == ("sun_planet_1", "planet_ring_1")
+    rows = [state(0.01 * (k + 1), 0.01, k + 1) for k in range(30)]
+    assert np.allclose(recording.state.time, [row["simulated_time"] for row in rows])
+    assert np.allclose(recording.state["ring_angle"], [row["ring_angle"] for row in rows])
+    assert recording.per_mesh("dte_mean").shape == (30, 6)
+    assert np.isfinite(recording.per_mesh("dte_mean")).all()
+    assert list(recording.operating_point["changed"]) == [
+        "",
+        "lambda_ratio",
+        "backlash",
+        "lambda_ratio,input_speed",
+    ]
+
+
+def test_waveform_is_one_gapless_grid_with_ros_time_beside_it(sound):
+    wave = read_recording(sound).waveform
+    samples = round(DURATION / SAMPLE_PERIOD)
+    assert np.allclose(wave.time, SAMPLE_PERIOD * np.arange(1, samples + 1), atol=1e-9)
+    assert np.abs(wave.stamp - START_NS - wave.time * 1e9).max() < 10
+    assert np.array_equal(wave.block, np.arange(0, samples, BLOCK))
+    dte, force, friction = waveform(SAMPLE_PERIOD * np.arange(1, BLOCK + 1))
+    assert np.allclose(wave.dte[:BLOCK], dte, rtol=1e-6)
+    assert np.allclose(wave.mesh_force[:BLOCK], force, rtol=1e-6)
+    assert np.allclose(wave.friction[:BLOCK], friction, rtol=1e-6)
+
+
+def test_a_logger_that_never_finished_its_file_loses_only_the_open_chunk(tmp_path):
+    torn = write_recording(tmp_path / "torn.mcap", DURATION, finish=False)
+    recording = read_recording(torn)
+    assert 20 <= len(recording.state) < 30
+    assert np.allclose(recording.state.time, 0.01 * np.arange(1, len(recording.state) + 1))
+
+
+@pytest.mark.parametrize("share", [0.3, 0.5, 0.77, 0.999])
+def test_a_file_cut_anywhere_opens_with_what_is_before_the_cut(sound, tmp_path, share):
+    whole = sound.read_bytes()
+    torn = tmp_path / "torn.mcap"
+    torn.write_bytes(whole[: int(share * len(whole))])
+    recording = read_recording(torn)
+    count = len(recording.state)
+    assert 0 < count <= 30
+    assert np.array_equal(recording.state.time, read_recording(sound).state.time[:count])
+    assert len(recording.remarks) == 1
+    assert "not readable" in recording.remarks[0]
+    assert "\n" not in recording.remarks[0]
+
+
+def test_a_damaged_chunk_is_told_and_not_shown(sound, tmp_path):
+    data = bytearray(sound.read_bytes())
+    data[len(data) // 2] ^= 0xFF
+    damaged = tmp_path / "damaged.mcap"
+    damaged.write_bytes(data)
+    recording = read_recording(damaged)
+    (remark,) = recording.remarks
+    assert "damaged.mcap: damaged from 0." in remark and "left out" in remark
+    whole = read_recording(sound).state
+    kept = np.isin(whole.time, recording.state.time)
+    assert 0 < kept.sum() < len(whole) and kept[0] and kept[-1]
+    assert np.array_equal(recording.state["ring_angle"], whole["ring_angle"][kept])
+
+
+def test_the_folder_of_a_bag_opens_like_its_file(sound):
+    assert len(read_recording(sound.parent).state) == len(read_recording(sound).state)
+
+
+def test_the_scene_travels_with_the_recording(tmp_path):
+    file = write_recording(tmp_path / "a.mcap", 0.02, scene_yaml="name: x\n")
+    assert read_recording(file).scene_yaml == "name: x\n"
+
+
+def test_the_namespace_is_found_or_must_be_one_that_is_there(tmp_path):
+    file = write_recording(tmp_path / "a.mcap", 0.02, namespace="/left/gearbox")
+    assert read_recording(file).namespace == "/left/gearbox"
+    assert read_recording(file, "left/gearbox").namespace == "/left/gearbox"
+    with pytest.raises(RecordingError, match=r"namespace = /right: .* holds /left/gearbox"):
+        read_recording(file, "right")
+    write_recording(tmp_path / "b.mcap", 0.02, namespace="/right")
+    with pytest.raises(RecordingError, match="choose --namespace from /left/gearbox, /right"):
+        read_recording(tmp_path)
+
+
+def test_what_is_no_recording_says_so_in_one_line(tmp_path):
+    text = tmp_path / "notes.txt"
+    text.write_text("not a recording")
+    empty = tmp_path / "empty"
+    empty.mkdir()
+    bare = write_recording(tmp_path / "bare.mcap", 0.0)
+    for path, reason in [
+        (tmp_path / "missing.mcap", "no such file"),
+        (text, "not an MCAP file"),
+        (empty, "holds no .mcap file"),
+        (bare, "no gearbox_state message"),
+    ]:
+        with pytest.raises(RecordingError, match=reason) as caught:
+            read_recording(path)
+        assert "\n" not in str(caught.value)
+
+
+def test_samples_of_a_stretch_are_those_of_the_blocks_it_touches(sound):
+    recording = read_recording(sound)
+    whole = recording.waveform
+    part = recording.samples(0.105, 0.12)
+    first = np.searchsorted(whole.time, part.time[0])
+    rows = slice(first, first + len(part.time))
+    assert part.time[0] == pytest.approx(0.10002) and part.time[-1] == pytest.approx(0.12)
+    for name in ("time", "stamp", "dte", "mesh_force", "friction"):
+        assert np.array_equal(getattr(part, name), getattr(whole, name)[rows])
+    assert recording.samples(5.0, 6.0) is None
+
+
+def test_ranges_are_those_of_the_samples(sound):
+    recording = read_recording(sound)
+    whole, ranges = recording.waveform, recording.ranges
+    assert np.array_equal(ranges.time, whole.time[whole.block])
+    assert np.array_equal(ranges.stamp, whole.stamp[whole.block])
+    for name in ("dte", "mesh_force", "friction"):
+        samples = getattr(whole, name)
+        assert np.array_equal(ranges.lowest[name], np.fmin.reduceat(samples, whole.block))
+        assert np.array_equal(ranges.highest[name], np.fmax.reduceat(samples, whole.block))
+
+
+def test_records_of_a_damaged_file_go_on_where_mcap_stops_and_none_is_invented(sound, tmp_path):
+    whole, original = sound.read_bytes(), list(records_of(sound, []))
+    damaged = tmp_path / "damaged.mcap"
+    kinds = (Schema, Channel, Message, Attachment, Metadata)
+    generator = np.random.default_rng(1)
+    for place in [*generator.integers(8, len(whole), 60), *range(8, 60), *range(-60, 0)]:
+        data = bytearray(whole)
+        data[place] ^= 1 << int(generator.integers(8))
+        damaged.write_bytes(data[: int(generator.integers(8, len(whole)))] if place % 3 else data)
+        found = list(records_of(damaged, remarks := []))
+        expected, in_data, sound_end = [], True, not damaged_summary(damaged)
+        with damaged.open("rb") as stream:
+            try:
+                for record in StreamReader(stream, validate_crcs=True).records:
+                    in_data &= not isinstance(record, DataEnd)  # what follows only repeats
+                    if in_data and isinstance(record, kinds):
+                        expected.append(record)
+            except TORN:
+                sound_end = False
+        assert all(record in original for record in found)
+        rest = iter(original)
+        assert all(record in rest for record in found if isinstance(record, Message))  # in order
+        if place >= 60:  # before is the length of the first record, which mcap goes by or not
+            assert found[: len(expected)] == expected
+            assert (remarks == []) == sound_end

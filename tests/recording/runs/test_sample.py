@@ -1,0 +1,110 @@
+"""The recording that is kept in git is sound, complete, and still what the model computes."""
+
+import os
+import re
+import subprocess
+import sys
+from collections import Counter
+from functools import partial
+from pathlib import Path
+
+import numpy as np
+import pytest
+import rerun_cli
+from mcap.reader import make_reader
+from rosbags.rosbag2 import Reader
+
+from planetary_twin_py.recording.runs.info import read_info
+from planetary_twin_py.recording.runs.reader import read_recording
+from planetary_twin_py.recording.runs.verify import verify
+from planetary_twin_py.robot import robot_description
+from planetary_twin_py.scene import parse_scene
+
+SAMPLE = Path(__file__).parents[3] / "recordings" / "sample"
+NAMESPACE = "/planetary_twin"
+
+
+def test_it_is_small_and_holds_every_message_that_was_published():
+    assert sum(file.stat().st_size for file in SAMPLE.iterdir()) < 1.5e6
+    info = read_info(SAMPLE)
+    assert info.remarks == []
+    states = info.topics[f"{NAMESPACE}/gearbox_state"]
+    assert states.recorded == round(info.simulated * 100) > 100
+    assert all(topic.lost == 0 for topic in info.topics.values())
+    assert {name for change in info.changes[1:] for name in change.values} == {
+        "lambda_ratio",
+        "backlash",
+        "input_speed",
+        "input_torque",
+    }
+
+
+def test_two_readers_find_the_same_messages_in_it():
+    (file,) = SAMPLE.glob("*.mcap")
+    with file.open("rb") as stream:
+        messages = make_reader(stream, validate_crcs=True).iter_messages()
+        found = Counter((channel.topic, message.data) for _, channel, message in messages)
+    with Reader(SAMPLE) as reader:
+        others = Counter((c.topic, bytes(data)) for c, _, data in reader.messages())
+    assert found == others and found.total() > 400
+
+
+def test_its_time_bar_is_as_long_as_its_gearbox_ran():
+    """Tools show messages over the time at which they were received; it is recorded live."""
+    (file,) = SAMPLE.glob("*.mcap")
+    with file.open("rb") as stream:
+        topics = [f"{NAMESPACE}/{name}" for name in ("gearbox_state", "mesh_waveform")]
+        received = [m.log_time for *_, m in make_reader(stream).iter_messages(topics=topics)]
+    assert 1e-9 * (max(received) - min(received)) < 1.1 * read_info(SAMPLE).simulated
+
+
+def test_its_waveform_has_one_sample_rate():
+    wave = read_recording(SAMPLE).waveform
+    assert wave is not None and len(wave.time) > 10_000
+    assert np.allclose(np.diff(wave.time), 1.0 / 12500.0, rtol=1e-6)
+
+
+def without_a_cache(tmp_path):
+    """The environment of a machine on which no twin has ever run."""
+    return os.environ | {"HOME": str(tmp_path), "XDG_CACHE_HOME": str(tmp_path / "cache")}
+
+
+def test_rerun_by_itself_draws_its_gears_on_another_machine(tmp_path):
+    (file,) = SAMPLE.glob("*.mcap")
+    rrd = tmp_path / "raw.rrd"
+    rerun = Path(rerun_cli.__file__).parent / "rerun"
+    elsewhere = without_a_cache(tmp_path)
+    run = partial(subprocess.run, check=True, timeout=120, env=elsewhere, capture_output=True)
+    run([rerun, "mcap", "convert", file, "-o", rrd])
+    printed = run([rerun, "rrd", "print", "-vv", rrd], text=True).stdout
+    scene = parse_scene(read_recording(SAMPLE).scene_yaml)
+    seen = robot_description(scene.gearset).count("<visual>")
+    drawn = set(re.findall(r"/visual_geometries/\S*?visual_\d+", printed))
+    assert len(drawn) == seen > 100
+    assert "Boxes3D" in printed and "Cylinders3D" in printed and "Asset3D" not in printed
+
+
+@pytest.mark.slow
+def test_view_draws_its_gears_on_another_machine(tmp_path):
+    rrd = tmp_path / "view.rrd"
+    program = Path(sys.executable).with_name("planetary-twin")
+    command = [program, "view", SAMPLE, "--save", rrd]
+    subprocess.run(command, check=True, timeout=300, env=without_a_cache(tmp_path))
+    content = rrd.read_bytes()
+    for gear in ("sun", "ring", "carrier", "carrier/pin_1/planet_1"):
+        assert f"/gears/{gear}".encode() in content
+    assert b"Mesh3D:vertex_positions" in content
+
+
+@pytest.mark.slow
+def test_it_simulates_again_to_what_it_says():
+    verdict = verify(SAMPLE, NAMESPACE)
+    assert verdict.remarks == []
+    assert verdict.values > 250_000
+    assert verdict.identical or (not verdict.same_makers and verdict.within_bound)
+
+
+def test_it_opens_with_its_scene():
+    recording = read_recording(SAMPLE)
+    assert recording.scene_yaml and recording.planets == 3
+    assert recording.waveform is not None

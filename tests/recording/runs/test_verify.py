@@ -1,0 +1,210 @@
+"""A recording that was altered is found; one that was not is the same to the last bit."""
+
+import json
+import struct
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from synthetic_recording import write_recording
+from twin_recording import NAMESPACE, record
+from typer.testing import CliRunner
+
+from planetary_twin_py.cli import build_app
+from planetary_twin_py.recording.container.records import RecordingError, sections_of
+from planetary_twin_py.recording.runs.origin import makers_here
+from planetary_twin_py.recording.runs.verify import BOUND, verify
+
+
+def altering(topic, number, field, change):
+    """Change one field of one message."""
+
+    def alter(at, count, row):
+        if (at, count) == (topic, number):
+            row = {**row, field: change(row[field])}
+        return row
+
+    return alter
+
+
+def without(topic, numbers):
+    """Leave messages out."""
+    return lambda at, count, row: None if at == topic and count in numbers else row
+
+
+def next_bit(value):
+    """The nearest other number, in the third place of an array."""
+    if isinstance(value, np.ndarray):
+        changed = value.copy()
+        changed[2] = np.nextafter(value[2], np.array(np.inf, value.dtype))
+        return changed
+    return float(np.nextafter(value, np.inf))
+
+
+def end_of_data(file):
+    """Where a recorder that was killed between two records would have stopped at the latest."""
+    *_, last = (section.place for section in sections_of(file, []))
+    with file.open("rb") as stream:
+        stream.seek(last)
+        _, length = struct.unpack("<BQ", stream.read(9))
+    return last + 9 + length
+
+
+@pytest.fixture(scope="module")
+def sound(tmp_path_factory):
+    return record(tmp_path_factory.mktemp("sound") / "bag")
+
+
+def test_what_was_not_altered_is_the_same_to_the_last_bit(sound):
+    verdict = verify(sound, NAMESPACE)
+    assert verdict.identical and verdict.same_makers
+    assert verdict.remarks == []
+    assert verdict.messages == {"gearbox_state": 41, "joint_states": 41, "mesh_waveform": 40}
+    assert verdict.values > 6 * 3 * (20 * 100 + 10 * 50 + 10 * 100)
+    assert verdict.largest == 0.0
+
+
+@pytest.mark.parametrize(
+    ("topic", "field", "change", "place"),
+    [
+        ("gearbox_state", "power_loss", next_bit, 0),
+        ("gearbox_state", "sun_planet_dte_rms", next_bit, 2),
+        ("gearbox_state", "planets", lambda planets: planets + 1, 0),
+        ("mesh_waveform", "friction", next_bit, 2),
+        ("mesh_waveform", "sample_period", next_bit, 0),
+        ("joint_states", "position", next_bit, 2),
+    ],
+)
+def test_one_altered_bit_is_found_where_it_is(tmp_path, topic, field, change, place):
+    file = record(tmp_path / "altered", altering(topic, 25, field, change))
+    verdict = verify(file, NAMESPACE)
+    assert not verdict.identical
+    first = verdict.first_difference
+    assert (first.topic, first.field, first.place) == (topic, field, place)
+    assert first.time == pytest.approx(0.25)
+    assert first.recorded != first.simulated
+
+
+@pytest.mark.parametrize(
+    ("topic", "number", "field", "change"),
+    [
+        ("operating_point", 2, "backlash", lambda play: play * (1.0 + 1e-9)),
+        ("gearbox_state", 12, "tolerance", next_bit),
+        ("run_origin", 1, "data", lambda text: text.replace("torque: 63.0", "torque: 64.0")),
+    ],
+)
+def test_an_altered_input_shows_in_what_follows_from_it(tmp_path, topic, number, field, change):
+    verdict = verify(record(tmp_path / "a", altering(topic, number, field, change)), NAMESPACE)
+    assert not verdict.identical
+    assert verdict.first_difference is not None
+
+
+def test_a_block_at_a_time_that_never_was_is_told(tmp_path):
+    file = record(tmp_path / "a", altering("mesh_waveform", 25, "start_time", next_bit))
+    assert verify(file, NAMESPACE).remarks == [
+        "1 messages of mesh_waveform belong to no interval that is simulated again"
+    ]
+
+
+def test_what_is_missing_is_bridged_while_nothing_changes(tmp_path):
+    verdict = verify(record(tmp_path / "a", without("gearbox_state", {5, 6})), NAMESPACE)
+    assert verdict.first_difference is None
+    assert verdict.messages["gearbox_state"] == 39
+    assert verdict.not_recorded == 2
+    assert [remark.split()[0] for remark in verdict.remarks] == ["2", "2"]  # joints, waveform
+
+
+def test_no_more_is_claimed_than_is_known(tmp_path):
+    lost_change = without("operating_point", {2})
+    verdict = verify(record(tmp_path / "a", lost_change), NAMESPACE)
+    assert "1 messages of operating_point are missing" in verdict.remarks[0]
+    assert verdict.first_difference is None
+    assert verdict.messages["gearbox_state"] == 10  # of the run after the reset
+
+
+@pytest.mark.parametrize(
+    "left_out", [without("run_origin", {1, 2}), without("gearbox_state", {1, 32})]
+)
+def test_without_a_start_nothing_can_be_simulated_again(tmp_path, left_out):
+    with pytest.raises(RecordingError, match="holds no run from its start"):
+        verify(record(tmp_path / "a", left_out), NAMESPACE)
+
+
+def test_a_torn_file_is_the_same_up_to_its_end(sound, tmp_path):
+    whole = sound.read_bytes()
+    torn = tmp_path / "torn.mcap"
+    torn.write_bytes(whole[: len(whole) // 2])
+    verdict = verify(torn, NAMESPACE)
+    assert verdict.first_difference is None
+    assert 10 <= verdict.messages["gearbox_state"] < 41
+    assert any("ends torn" in remark for remark in verdict.remarks)
+
+
+def test_of_a_file_without_an_end_all_that_was_read_is_compared(sound, tmp_path):
+    torn = tmp_path / "torn.mcap"
+    torn.write_bytes(sound.read_bytes()[: end_of_data(sound)])
+    code, output = invoke(torn)
+    assert code == 1
+    assert "torn.mcap: has no end record, the recorder was stopped" in output
+    assert "122 messages read, all of them compared equal" in output
+
+
+def test_how_many_messages_could_not_be_compared_is_told(tmp_path):
+    file = record(tmp_path / "a", altering("mesh_waveform", 25, "start_time", next_bit))
+    code, output = invoke(file)
+    assert code == 1
+    assert "no bit differs in 121 of 122 messages" in output
+
+
+@pytest.mark.exhaustive
+@pytest.mark.slow
+def test_any_bit_that_is_turned_in_the_file_is_found(sound, tmp_path):
+    whole = sound.read_bytes()
+    places = np.random.default_rng(1).integers(0, 8 * len(whole), 60).tolist()
+    ends = range(8 * (len(whole) - 40), 8 * len(whole), 13)  # footer and magic
+    for place in (*places, *ends, 3, 90, 300):
+        damaged = bytearray(whole)
+        damaged[place // 8] ^= 1 << place % 8
+        file = tmp_path / "damaged.mcap"
+        file.write_bytes(damaged)
+        code, output = invoke(file)
+        assert code in (1, 2), (place, output)
+        assert "Traceback" not in output
+
+
+def invoke(*arguments):
+    answer = CliRunner().invoke(build_app(), ["verify", *map(str, arguments)])
+    return answer.exit_code, answer.output
+
+
+def test_other_machines_may_differ_within_the_bound(tmp_path):
+    foreign = replace(makers_here(), machine="another")
+    for share, code in ((0.1, 0), (10.0, 1)):
+        shift = share * BOUND * 1e-3  # times the tolerance
+        alter = altering("gearbox_state", 5, "power_loss", lambda loss, by=shift: loss * (1 + by))
+        file = record(tmp_path / str(code), alter, foreign)
+        verdict = verify(file, NAMESPACE)
+        assert not verdict.same_makers and not verdict.identical
+        assert verdict.largest == pytest.approx(share * BOUND, rel=0.2)
+        assert invoke(file)[0] == code
+
+
+def test_the_command_says_what_it_found(sound, tmp_path):
+    code, output = invoke(sound, "--json", tmp_path / "figures.json")
+    assert code == 0, output
+    assert "no bit differs" in output
+    figures = json.loads((tmp_path / "figures.json").read_text())
+    assert figures["identical"] is True and figures["first_difference"] is None
+
+    file = record(tmp_path / "a", altering("gearbox_state", 25, "power_loss", next_bit))
+    code, output = invoke(file, "--json", tmp_path / "figures.json")
+    assert code == 1
+    assert "gearbox_state.power_loss[0] at 0.25 s" in output
+    assert json.loads((tmp_path / "figures.json").read_text())["first_difference"]["time"] == 0.25
+
+
+def test_the_command_refuses_in_one_line_what_it_cannot_compare(tmp_path):
+    code, output = invoke(write_recording(tmp_path / "bag_0.mcap", 0.1))
+    assert code == 2
+    assert len(output.strip().splitlines()) == 1
+    assert "holds no run from its start" in output

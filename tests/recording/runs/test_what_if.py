@@ -1,0 +1,158 @@
+"""What-if: as recorded up to the branch, from then on as a twin does that is set so."""
+
+import math
+
+import numpy as np
+import pytest
+from mcap.reader import make_reader
+from rosbags.highlevel import AnyReader
+from twin_recording import NAMESPACE, record
+from typer.testing import CliRunner
+
+import planetary_twin_py as pt
+from planetary_twin_py.cli import build_app
+from planetary_twin_py.recording.ros2.tape import Tape
+from planetary_twin_py.recording.runs.branch import Branch
+from planetary_twin_py.recording.runs.reader import read_recording
+from planetary_twin_py.recording.runs.verify import verify
+from planetary_twin_py.recording.runs.what_if import resimulate
+from planetary_twin_py.view.show import scene_of
+
+FOUR = tuple(0.5 * math.pi * n for n in range(4))
+
+
+@pytest.fixture(scope="module")
+def sound(tmp_path_factory):
+    return record(tmp_path_factory.mktemp("sound") / "bag")
+
+
+@pytest.fixture(scope="module")
+def branched(sound, tmp_path_factory):
+    """The first run, with another lambda ratio from 50 ms on, before the recorded one at 100 ms."""
+    branch = Branch({"lambda_ratio": "1.2"}, 0.045, run=1)
+    return resimulate(sound, NAMESPACE, branch, tmp_path_factory.mktemp("branch") / "bag")
+
+
+def messages(file):
+    with file.open("rb") as stream:
+        return [
+            (channel.topic, m.log_time, m.publish_time, m.sequence, m.data)
+            for _, channel, m in make_reader(stream, validate_crcs=True).iter_messages()
+        ]
+
+
+def test_up_to_the_branch_it_is_the_same_to_the_last_bit(sound, branched):
+    assert branched.begins == 0.05
+    before, after = messages(sound), messages(branched.file)
+    same = next(n for n, (old, new) in enumerate(zip(before, after, strict=False)) if old != new)
+    assert before[:same] == after[:same]
+    assert same == 3 + 3 * 5  # origin, description and point; then five intervals on three topics
+    assert after[same][0] == f"{NAMESPACE}/operating_point"
+
+
+def test_from_then_on_it_is_what_a_twin_does_that_is_set_so(branched):
+    recording = read_recording(branched.file)
+    twin = pt.Twin(pt.load_scene("paper"), 10_000.0, 1e-3)
+    for number in range(31):
+        if number == 5:
+            twin.set(lambda_ratio=1.2)
+        elif number == 10:
+            twin.set(backlash=3e-7)
+        elif number == 15:
+            twin.set_tolerance(1e-2)
+        elif number == 20:
+            twin.set_sample_rate(5_000.0)
+        window = twin.advance(0.01 if number < 30 else 0.0001)
+        assert recording.state["power_loss"][number] == window.power_loss
+        assert np.array_equal(recording.per_mesh("dte_rms")[number], window.mesh["dte_rms"], True)
+
+
+def test_what_is_set_stays_and_everything_else_changes_as_recorded(branched):
+    point = read_recording(branched.file).operating_point
+    assert np.array_equal(point.time, [0.0, 0.05, 0.1])
+    assert list(point["changed"])[1:] == ["lambda_ratio", "backlash"]
+    assert np.array_equal(point["lambda_ratio"], [1.0, 1.2, 1.2])
+    assert np.array_equal(point["backlash"], [2e-7, 2e-7, 3e-7])
+
+
+def test_the_second_recording_is_one_like_any_other(sound, branched):
+    verdict = verify(branched.file.parent, NAMESPACE)
+    assert verdict.identical and verdict.same_makers
+    assert verdict.messages == {"gearbox_state": 31, "joint_states": 31, "mesh_waveform": 30}
+    assert Tape(branched.file).topics == Tape(sound).topics
+    with AnyReader([branched.file.parent]) as bag:
+        states = [c for c in bag.connections if c.topic == f"{NAMESPACE}/gearbox_state"]
+        decoded = [bag.deserialize(raw, c.msgtype) for c, _, raw in bag.messages(states)]
+    recording = read_recording(branched.file)
+    assert [m.power_loss for m in decoded] == list(recording.state["power_loss"])
+    scene, remark = scene_of(recording)
+    assert remark is None and scene == pt.load_scene("paper")
+
+
+def test_from_the_start_on_the_model_itself_may_differ(sound, tmp_path):
+    branch = Branch({"gearset.planet_angles": FOUR, "input_torque": "30 N m"}, duration=0.05)
+    made = resimulate(sound, NAMESPACE, branch, tmp_path / "bag")
+    assert made.remarks == ["holds 2 runs, and the last is simulated: --run chooses"]
+    recording = read_recording(made.file)
+    assert recording.planets == 4 and len(recording.state) == 5
+    assert np.array_equal(recording.operating_point["input_torque"], [30.0])
+    assert np.array_equal(recording.operating_point["input_speed"], [150.0])
+    scene, _ = scene_of(recording)
+    window = pt.Twin(scene, 10_000.0, 1e-3).advance(0.01)
+    assert recording.state["power_loss"][0] == window.power_loss
+    assert verify(made.file, NAMESPACE).identical
+
+
+def test_a_run_can_go_on_beyond_its_end(sound, tmp_path):
+    branch = Branch({"lambda_ratio": 2.0}, 0.1, duration=0.125)
+    made = resimulate(sound, NAMESPACE, branch, tmp_path / "bag")
+    state = read_recording(made.file).state
+    assert made.end == 0.125
+    assert np.array_equal(np.rint(state.time * 1e3), [*range(10, 130, 10), 125])
+    assert np.array_equal(np.diff(state.stamp), [10_000_000] * 11 + [5_000_000])
+    assert verify(made.file, NAMESPACE).identical
+
+
+def test_what_was_lost_in_recording_is_there_again(sound, tmp_path):
+    def losing(topic, number, row):
+        return None if topic in ("gearbox_state", "joint_states") and number in (5, 6) else row
+
+    holes = record(tmp_path / "holes", losing)
+    made = resimulate(holes, NAMESPACE, Branch({}, run=1), tmp_path / "filled")
+    whole = resimulate(sound, NAMESPACE, Branch({}, run=1), tmp_path / "whole")
+    assert messages(made.file) == messages(whole.file)
+
+
+@pytest.mark.parametrize(
+    "arguments, words",
+    [
+        (("--set", "lambda_ratio=11"), ["lambda_ratio = 11.0:", "within 0 and 10"]),
+        (("--set", "lambda_ratoi=1"), ["lambda_ratoi: no such field", "lambda_ratio"]),
+        (("--set", "lambda_ratio"), ["NAME=VALUE"]),
+        (("--set", "backlash=3 K"), ["backlash", "'3 K'"]),
+        (("--set", "mesh.ramp=0", "--from", "0.05"), ["mesh.ramp", "from = 0 only"]),
+        (("--from", "0.2"), ["from = 0.2 s", "within 0 and 0.09 s"]),
+        (("--from", "nan"), ["from = nan s", "within 0 and 0.09 s"]),
+        (("--duration", "0"), ["duration = 0.0 s", "above 0 and at most 3600"]),
+        (("--duration", "inf"), ["duration = inf s"]),
+        (("--run", "3"), ["run = 3", "within 1 and 2"]),
+        (("--namespace", "other"), ["namespace = /other", NAMESPACE]),
+        (("--out", "."), ["--out = '.'", "exists"]),
+    ],
+)
+def test_what_cannot_be_ends_in_one_line_and_leaves_nothing(sound, tmp_path, arguments, words):
+    folder = tmp_path / "bag"
+    given = ["resimulate", str(sound), "--out", str(folder), *arguments]
+    answer = CliRunner().invoke(build_app(), given)
+    assert answer.exit_code == 2, answer.output
+    lines = [line for line in answer.stderr.splitlines() if line]
+    assert len(lines) == 1 and all(word in lines[0] for word in words), answer.stderr
+    assert not folder.exists()
+
+
+def test_the_command_says_from_when_on_it_differs(sound, tmp_path):
+    given = ["--run", "1", "--set", "backlash=0.4 um", "--from", "0.3", "--out", tmp_path / "bag"]
+    answer = CliRunner().invoke(build_app(), ["resimulate", *map(str, [sound.parent, *given])])
+    assert answer.exit_code == 0, answer.output
+    assert "as recorded up to 0.3 s, then as set up to 0.3001 s" in answer.stdout
+    assert read_recording(tmp_path / "bag").operating_point["backlash"][-1] == 4e-7

@@ -1,0 +1,144 @@
+"""Tables hold what another reader of the same file reads, to the last bit, with units."""
+
+import csv
+import json
+
+import numpy as np
+import pytest
+from pyarrow import parquet
+from rosbags.highlevel import AnyReader
+from twin_recording import NAMESPACE, record
+from typer.testing import CliRunner
+
+from planetary_twin_py.cli import build_app
+from planetary_twin_py.recording.tables.message_tables import message_tables as tables
+
+MESHES = [f"{kind}_{n}" for kind in ("sun_planet", "planet_ring") for n in (1, 2, 3)]
+
+
+@pytest.fixture(scope="module")
+def sound(tmp_path_factory):
+    return record(tmp_path_factory.mktemp("sound") / "bag")
+
+
+@pytest.fixture(scope="module")
+def messages(sound):
+    """By topic, as rosbags decodes them."""
+    found = {}
+    with AnyReader([sound.parent]) as bag:
+        for connection, _, raw in bag.messages():
+            message = bag.deserialize(raw, connection.msgtype)
+            found.setdefault(connection.topic.removeprefix(f"{NAMESPACE}/"), []).append(message)
+    return found
+
+
+def export(*arguments):
+    return CliRunner().invoke(build_app(), ["export", *map(str, arguments)])
+
+
+def read_parquet(path):
+    table = parquet.read_table(path)
+    units = {field.name: field.metadata[b"unit"].decode() for field in table.schema}
+    return {name: table[name].to_numpy() for name in table.column_names}, units
+
+
+def read_csv(path):
+    with path.open(newline="") as stream:
+        names, *rows = list(csv.reader(stream))
+    columns = dict(zip(names, map(list, zip(*rows, strict=True)), strict=True))
+    units = json.loads(path.with_suffix(".units.json").read_text())
+    return columns, units
+
+
+def read_npz(path):
+    with np.load(path) as stored:
+        units = dict(zip(stored["columns"].tolist(), stored["units"].tolist(), strict=True))
+        return {name: stored[name] for name in units}, units
+
+
+READ = {"parquet": read_parquet, "csv": read_csv, "npz": read_npz}
+
+
+def same(column, expected):
+    """Whether a column holds these very values; of texts, whether they read as these."""
+    expected = np.asarray(expected)
+    found = np.array(column).astype(expected.dtype)
+    if isinstance(column, list) and expected.dtype.kind == "f":  # a text has but one NaN
+        expected = np.where(np.isnan(expected), found.dtype.type(np.nan), expected)
+    return found.tobytes() == expected.tobytes()
+
+
+@pytest.mark.parametrize("kind", READ)
+def test_values_are_the_recorded_ones_to_the_last_bit(sound, messages, tmp_path, monkeypatch, kind):
+    monkeypatch.setattr(tables, "MESSAGES", 7)  # of a batch, so that there are several
+    answer = export(sound, "--out", tmp_path / "tables", "--format", kind)
+    assert answer.exit_code == 0, answer.output
+    state, units = READ[kind](tmp_path / "tables" / f"gearbox_state.{kind}")
+    expected = messages["gearbox_state"]
+    count = 1  # the stamp
+    for name in vars(expected[0]).keys() - {"header", "__msgtype__"}:
+        values = np.array([getattr(message, name) for message in expected])
+        for n, column in enumerate(values.T[:3] if values.ndim > 1 else [values]):
+            assert same(state[f"{name}_{n + 1}" if values.ndim > 1 else name], column), name
+            count += 1
+    assert len(state) == count
+    assert same(
+        state["stamp"], [m.header.stamp.sec * 10**9 + m.header.stamp.nanosec for m in expected]
+    )
+    assert (units["power_loss"], units["sun_planet_dte_rms_2"], units["stamp"]) == ("W", "m", "ns")
+    assert units["planet_speed_1"] == "rad/s" and units["planets"] == "-"
+
+    point, units = READ[kind](tmp_path / "tables" / f"operating_point.{kind}")
+    expected = messages["operating_point"]
+    assert list(point["changed"]) == [m.changed for m in expected]
+    assert same(point["backlash"], [m.backlash for m in expected])
+    assert (units["input_torque"], units["changed"]) == ("N m", "")
+
+    wave, units = READ[kind](tmp_path / "tables" / f"mesh_waveform.{kind}")
+    blocks = messages["mesh_waveform"]
+    for quantity in ("dte", "mesh_force", "friction"):
+        for mesh, name in enumerate(MESHES):
+            samples = [getattr(m, quantity).reshape(6, -1)[mesh] for m in blocks]
+            assert same(wave[f"{quantity}_{name}"], np.concatenate(samples))
+    time = [m.start_time + np.arange(m.samples) * m.sample_period for m in blocks]
+    assert same(wave["time"], np.concatenate(time))
+    assert (units["dte_planet_ring_1"], units["time"]) == ("m", "s")
+
+
+def test_one_topic_can_be_one_file(sound, tmp_path):
+    file = tmp_path / "points.csv"
+    answer = export(sound, "--out", file, "--topics", "operating_point")
+    assert answer.exit_code == 0, answer.output
+    assert f"{file}: 3 rows" in answer.output
+    assert len(read_csv(file)[0]["backlash"]) == 3
+
+
+def test_a_torn_file_gives_what_is_sound(sound, tmp_path):
+    torn = tmp_path / "torn.mcap"
+    whole = sound.read_bytes()
+    torn.write_bytes(whole[: len(whole) // 2])
+    answer = export(torn, "--out", tmp_path / "tables")
+    assert answer.exit_code == 0 and "ends torn" in answer.stderr
+    state, _ = read_parquet(tmp_path / "tables" / "gearbox_state.parquet")
+    assert 10 <= len(state["stamp"]) < 41
+
+
+@pytest.mark.parametrize(
+    "arguments, words",
+    [
+        (("--format", "xls"), ["format = 'xls'", "parquet, csv, npz"]),
+        (("--topics", "tf"), ["topics = tf", "gearbox_state, operating_point, mesh_waveform"]),
+        (("--out", "all.npz"), ["out = all.npz", "choose one"]),
+        (("--out", "all.txt"), ["out = 'all.txt'", ".parquet, .csv, .npz"]),
+        (("--out", "there"), ["there/gearbox_state.parquet", "exists"]),
+        (("--out", "/proc/tables"), ["/proc/tables"]),
+        (("--namespace", "other"), ["namespace = /other"]),
+    ],
+)
+def test_what_cannot_be_ends_in_one_line(sound, tmp_path, monkeypatch, arguments, words):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "there").mkdir()
+    (tmp_path / "there" / "gearbox_state.parquet").touch()
+    answer = export(sound, "--out", "tables", *arguments)
+    assert answer.exit_code == 2, answer.output
+    assert answer.stderr.count("\n") == 1 and all(word in answer.stderr for word in words)

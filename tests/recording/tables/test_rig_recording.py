@@ -1,0 +1,232 @@
+"""A table from a rig becomes a recording that says so, or is refused in one line."""
+
+import json
+
+import numpy as np
+import pyarrow as pa
+import pytest
+from planetary_twin_py.recording.tables.message_tables.measurements import read_measurements
+from pyarrow import csv, parquet
+from rosbags.highlevel import AnyReader
+from typer.testing import CliRunner
+
+import planetary_twin_py as pt
+from planetary_twin_py.cli import build_app
+from planetary_twin_py.recording.runs.events import read_events
+from planetary_twin_py.recording.runs.offline import NAMESPACE
+from planetary_twin_py.recording.runs.reader import read_recording
+from planetary_twin_py.recording.runs.schedule import read_runs
+
+SOUND = {
+    "time": [12.5, 12.6, 12.7],
+    "input_speed [rpm]": [1000.0, 1002.0, 998.0],
+    "input_torque [N m]": [60.0, 61.0, 62.0],
+    "oil_temperature [°C]": [70.0, 70.0, 70.0],
+    "power_loss [kW]": [0.0757, 0.0760, None],
+    "sun_planet_dte_rms_2 [um]": [0.1, 0.2, 0.3],
+}
+
+SOUND_DATES = np.datetime64("2026-11-22T10:00:00", "ms") + 20 * np.arange(3).astype("m8[ms]")
+
+
+def run(*arguments):
+    return CliRunner().invoke(build_app(), list(map(str, arguments)))
+
+
+def write(folder, columns, name="rig.csv"):
+    path = folder / name
+    (csv.write_csv if name.endswith("csv") else parquet.write_table)(pa.table(columns), path)
+    return path
+
+
+def bring_in(folder, columns, *more, name="rig.csv"):
+    return run("import", write(folder, columns, name), "--out", folder / "rig", *more)
+
+
+@pytest.mark.parametrize("name", ["rig.csv", "rig.parquet"])
+def test_columns_become_fields_in_si_and_what_was_not_measured_is_no_number(tmp_path, name):
+    done = bring_in(tmp_path, SOUND, name=name)
+    assert done.exit_code == 0, done.output
+    assert "3 rows, one every 0.1 s" in done.output
+    with AnyReader([tmp_path / "rig"]) as bag:
+        states = [
+            bag.deserialize(raw, connection.msgtype)
+            for connection, _, raw in bag.messages()
+            if connection.topic.endswith("gearbox_state")
+        ]
+    assert [s.sequence for s in states] == [1, 2, 3] and {s.planets for s in states} == {3}
+    assert [s.simulated_time for s in states] == pytest.approx([0.1, 0.2, 0.3], rel=1e-12)
+    assert [s.interval for s in states] == pytest.approx([0.1] * 3, rel=1e-12)
+    assert [s.input_speed for s in states] == pytest.approx(
+        [1000 * np.pi / 30, 1002 * np.pi / 30, 998 * np.pi / 30], rel=1e-12
+    )
+    assert [s.power_loss for s in states] == pytest.approx([75.7, 76.0, np.nan], nan_ok=True)
+    rms = np.array([s.sun_planet_dte_rms for s in states])
+    assert rms[:, 1] == pytest.approx([1e-7, 2e-7, 3e-7])
+    assert np.isnan(np.delete(rms, 1, axis=1)).all()
+    assert all(np.isnan([s.output_torque, s.tolerance, s.sun_angle]).all() for s in states)
+
+
+def test_the_operating_point_is_the_mean_of_its_rows_and_the_scene_where_nothing_is_measured(
+    tmp_path,
+):
+    bring_in(tmp_path, SOUND, "--set", "backlash=0.3um")
+    (only,) = read_runs(tmp_path / "rig", NAMESPACE, [])
+    (change,) = only.changes
+    assert change.values["input_speed"] == pytest.approx(pt.rpm(1000.0))
+    assert change.values["input_torque"] == pytest.approx(61.0)
+    assert change.values["oil_temperature"] == pytest.approx(343.15)
+    assert change.values["backlash"] == 3e-7
+    assert only.origin.scene.operating_point.model_dump() == change.values
+
+
+def test_rows_with_another_label_are_another_operating_point(tmp_path):
+    columns = {
+        "time": np.arange(6) / 100.0,
+        "operating_point": ["low", "low", "high", "high", "high", "low"],
+        "input_torque": [20.0, 20.2, 60.0, 61.0, 59.0, 20.1],
+        "power_loss": np.full(6, 30.0),
+    }
+    done = bring_in(tmp_path, columns)
+    assert done.exit_code == 0, done.output
+    (only,) = read_runs(tmp_path / "rig", NAMESPACE, [])
+    assert [c.time for c in only.changes] == pytest.approx([0.0, 0.02, 0.05])
+    assert [c.values["input_torque"] for c in only.changes] == pytest.approx([20.1, 60.0, 20.1])
+    assert "from 0.02 s on: input_torque = 60 N m" in done.output
+
+
+def test_time_stamps_may_be_those_of_a_calendar(tmp_path):
+    stamps = np.datetime64("2026-11-22T10:00:00", "ms") + 20 * np.arange(4).astype("m8[ms]")
+    done = bring_in(tmp_path, {"time": stamps, "power_loss": np.ones(4)})
+    assert done.exit_code == 0 and "4 rows, one every 0.02 s" in done.output, done.output
+
+
+def test_a_table_as_spreadsheets_write_it_is_read(tmp_path):
+    text = "\ufefftime [min], power_loss [kW] ,operating_point\r\n 0.01, 0.05,a\r\n 0.02 ,,a\r\n"
+    (tmp_path / "rig.csv").write_bytes(text.encode())
+    done = run("import", tmp_path / "rig.csv", "--out", tmp_path / "rig")
+    assert done.exit_code == 0 and "2 rows, one every 0.6 s" in done.output, done.output
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "time;power_loss [kW];operating_point\n1;0;warm, loaded\n1,5;0,25;warm, loaded\n",
+        "time;power_loss [kW]\n1;0\n1.5;0.25\n",
+        "time\tpower_loss [kW]\n1\t0\n1,5\t0,25\n",
+    ],
+)
+def test_semicolons_tabulators_and_decimal_commas_are_read(tmp_path, text):
+    (tmp_path / "rig.csv").write_text(text)
+    measured = read_measurements(tmp_path / "rig.csv", {"power_loss": "W"})
+    assert measured.step == 0.5
+    assert measured.columns["power_loss"] == pytest.approx([0.0, 250.0])
+
+
+def test_verify_says_that_it_was_measured_and_does_not_compare(tmp_path):
+    bring_in(tmp_path, SOUND)
+    done = run("verify", tmp_path / "rig", "--json", tmp_path / "out.json")
+    assert done.exit_code == 2 and done.output.count("\n") == 1
+    assert "was measured (it comes from rig.csv) and not simulated" in done.output
+    assert not (tmp_path / "out.json").exists()
+
+
+def test_what_is_simulated_from_it_is_a_simulation(tmp_path):
+    bring_in(tmp_path, SOUND)
+    done = run("resimulate", tmp_path / "rig", "--from", 0.1, "--out", tmp_path / "twin")
+    assert done.exit_code == 0, done.output
+    assert "was measured: what comes before the branch is simulated, too" in done.output
+    verdict = run("verify", tmp_path / "twin", "--json", "-")
+    assert verdict.exit_code == 0 and json.loads(verdict.stdout)["identical"]
+
+
+def test_it_is_read_and_tells_no_tolerance(tmp_path):
+    bring_in(tmp_path, SOUND)
+    recording = read_recording(tmp_path / "rig")
+    assert len(recording.state.time) == 3
+    assert [e.text for e in read_events(tmp_path / "rig", NAMESPACE, [])] == ["starts"]
+
+
+def test_one_file_instead_of_a_folder(tmp_path):
+    table = write(tmp_path, SOUND)
+    assert run("import", table, "--out", tmp_path / "rig.mcap").exit_code == 0
+    assert read_runs(tmp_path / "rig.mcap", NAMESPACE, [])
+    again = run("import", table, "--out", tmp_path / "rig.mcap")
+    assert again.exit_code == 2 and "rig.mcap': exists" in again.output
+
+
+def with_column(name, values, **without):
+    return {**{k: v for k, v in SOUND.items() if k not in without}, name: values}
+
+
+def with_time(*time):
+    return with_column("time", list(time))
+
+
+@pytest.mark.parametrize(
+    ("columns", "told"),
+    [
+        (with_time(1.0, 1.1, 1.05), "row 3: time = 1.05 s: must be later than 1.1 s"),
+        (with_time(1.0, 1.0, 1.1), "row 2: time = 1 s: must be later than 1 s"),
+        (with_time(1.0, 1.1, None), "row 3: time = nan s: must be"),
+        (with_time(0.0, 120.0, 240.0), "a row every 120 s: must be at most 60 s"),
+        (with_column("power_los", [1, 2, 3]), "no such quantity; did you mean power_loss?"),
+        (with_column("Drehzahl [rpm]", [1, 2, 3]), "no such quantity; a column has the name of a"),
+        (with_column("sun_planet_dte_rms_4", [1, 2, 3]), "column 'sun_planet_dte_rms_4': no such"),
+        (with_column("power_loss", [1, 2, 3]), "column 'power_loss': power_loss is given twice"),
+        (with_column("efficiency", ["a", "b", "c"]), "row 1: efficiency = 'a': must be a number"),
+        (with_column("output_speed [1/min]", [1, 2, 3]), "'output_speed': [1/min] is no unit"),
+        (with_column("output_speed [m]", [1, 2, 3]), "[m] is no unit that goes into rad/s"),
+        (
+            with_column("torque_ripple", [1, None, 1]),
+            "row 2: torque_ripple = nan: must be a number",
+        ),
+        (with_column("lambda_ratio", [11, 11, 11]), "lambda_ratio = 11.0: must be a number within"),
+        (with_column("backlash", [1e-7, 1e-7, 2e-7]), "rows 1 to 3: backlash goes from 1e-07 to"),
+        (
+            with_column("backlash [kg]", [1, 1, 1]),
+            "column 'backlash': [kg] is no unit that goes into",
+        ),
+        (with_column("efficiency", SOUND_DATES), "row 1: efficiency = '2026-11-22"),
+        ({"power_loss": [1.0, 2.0]}, "column 'time': missing"),
+        ({"time": [1.0, 2.0]}, "holds nothing that was measured"),
+        ({"time": [1.0], "power_loss": [1.0]}, "1 rows: must be at least 2"),
+    ],
+)
+def test_what_cannot_be_is_refused_in_one_line_and_nothing_is_written(tmp_path, columns, told):
+    done = bring_in(tmp_path, columns)
+    assert done.exit_code == 2, done.output
+    assert told in done.output and done.output.count("\n") == 1
+    assert not (tmp_path / "rig").exists()
+
+
+def test_a_missing_row_is_told_with_its_place(tmp_path):
+    time = np.delete(np.arange(100) / 100.0, 40)
+    done = bring_in(tmp_path, {"time": time, "power_loss": np.ones(99)})
+    assert done.exit_code == 2
+    assert "row 41: time = 0.41 s: is 0.02 s after the row before, must be 0.01 s" in done.output
+
+
+def test_a_file_that_is_no_table_is_refused(tmp_path):
+    (tmp_path / "rig.txt").write_text("time\n")
+    (tmp_path / "torn.parquet").write_bytes(b"PAR1")
+    (tmp_path / "latin.csv").write_bytes(
+        "time,oil_temperature [°C]\n1,60\n2,60\n".encode("latin-1")
+    )
+    for name, told in (
+        ("rig.txt", "must end in"),
+        ("torn.parquet", "torn.parquet"),
+        ("no.csv", "no.csv: No such file"),
+        ("latin.csv", "latin.csv: must be in UTF-8"),
+    ):
+        done = run("import", tmp_path / name, "--out", tmp_path / "rig")
+        assert done.exit_code == 2 and told in done.output and done.output.count("\n") == 1
+
+
+@pytest.mark.parametrize(
+    "heading", ["input_torque [Nm]", "input_torque [N·m]", "input_torque[N*m]"]
+)
+def test_torque_may_be_written_as_engineers_do(tmp_path, heading):
+    columns = {"time": [0.1, 0.2], heading: [50.0, 50.0]}
+    done = bring_in(tmp_path, columns)
+    assert done.exit_code == 0 and "input_torque = 50 N m" in done.output, done.output
