@@ -75,6 +75,8 @@ def sections_of(file: Path, remarks: list[str]) -> Iterator[Section]:
     known, damages, ended, behind = _Known(file), Damages(file), False, ""
     with file.open("rb") as stream:
         remarks += _begin(file, stream)
+        if stream.tell() < len(MAGIC):
+            return
         for step in Walk(file, stream):
             if isinstance(step, Sound):
                 damages.see(step)
@@ -154,13 +156,18 @@ def _summary(file: Path) -> list[Any]:
 
 
 def _begin(file: Path, stream: BinaryIO) -> list[str]:
-    """Nothing, or that the first bytes are damaged of what is an MCAP file by a header or its end.
+    """What is wrong with the first bytes of an MCAP file, as its header or its end shows it to be.
+
+    A writer that is killed may leave a file of which not even these are there.
 
     Raises:
         RecordingError: it is none.
     """
-    if stream.read(len(MAGIC)) == MAGIC:
+    first = stream.read(len(MAGIC))
+    if first == MAGIC:
         return []
+    if MAGIC.startswith(first):
+        return [f"{file.name}: ends after {len(first)} bytes, before any message"]
     try:
         is_mcap = opened(header := piece_at(stream)) == [] and header.opcode == Opcode.HEADER
     except TORN:

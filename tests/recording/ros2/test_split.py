@@ -123,6 +123,19 @@ def test_a_killed_logger_s_last_file_is_read_with_those_before(tmp_path):
     assert "ends torn" in saved.remarks[0]
 
 
+@pytest.mark.parametrize("written", [0, 5])
+def test_a_file_that_was_just_begun_when_its_logger_was_killed_does_no_harm(tmp_path, written):
+    folder = _split(tmp_path / "bag")
+    (folder / "metadata.yaml").unlink()
+    last = _files(folder)[-1]
+    last.write_bytes(last.read_bytes()[:written])
+    saved = recover(folder, tmp_path / "saved")
+    assert read_numbers(saved.file) == list(range(1, 151))
+    assert saved.remarks == [f"{last.name}: ends after {written} bytes, before any message"]
+    assert read_info(folder).topics["/numbers"].recorded == 150
+    assert sum(cue.topic == "/numbers" for cue in Tape(folder).cues()) == 150
+
+
 @pytest.mark.parametrize(
     ("limit", "count"), [({"split_duration": 0.05}, 4), ({"split_size": 0.02}, 10)]
 )

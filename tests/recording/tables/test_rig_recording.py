@@ -5,7 +5,7 @@ import json
 import numpy as np
 import pyarrow as pa
 import pytest
-from planetary_twin_py.recording.tables.message_tables.measurements import read_measurements
+from planetary_twin_py.recording.tables.measurements import read_measurements
 from pyarrow import csv, parquet
 from rosbags.highlevel import AnyReader
 from typer.testing import CliRunner
