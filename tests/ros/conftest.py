@@ -4,12 +4,9 @@ from __future__ import annotations
 
 import signal
 import subprocess
-import sys
-import threading
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from pathlib import Path
-from typing import IO, Any
 
 import pytest
 from domains import private_domain
@@ -20,38 +17,9 @@ from std_srvs.srv import Trigger
 import planetary_twin_py as pt
 
 from .peer import LATCHED, TWIN, Peer
+from .programs import Executed, Forked, Program
 
 _PATIENCE = 5.0  # [s] for a node to end when it is asked to
-
-
-class Program(subprocess.Popen[str]):
-    """A process whose standard error is read all the time: it logs there, and would stand still
-    once the pipe is full.
-    """
-
-    def __init__(self, module: str, *arguments: str, cwd: Path) -> None:
-        super().__init__(
-            [sys.executable, "-m", module, *arguments],
-            cwd=cwd,
-            stdout=subprocess.PIPE,
-            stderr=subprocess.PIPE,
-            text=True,
-        )
-        assert self.stderr is not None
-        pipe, self.stderr = self.stderr, None
-        self._lines: list[str] = []
-        self._reader = threading.Thread(target=self._read, args=[pipe], daemon=True)
-        self._reader.start()
-
-    def communicate(self, *given: Any, **options: Any) -> tuple[str, str]:
-        """Standard output and standard error, once the process has ended."""
-        output, _ = super().communicate(*given, **options)
-        self._reader.join()
-        return output, "".join(self._lines)
-
-    def _read(self, pipe: IO[str]) -> None:
-        with pipe:
-            self._lines += pipe
 
 
 Start = Callable[..., Program]
@@ -59,11 +27,21 @@ Start = Callable[..., Program]
 
 @pytest.fixture
 def start(domain: int, tmp_path: Path) -> Iterator[Start]:
-    """Start a module with arguments; whatever still runs at the end is ended."""
+    """Start a node with arguments; whatever still runs at the end is ended."""
+    yield from _starting(Forked, tmp_path)
+
+
+@pytest.fixture
+def execute(domain: int, tmp_path: Path) -> Iterator[Start]:
+    """Start a module with arguments, as users do: where its very start is of concern."""
+    yield from _starting(Executed, tmp_path)
+
+
+def _starting(kind: type[Executed | Forked], place: Path) -> Iterator[Start]:
     processes: list[Program] = []
 
     def run(module: str, *arguments: str) -> Program:
-        processes.append(Program(module, *arguments, cwd=tmp_path))
+        processes.append(kind(module, *arguments, cwd=place))
         return processes[-1]
 
     yield run
@@ -82,7 +60,7 @@ def _end(processes: list[Program]) -> None:
         except subprocess.TimeoutExpired:
             process.kill()
             process.wait()
-        process.stdout.close()
+        process.close()
 
 
 @dataclass(frozen=True)
@@ -115,7 +93,7 @@ def running_twin(tmp_path_factory: pytest.TempPathFactory) -> Iterator[RunningTw
     place = tmp_path_factory.mktemp("running_twin")
     with private_domain() as domain, pytest.MonkeyPatch.context() as environment:
         environment.setenv("ROS_DOMAIN_ID", str(domain))
-        process = Program("planetary_twin.simulation", cwd=place)
+        process = Forked("planetary_twin.simulation", cwd=place)
         user = Peer()
         points = user.listen(OperatingPoint, f"{TWIN}/operating_point", LATCHED)
         user.until(lambda: points)

@@ -31,10 +31,10 @@ Go = Callable[["Twin"], None]
 
 
 @pytest.fixture
-def other(start: Start, monkeypatch: pytest.MonkeyPatch) -> Program:
+def other(execute: Start, monkeypatch: pytest.MonkeyPatch) -> Program:
     """A recorder that is not the logger."""
     monkeypatch.setenv("PYTHONPATH", str(Path(__file__).parents[1]))
-    return start("ros.other_recorder")
+    return execute("ros.other_recorder")
 
 
 class Twin:

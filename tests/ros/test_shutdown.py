@@ -40,6 +40,12 @@ def twice(process: subprocess.Popen[str], number: signal.Signals) -> None:
     process.send_signal(number)
 
 
+@pytest.fixture
+def start(execute: Start) -> Start:
+    """As users do: what happens while the interpreter starts and ends is of concern."""
+    return execute
+
+
 def running(peer: Peer, start: Start, *options: str) -> subprocess.Popen[str]:
     """A simulation that publishes."""
     process = start("planetary_twin.simulation", *options)

@@ -22,9 +22,10 @@ SIMULATION = f"{TWIN}/simulation"
 
 
 def topics(peer: Peer, name: str) -> set[str]:
-    """What a node publishes beyond what every node does."""
-    found = peer.node.get_publisher_names_and_types_by_node(name, TWIN)
-    return {topic for topic, _ in found} - OF_ROS - {f"{TWIN}/{name}/transition_event"}
+    """What the node, alone but for the peer, publishes beyond what every node does."""
+    found = {topic for topic, _ in peer.node.get_topic_names_and_types()}
+    published = {topic for topic in found if peer.node.count_publishers(topic)}
+    return published - OF_ROS - {f"{TWIN}/{name}/transition_event"}
 
 
 def values(peer: Peer, *names: str) -> list[object]:

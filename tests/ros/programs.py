@@ -1,0 +1,160 @@
+"""Nodes as processes of their own: executed as users do, or forked from one that is warm."""
+
+from __future__ import annotations
+
+import functools
+import importlib
+import multiprocessing
+import os
+import signal
+import subprocess
+import sys
+import threading
+from multiprocessing.connection import Connection
+from multiprocessing.context import ForkServerProcess
+from multiprocessing.forkserver import ensure_running
+from pathlib import Path
+from typing import IO, Any
+
+import pytest
+
+_WARM = multiprocessing.get_context("forkserver")
+
+
+@functools.cache
+def _warm_up() -> None:
+    """
+    Start the process of which nodes are forks.
+
+    A node spends most of its start on imports and on loading kernels: there once for all that a
+    test runner starts.
+    """
+    _WARM.set_forkserver_preload(["ros.warm"])
+    with pytest.MonkeyPatch.context() as environment:
+        # Python 3.11 gives that process no search path of ours.
+        environment.setenv("PYTHONPATH", str(Path(__file__).parents[1]))
+        ensure_running()
+
+
+class _Lines:
+    """Reads a stream all the time: who writes there would stand still once the pipe is full."""
+
+    def __init__(self, pipe: IO[str]) -> None:
+        self._lines: list[str] = []
+        self._reader = threading.Thread(target=self._read, args=[pipe], daemon=True)
+        self._reader.start()
+
+    def text(self) -> str:
+        """All of it, once the writer has ended."""
+        self._reader.join()
+        return "".join(self._lines)
+
+    def _read(self, pipe: IO[str]) -> None:
+        with pipe:
+            self._lines += pipe
+
+
+class Executed(subprocess.Popen[str]):
+    """A module run by an interpreter of its own."""
+
+    def __init__(self, module: str, *arguments: str, cwd: Path) -> None:
+        super().__init__(
+            [sys.executable, "-m", module, *arguments],
+            cwd=cwd,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.PIPE,
+            text=True,
+        )
+        assert self.stderr is not None
+        self._errors, self.stderr = _Lines(self.stderr), None
+
+    def communicate(self, *given: Any, **options: Any) -> tuple[str, str]:
+        """Standard output and standard error, once the process has ended."""
+        output, _ = super().communicate(*given, **options)
+        return output, self._errors.text()
+
+    def close(self) -> None:
+        """Let go of the pipe."""
+        self.stdout.close()
+
+
+class Forked:
+    """The `main` of a module, in a process forked from a warm one; used as `Executed` is."""
+
+    def __init__(self, module: str, *arguments: str, cwd: Path) -> None:
+        _warm_up()
+        output, its_output = _WARM.Pipe(duplex=False)
+        errors, its_errors = _WARM.Pipe(duplex=False)
+        state = str(cwd), dict(os.environ), its_output, its_errors
+        self._process: ForkServerProcess = _WARM.Process(
+            target=_run, args=(module, arguments, *state), daemon=True
+        )
+        self._process.start()
+        its_output.close()
+        its_errors.close()
+        self.pid = self._process.pid
+        self._output, self._errors = _Lines(_text(output)), _Lines(_text(errors))
+
+    @property
+    def returncode(self) -> int | None:
+        """Exit code; None while it runs, as last seen."""
+        return self._process.exitcode
+
+    def poll(self) -> int | None:
+        """Exit code; None while it runs."""
+        return self._process.exitcode
+
+    def wait(self, timeout: float | None = None) -> int:
+        """Exit code; raises `TimeoutExpired` where it runs for longer."""
+        self._process.join(timeout)
+        if (code := self._process.exitcode) is None:
+            raise subprocess.TimeoutExpired(str(self.pid), timeout)
+        return code
+
+    def communicate(self, timeout: float | None = None) -> tuple[str, str]:
+        """Standard output and standard error, once the process has ended."""
+        self.wait(timeout)
+        return self._output.text(), self._errors.text()
+
+    def send_signal(self, number: int) -> None:
+        """Nothing where it has ended."""
+        if self._process.exitcode is None:
+            os.kill(self.pid, number)
+
+    def terminate(self) -> None:
+        self.send_signal(signal.SIGTERM)
+
+    def kill(self) -> None:
+        self.send_signal(signal.SIGKILL)
+
+    def close(self) -> None:
+        """Nothing to let go of: both streams are read to their end."""
+
+
+Program = Executed | Forked
+
+
+def _text(pipe: Connection) -> IO[str]:
+    duplicate = os.dup(pipe.fileno())
+    pipe.close()
+    return open(duplicate, errors="replace")  # closed by who reads it
+
+
+def _run(
+    module: str,
+    arguments: tuple[str, ...],
+    cwd: str,
+    environment: dict[str, str],
+    output: Connection,
+    errors: Connection,
+) -> None:
+    """Become `python -m module arguments`."""
+    for number, pipe in ((1, output), (2, errors)):
+        os.dup2(pipe.fileno(), number)
+        pipe.close()
+    os.chdir(cwd)
+    os.environ.clear()
+    os.environ.update(environment)
+    program = importlib.import_module(module)
+    sys.argv = [str(program.__file__), *arguments]
+    sys.exit(program.main())
