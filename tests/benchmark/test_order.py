@@ -30,6 +30,7 @@ def exact(scene):
     return Reference(scene).run(DURATION, 1.0 / DURATION)[:, DTE]
 
 
+@pytest.mark.exhaustive
 @pytest.mark.parametrize(
     ("method", "order", "counts"),
     [(runge_kutta_4, 4, [32, 48, 64, 96, 128]), (semi_implicit_euler, 1, [256, 384, 512, 768])],

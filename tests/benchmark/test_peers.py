@@ -52,7 +52,13 @@ def references():
     }
 
 
-@pytest.mark.parametrize(("base", "changes"), SCENES.values(), ids=SCENES)
+@pytest.mark.parametrize(
+    ("base", "changes"),
+    [
+        pytest.param(*scene, id=name, marks=() if name == "rattle" else pytest.mark.exhaustive)
+        for name, scene in SCENES.items()
+    ],
+)
 def test_the_right_hand_side_is_the_derivative_of_the_twin(base, changes):
     """At random states within the segments that steps of the march begin in."""
     scene, random = load_scene(base).replace(**changes), np.random.default_rng(7)
@@ -143,6 +149,7 @@ def test_cvode_is_given_the_same_right_hand_side_compiled():
 
 
 @pytest.mark.skipif("cvode_bdf" in MISSING, reason="needs the extra [bench]")
+@pytest.mark.exhaustive
 def test_cvode_takes_the_same_path_with_a_compiled_callback(references):
     """Until rounding tips the choice of a step; then it errs alike."""
     names = "cvode_bdf", "cvode_bdf_compiled"

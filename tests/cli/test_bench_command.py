@@ -45,6 +45,7 @@ def test_page_figures_and_picture_are_of_one_run(tmp_path):
     assert all(f"| {against} | speed |" in text for against in costs.TABLES)
 
 
+@pytest.mark.exhaustive
 def test_without_options_no_costs_are_measured(monkeypatch):
     monkeypatch.setattr(costs, "measure_costs", lambda progress: pytest.fail("not asked for"))
     answer = invoke()

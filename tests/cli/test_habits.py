@@ -84,7 +84,10 @@ def busy_threads(process):
     (
         ["simulate", "--duration", "300"],
         pytest.param(["explain", "--duration", "300"], marks=pytest.mark.exhaustive),
-        ["sweep", "paper", "--input-speed", "1000rpm:5000rpm:400", "--out", "s.csv"],
+        pytest.param(
+            ["sweep", "paper", "--input-speed", "1000rpm:5000rpm:400", "--out", "s.csv"],
+            marks=pytest.mark.exhaustive,
+        ),
         pytest.param(["bifurcation", "paper", "--out", "s.csv"], marks=pytest.mark.exhaustive),
     ),
     ids=lambda arguments: arguments[0],

@@ -83,6 +83,7 @@ def test_a_field_that_has_no_effect_at_any_point_is_told_once(given, lines, tmp_
     assert len(told) == lines
 
 
+@pytest.mark.exhaustive
 @pytest.mark.slow
 def test_a_killed_study_goes_on_where_it_was(tmp_path):
     out, journal = tmp_path / "study.parquet", tmp_path / "study.parquet.journal"

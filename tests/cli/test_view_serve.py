@@ -38,7 +38,9 @@ def url_port(url):
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("ending", [signal.SIGINT, signal.SIGTERM])
+@pytest.mark.parametrize(
+    "ending", [signal.SIGINT, pytest.param(signal.SIGTERM, marks=pytest.mark.exhaustive)]
+)
 def test_page_and_data_are_served_to_this_machine_alone_until_interrupted(
     tmp_path, monkeypatch, ending
 ):

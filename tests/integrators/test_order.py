@@ -53,10 +53,12 @@ def exact():
     return march(5, 32)
 
 
+@pytest.mark.exhaustive
 def test_the_stretch_has_no_event(exact):
     assert exact[1] == 0
 
 
+@pytest.mark.exhaustive
 @pytest.mark.parametrize(("points", "counts"), [(3, [4, 6, 8, 12]), (4, [3, 4, 6, 8])])
 def test_global_error_falls_with_the_order_of_the_quadrature(points, counts, exact):
     """Radau's points are exact for powers up to 2 s - 2, and collocation inherits their order."""

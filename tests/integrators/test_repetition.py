@@ -34,8 +34,15 @@ RUNNING = {
     "lightly loaded, flanks part": pt.load_scene("lightly_loaded"),
     "without friction": PAPER.replace(**{"lubrication.friction": False}),
 }
+SLOW = ("carrier turns", "backwards")
 PERIODS = 12.0  # of the speed loop, by which each of them has settled
-EVERY_SCENE = pytest.mark.parametrize("scene", RUNNING.values(), ids=RUNNING)
+EVERY_SCENE = pytest.mark.parametrize(
+    "scene",
+    [
+        pytest.param(scene, id=name, marks=pytest.mark.exhaustive if name in SLOW else ())
+        for name, scene in RUNNING.items()
+    ],
+)
 
 
 class Settled:

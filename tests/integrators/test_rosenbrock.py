@@ -34,6 +34,7 @@ def march(steps):
     return np.concatenate([state.x, state.v / 1e4])
 
 
+@pytest.mark.exhaustive
 def test_global_error_falls_with_the_third_power_of_the_step():
     exact = march(4096)
     counts = np.array([16, 24, 32, 48, 64])

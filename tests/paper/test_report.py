@@ -12,7 +12,7 @@ from planetary_twin_py.paper.page import figures, write_page
 from planetary_twin_py.paper.report import entries
 from planetary_twin_py.paper.study import Grid, Point, largest, run, run_studies
 
-pytestmark = pytest.mark.slow
+pytestmark = [pytest.mark.slow, pytest.mark.exhaustive]
 
 GRID = Grid(
     backlashes=(2e-7, 3.5e-7),

@@ -284,6 +284,7 @@ def _refused(process: subprocess.Popen[str], *reasons: str, code: int = 1) -> No
     assert all(reason in errors for reason in reasons), errors
 
 
+@pytest.mark.exhaustive
 def test_recorded_played_and_recorded_again_it_is_the_same(
     peer: Peer, start: Start, play: Play, tmp_path: Path
 ) -> None:

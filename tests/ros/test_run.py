@@ -139,6 +139,7 @@ def _logger_of(folder: Path) -> int:
     return number
 
 
+@pytest.mark.exhaustive
 def test_a_run_whose_logger_stands_for_longer_than_messages_are_kept_fails_and_says_what_is_lost(
     run: Callable[..., subprocess.Popen[str]], peer: Peer, tmp_path: Path
 ) -> None:
@@ -283,6 +284,7 @@ def test_a_run_does_not_begin_where_something_else_publishes_a_twin(
     assert not (tmp_path / "recordings/bag").exists()
 
 
+@pytest.mark.exhaustive
 def test_a_pause_however_long_and_a_reset_are_no_failure_of_a_run(
     run: Callable[..., subprocess.Popen[str]], peer: Peer
 ) -> None:

@@ -59,6 +59,7 @@ def test_a_cluster_gives_the_same_table_to_the_last_bit(scheduler):
         cluster.close()
 
 
+@pytest.mark.exhaustive
 def test_points_of_a_killed_worker_are_run_by_another(scheduler):
     address, workers = scheduler
     study = grid(

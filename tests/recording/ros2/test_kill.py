@@ -1,7 +1,7 @@
 """Whatever moment a writer is killed at, all that was flushed is there, nothing wrong or doubled.
 
-`PYTHONPATH=tests python tests/recording/ros2/test_kill.py TRIES` makes as many tries and tells what they
-have cost.
+`PYTHONPATH=tests python tests/recording/ros2/test_kill.py TRIES` makes as many tries and prints
+what they have cost.
 """
 
 import itertools

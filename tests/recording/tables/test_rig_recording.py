@@ -5,7 +5,6 @@ import json
 import numpy as np
 import pyarrow as pa
 import pytest
-from planetary_twin_py.recording.tables.measurements import read_measurements
 from pyarrow import csv, parquet
 from rosbags.highlevel import AnyReader
 from typer.testing import CliRunner
@@ -16,6 +15,7 @@ from planetary_twin_py.recording.runs.events import read_events
 from planetary_twin_py.recording.runs.offline import NAMESPACE
 from planetary_twin_py.recording.runs.reader import read_recording
 from planetary_twin_py.recording.runs.schedule import read_runs
+from planetary_twin_py.recording.tables.measurements import read_measurements
 
 SOUND = {
     "time": [12.5, 12.6, 12.7],
