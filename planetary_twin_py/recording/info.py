@@ -21,6 +21,7 @@ from .records import files_of
 from .repeats import Repeats, unrepeated
 from .schedule import stamp_of
 from .topics import POINT, REAL_TIME, STATE, is_status
+from .typestore import is_recorded
 
 REPORT = "/diagnostics"
 REPORTED = {"real_time_factor_mean", "overruns"}
@@ -213,7 +214,8 @@ class _Told:
             self.info.report |= _figures(message)
         else:
             last = self._points.get(topic)
-            values = {name: getattr(message, name) for name in TUNABLES}
+            known = [name for name in TUNABLES if is_recorded(message, name)]
+            values = {name: getattr(message, name) for name in known}
             new = {k: v for k, v in values.items() if last is None or v != last[k]}
             self._points[topic] = values
             namespace = topic.removesuffix(f"/{POINT}")

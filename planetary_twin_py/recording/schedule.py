@@ -18,6 +18,7 @@ from .origin import Origin, read_origin
 from .records import RecordingError, files_of
 from .repeats import Repeats, unrepeated
 from .topics import ORIGIN, POINT, STATE
+from .typestore import is_recorded
 
 # With which is simulated what was measured, and so has neither: those of `planetary-twin simulate`.
 TOLERANCE = 1e-4
@@ -134,11 +135,18 @@ class _Told:
         self._origins[origin.begins] = origin
 
     def change(self, message: Any) -> None:
-        values = {name: getattr(message, name) for name in TUNABLES}
+        # What was no parameter of the version that recorded stayed as its scene has it.
+        values = {name: getattr(message, name) for name in TUNABLES if is_recorded(message, name)}
         change = Change(message.sequence, stamp_of(message), message.simulated_time, values)
         self._changes.append(change)
 
     def interval(self, message: Any) -> None:
+        for name in ("tolerance", "sample_rate"):
+            if not is_recorded(message, name):
+                raise RecordingError(
+                    f"{STATE} has no field {name} in this recording: nothing of it can be "
+                    "simulated again"
+                )
         end = round(message.simulated_time * TICKS)
         self._intervals.append(
             Interval(
