@@ -39,8 +39,8 @@ def _folder(folder: Path) -> str | None:
     if not metadata.is_file():
         return None
     with metadata.open(encoding="utf-8", errors="replace") as stream:
-        found = _MODE.search(stream.read(_LONGEST))
-    return "a bag compressed by file" if found else None
+        by_file = _MODE.search(stream.read(_LONGEST))
+    return "a bag compressed by file" if by_file else None
 
 
 def _file(file: Path) -> str | None:
