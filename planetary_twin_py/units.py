@@ -31,6 +31,13 @@ _CUSTOMARY = {  # by the SI unit: unit, how many of it one of SI is, and its zer
 }
 
 
+# pint evaluates a unit as an expression: of 10**10**10 it would compute every digit.
+_LONGEST_UNIT = 60  # characters
+_MANY_DIGITS = re.compile(r"\d{4}|[⁰¹²³⁴-⁹]{3}")
+_POWERS = re.compile(r"\*\*|\^")
+_RAISED = re.compile(r"[^\W\d]\s*(?:\*\*|\^)\s*\(?[-+]?\d{1,2}(?![\d\s]*[\d*^])")  # a name is
+
+
 class UnitError(ValueError):
     """A number in a unit that is none here, or with a comma: no range would explain it."""
 
@@ -126,6 +133,13 @@ def _instead(given: str, unit: str) -> str:
 
 
 def _unit(name: str) -> Any:
+    powers = len(_RAISED.findall(name))
+    if (
+        len(name) > _LONGEST_UNIT
+        or _MANY_DIGITS.search(name)
+        or len(_POWERS.findall(name)) > powers
+    ):
+        raise UnitError("must be units with powers of one or two digits")
     return _registry().Unit("" if name == "-" else name)
 
 

@@ -1,6 +1,7 @@
 """Quantities as people write them: each is read right, or refused with what is wrong about it."""
 
 import math
+import time
 
 import numpy as np
 import pytest
@@ -69,3 +70,27 @@ def test_another_unit_is_named_with_that_wanted_and_what_to_write(given, unit, a
         with pytest.raises(UnitError) as refusal:
             read()
         assert str(refusal.value) == told
+
+
+@pytest.mark.parametrize(
+    "unit",
+    [
+        "10**10**10 W",
+        "W**10**10",
+        "(10**99)**99",
+        "min99999999",
+        "10⁹⁹⁹⁹⁹⁹⁹⁹⁹",
+        "W^9^9^9",
+        "m" * 99,
+    ],
+)
+def test_a_unit_whose_powers_have_no_end_is_refused_at_once(unit):
+    begun = time.process_time()
+    with pytest.raises(UnitError, match="is no unit that goes into W"):
+        column_to_si(np.ones(1), unit, "W")
+    assert time.process_time() - begun < 2.0
+
+
+@pytest.mark.parametrize("unit", ["kg*m**2/s**3", "kg m^2 s^-3", "kg·m²/s³", "N*m/s", "mW"])
+def test_units_with_powers_are_read(unit):
+    assert column_to_si(np.ones(1), unit, "W")[0] in (1.0, pytest.approx(1e-3))

@@ -2,7 +2,12 @@
 
 from __future__ import annotations
 
-from planetary_twin.audience import PATIENCE
+from types import SimpleNamespace
+
+import pytest
+from planetary_twin import audience
+from planetary_twin.audience import PATIENCE, Audience
+from planetary_twin.topics import UNKNOWN_NODE
 from planetary_twin_msgs.msg import GearboxState, RecorderStatus
 
 from .conftest import Start
@@ -51,3 +56,37 @@ def test_a_twin_whose_logger_never_comes_says_so_and_begins(peer: Peer, start: S
     simulation.terminate()
     _, errors = simulation.communicate(timeout=LONG)
     assert "wait_for = nobody: has not subscribed within 10 s; begins without it" in errors
+
+
+def waited(monkeypatch: pytest.MonkeyPatch, listener: str) -> float:
+    """Seconds that a twin waits for `logger` where a node of this name has subscribed."""
+    info = SimpleNamespace(node_name=listener, node_namespace=TWIN)
+    publisher = SimpleNamespace(topic_name=STATES, get_subscription_count=lambda: 1)
+    node = SimpleNamespace(
+        publishers=[publisher],
+        get_namespace=lambda: TWIN,
+        get_subscriptions_info_by_topic=lambda topic: [info],
+        get_logger=lambda: SimpleNamespace(info=print, warning=print),
+    )
+    clock = SimpleNamespace(now=100.0)
+    monkeypatch.setattr(audience, "time", SimpleNamespace(monotonic=lambda: clock.now))
+    waiting = Audience(node, "logger")
+    waiting.begin()
+    while not waiting.there():
+        clock.now += 0.1
+    return clock.now - 100.0
+
+
+def test_a_subscription_whose_node_is_never_named_ends_the_wait_without_a_warning(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert waited(monkeypatch, "logger") < 1.0
+    assert 3.0 < waited(monkeypatch, UNKNOWN_NODE) < 4.0
+    assert "has not subscribed" not in capsys.readouterr().out
+
+
+def test_a_subscription_of_another_node_does_not_end_the_wait(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert waited(monkeypatch, "rviz") > PATIENCE
+    assert "has not subscribed" in capsys.readouterr().out

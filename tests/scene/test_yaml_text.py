@@ -62,7 +62,7 @@ LAUGHS = "a: &a [lol, lol]\n" + "".join(
         ("a: " + "9" * 5000, "scene holds what is not of its tag: Exceeds the limit"),
         ("a: !!timestamp x", "scene holds what is not of its tag"),
         ("a: !!python/object/apply:os.system [x]", "could not determine a constructor"),
-        ('a: "\\ud800"', "scene holds what is not of its tag: 'utf-8' codec"),
+        ('a: "\\ud800"', "scene is not YAML: "),
         ('base: paper\n"\\e[31mred": 1', "\\x1b[31mred: no such field"),
         ("base: [paper]", "base = \"['paper']\": must be one of"),
     ],

@@ -8,7 +8,7 @@ from pathlib import Path
 CONVERT = "rosbags-convert --src BAG --dst NEW --dst-storage mcap makes one that is read"
 _SQLITE = b"SQLite format 3\0"
 _ZSTD = b"\x28\xb5\x2f\xfd"
-_MODE = re.compile(r"^\s*compression_mode:\s*[\"']?(message|file)\b", re.IGNORECASE | re.MULTILINE)
+_MODE = re.compile(r"^\s*compression_mode:\s*[\"']?file\b", re.IGNORECASE | re.MULTILINE)
 _LONGEST = 4_000_000  # characters of metadata.yaml that are looked at
 
 
@@ -39,8 +39,8 @@ def _folder(folder: Path) -> str | None:
     if not metadata.is_file():
         return None
     with metadata.open(encoding="utf-8", errors="replace") as stream:
-        mode = _MODE.search(stream.read(_LONGEST))
-    return f"a bag compressed by {mode[1].lower()}" if mode else None
+        by_file = _MODE.search(stream.read(_LONGEST))
+    return "a bag compressed by file" if by_file else None
 
 
 def _file(file: Path) -> str | None:

@@ -10,6 +10,7 @@ import mmap
 import re
 import struct
 import zlib
+from dataclasses import replace
 from io import BytesIO
 from typing import Any, BinaryIO, NamedTuple
 
@@ -43,6 +44,8 @@ _HEAD = struct.Struct("<BQ")  # opcode and length of a record
 _MESSAGE = struct.Struct("<HIQQ")  # channel, sequence, log time and publish time of a message
 _INDEX = struct.Struct("<HI")  # channel and bytes of the entries of a message index
 _ENTRY = 16  # bytes: log time and place of a message
+_ZSTD = b"\x28\xb5\x2f\xfd"  # with which no plain CDR begins
+_MOST_PLAIN = 64 * 2**20  # bytes of the messages of a chunk that are compressed by themselves
 _TIMES_AND_SIZE = struct.Struct("<QQQ")  # of a chunk
 _CHECKSUM = struct.Struct("<I")
 _CONTENTS: dict[int, Any] = {
@@ -122,7 +125,7 @@ def opened(piece: Piece) -> list[Any]:
     if opcode == Opcode.CHUNK:
         return _unpacked(_exact(Chunk, content))
     if opcode == Opcode.MESSAGE:
-        return [_message(content, 0, len(content))]
+        return [_published(_message(content, 0, len(content)), _MOST_PLAIN)]
     if opcode == Opcode.MESSAGE_INDEX:
         indexed_messages(piece)
     elif opcode in _STRUCTURE:
@@ -184,7 +187,7 @@ def _unpacked(chunk: Chunk) -> list[Any]:
     if chunk.uncompressed_crc not in (0, found := zlib.crc32(data)):
         raise CRCValidationError(chunk.uncompressed_crc, found, chunk)
     records: list[Any] = []
-    end = 0
+    end, room = 0, _MOST_PLAIN
     while end < size:
         opcode, length = _HEAD.unpack_from(data, end)
         begin = end + _HEAD.size
@@ -192,7 +195,11 @@ def _unpacked(chunk: Chunk) -> list[Any]:
         if end > size:
             raise EndOfFile
         if opcode == Opcode.MESSAGE:
-            records.append(_message(data, begin, end))
+            message = _message(data, begin, end)
+            if message.data[:4] == _ZSTD:
+                message = _published(message, room)
+                room -= len(message.data)
+            records.append(message)
         elif kind := _CONTENTS.get(opcode):
             records.append(_exact(kind, data[begin:end]))
     return records
@@ -225,3 +232,21 @@ def _message(data: bytes, begin: int, end: int) -> Message:
         raise EndOfFile
     channel, sequence, log_time, publish_time = _MESSAGE.unpack_from(data, begin)
     return Message(channel, log_time, data[begin + _MESSAGE.size : end], publish_time, sequence)
+
+
+def _published(message: Message, room: int) -> Message:
+    """A message as it was published; rosbag2 compresses each by itself in compression mode message.
+
+    What is no such message, or has more than `room` bytes, stays as it is: its topic's reader
+    refuses it.
+    """
+    data = message.data
+    if data[:4] != _ZSTD:
+        return message
+    try:
+        if room <= 0 or zstandard.frame_content_size(data) > room:
+            return message
+        plain = zstandard.ZstdDecompressor().decompress(data, max_output_size=room)
+    except zstandard.ZstdError:
+        return message
+    return replace(message, data=plain)

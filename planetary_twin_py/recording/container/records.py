@@ -16,6 +16,7 @@ from mcap.opcode import Opcode
 from mcap.records import Channel, DataEnd, Message, Schema
 from mcap.stream_reader import CRCValidationError
 
+from ...printable import one_line
 from .damage import Damages
 from .foreign import how_stored
 from .framing import TORN, opened, piece_at
@@ -23,10 +24,17 @@ from .integrity import MAGIC, damaged_summary, end_of_data
 from .walk import Lost, Sound, Walk
 
 MOST_TOPICS = 2048
+_LONGEST_MESSAGE = 900  # characters
 
 
 class RecordingError(ValueError):
-    """The path is no recording, or not one of this gearbox; the message says why in one line."""
+    """The path is no recording, or not one of this gearbox; the message says why in one line.
+
+    What a file has put into `text`, such as the name of a topic, cannot break that line.
+    """
+
+    def __init__(self, text: str) -> None:
+        super().__init__(one_line(text, _LONGEST_MESSAGE))
 
 
 class Section(NamedTuple):

@@ -15,8 +15,6 @@ import numpy as np
 from numpy.typing import NDArray
 from rosbags.interfaces import Nodetype
 
-from ..container.foreign import CONVERT
-
 Fields = Iterable[tuple[str, Any]]
 Definitions = Mapping[str, tuple[Any, Fields]]
 """Constants and fields by the name of a type, as rosbags parses a definition."""
@@ -95,7 +93,7 @@ class _Walk:
 
     def __init__(self, definitions: Definitions, message: bytes) -> None:
         if message[:4] == _ZSTD:
-            raise LayoutError(f"is compressed by itself; {CONVERT}")
+            raise LayoutError("is compressed by itself, and cannot be unpacked")
         if message[:2] not in (b"\0\0", b"\0\1"):
             raise LayoutError(
                 f"begins with {message[:2].hex() or 'nothing'}, only plain CDR is read"

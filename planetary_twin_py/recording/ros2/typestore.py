@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
+import math
+from collections.abc import Collection
 from functools import lru_cache
 from typing import Any
 
+import numpy as np
 from rosbags.interfaces import Nodetype
 from rosbags.typesys import Stores, get_types_from_msg, get_typestore
 from rosbags.typesys.store import Typestore
@@ -14,6 +17,10 @@ from .definitions import KINDS, definition_of
 _LONGEST = 100_000  # bytes of a definition
 _MOST_FIELDS = 10_000  # of a message with all those below it, and with each element of an array
 _BOUNDED = (Nodetype.ARRAY, Nodetype.SEQUENCE)
+_IN_TIME = ("header", "sequence", "simulated_time", "interval", "planets", "planet_angle")
+_SAMPLES = ("start_time", "sample_period", "samples", "dte", "mesh_force", "friction")
+_NEEDED = frozenset((*_IN_TIME, *_SAMPLES, "data", "name", "position"))
+"""Fields without which nothing of a message can be placed; others a recording may lack."""
 
 
 class DefinitionError(ValueError):
@@ -32,8 +39,9 @@ def types_of(definition: bytes, kind: str) -> Typestore:
         A store that decodes messages of this type.
 
     Raises:
-        DefinitionError: the text is no definition of `kind`, has no end, or is another one than
-            that of the twin's type of this name.
+        DefinitionError: the text is no definition of `kind`, has no end, or has other fields than
+            the twin's type of this name. Further fields, and fields that are missing, are taken:
+            another version has recorded them. A message has `absent` values for those missing.
     """
     if len(definition) > _LONGEST:
         raise DefinitionError(f"has {len(definition)} bytes: must be at most {_LONGEST}")
@@ -51,7 +59,38 @@ def types_of(definition: bytes, kind: str) -> Typestore:
         types.register(found)
     except Exception as reason:  # of names that Python does not take
         raise DefinitionError(f"is none: {str(reason) or type(reason).__name__}") from None
+    for name, value in absent(kind, dict(found[kind][1])).items():
+        setattr(types.types[kind], name, value)
     return types
+
+
+def absent(kind: str, recorded: Collection[str]) -> dict[str, Any]:
+    """What stands for fields of the twin's type `kind` that are not `recorded`.
+
+    Args:
+        kind: name of the type, `pkg/msg/Name`.
+        recorded: names of fields that there are.
+
+    Returns:
+        By name, NaN of a floating-point field, as of a quantity that does not exist; the default of
+        ROS of any other. Nothing of a type that is not the twin's.
+    """
+    own = _own(kind)[kind][1] if kind in KINDS.values() else ()
+    return {name: _empty(*described) for name, described in own if name not in recorded}
+
+
+def is_recorded(message: Any, field: str) -> bool:
+    """Whether the definition that `message` was decoded by has a field."""
+    return field in message.__dataclass_fields__
+
+
+def _empty(sort: Nodetype, of: Any) -> Any:
+    """What stands for a field of this type."""
+    if sort == Nodetype.BASE:
+        return math.nan if of[0].startswith("float") else "" if of[0] == "string" else 0
+    if sort == Nodetype.ARRAY:
+        return np.full(of[1], _empty(*of[0]))
+    return np.empty(0)
 
 
 def _fields(types: Any, kind: str, above: tuple[str, ...]) -> int:
@@ -78,13 +117,14 @@ def _fields(types: Any, kind: str, above: tuple[str, ...]) -> int:
 
 
 def _compare(types: Any, kind: str) -> None:
-    """Raise `DefinitionError` where a field that the twin's type has is missing or another."""
+    """Raise `DefinitionError` where a field of the twin's is another, or needed and missing."""
     for name, (_, fields) in _own(kind).items():
         if name not in types:
             raise DefinitionError(f"does not describe {name}")
         there = dict(types[name][1])
         for field, description in fields:
-            if there.get(field) != description:
+            lacking = name == kind and field not in there and field not in _NEEDED
+            if not lacking and there.get(field) != description:
                 wrong = "is another" if field in there else "is missing"
                 raise DefinitionError(f"is not that of this version: {name}.{field} {wrong}")
 

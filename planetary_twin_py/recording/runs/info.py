@@ -20,6 +20,7 @@ from ..ros2.bag import ACCOUNT_RECORD
 from ..ros2.decode import Decoder
 from ..ros2.repeats import Repeats, unrepeated
 from ..ros2.topics import POINT, REAL_TIME, STATE, is_status
+from ..ros2.typestore import is_recorded
 from .schedule import stamp_of
 
 REPORT = "/diagnostics"
@@ -213,7 +214,8 @@ class _Told:
             self.info.report |= _figures(message)
         else:
             last = self._points.get(topic)
-            values = {name: getattr(message, name) for name in TUNABLES}
+            known = [name for name in TUNABLES if is_recorded(message, name)]
+            values = {name: getattr(message, name) for name in known}
             new = {k: v for k, v in values.items() if last is None or v != last[k]}
             self._points[topic] = values
             namespace = topic.removesuffix(f"/{POINT}")

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from pathlib import Path
@@ -16,10 +16,12 @@ from numpy.typing import NDArray
 from ...printable import one_line
 from ..container.records import RecordingError, files_of, sections_of
 from ..ros2.decode import Topics
+from ..ros2.definitions import KINDS
 from ..ros2.layout import Layouts
 from ..ros2.namespaces import choose_namespace
 from ..ros2.repeats import Repeats
 from ..ros2.topics import ORIGIN, POINT, STATE, WAVEFORM
+from ..ros2.typestore import absent
 from .origin import scene_of_origin
 from .waveform import Blocks, Held, Ranges, Samples, Source, Stretch, Waveform, joined, stamps
 
@@ -137,7 +139,7 @@ def assemble(
     """What structured arrays of messages tell, by the names of their topics; of states, at least
     one.
     """
-    state = _series(rows[STATE])
+    state = _series(rows[STATE], KINDS[STATE])
     planets = np.unique(state["planets"])
     room = state["planet_angle"].shape[1]
     if len(planets) != 1 or not 1 <= planets[0] <= room:
@@ -151,7 +153,7 @@ def assemble(
         namespace=namespace,
         planets=int(planets[0]),
         state=state,
-        operating_point=_series(rows[POINT]),
+        operating_point=_series(rows[POINT], KINDS[POINT]),
         blocks=blocks,
         scene_yaml=None,
     )
@@ -182,11 +184,20 @@ class _Found:
                 elif found := topics.of(record):
                     channel = record.channel_id
                     if channel not in sources:
-                        layouts = Layouts(found.types.fielddefs, found.kind)
+                        fields = found.types.fielddefs
+                        self._tell_absent(
+                            found.topic, absent(found.kind, dict(fields[found.kind][1]))
+                        )
+                        layouts = Layouts(fields, found.kind)
                         sources[channel] = Source(file, channel, found.topic, layouts)
                     messages.setdefault(channel, []).append(record.data)
             for channel, data in messages.items():
                 self._take(sources[channel], section.place, data)
+
+    def _tell_absent(self, topic: str, fields: Collection[str]) -> None:
+        remark = f"{topic}: recorded by another version, without {', '.join(fields)}"
+        if fields and remark not in self.remarks:
+            self.remarks.append(remark)
 
     def _text(self, file: Path, attached: Attachment) -> str | None:
         """Of an attachment; None and a remark where it is none."""
@@ -207,16 +218,28 @@ class _Found:
                 self.rows.setdefault(source.topic, []).append(rows)
 
 
-def _series(parts: list[NDArray[Any]]) -> Series:
+def _series(parts: list[NDArray[Any]], kind: str) -> Series:
+    """Columns of messages; fields of the twin's type `kind` that some lack are `absent` there."""
     if not parts:
         return Series(np.empty(0), np.empty(0, np.int64), {})
+    empty = absent(kind, ())
+    everywhere = set.intersection(*(set(rows.dtype.names or ()) for rows in parts))
     columns = {
-        name: _column(name, [rows[name] for rows in parts])
-        for name in parts[0].dtype.names or ()
-        if name != "header"
+        name: _column(name, [_values(rows, name, empty) for rows in parts])
+        for name in dict.fromkeys([*(parts[0].dtype.names or ()), *empty])
+        if name != "header" and (name in everywhere or name in empty)
     }
     stamp = np.concatenate([stamps(rows) for rows in parts])
     return Series(columns["simulated_time"], stamp, columns)
+
+
+def _values(rows: NDArray[Any], name: str, empty: Mapping[str, Any]) -> NDArray[Any]:
+    """Of a field in each row."""
+    if name in (rows.dtype.names or ()):
+        return rows[name]
+    value = np.asarray(empty[name])
+    value = value.astype("S") if value.dtype.kind == "U" else value
+    return np.broadcast_to(value, (len(rows), *value.shape))
 
 
 def _column(name: str, parts: list[NDArray[Any]]) -> NDArray[Any]:

@@ -17,6 +17,7 @@ from ..container.records import RecordingError, files_of
 from ..ros2.decode import Decoder, MessageError
 from ..ros2.repeats import Repeats, unrepeated
 from ..ros2.topics import ORIGIN, POINT, STATE
+from ..ros2.typestore import is_recorded
 from .origin import Origin, read_origin
 
 # With which is simulated what was measured, and so has neither: those of `planetary-twin simulate`.
@@ -134,11 +135,18 @@ class _Told:
         self._origins[origin.begins] = origin
 
     def change(self, message: Any) -> None:
-        values = {name: getattr(message, name) for name in TUNABLES}
+        # What was no parameter of the version that recorded stayed as its scene has it.
+        values = {name: getattr(message, name) for name in TUNABLES if is_recorded(message, name)}
         change = Change(message.sequence, stamp_of(message), message.simulated_time, values)
         self._changes.append(change)
 
     def interval(self, message: Any) -> None:
+        for name in ("tolerance", "sample_rate"):
+            if not is_recorded(message, name):
+                raise RecordingError(
+                    f"{STATE} has no field {name} in this recording: nothing of it can be "
+                    "simulated again"
+                )
         end = round(message.simulated_time * TICKS)
         self._intervals.append(
             Interval(

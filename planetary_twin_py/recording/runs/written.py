@@ -18,9 +18,10 @@ def write_run(composer: Composer, run: Run) -> Iterator[float]:
     """Simulate `run` and write all that it shows; yields the time reached [s]."""
     composer.begin(run.origin)
     stamp = run.origin.begins
+    scene = run.origin.scene.operating_point.model_dump()
     for interval, changes, window in steps(run):
         for change in changes:
-            composer.point(OperatingPoint(**change.values), change.time, change.stamp)
+            composer.point(OperatingPoint(**scene | change.values), change.time, change.stamp)
         first = _stamp_within(interval, stamp, window.waveform.time)
         composer.window(window, interval.stamp, first)
         stamp = interval.stamp

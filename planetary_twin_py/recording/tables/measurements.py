@@ -13,6 +13,7 @@ import pyarrow as pa
 from numpy.typing import NDArray
 from pyarrow import csv, parquet
 
+from ...printable import one_line
 from ...scene.names import did_you_mean
 from ...units import column_to_si
 
@@ -22,6 +23,7 @@ TIME = ("time", "simulated_time")  # of the end of a row's interval: a rig's wor
 LABEL = "operating_point"
 UNREAD = ("stamp", "sequence", "interval", "planets")
 """Columns of an export that count messages; an import counts its own."""
+_LONGEST_REASON = 200  # characters
 UNEVEN = 0.1  # of a step, by which a time stamp may be off: loggers round them
 _NAMES = (
     "; a column has the name of a field of gearbox_state or operating_point, with a unit in "
@@ -89,8 +91,10 @@ def _read(path: Path) -> pa.Table:
             return _READERS[path.suffix](stream)
     except UnicodeDecodeError as reason:
         raise ValueError(f"{path}: must be in UTF-8, byte {reason.start + 1} is not") from None
-    except pa.ArrowInvalid as reason:
-        raise ValueError(f"{path}: {str(reason).splitlines()[0]}") from None
+    except (pa.ArrowException, OSError) as reason:
+        if isinstance(reason, OSError) and reason.errno is not None:  # of the system, not of Arrow
+            raise
+        raise ValueError(f"{path}: {one_line(str(reason), _LONGEST_REASON)}") from None
 
 
 def _read_csv(stream: BinaryIO) -> pa.Table:

@@ -1,19 +1,24 @@
 """Bags of other recorders: read where they can be, else converted as the refusal says."""
 
 import shlex
+import shutil
 import subprocess
 import sys
 from pathlib import Path
 
 import pytest
+import zstandard
 from hostile import messages_of, of, rewritten, string
-from mcap.records import Attachment
+from mcap.records import Attachment, Message
+from mcap.stream_reader import StreamReader
 from rosbags.rosbag2 import CompressionFormat, CompressionMode, Reader, StoragePlugin, Writer
 from rosbags.typesys import Stores, get_typestore
 from twin_recording import NAMESPACE, record
 
 from planetary_twin_py.recording.container.foreign import how_stored
 from planetary_twin_py.recording.container.records import RecordingError
+from planetary_twin_py.recording.ros2.recover import recover
+from planetary_twin_py.recording.ros2.tape import Tape
 from planetary_twin_py.recording.runs.reader import read_recording
 from planetary_twin_py.recording.runs.schedule import read_runs
 from planetary_twin_py.recording.runs.verify import verify
@@ -49,7 +54,6 @@ def stored(source, folder, plugin, mode=None):
         (StoragePlugin.SQLITE3, None, "a bag in SQLite;"),
         (StoragePlugin.SQLITE3, "FILE", "a bag in SQLite, compressed by file;"),
         (StoragePlugin.MCAP, "FILE", "a bag compressed by file;"),
-        (StoragePlugin.MCAP, "MESSAGE", "a bag compressed by message;"),
     ],
 )
 def test_a_bag_that_is_not_read_is_converted_as_the_refusal_says(
@@ -67,6 +71,27 @@ def test_a_bag_that_is_not_read_is_converted_as_the_refusal_says(
     assert len(read_recording(Path("bag_mcap")).state) == len(read_recording(sound).state)
     assert verify(Path("bag_mcap"), NAMESPACE).identical
     assert how_stored(folder) is not None and how_stored(Path("bag_mcap")) is None
+
+
+def test_a_bag_compressed_by_message_is_read_and_so_is_its_file_alone(sound, tmp_path):
+    folder = stored(sound, tmp_path / "bag", StoragePlugin.MCAP, CompressionMode.MESSAGE)
+    (file,) = folder.glob("*.mcap")
+    alone = shutil.copy(file, tmp_path / "alone.mcap")
+    with sound.open("rb") as stream:
+        published = [m.data for m in StreamReader(stream).records if isinstance(m, Message)]
+    for path in (folder, alone):
+        assert [cue.data for cue in Tape(path).cues()] == published
+        assert len(read_recording(path).state) == len(read_recording(sound).state)
+        assert verify(path, NAMESPACE).identical
+    recovered = recover(alone, tmp_path / "recovered")
+    assert verify(recovered.file, NAMESPACE).identical
+
+
+def test_messages_that_unpack_to_more_than_a_recording_holds_are_left_packed(sound, tmp_path):
+    bomb = zstandard.ZstdCompressor().compress(bytes(2**28))
+    file = rewritten(sound, tmp_path / "bomb.mcap", messages_of("gearbox_state", lambda data: bomb))
+    with pytest.raises(RecordingError, match="a message is compressed by itself, and cannot"):
+        read_recording(file)
 
 
 def test_a_bag_without_attachments_has_its_scene_from_the_origin_of_its_run(sound, tmp_path):

@@ -6,8 +6,11 @@ import time
 
 from rclpy.node import Node
 
+from .topics import UNKNOWN_NODE
+
 PATIENCE = 10.0  # [s]
 _SETTLED = 0.5  # [s] without a further subscription, after which there is none to come
+_UNNAMED = 3.0  # [s] the same where the nodes of subscriptions are not known
 _POLL = 0.05  # [s]
 
 
@@ -16,7 +19,9 @@ class Audience:
     Whether the node `name` beside `node` has subscribed to what it wants of `node`'s topics.
 
     Nodes that start together find one another after some tenths of a second, or, where a message
-    of the middleware's discovery gets lost, after three. A `name` that is empty is no one.
+    of the middleware's discovery gets lost, after three. To which node a subscription belongs is
+    another message, which may never come: after three seconds a subscription of an unknown node
+    counts as one of that node. A `name` that is empty is no one.
     """
 
     def __init__(self, node: Node, name: str) -> None:
@@ -26,7 +31,7 @@ class Audience:
         self._since = 0.0
         self._looked = 0.0
         self._changed = 0.0
-        self._subscribed = 0
+        self._subscribed = (0, 0)
 
     def begin(self) -> None:
         """Count patience from now on."""
@@ -45,7 +50,9 @@ class Audience:
         before, self._subscribed = self._subscribed, self._subscriptions()
         if self._subscribed != before:
             self._changed = now
-        self._there = self._subscribed > 0 and now > self._changed + _SETTLED
+        named, unnamed = self._subscribed
+        settled = now - self._changed
+        self._there = (named > 0 and settled > _SETTLED) or (unnamed > 0 and settled > _UNNAMED)
         if not self._there and now > self._since + PATIENCE:
             self._there = True
             self._node.get_logger().warning(
@@ -54,14 +61,14 @@ class Audience:
             )
         return self._there
 
-    def _subscriptions(self) -> int:
-        """Count its subscriptions to topics of `node` that are matched."""
+    def _subscriptions(self) -> tuple[int, int]:
+        """Count the matched topics of `node` that it, and that an unknown node, subscribes to."""
         wanted = self._name, self._node.get_namespace()
-        return sum(
-            publisher.get_subscription_count() > 0
-            and any(
-                (listener.node_name, listener.node_namespace) == wanted
-                for listener in self._node.get_subscriptions_info_by_topic(publisher.topic_name)
-            )
-            for publisher in self._node.publishers
-        )
+        named = unnamed = 0
+        for publisher in self._node.publishers:
+            if not publisher.get_subscription_count():
+                continue
+            listeners = self._node.get_subscriptions_info_by_topic(publisher.topic_name)
+            named += any((one.node_name, one.node_namespace) == wanted for one in listeners)
+            unnamed += any(one.node_name == UNKNOWN_NODE for one in listeners)
+        return named, unnamed

@@ -11,6 +11,7 @@ from rclpy.lifecycle import LifecyclePublisher
 from rclpy.serialization import serialize_message
 from rclpy.timer import Timer
 
+from .heap import return_large_blocks
 from .logger_parameters import declare_wishes, wishes_of
 from .managed import ManagedNode, NodeError, run_node
 from .messages import set_stamp
@@ -30,6 +31,7 @@ class Logger(ManagedNode):
 
     def __init__(self) -> None:
         super().__init__("logger")
+        return_large_blocks()
         declare_wishes(self)
         self._wishes = wishes_of(self)
         self._recorder: Recorder | None = None

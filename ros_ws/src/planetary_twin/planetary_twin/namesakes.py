@@ -20,7 +20,8 @@ class Namesakes:
     def _look(self) -> None:
         node = self._node
         own = (node.get_name(), node.get_namespace())
-        before, self._count = self._count, node.get_node_names_and_namespaces().count(own) - 1
+        known = node.get_node_names_and_namespaces().count(own)
+        before, self._count = self._count, max(known - 1, 0)  # its own name may come late
         if self._count > before:
             node.get_logger().warning(
                 f"another node is called {node.get_fully_qualified_name()}: either may answer a "

@@ -14,7 +14,7 @@ from planetary_twin_py.recording.ros2.tape import Cue
 
 from .managed import NodeError
 from .qos import publisher_qos
-from .topics import message_class
+from .topics import UNKNOWN_NODE, message_class
 
 _POLL = 2e-3  # [s]
 _NOW = Duration()
@@ -113,14 +113,18 @@ class Outlets:
         except NameValidationException as refusal:
             raise NodeError(f"{name}: {str(refusal).splitlines()[0]}") from None
         self._outlets[topic.name] = Outlet(publisher, max(qos.depth, 1))
-        if topic.type_hash not in ("", self._type_hash(name)):
+        if topic.type_hash and topic.type_hash not in self._type_hashes(name):
             raise NodeError(f"{topic.name}: recorded with another version of {topic.type}")
 
-    def _type_hash(self, name: str) -> str:
-        """Hash of the installed message type, which only the graph tells."""
+    def _type_hashes(self, name: str) -> set[str]:
+        """
+        Hashes of the message type of this node's publishers, which only the graph knows.
+
+        A publisher whose node the graph does not know yet may be this node's.
+        """
         own = (self._node.get_name(), self._node.get_namespace())
-        return next(
+        return {
             str(info.topic_type_hash)
             for info in self._node.get_publishers_info_by_topic(name)
-            if (info.node_name, info.node_namespace) == own
-        )
+            if (info.node_name, info.node_namespace) == own or info.node_name == UNKNOWN_NODE
+        }

@@ -14,6 +14,8 @@ from planetary_twin_py.recording.ros2.schema import message_definition
 
 from .qos import to_words
 
+UNKNOWN_NODE = "_NODE_NAME_UNKNOWN_"
+"""Name that rmw gives the node of an endpoint until discovery names it, which it may never do."""
 _EVERYWHERE = ("/diagnostics", "/tf")
 
 

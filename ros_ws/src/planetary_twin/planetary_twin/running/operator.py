@@ -15,12 +15,11 @@ from rclpy.parameter import Parameter
 
 from ..client import Client
 from ..reports import real_time_figures
-from ..topics import wanted_topics
+from ..topics import UNKNOWN_NODE, wanted_topics
 from .children import RunError
 
 _NODE = "simulation"
 _POLL = 0.1  # [s]
-_UNKNOWN = "_NODE_NAME_UNKNOWN_"  # of whom discovery has not told yet
 _REPORTED = 3.0  # [s] for which a report, one each second, tells how it is now
 
 
@@ -91,7 +90,7 @@ class Operator(Client):
         own = f"{self.namespace.rstrip('/')}/{_NODE}"
         if own in names:
             names.remove(own)
-        return [name for name in names if not name.endswith(_UNKNOWN)]
+        return [name for name in names if not name.endswith(UNKNOWN_NODE)]
 
     def bring(self, transition: str, begin: str, goal: str, seconds: float) -> None:
         """Take the simulation through a lifecycle `transition` from state `begin` to `goal`."""

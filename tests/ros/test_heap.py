@@ -1,0 +1,33 @@
+"""Memory that a process has freed goes back to the system."""
+
+import subprocess
+import sys
+
+# Blocks of sizes that vary, as chunks of a recording do, and small things that stay
+# between them. What the process keeps beyond these is what the heap holds on to.
+PROGRAM = """
+import os, random, sys
+from planetary_twin.benchmark.process import own_memory
+from planetary_twin.heap import return_large_blocks
+
+if "returned" in sys.argv:
+    return_large_blocks()
+sizes, kept = random.Random(0), []
+before = own_memory(os.getpid())
+for _ in range(400):
+    waiting = [bytes(sizes.randrange(200_000, 2_000_000)) for _ in range(8)]
+    sizes.shuffle(waiting)
+    kept.append(bytes(20_000))
+    waiting.clear()
+print(own_memory(os.getpid()) - before - sum(map(len, kept)) / 1e6)
+"""
+
+
+def kept(*arguments):
+    """Memory that the process still has after it has freed its large blocks [MB]."""
+    command = [sys.executable, "-c", PROGRAM, *arguments]
+    return float(subprocess.run(command, check=True, capture_output=True, text=True).stdout)
+
+
+def test_freed_large_blocks_leave_the_process_and_by_default_do_not():
+    assert kept("returned") < 1.0 < kept()
