@@ -13,10 +13,10 @@ import numpy as np
 from .._compile import kernel, law
 from .._records import Record
 from .bristles import clear_bristles, pass_bristles
-from .cycle import find_segment, mesh_cycle
+from .cycle import cycle_shift, find_segment, frame_cycle, mesh_cycle
 from .form_errors import radial_error
 from .mesh_force import deflection, stored_energy
-from .moment import damping_time, passing_rate
+from .moment import damping_time, passing_rate, place_mesh
 from .state import COAST_SIDE, DAMPING, DRIVE_SIDE, OPEN, STIFFNESS_WORK
 
 
@@ -89,6 +89,9 @@ def change_contact(model: Record, state: Record, moment: Record, i: int) -> None
     train = model.train
     before = stored_energy(model, state, moment, i)
     if state.side[i] == OPEN:
+        place_mesh(
+            train, state, moment, i, frame_cycle(train, state, 1) + cycle_shift(train, state.x)
+        )
         d = deflection(train, moment, i, state.x, state.v, 0.0, 0.0)[0]
         side = DRIVE_SIDE if d > 0.0 else COAST_SIDE
         state.segment[i] = find_segment(

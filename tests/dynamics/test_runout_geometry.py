@@ -1,10 +1,10 @@
 """Runout against involute flanks of gears whose toothing is off its axis, in two ways.
 
 Two involute gears whose base circles are a distance A apart in a direction psi touch where the sum
-of their unwound angles says, a closed form. And, without any line of action: through each point of one gear's flank runs an involute of the other gear's base circle; the angle
-at which it leaves that circle has an extreme where the two flanks would touch. By how far this
-angle moves, times the base radius, the error shifts the contact. Only circles and involutes are
-used: neither a line of action nor a pressure angle that leans.
+of their unwound angles says, a closed form. And, without any line of action: through each point of
+one gear's flank runs an involute of the other gear's base circle; the angle at which it leaves that
+circle has an extreme where the two flanks would touch. By how far this angle moves, times the base
+radius, the error shifts the contact.
 """
 
 import math
