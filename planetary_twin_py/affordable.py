@@ -42,6 +42,8 @@ def settings_of(tolerances: Sequence[float], sample_rate: float) -> list[Setting
 class Affordable:
     """Chooses among the settings of a ladder by the cost of windows.
 
+    The share is one of the processor's time, lateness one of wall time, see `observe`.
+
     Two windows in a row that cost more than the time there is, or a mean over half a second above
     what is granted, step down at once, by as many rungs as that asks for at least. A tolerance is
     granted the share, the full waveform all the time there is: it is thinned where the twin would
@@ -52,6 +54,10 @@ class Affordable:
     fuller waveform as long as there is some time left. Where that proves too dear, from then on a
     mean must last twice as long, and of a tolerance it is remembered by how much; so a cost at the
     limit does not let the setting swing.
+
+    Windows that are repeated lead back up to the rung to begin with, no higher: they do not show
+    what a tolerance costs, but a short overload, as of the start of other processes, must not keep
+    the tolerance loose for good.
 
     Args:
         ladder: of `settings_of`.
@@ -67,6 +73,7 @@ class Affordable:
         self._share = share
         self._period = period
         self._rung = sum(_rank(setting) < _rank(begin) for setting in ladder[:-1])
+        self._first = self._rung
         self._full = sum(setting.sample_rate < ladder[-1].sample_rate for setting in ladder)
         self._windows = max(math.ceil(STRETCH / period - 1e-9), FEWEST)
         self._loads: list[float] = []
@@ -98,13 +105,19 @@ class Affordable:
         self._calm = 0.0
         self._dearer = [1.0] * len(self._ladder)  # than the next worse; at first anything may do
 
-    def observe(self, cost: float, repeated: bool = False) -> None:
-        """Learn from a window that took `cost` [s].
+    def observe(self, cost: float, work: float, repeated: bool = False) -> None:
+        """Learn from a window.
 
-        One that was `repeated` says nothing of what a tolerance costs, but if it is late, then at
-        any tolerance.
+        One in time costs what the processor worked for it: that other processes held it up says
+        nothing of a setting. A late one costs all the time it took, whatever took it.
+
+        Args:
+            cost: wall time that it took [s].
+            work: processor time of it [s].
+            repeated: whether it was not computed; then it says nothing of what a tolerance costs,
+                but if it is late, then at any tolerance.
         """
-        load = cost / self._period
+        load = (work if cost <= self._period else cost) / self._period
         if repeated != self._repeated:
             self._repeated = repeated
             self._forget()
@@ -131,9 +144,9 @@ class Affordable:
 
     def _goal(self, mean: float) -> int:
         """The rung to climb to."""
-        top = self._full if self._repeated else len(self._ladder) - 1
+        top = max(self._full, self._first) if self._repeated else len(self._ladder) - 1
         goal, most = self._rung, mean
-        while goal < top and (most := most * self._steepest(goal + 1)) <= self._grant(goal + 1):
+        while goal < top and (most := most * self._steepest(goal + 1)) <= self._limit(goal + 1):
             goal += 1
         return self._rung + 1 if goal == self._rung < top and self._may_climb(mean) else goal
 
@@ -156,7 +169,11 @@ class Affordable:
 
     def _grant(self, rung: int) -> float:
         """The load above which `rung` is left for the next worse one."""
-        return self._share if rung > self._full and not self._repeated else 1.0
+        return 1.0 if self._repeated else self._limit(rung)
+
+    def _limit(self, rung: int) -> float:
+        """The load up to which `rung` is tried."""
+        return self._share if rung > self._full else 1.0
 
     def _steepest(self, rung: int) -> float:
         """What `rung` may cost over the next worse one, at most."""

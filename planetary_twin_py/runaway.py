@@ -92,7 +92,8 @@ def squeeze(samples: Samples, train: Record, load: Record) -> np.ndarray:
 
     Along the line of action: |DTE| less half the backlash and the largest errors of form.
     """
-    errors = np.abs(train.line_amplitude).sum(axis=1)[train.kind[: train.meshes]]
+    size = np.hypot(train.line_tangential, train.line_radial)
+    errors = size.sum(axis=1)[train.kind[: train.meshes]]
     pressed = np.abs(samples.mesh[:, DTE]) - load.half_backlash - errors
     return np.asarray(np.maximum(pressed, 0.0))
 

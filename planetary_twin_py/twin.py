@@ -8,6 +8,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from .accuracy import Course, course_so_far, settling_rate, unsettled
 from .dynamics.bodies import Ratios, body_names, mesh_names
 from .dynamics.mesh_sums import in_order
 from .dynamics.observe import BOUNDARY, DTE, MESH_FORCE, VISCOUS
@@ -67,6 +68,8 @@ class Twin:
         same run and the same samples of it."""
         self._books = self._account()
         self._end = self._engine.sample(self._clock)
+        self._settled, self._settling = 0.0, settling_rate(scene, scene.operating_point)
+        self._course = course_so_far(self._engine.control, 0.0)
 
     @property
     def bodies(self) -> tuple[str, ...]:
@@ -167,6 +170,7 @@ class Twin:
             self._engine.change(point, tolerance, self._clock)
             self._books = self._account()  # play that opens or closes stores no work of this window
             self._end = self._engine.sample(self._clock)  # as the new point has it
+            self._settling = settling_rate(self.scene, point)
             self.log.append(change)
         return self.time
 
@@ -220,7 +224,15 @@ class Twin:
             stored_power=stored,
             stored_energy=self._books[2],
             residual_power=_residual(rate, self._machines) - stored,
+            course=self._follow(float(step)),
         )
+
+    def _follow(self, duration: float) -> Course:
+        """The course of the `duration` [s] that has passed."""
+        self._settled += duration * self._settling
+        missing, before = unsettled(self._settled, self._settling), self._course
+        self._course = course_so_far(self._engine.control, missing)
+        return self._course.since(before)
 
     def _angles(self) -> np.ndarray:
         """Angles modulo a turn, exact in the whole turns of the motor."""

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from .accuracy import Course
 from .dynamics.bodies import LOAD_MACHINE, MOTOR, SECOND_MOTOR
 from .dynamics.mesh_sums import CLIPPED, CONTACT, FILMED, SQUARE, MeshSums
 from .dynamics.observe import BOUNDARY, DTE, FILM, LAMBDA, MESH_FORCE, POWER_LOSS, VISCOUS
@@ -72,6 +73,8 @@ class Window:
     """Kinetic and elastic energy at the end [J]."""
     residual_power: float
     """What does not add up of the energy ledger [W]: the error of the integration."""
+    course: Course
+    """What the accuracy is judged by, see `accuracy`."""
 
     @property
     def input_speed(self) -> float:

@@ -1,10 +1,22 @@
 """Runs whose motion outgrows their tolerance say so, and others say nothing."""
 
+import json
 import warnings
 
 import pytest
+from planetary_twin_py.recording.offline import Plan, record
+from typer.testing import CliRunner
 
 import planetary_twin_py as pt
+from planetary_twin_py.accuracy import Course, course_warnings
+from planetary_twin_py.cli import build_app
+from planetary_twin_py.recording.runs.verify import verify
+from planetary_twin_py.studies.axes import Axis
+from planetary_twin_py.studies.inaccurate import inaccuracies
+from planetary_twin_py.studies.measures import measure
+from planetary_twin_py.studies.plan import Settings, grid
+from planetary_twin_py.studies.table import tabulate
+from planetary_twin_py.studies.work import Failure
 
 PAPER = pt.load_scene("paper")
 RATTLE = {
@@ -35,7 +47,7 @@ def test_a_run_that_keeps_to_its_tolerance_is_not_warned_of(changes):
 @pytest.mark.parametrize(
     ("changes", "reason"),
     [
-        ({"input_speed": pt.rpm(0.01)}, "the gears creep and roll by"),
+        ({"input_speed": pt.rpm(0.01)}, "the gears creep, and friction has not forgotten"),
         (RATTLE, "flanks meet and part"),
         (STOPPING, "vibration stops gears"),
     ],
@@ -52,3 +64,58 @@ def test_creeping_gears_are_not_warned_of_once_they_have_rolled_far_enough():
         pt.simulate(scene, 0.1)
     with pytest.warns(pt.AccuracyWarning, match=r"simulate 0\.\d+ s"):
         pt.simulate(scene, 0.001)
+
+
+def test_the_time_of_settling_counts_as_rolled():
+    with warnings.catch_warnings():
+        warnings.simplefilter("error", pt.AccuracyWarning)
+        pt.simulate(PAPER.replace(input_speed=pt.rpm(5)), 0.001, settling=0.1)
+
+
+def test_windows_of_a_twin_add_up_to_the_course_of_the_run():
+    scene = PAPER.replace(**RATTLE)
+    run, twin, course = pt.simulate(scene, 0.02, tolerance=1e-3), pt.Twin(scene), Course()
+    twin = pt.Twin(scene, tolerance=1e-3)
+    for _ in range(4):
+        course = course.joined(twin.advance(0.005).course)
+    stats = run.stats
+    assert stats.flank_events > 0
+    assert course == Course(stats.flank_events, stats.reversals, stats.repeated_steps)
+
+
+def test_creeping_of_a_twin_is_told_until_it_has_rolled_far_enough_at_whatever_speed():
+    slow, fast = pt.rpm(5), pt.rpm(50)
+    twin = pt.Twin(PAPER.replace(input_speed=slow))
+    early, late = twin.advance(0.001).course.unsettled, twin.advance(0.001).course.unsettled
+    assert late == pytest.approx(early - 0.001, abs=1e-12) and early > 0.005
+    twin.set(input_speed=fast)
+    twin.advance(0.002)
+    twin.set(input_speed=slow)
+    assert twin.advance(0.001).course.unsettled == 0.0
+
+
+def test_a_motion_that_repeats_itself_is_as_accurate_as_its_tolerance():
+    rattle = Course(flank_events=100)
+    assert len(list(course_warnings(rattle))) == 1
+    assert not list(course_warnings(rattle.joined(Course(repeated_steps=1))))
+
+
+def test_a_sweep_names_the_points_whose_motion_outgrows_the_tolerance():
+    settings = Settings(0.02, 0.0, tolerance=1e-3)
+    study = grid(PAPER, [Axis("input_torque", (5.0, 40.0, 63.0))], settings)
+    sound, rattling = (measure(scene, settings) for scene in (PAPER, PAPER.replace(**RATTLE)))
+    assert list(inaccuracies(tabulate(study, dict.fromkeys(range(3), sound)))) == []
+    found = {0: rattling, 1: sound, 2: Failure("no such teeth")}
+    (text,) = inaccuracies(tabulate(study, found))
+    assert text.startswith("at 1 of 3 points (unrepeated_flank_events), at worst: flanks meet and")
+
+
+def test_verify_says_which_figures_of_a_recording_the_tolerance_does_not_bound(tmp_path):
+    for name, scene, count in (("sound", PAPER, 0), ("rattle", PAPER.replace(**RATTLE), 1)):
+        record(Plan(scene, 0.05, 5000.0, 1e-2), tmp_path / name)
+        (file,) = (tmp_path / name).glob("*.mcap")
+        verdict = verify(file, "/planetary_twin")
+        assert verdict.identical and len(verdict.accuracy) == count
+        shown = CliRunner().invoke(build_app(), ["verify", str(file), "--json", "-"])
+        assert len(json.loads(shown.stdout)["accuracy"]) == count
+        assert shown.stderr.count("flanks meet and part") == count

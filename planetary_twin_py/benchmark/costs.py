@@ -39,6 +39,7 @@ _FORM_ERRORS = {
     "mesh.sun_planet_error": {"amplitudes": [1e-6]},
     "mesh.planet_ring_error": {"amplitudes": [1e-6]},
     "mesh.runout": {"sun": 2e-6},
+    "backlash": 2e-6,
 }
 # Changes to the scene `paper`, which has friction and no other loss.
 TERMS: dict[str, dict[str, Any]] = {

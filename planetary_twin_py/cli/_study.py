@@ -87,9 +87,11 @@ def put(
 def warn(table: pa.Table) -> None:
     """Print what limits the figures of a study, a line each."""
     from ..studies.clipping import clipping_of_study
+    from ..studies.inaccurate import inaccuracies
     from ..studies.unclosed import unclosed_ledgers
 
-    for line in filter(None, (clipping_of_study(table), unclosed_ledgers(table))):
+    lines = (clipping_of_study(table), unclosed_ledgers(table), *inaccuracies(table))
+    for line in filter(None, lines):
         remark(f"warning: {line}")
 
 

@@ -56,7 +56,7 @@ def verify(
 def _tell(console: Console, verdict: Verdict) -> None:
     from ..recording.runs.verify import BOUND
 
-    for remark in filter(None, (*verdict.remarks, verdict.ledger)):
+    for remark in filter(None, (*verdict.remarks, verdict.ledger, *verdict.accuracy)):
         console.print(f"warning: {remark}", style="yellow", soft_wrap=True, highlight=False)
     counts = ", ".join(f"{count} {topic}" for topic, count in verdict.messages.items())
     console.print(f"compared          {counts}: {verdict.values} values", highlight=False)
@@ -107,4 +107,5 @@ def _figures(verdict: Verdict) -> dict[str, Any]:
         "not_recorded": verdict.not_recorded,
         "remarks": verdict.remarks,
         "ledger": verdict.ledger,
+        "accuracy": verdict.accuracy,
     }

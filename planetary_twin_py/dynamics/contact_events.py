@@ -13,9 +13,10 @@ import numpy as np
 from .._compile import kernel, law
 from .._records import Record
 from .bristles import clear_bristles, pass_bristles
-from .cycle import find_segment, mesh_cycle
+from .cycle import cycle_shift, find_segment, frame_cycle, mesh_cycle
+from .form_errors import radial_error
 from .mesh_force import deflection, stored_energy
-from .moment import damping_time, passing_rate
+from .moment import damping_time, passing_rate, place_mesh
 from .state import COAST_SIDE, DAMPING, DRIVE_SIDE, OPEN, STIFFNESS_WORK
 
 
@@ -34,7 +35,7 @@ def departure(
     Contact ends where d - b + tau d', which is F/k, falls below zero, and begins where that and
     d - b are positive, on whichever side. Both by a slack: without load, flanks rest against each
     other with no force, and would part and meet without end. (With a regulatory factor the force
-    does not count.)
+    does not count.) Radial errors of form widen the play of an open mesh on both sides.
 
     Args:
         model, state, moment: the train, and the start of the step.
@@ -45,17 +46,37 @@ def departure(
     advance, pace, slack = stand
     d, rate, _ = deflection(model.train, moment, i, x, v, advance, pace)
     tau = damping_time(model.train, model.train.kind[i], passing_rate(model.train, moment, v))
-    return play_left(model.load, state.side[i], d, tau * rate, slack)
+    wider = widening(model.train, moment, i, state.side[i], advance, pace)
+    return play_left(model.load, state.side[i], (d, tau * rate), (wider[0], tau * wider[1]), slack)
 
 
 @law
-def play_left(load: Record, side: int, d: float, damped: float, slack: float) -> float:
-    """The same for a mesh on `side`, from its deflection d and tau times its rate [m]."""
-    half = load.half_backlash
-    push = d + load.release * damped
+def widening(
+    train: Record, moment: Record, i: int, side: int, advance: float, pace: float
+) -> tuple[float, float]:
+    """By how far [m] errors of form widen the play of an open mesh on each side, and its rate.
+
+    `deflection` counts the errors of the flanks of a closed mesh already.
+    """
+    if side != OPEN or train.lines[train.kind[i]] == 0:
+        return 0.0, 0.0
+    return radial_error(train, i, moment.line_angle, advance, pace)
+
+
+@law
+def play_left(
+    load: Record, side: int, motion: tuple[float, float], wider: tuple[float, float], slack: float
+) -> float:
+    """The same for a mesh on `side`, from its deflection and what widens its play [m].
+
+    `motion` and `wider` are each a length [m], and tau times its rate [m].
+    """
+    d, half = motion[0], load.half_backlash
+    push = d + load.release * motion[1]
     if side != OPEN:
         return side * push - half + slack
-    return slack - max(min(d, push), min(-d, -push)) + half
+    gap, slower = wider[0], wider[0] + load.release * wider[1]
+    return slack - max(min(d - gap, push - slower), min(-d - gap, -push - slower)) + half
 
 
 @kernel
@@ -68,6 +89,9 @@ def change_contact(model: Record, state: Record, moment: Record, i: int) -> None
     train = model.train
     before = stored_energy(model, state, moment, i)
     if state.side[i] == OPEN:
+        place_mesh(
+            train, state, moment, i, frame_cycle(train, state, 1) + cycle_shift(train, state.x)
+        )
         d = deflection(train, moment, i, state.x, state.v, 0.0, 0.0)[0]
         side = DRIVE_SIDE if d > 0.0 else COAST_SIDE
         state.segment[i] = find_segment(

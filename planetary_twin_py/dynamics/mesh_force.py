@@ -53,11 +53,11 @@ def deflection(
     advance: float,
     pace: float,
 ) -> tuple[float, float, float]:
-    """d - e [m] of mesh i, its rate, and the rate of e [m/s]."""
+    """d - e [m] of mesh i on the side of `moment`, its rate, and the rate of e [m/s]."""
     d, rate = mesh_motion(train, i, x), mesh_motion(train, i, v)
     if train.lines[train.kind[i]] == 0:
         return d, rate, 0.0
-    e, e_rate = form_error(train, i, moment.line_angle, advance, pace)
+    e, e_rate = form_error(train, i, moment.side[i], moment.line_angle, advance, pace)
     return d - e, rate - e_rate, e_rate
 
 
@@ -105,7 +105,8 @@ def place_meshes(
     now.following = train.damping_cycles / rate
     if train.lines[0] + train.lines[1] > 0:
         for i in range(train.meshes):
-            e, e_rate = form_error(train, i, moment.line_angle, now.advance, now.pace)
+            side = moment.side[i]
+            e, e_rate = form_error(train, i, side, moment.line_angle, now.advance, now.pace)
             now.d[i] -= e
             now.rate[i] -= e_rate
             now.error_rate[i] = e_rate
@@ -252,7 +253,7 @@ def push_drift(model: Record, state: Record, moment: Record, i: int, pace: float
     drift = train.stiffness_gain[kind] * growth * side * pace * push
     if train.lines[kind] > 0:
         k = train.stiffness_base[kind] + train.stiffness_gain[kind] * total
-        bend = form_error_bend(train, i, moment.line_angle, pace)
+        bend = form_error_bend(train, i, moment.side[i], moment.line_angle, pace)
         drift -= k * side * (e_rate + tau * bend)
     return drift
 

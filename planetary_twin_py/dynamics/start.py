@@ -20,7 +20,8 @@ from .bodies import MOTOR
 from .bristles import creeps
 from .cycle import find_segment, mesh_cycle
 from .equations import EVALUATION, forces
-from .mesh_force import deflection, mesh_stiffness
+from .form_errors import form_error
+from .mesh_force import deflection, mesh_motion, mesh_stiffness
 from .moment import MOMENT, frame_cycle_rate, set_moment
 from .speed_loop import bandwidth, speed_loop_gains
 from .state import COAST_SIDE, DRIVE_SIDE, LOAD, OPEN, STATE
@@ -37,7 +38,7 @@ def build_load(scene: Scene, point: OperatingPoint, train: Record) -> Record:
     """What acts on the train at an operating point."""
     control, axes = scene.drive.speed_control, int(train.axes)
     gains = speed_loop_gains(scene, train, bandwidth(scene))
-    half, offset = _play(scene, point)
+    half, offset = scene.mesh.flanks(point.backlash, scene.gearset.pressure_angle)
     return new_record(
         LOAD,
         half_backlash=half,
@@ -53,15 +54,6 @@ def build_load(scene: Scene, point: OperatingPoint, train: Record) -> Record:
         proportional=gains.proportional,
         trim_gain=gains.trim,
     )
-
-
-def _play(scene: Scene, point: OperatingPoint) -> tuple[float, float]:
-    """Transmission errors at which flanks meet, and from which the force grows [m]."""
-    along = math.cos(scene.gearset.pressure_angle) if scene.mesh.motion == "pitch_arc" else 1.0
-    if scene.mesh.backlash == "regulatory_factor":
-        return point.backlash * along, 0.0
-    half = 0.5 * point.backlash * along
-    return half, half
 
 
 BALANCE = layout(
@@ -168,9 +160,11 @@ def _choose_sides(model: Record, state: Record, moment: Record) -> None:
     """Let every mesh touch where its flanks are: errors of form beyond its deflection part them."""
     train, half = model.train, model.load.half_backlash
     for i in range(train.meshes):
-        d = deflection(train, moment, i, state.x, state.v, 0.0, 0.0)[0]
-        if state.side[i] * d < half:
-            state.side[i] = OPEN if abs(d) <= half else -state.side[i]
+        side, d = state.side[i], mesh_motion(train, i, state.x)
+        own = form_error(train, i, float(side), moment.line_angle, 0.0, 0.0)[0]
+        if side * (d - own) < half:
+            other = form_error(train, i, float(-side), moment.line_angle, 0.0, 0.0)[0]
+            state.side[i] = OPEN if side * (other - d) <= half else -side
     _place_pairs(model, state, moment)
 
 

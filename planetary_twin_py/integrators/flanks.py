@@ -7,7 +7,7 @@ import math
 from .._combine import combine_both
 from .._compile import kernel, law
 from .._records import Record
-from ..dynamics.contact_events import departure, play_left
+from ..dynamics.contact_events import departure, play_left, widening
 from ..dynamics.cycle import cycle_shift
 from ..dynamics.form_errors import form_error
 from ..dynamics.state import OPEN
@@ -128,12 +128,14 @@ def _left_without_waves(model: Record, march: Record, i: int, n: int, tau: float
     """Play that mesh i has left at node n, less what its free waves take or add."""
     train, run, side = model.train, march.run, march.begin.side[i]
     d, rate = run.node_d[n, i], run.node_rate[n, i]
+    gap = slower = 0.0
     if train.lines[train.kind[i]] > 0:
-        now = run.evaluation[n].now
-        e, e_rate = form_error(train, i, march.moment.line_angle, now.advance, now.pace)
+        now, angle = run.evaluation[n].now, march.moment.line_angle
+        e, e_rate = form_error(train, i, float(side), angle, now.advance, now.pace)
         d, rate = d - e, rate - e_rate
+        gap, slower = widening(train, march.moment, i, side, now.advance, now.pace)
     wave = run.now_d[i] + tau * run.now_rate[i]
-    left = play_left(model.load, side, d, tau * rate, 0.0)
+    left = play_left(model.load, side, (d, tau * rate), (gap, tau * slower), 0.0)
     return left - (side * wave if side != OPEN else abs(wave))
 
 
@@ -184,7 +186,7 @@ def _first_scanned(model: Record, march: Record, i: int, end: float) -> int:
             play = departure_at(model, march, i, (k + 1) * end / SCANNED)
         else:
             d, rate = run.scan_d[k, i], run.scan_rate[k, i]
-            play = play_left(model.load, march.begin.side[i], d, tau * rate, slack)
+            play = play_left(model.load, march.begin.side[i], (d, tau * rate), (0.0, 0.0), slack)
         if play < 0.0:
             return k
     return SCANNED
@@ -201,4 +203,4 @@ def _play_at(model: Record, march: Record, i: int, delay: float, slack: float) -
         d += motion * run.now_q[m]
         rate += motion * run.now_p[m]
     tau = moment.tau[train.kind[i]]
-    return play_left(model.load, march.begin.side[i], d, tau * rate, slack)
+    return play_left(model.load, march.begin.side[i], (d, tau * rate), (0.0, 0.0), slack)

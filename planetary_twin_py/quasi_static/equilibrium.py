@@ -20,7 +20,7 @@ from ..dynamics.bodies import LOAD_MACHINE, MOTOR, SECOND_MOTOR
 from ..dynamics.body_speed import body_speed
 from ..dynamics.cycle import cycle_shift, find_segment, mesh_cycle
 from ..dynamics.equations import EVALUATION, rub
-from ..dynamics.form_errors import form_error
+from ..dynamics.form_errors import form_error, radial_error
 from ..dynamics.mesh_force import (
     fault_effect,
     mesh_motion,
@@ -49,7 +49,7 @@ EQUILIBRIUM = layout(
     evaluation=EVALUATION,
     before=(REAL, (BODIES,)),  # what rubbed in the pass before [N]
     lean=(WHOLE, (MESHES,)),  # side to which an open mesh would close
-    error=(REAL, (MESHES,)),  # of form [m]
+    error=(REAL, (MESHES,)),  # of form, its tangential part [m]
     stiffness=(REAL, (MESHES,)),  # [N/m]
     play=(REAL, (MESHES, 2)),  # from the middle to the flank that carries, on both sides [m]
     force=(REAL, (MESHES,)),  # signed [N]
@@ -123,16 +123,19 @@ def _place(model: Record, run: Record) -> None:
         )
     set_moment(model, state, moment)
     for i in range(train.meshes):
-        run.error[i] = 0.0
-        if train.lines[train.kind[i]] > 0:
-            run.error[i] = form_error(train, i, moment.line_angle, 0.0, 0.0)[0]
+        run.error[i] = form_error(train, i, 0.0, moment.line_angle, 0.0, 0.0)[0]
+        play = model.load.offset + radial_error(train, i, moment.line_angle, 0.0, 0.0)[0]
+        carrying = DRIVE_PLAY if state.side[i] == DRIVE_SIDE else COAST_PLAY
+        # Below zero only with a regulatory factor, whose forces grow from no deflection at all:
+        # what a flank that does not carry stands off is positive.
+        run.play[i, :] = abs(play)
+        run.play[i, carrying] = play
         kind, gap = train.kind[i], 0.0
         k = mesh_stiffness(train, kind, state.segment[i], moment.start[i])
         if train.faults > 0:
             k, gap = _faulty_spring(model, run, i, k)
         run.stiffness[i] = k
-        run.play[i, :] = model.load.offset
-        run.play[i, DRIVE_PLAY if state.side[i] == DRIVE_SIDE else COAST_PLAY] += gap
+        run.play[i, carrying] += gap
 
 
 @kernel
@@ -141,7 +144,8 @@ def _faulty_spring(model: Record, run: Record, i: int, healthy: float) -> tuple[
     train, state, segment = model.train, run.state, run.state.segment[i]
     kind, side = train.kind[i], state.side[i]
     u = run.moment.start[i] - train.edge[kind, segment]
-    squeeze = side * (mesh_motion(train, i, state.x) - run.error[i]) - model.load.offset
+    squeeze = side * (mesh_motion(train, i, state.x) - run.error[i])
+    squeeze -= run.play[i, DRIVE_PLAY if side == DRIVE_SIDE else COAST_PLAY]
     count = train.present[kind, segment]
     least = math.inf
     for p in range(count):
@@ -306,8 +310,10 @@ def _check_jump(model: Record, run: Record) -> None:
     if load.half_backlash == load.offset:
         return
     for i in range(model.train.meshes):
+        side = run.state.side[i]
         d = mesh_motion(model.train, i, run.state.x) - run.error[i]
-        if run.state.side[i] != OPEN and run.state.side[i] * d < load.half_backlash:
+        radial = radial_error(model.train, i, run.moment.line_angle, 0.0, 0.0)[0]
+        if side != OPEN and side * d - radial < load.half_backlash:
             raise ValueError(
                 "mesh.backlash = 'regulatory_factor': without dynamics every mesh must carry "
                 "more than its stiffness times the backlash"

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from typing import Literal, Self
 
 from pydantic import Field, model_validator
@@ -46,7 +47,7 @@ class TransmissionError(Section):
 
     e = sum of a_n sin(2 pi n x + p_n) over n = 1, 2, ..., x the mesh cycles since a pair was at
     the pitch point. A mesh is squeezed by |d - e| - B/2, d the DTE: positive e is material that is
-    missing on the drive flanks, and in excess on the coast flanks.
+    missing on the drive flanks, and in excess on the coast flanks: the play stays the same.
     """
 
     amplitudes: tuple[float, ...] = quantity(
@@ -79,7 +80,9 @@ class Runout(Section):
     """Eccentricity of the gears on their bearings, which returns with every turn.
 
     Each adds its size times a sine of the gear's turn to the error of form e, with the sign of
-    `sun_planet_error` and `planet_ring_error`.
+    `sun_planet_error` and `planet_ring_error`. The sine leans by the pressure angle phi, on the
+    coast flanks the other way: the play changes by up to 2 sin(phi) times the size. Runout that
+    closes the backlash is refused.
     """
 
     sun: float = quantity("m", "eccentricity of the sun", 0.0, ge=0.0, le=1e-2)
@@ -158,3 +161,16 @@ class Mesh(Section):
                 if getattr(self, name) is None:
                     raise ValueError(f"{name}: missing; or choose stiffness: involute")
         return self
+
+    def flanks(self, backlash: float, pressure_angle: float) -> tuple[float, float]:
+        """Transmission errors at which flanks meet, and from which the force grows [m].
+
+        Args:
+            backlash: total play, along what `motion` says [m].
+            pressure_angle: of the gearset [rad].
+        """
+        along = math.cos(pressure_angle) if self.motion == "pitch_arc" else 1.0
+        if self.backlash == "regulatory_factor":
+            return backlash * along, 0.0
+        half = 0.5 * backlash * along
+        return half, half

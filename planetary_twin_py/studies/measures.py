@@ -81,6 +81,15 @@ MEASURES |= {
         "residual of the energy ledger over what is allowed; above 1, losses are uncertain",
     )
 }
+COURSE = {
+    "unsettled": Measure("s", "time that is missing until creeping gears forget the start"),
+    "reversals": Measure("", "steps in which vibration stops gears, or nearly so"),
+    "unrepeated_flank_events": Measure(
+        "", "flanks that meet or part in a motion that does not come to repeat itself"
+    ),
+}
+"""What the accuracy of a point is judged by, by the names of `accuracy.Course`."""
+MEASURES |= COURSE
 """Every figure of a row, in its order."""
 
 
@@ -123,6 +132,7 @@ def row(scene: Scene, window: Window) -> Row:
         figures |= {f"{side}_{name}": value for name, value in values.items()}
     shares = clipped_friction(scene, window)
     figures |= {f"{side}_{CLIPPED}": share for side, share in shares.items()}
+    figures |= {name: float(getattr(window.course, name)) for name in COURSE}
     return figures | {EXCESS: balance_of_window(window).excess}
 
 

@@ -38,7 +38,10 @@ INSTALLED = [name for name in SOLVERS if name not in MISSING]
 SLOW = ("scipy_lsoda", "lsoda_compiled", "cvode_bdf_compiled")  # of those that are alike
 SCENES = {
     "rattle": ("paper", {"input_torque": 0.3, "torque_ripple": 3.0}),
-    "backwards with runout": ("paper", {"input_speed": -60.0, "mesh.runout.sun": 2e-6}),
+    "backwards with runout": (
+        "paper",
+        {"input_speed": -60.0, "mesh.runout.sun": 2e-6, "backlash": 2e-6},
+    ),
     "regulatory factor": ("paper", {"mesh.backlash": "regulatory_factor", "input_torque": -20.0}),
     **{name: (name, {}) for name in packaged_scenes()},
 }

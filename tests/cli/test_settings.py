@@ -59,10 +59,10 @@ def test_bare_ends_of_the_range_of_a_study_are_echoed(tmp_path):
 
 
 def test_lists_and_sections_are_written_as_in_a_scene_file():
-    given = ["faults=[{kind: crack, gear: ring, stiffness_loss: 0.3}]", "mesh.runout={sun: 2 um}"]
+    given = ["faults=[{kind: crack, gear: ring, stiffness_loss: 0.3}]", "mesh.runout={sun: 0.2 um}"]
     scene = pt.load_scene("paper").replace(**settings(given))
     assert scene.faults[0].gear == "ring"
-    assert scene.mesh.runout.sun == pytest.approx(2e-6)
+    assert scene.mesh.runout.sun == pytest.approx(2e-7)
 
 
 def test_a_setting_that_is_given_twice_is_refused():

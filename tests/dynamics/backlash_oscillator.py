@@ -70,7 +70,7 @@ class Oscillator:
         self.ratio = ratio
         size = self.alternating * ratio / math.hypot(ratio, 2.0 * self.zeta)
         cut(self.model, self.march, Instant(self.march.end.seconds, self.march.end.time))
-        self.model.train.line_amplitude[0, 0] = self.error = size
+        self.model.train.line_tangential[0, 0] = self.error = size
         self.march.end.speed[0] = self.march.end.set_speed[0] = ratio
         self.model.load.target_speed[0] = ratio
 

@@ -82,7 +82,7 @@ def test_residual_of_collocation_is_below_a_bound_that_falls_with_the_tolerance(
     [
         {"mesh.sun_planet_error": {"amplitudes": ["3 um", "1 um"], "phases": [0.3, 2.0]}},
         {"mesh.planet_ring_error": {"amplitudes": ["12 um"]}, "input_torque": -40.0},
-        {"mesh.runout": {"sun": "20 um", "planet": "10 um", "ring": "15 um"}},
+        {"mesh.runout": {"sun": "20 um", "planet": "10 um", "ring": "15 um"}, "backlash": "22 um"},
         {"faults": [{"kind": "crack", "gear": "planet", "planet": 2, "stiffness_loss": 0.5}]},
         {"faults": [{"kind": "spall", "gear": "ring", "tooth": 1, "stiffness_loss": 0.4}]},
         {"faults": [{"kind": "wear", "gear": "sun", "tooth": 1, "depth": "2 um"}]},

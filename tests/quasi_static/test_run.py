@@ -17,7 +17,11 @@ LOSSES = {
     "sun_bearing": {"mean_diameter": "25 mm"},
     "churning": {"fill": 0.3, "gap": "5 mm", "ring": "32 mm", "carrier": "25 mm"},
 }
-ERRORS = {"mesh.sun_planet_error": {"amplitudes": ["3 um", "1 um"]}, "mesh.runout.planet": "4 um"}
+ERRORS = {
+    "mesh.sun_planet_error": {"amplitudes": ["3 um", "1 um"]},
+    "mesh.runout.planet": "4 um",
+    "backlash": "3 um",
+}
 WEAR = {"faults": [{"kind": "wear", "gear": "sun", "tooth": 7, "depth": "4 um"}]}
 # Stiff shafts and a heavy motor: the speed holds, and nothing but the meshes yields.
 STEADY = {

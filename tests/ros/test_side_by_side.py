@@ -19,7 +19,8 @@ def test_statuses_of_twins_have_names_of_their_own(peer: Peer, start: Start) -> 
         statuses = (status for report in reports for status in report.status)
         return {status.name for status in statuses if status.hardware_id == f"/{side}"}
 
-    tasks = ("simulation: real time", "simulation: energy ledger", "logger: recording")
+    simulation = ("real time", "energy ledger", "accuracy")
+    tasks = (*(f"simulation: {task}" for task in simulation), "logger: recording")
     peer.until(lambda: len(names("left")) == len(names("right")) == len(tasks))
     for side in ("left", "right"):
         assert names(side) == {f"{side}/{task}" for task in tasks}

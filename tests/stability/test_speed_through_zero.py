@@ -64,4 +64,13 @@ def test_the_mesh_force_is_that_of_the_acceleration_on_both_sides_of_zero(direct
 def test_damping_that_grows_without_bound_towards_standstill_is_passed(direction, law):
     run = sound_run(ramp(PAPER.replace(**FLOOR), direction, law), 2 * CROSSING)
     assert run.mesh_force.min() > 0.0
-    assert run.stats.steps < 40_000
+    assert run.stats.steps < 40_000  # most resolve how friction reverses, see below
+
+
+@BOTH_WAYS
+@pytest.mark.parametrize("law", ["meshing_frequency", "printed_meshing_frequency"])
+def test_without_friction_that_damping_is_passed_in_few_steps(direction, law):
+    scene = PAPER.replace(**FLOOR, **{"lubrication.friction": False})
+    run = sound_run(ramp(scene, direction, law), 2 * CROSSING)
+    assert run.mesh_force.min() > 0.0
+    assert run.stats.steps < 10_000

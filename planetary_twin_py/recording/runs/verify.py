@@ -10,6 +10,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from ...accuracy import Course, course_warnings
 from ...ledger_check import Balance, balance_of_window, ledger_warning
 from ...window import Window
 from ..container.records import RecordingError
@@ -52,6 +53,8 @@ class Verdict:
     remarks: list[str] = field(default_factory=list)
     ledger: str | None = None
     """Where the energy ledger of what was compared does not close: what that means."""
+    accuracy: list[str] = field(default_factory=list)
+    """Figures of what was compared that the tolerance does not bound, a line each."""
 
     @property
     def identical(self) -> bool:
@@ -80,16 +83,19 @@ def verify(
     verdict.same_makers = all(run.origin.makers == here for run in runs)
     verdict.not_recorded = sum(_missing(run) for run in runs)
     again, strays, balance, loosest = Again(runs, verdict.remarks), Counter[str](), Balance(), 0.0
+    course = Course()
     for topic, message in messages_of(path, namespace, (STATE, WAVEFORM, JOINTS), []):
         if found := again.interval_of(topic, message):
             _compare(verdict, topic, message, *found)
             if topic == STATE:
                 balance = balance.joined(balance_of_window(found[1]))
+                course = course.joined(found[1].course)
                 loosest = max(loosest, found[0].tolerance)
             progress(found[1].end)
         else:
             strays[topic] += 1
     verdict.ledger = ledger_warning(balance, loosest)
+    verdict.accuracy = list(course_warnings(course))
     verdict.left_out = strays.total()
     verdict.remarks += [
         f"{count} messages of {topic} belong to no interval that is simulated again"

@@ -11,7 +11,7 @@ from twin_recording import NAMESPACE, record
 from typer.testing import CliRunner
 
 from planetary_twin_py.cli import build_app
-from planetary_twin_py.recording.tables.message_tables import message_tables as tables
+from planetary_twin_py.recording.tables import message_tables as tables
 
 MESHES = [f"{kind}_{n}" for kind in ("sun_planet", "planet_ring") for n in (1, 2, 3)]
 

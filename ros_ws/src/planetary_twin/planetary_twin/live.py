@@ -190,7 +190,7 @@ class LiveTwin:
         """
         affordable = self.affordable
         self._tune(affordable)
-        begin = time.monotonic()
+        begin, idle = time.monotonic(), time.thread_time()
         try:
             window = self._twin.advance(duration)
         except RunawayError as reason:  # nothing of the interval is published
@@ -201,7 +201,8 @@ class LiveTwin:
         wait()
         waited = time.monotonic() - prepared
         self._listener.publish()
-        affordable.observe(time.monotonic() - begin - waited, window.repeated)
+        work = time.thread_time() - idle
+        affordable.observe(time.monotonic() - begin - waited, work, window.repeated)
         self._repeated = window.repeated
         return True
 

@@ -19,6 +19,7 @@ from planetary_twin_py.robot import robot_description
 from planetary_twin_py.runaway import RunawayError
 
 from . import simulation_services
+from .accuracy_report import AccuracyReport
 from .audience import Audience
 from .backlog import Backlog
 from .ledger_report import LedgerReport
@@ -54,6 +55,7 @@ class Simulation(ManagedNode):
         self._ramp = 0.0  # [s] in which what is being set is to be reached
         self._given = SimulationParameters(self)
         self._ledger = LedgerReport(self.get_namespace())
+        self._accuracy = AccuracyReport(self.get_namespace())
         self._telemetry: Telemetry | None = None
         self._before: Telemetry | None = None  # of the life before, closed
         self._audience: Audience | None = None
@@ -122,6 +124,7 @@ class Simulation(ManagedNode):
         """Turn an interval into messages ahead of its wall instant."""
         self._telemetry.prepare(window)
         self._ledger.add(window)
+        self._accuracy.add(window)
 
     def publish(self) -> None:
         """Send them at that instant."""
@@ -280,7 +283,7 @@ class Simulation(ManagedNode):
 
         def report_now(published: Mapping[str, int]) -> DiagnosticArray:
             message = report.message(live.progress, live.affordable, published, last=last)
-            message.status.append(self._ledger.status())
+            message.status += [self._ledger.status(), self._accuracy.status()]
             return message
 
         message = self._telemetry.diagnose(report_now)

@@ -1,0 +1,47 @@
+"""Reports in /diagnostics whether figures of the twin are as accurate as its tolerance says."""
+
+from __future__ import annotations
+
+import threading
+
+from diagnostic_msgs.msg import DiagnosticStatus, KeyValue
+from planetary_twin_py.recording.topics import status_name
+
+from planetary_twin_py import Window
+from planetary_twin_py.accuracy import Course, course_warnings
+
+ACCURACY = "simulation: accuracy"
+
+
+class AccuracyReport:
+    """
+    Judges the intervals since the last report as one run.
+
+    The twin's thread adds intervals, the node's thread takes reports.
+    """
+
+    def __init__(self, hardware: str) -> None:
+        self._hardware = hardware
+        self._lock = threading.Lock()
+        self._course = Course()
+
+    def add(self, window: Window) -> None:
+        """Add an interval."""
+        with self._lock:
+            self._course = self._course.joined(window.course)
+
+    def status(self) -> DiagnosticStatus:
+        """Return the report of what was added since the last one."""
+        with self._lock:
+            course, self._course = self._course, Course()
+        warnings = list(course_warnings(course))
+        return DiagnosticStatus(
+            level=DiagnosticStatus.WARN if warnings else DiagnosticStatus.OK,
+            name=status_name(ACCURACY, self._hardware),
+            message="; also: ".join(warnings) or "as the tolerance says",
+            hardware_id=self._hardware,
+            values=[
+                KeyValue(key=name, value=f"{getattr(course, name):.6g}")
+                for name in ("unsettled", "reversals", "unrepeated_flank_events")
+            ],
+        )

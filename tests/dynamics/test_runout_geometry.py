@@ -1,0 +1,173 @@
+"""Runout against involute flanks of gears whose toothing is off its axis, in two ways.
+
+Two involute gears whose base circles are a distance A apart in a direction psi touch where the sum
+of their unwound angles says, a closed form. And, without any line of action: through each point of
+one gear's flank runs an involute of the other gear's base circle; the angle at which it leaves that
+circle has an extreme where the two flanks would touch. By how far this angle moves, times the base
+radius, the error shifts the contact.
+"""
+
+import math
+
+import numpy as np
+import pytest
+
+import planetary_twin_py as pt
+from planetary_twin_py._records import BODIES, MESHES, new_record
+from planetary_twin_py.dynamics.bodies import base_radii
+from planetary_twin_py.dynamics.contact_events import departure
+from planetary_twin_py.dynamics.form_errors import LINES, form_error, place_lines
+from planetary_twin_py.dynamics.moment import MOMENT, set_moment
+from planetary_twin_py.dynamics.state import OPEN, STATE
+from planetary_twin_py.dynamics.train import build_train
+from planetary_twin_py.engine import Engine
+
+SIZE = 1e-6  # [m] small beside a tooth: errors are of first order in it
+SCENE = pt.load_scene("paper").replace(backlash="60 um")
+ANGLE, RADIUS = SCENE.gearset.pressure_angle, base_radii(SCENE)
+CENTRE = {"sun": 0.0, "planet": RADIUS["carrier"] / math.cos(ANGLE), "ring": 0.0}
+PAIRS = {False: ("sun", "planet"), True: ("planet", "ring")}
+
+
+def unwound(radius, base):
+    """tan(a) - a of an involute at `radius` (n,) [m]."""
+    return np.sqrt((radius / base) ** 2 - 1.0) - np.arccos(base / radius)
+
+
+def touching(ring, flank, off):
+    """Angle [rad] of the second gear's flank that touches the first's, `off` [m] by gear.
+
+    The flank of the first gear goes through the pitch point; `flank` +1: drive, -1: coast. A flank
+    that faces counter-clockwise falls back by `unwound` outwards, the other one advances.
+    """
+    first, second = PAIRS[ring]
+    sense = flank if ring else -flank
+    base = RADIUS[first]
+    radius = base / math.cos(ANGLE) * np.linspace(0.985, 1.015, 4001)
+    start = -sense * unwound(base / math.cos(ANGLE), base)
+    points = radius * np.exp(1j * (start + sense * unwound(radius, base)))
+    seen = points + CENTRE[first] + off.get(first, 0.0) - CENTRE[second] - off.get(second, 0.0)
+    if not ring:
+        seen = -seen  # angles about pi
+    angles = np.angle(seen) - sense * unwound(np.abs(seen), RADIUS[second])
+    inside = angles[1:-1]
+    extreme = inside.min() if inside.min() < min(angles[0], angles[-1]) else inside.max()
+    assert extreme not in (angles[0], angles[-1])
+    return extreme
+
+
+def geometric(ring, flank, gear, direction):
+    """e [m] of a flank with the toothing of a gear off by SIZE in a direction from the planet's."""
+    off = {gear: SIZE * np.exp(1j * direction)}
+    moved = touching(ring, flank, off) - touching(ring, flank, {})
+    return moved * RADIUS[PAIRS[ring][1]]
+
+
+def modelled(train, mesh, flank, turn):
+    """e [m] with the motor, the sun, `turn` turns on."""
+    state, angle = new_record(STATE), np.zeros((MESHES, LINES))
+    state.turns[0], state.fraction[0] = math.floor(turn), turn - math.floor(turn)
+    place_lines(train, state, mesh, angle)
+    return form_error(train, mesh, float(flank), angle, 0.0, 0.0)[0]
+
+
+# The direction in which a toothing is off, with the sun at rest and turned: gear, turns per turn of
+# the sun as seen from the held carrier, where it begins. Planet 1 meshes with the ring half a cycle
+# after the sun, from where the ring's turn is counted.
+TURNING = {
+    "sun": (1.0, math.pi),
+    "planet": (-30 / 20, math.pi),
+    "ring": (-30 / 70, 2.0 * math.pi * 0.5 / 70),
+}
+
+
+@pytest.mark.parametrize("flank", [1, -1], ids=["drive", "coast"])
+@pytest.mark.parametrize(
+    ("gear", "ring"), [("sun", False), ("planet", False), ("planet", True), ("ring", True)]
+)
+def test_runout_moves_both_flanks_as_eccentric_involutes_do(gear, ring, flank):
+    train = build_train(SCENE.replace(**{f"mesh.runout.{gear}": SIZE}))
+    mesh = int(train.meshes) // 2 if ring else 0
+    rate, begin = TURNING[gear]
+    turns = np.linspace(0.0, 7.0, 23)
+    found = [modelled(train, mesh, flank, turn) for turn in turns]
+    expected = [geometric(ring, flank, gear, begin + 2.0 * math.pi * rate * turn) for turn in turns]
+    assert found == pytest.approx(expected, abs=2e-3 * SIZE)
+
+
+def involute(cosine):
+    """inv a of the working pressure angle a."""
+    return math.tan(math.acos(cosine)) - math.acos(cosine)
+
+
+def closed_form(ring, flank, gear, size, direction):
+    """e [m] of a flank: how much less the gears approach than at their nominal centres.
+
+    cos a = (r_1 + r_2)/A of an external mesh, (r_2 - r_1)/A of an internal one. A turn of the line
+    of centres shifts both flanks alike, and inv a is what each is off the middle.
+    """
+    first, second = PAIRS[ring]
+    off = {gear: size * np.exp(1j * direction)}
+    between = CENTRE["planet"] + off.get("planet", 0.0) - off.get("ring" if ring else "sun", 0.0)
+    radii = RADIUS[second] - RADIUS[first] if ring else RADIUS[first] + RADIUS[second]
+    tangential = -radii * np.angle(between)
+    radial = (radii if ring else -radii) * (involute(radii / abs(between)) - INVOLUTE)
+    return -(tangential + flank * radial)
+
+
+INVOLUTE = involute(math.cos(ANGLE))
+
+
+@pytest.mark.parametrize("flank", [1, -1], ids=["drive", "coast"])
+@pytest.mark.parametrize(
+    ("gear", "ring"), [("sun", False), ("planet", False), ("planet", True), ("ring", True)]
+)
+def test_runout_is_of_first_order_what_the_closed_form_of_involutes_says(gear, ring, flank):
+    """The rest is of second order: 1/10 of the runout leaves 1/100 of it."""
+    rate, begin = TURNING[gear]
+    left = []
+    for size in (2e-5, 2e-6):
+        train = build_train(SCENE.replace(**{f"mesh.runout.{gear}": size}))
+        mesh = int(train.meshes) // 2 if ring else 0
+        turns = np.linspace(0.0, 7.0, 23)
+        found = np.array([modelled(train, mesh, flank, turn) for turn in turns])
+        directions = begin + 2.0 * math.pi * rate * turns
+        exact = [closed_form(ring, flank, gear, size, direction) for direction in directions]
+        left.append(abs(found - exact).max())
+        assert left[-1] < 0.01 * size
+    assert left[1] == pytest.approx(0.01 * left[0], rel=0.05)
+
+
+@pytest.mark.parametrize("place", [1, 2])
+def test_the_sun_is_off_by_the_same_towards_every_planet(place):
+    train = build_train(SCENE.replace(**{"mesh.runout.sun": SIZE}))
+    angles = SCENE.gearset.planet_angles
+    for flank in (1, -1):
+        for turn in (0.0, 0.3, 2.9):
+            direction = math.pi + 2.0 * math.pi * turn - (angles[place] - angles[0])
+            expected = geometric(False, flank, "sun", direction)
+            assert modelled(train, place, flank, turn) == pytest.approx(expected, abs=2e-3 * SIZE)
+
+
+def test_the_play_breathes_by_the_radial_part():
+    """Two flanks leave B + 2 e_R between them: the tangential part shifts both alike."""
+    train = build_train(SCENE.replace(**{"mesh.runout.sun": SIZE}))
+    play = [modelled(train, 0, 1, turn) - modelled(train, 0, -1, turn) for turn in (0.0, 0.25, 0.5)]
+    widest = 2.0 * SIZE * math.sin(ANGLE)
+    assert play == pytest.approx([widest, 0.0, -widest], abs=1e-12)
+
+
+@pytest.mark.parametrize("turn", [0.1, 0.45, 0.8])
+@pytest.mark.parametrize("shift", [-2e-7, 1e-7])
+def test_an_open_mesh_closes_where_the_nearer_of_its_flanks_is(turn, shift):
+    engine = Engine(SCENE.replace(**{"mesh.runout.sun": SIZE}, backlash="3 um"), 1e-3)
+    model, state, moment = engine.model, engine.march.end, new_record(MOMENT)
+    state.side[:] = OPEN
+    state.x[:] = 0.0
+    state.x[model.train.sun] = shift
+    state.fraction[0] = turn
+    set_moment(model, state, moment)
+    found = departure(model, state, moment, 0, state.x, np.zeros(BODIES), (0.0, 0.0, 0.0))
+    drive, coast = (modelled(model.train, 0, flank, turn) for flank in (1, -1))
+    nearest = min(1.5e-6 - shift + drive, 1.5e-6 + shift - coast)
+    assert found == pytest.approx(nearest, abs=1e-3 * SIZE)  # the shift turns the sun a little
