@@ -11,6 +11,8 @@ import pytest
 from dynamics.backlash_oscillator import Oscillator, amplitude
 from scipy.integrate import solve_ivp
 
+from planetary_twin_py.simulation import TOLERANCE
+
 ZETA, MEAN, ALTERNATING = 0.05, 0.1, 0.05
 STEP = 0.002  # of the sweeps, where it matters
 
@@ -52,6 +54,24 @@ def test_sweeping_up_the_flanks_part_where_the_linear_amplitude_reaches_the_mean
             break
     assert parted - STEP - 1e-9 <= 0.8206 <= parted + 1e-9
     assert jumped == pytest.approx(0.83)  # it grazes until 0.828; so does RK4 on the same sweep
+
+
+def near_grazing(ratio, tolerance):
+    """Settled amplitude of flanks that just part, reached in small steps of the frequency."""
+    oscillator = Oscillator(tolerance=tolerance)
+    for step in (0.7, 0.75, 0.79, 0.8, 0.805, 0.81, 0.815, 0.82, ratio):
+        oscillator.set(step)
+        x = oscillator.settled()
+    assert separates(x)
+    return amplitude(x)
+
+
+@pytest.mark.parametrize("ratio", [0.822, 0.828])
+def test_near_grazing_the_amplitude_keeps_to_the_default_tolerance(ratio):
+    """The tolerance refers to half the backlash, 1; the amplitude is a tenth of it."""
+    exact = near_grazing(ratio, 1e-8)
+    assert near_grazing(ratio, TOLERANCE) == pytest.approx(exact, abs=TOLERANCE)
+    assert near_grazing(ratio, 0.01 * TOLERANCE) == pytest.approx(exact, abs=0.01 * TOLERANCE)
 
 
 IMPACTS = [

@@ -44,8 +44,8 @@ def test_creeping_costs_the_longest_steps_and_nothing_else():
     run = sound_run(PAPER.replace(input_speed=SPEED), 1.0, 100.0)
     assert run.stats.pair_events == run.stats.flank_events == 0
     assert run.stats.steps < 1.1 * 1000
-    # 3e-12 m at every tolerance from 1e-4 to 1e-6: friction that depends on the place lets the
-    # speed drift off its set-point, by a factor of e in about 0.2 s.
+    # 3e-12 m at every tolerance from 1e-4 to 1e-6: with friction the speed drifts off what is set,
+    # by a factor of e in about 0.2 s. Without it nothing moves, see below.
     assert np.ptp(run.dte[-10:], axis=0).max() < 5e-12
 
 

@@ -75,3 +75,25 @@ def test_outside_its_range_a_stiffness_is_refused_in_one_line_before_anything_ru
     assert text.startswith(f"{name} = {value!r}") and "\n" not in text
     if not isinstance(value, str):
         assert "1000" in text and "1e+13" in text
+
+
+@pytest.mark.parametrize("stiffness", [3e3, 1e6, 1e8])
+@pytest.mark.parametrize(
+    "changes", [{}, {"input_speed": 800.0, "input_torque": 5.0, "torque_ripple": 20.0}]
+)
+def test_a_light_load_that_swings_at_54_khz_on_its_coupling_converges(stiffness, changes):
+    """Without damping of the coupling; against the other method at a tighter tolerance."""
+    load = {
+        "drive.output.coupling_stiffness": stiffness,
+        "drive.output.coupling_damping": 0.0,
+        "drive.output.inertia": stiffness / (2.0 * np.pi * 54e3) ** 2,
+    }
+    scene = PAPER.replace(**load, **changes)
+    exact = pt.simulate(scene, 0.005, tolerance=1e-6, method="rosenbrock")
+    run = pt.simulate(scene, 0.005, tolerance=1e-5)
+    assert np.sqrt(np.mean((run.dte - exact.dte) ** 2) / np.mean(exact.dte**2)) < 1e-4
+    losses = [each.mesh["power_loss"].sum() for each in (run, exact)]
+    assert losses[0] == pytest.approx(losses[1], rel=1e-4)
+    energy = run.energy
+    turnover = sum(map(abs, energy.machines)) + abs(energy.kinetic) + abs(energy.elastic)
+    assert abs(energy.residual) < 1e-6 * turnover
