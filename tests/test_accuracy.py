@@ -4,12 +4,12 @@ import json
 import warnings
 
 import pytest
-from planetary_twin_py.recording.offline import Plan, record
 from typer.testing import CliRunner
 
 import planetary_twin_py as pt
 from planetary_twin_py.accuracy import Course, course_warnings
 from planetary_twin_py.cli import build_app
+from planetary_twin_py.recording.runs.offline import Plan, record
 from planetary_twin_py.recording.runs.verify import verify
 from planetary_twin_py.studies.axes import Axis
 from planetary_twin_py.studies.inaccurate import inaccuracies

@@ -3,12 +3,12 @@
 import numpy as np
 import pyarrow as pa
 import pytest
-from planetary_twin_py.recording.tables.message_tables.export import Export, export
-from planetary_twin_py.recording.tables.message_tables.rig_recording import write_measured
 from pyarrow import csv, parquet
 from studies.fit.rig import PAPER, record
 
 import planetary_twin_py as pt
+from planetary_twin_py.recording.tables.export import Export, export
+from planetary_twin_py.recording.tables.rig_recording import write_measured
 from planetary_twin_py.studies.fit import stretch
 from planetary_twin_py.studies.fit.identify import Search, identify
 from planetary_twin_py.studies.fit.stretch import read_stretch

@@ -5,10 +5,10 @@ from __future__ import annotations
 import threading
 
 from diagnostic_msgs.msg import DiagnosticStatus, KeyValue
-from planetary_twin_py.recording.topics import status_name
 
 from planetary_twin_py import Window
 from planetary_twin_py.accuracy import Course, course_warnings
+from planetary_twin_py.recording.ros2.topics import status_name
 
 ACCURACY = "simulation: accuracy"
 
