@@ -39,6 +39,8 @@ class Course(NamedTuple):
     """Steps of a motion that repeats itself."""
     unsettled: float = 0.0
     """Time that is missing until friction has forgotten the start [s]."""
+    both_flanks: int = 0
+    """Steps in which both flanks of a mesh touch, of which one carries in this model."""
 
     @property
     def unrepeated_flank_events(self) -> int:
@@ -52,6 +54,7 @@ class Course(NamedTuple):
             self.reversals - before.reversals,
             self.repeated_steps - before.repeated_steps,
             self.unsettled,
+            self.both_flanks - before.both_flanks,
         )
 
     def joined(self, later: Course) -> Course:
@@ -61,6 +64,7 @@ class Course(NamedTuple):
             self.reversals + later.reversals,
             self.repeated_steps + later.repeated_steps,
             later.unsettled,
+            self.both_flanks + later.both_flanks,
         )
 
 
@@ -72,7 +76,11 @@ def course_so_far(control: Record, unsettled: float) -> Course:
         unsettled: time that is missing until friction has forgotten the start [s].
     """
     return Course(
-        int(control.flank_events), int(control.reversals), int(control.repeated), unsettled
+        int(control.flank_events),
+        int(control.reversals),
+        int(control.repeated),
+        unsettled,
+        int(control.both_flanks),
     )
 
 
@@ -87,7 +95,9 @@ def accuracy_warnings(scene: Scene, run: Result) -> Iterator[str]:
     elapsed = max(run.duration, float(run.time[-1]))  # the time of settling counts, too
     missing = unsettled(elapsed * rate, rate)
     yield from course_warnings(
-        Course(stats.flank_events, stats.reversals, stats.repeated_steps, missing)
+        Course(
+            stats.flank_events, stats.reversals, stats.repeated_steps, missing, stats.both_flanks
+        )
     )
 
 
@@ -105,6 +115,13 @@ def course_warnings(course: Course) -> Iterator[str]:
             f"vibration stops gears against the carrier, or nearly so, in {course.reversals} "
             "steps: small errors grow where friction reverses, so errors may exceed ten times the "
             "tolerance; compare with a run at a tighter one"
+        )
+    if course.both_flanks > 0:
+        yield (
+            f"both flanks of a tooth touch in {course.both_flanks} steps, because mesh.runout "
+            "closes the backlash by more than the load opens it, and only one of them carries in "
+            "this model: mesh forces and transmission error are wrong there; increase backlash, "
+            "or reduce mesh.runout"
         )
     if course.unrepeated_flank_events > 0:
         yield (

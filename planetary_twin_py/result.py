@@ -78,6 +78,8 @@ class Stats:
     """Flanks that met or parted."""
     reversals: int
     """Steps in which vibration may have stopped or reversed a gear against the carrier."""
+    both_flanks: int
+    """Steps in which both flanks of a mesh touch, of which one carries in this model."""
     wall_time: float
     """[s]"""
     real_time_factor: float

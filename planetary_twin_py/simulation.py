@@ -174,6 +174,7 @@ def _result(
             pair_events=int(count.pair_events),
             flank_events=int(count.flank_events),
             reversals=int(count.reversals),
+            both_flanks=int(count.both_flanks),
             wall_time=wall,
             real_time_factor=float(engine.reached) / wall,
         ),

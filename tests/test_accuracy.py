@@ -26,6 +26,7 @@ RATTLE = {
     "mesh.damping.law": "viscous",
     "mesh.damping.damping_ratio": 0.01,
 }
+WEDGED = {"mesh.runout.sun": 4e-5}  # closes 29 um; 63 N m open 10 um
 STOPPING = {
     "input_speed": pt.rpm(100),
     "input_torque": 260.0,
@@ -36,7 +37,13 @@ STOPPING = {
 
 
 @pytest.mark.parametrize(
-    "changes", [{}, {"input_speed": 0.0}, {"dynamics": "quasi_static", "input_speed": 0.01}]
+    "changes",
+    [
+        {},
+        {"input_speed": 0.0},
+        {"dynamics": "quasi_static", "input_speed": 0.01},
+        {"mesh.runout.sun": 4e-6},  # closes 2.9 um of 0.2 um of backlash; 63 N m open 10 um
+    ],
 )
 def test_a_run_that_keeps_to_its_tolerance_is_not_warned_of(changes):
     with warnings.catch_warnings():
@@ -50,6 +57,7 @@ def test_a_run_that_keeps_to_its_tolerance_is_not_warned_of(changes):
         ({"input_speed": pt.rpm(0.01)}, "the gears creep, and friction has not forgotten"),
         (RATTLE, "flanks meet and part"),
         (STOPPING, "vibration stops gears"),
+        (WEDGED, "both flanks of a tooth touch"),
     ],
 )
 def test_a_run_that_may_not_keep_to_it_says_why(changes, reason):

@@ -17,6 +17,7 @@ from .._records import Record
 from ..dynamics.contact_events import change_contact
 from ..dynamics.moment import set_moment
 from ..dynamics.tooth_friction import friction_layer
+from .both_flanks import note_both_flanks
 from .clock import Instant, Sampling, after, delay, due, sampling
 from .collocated_step import FAILED, collocated_step
 from .creep import avoid_reversals, hold_or_slide
@@ -43,6 +44,7 @@ def begin_step(model: Record, march: Record) -> None:
     hold_or_slide(model, march)
     _set_tolerances(model, march)
     avoid_reversals(model, march)
+    note_both_flanks(model, march)
 
 
 @kernel

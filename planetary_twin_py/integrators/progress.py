@@ -43,6 +43,7 @@ CONTROL = layout(
     pair_events=WHOLE,
     flank_events=WHOLE,
     reversals=WHOLE,  # steps in which vibration may reverse friction, see `creep`
+    both_flanks=WHOLE,  # steps in which both flanks of a mesh touch, see there
 )
 
 # A run in progress: the step from `begin` to `end`, and what interpolates it.

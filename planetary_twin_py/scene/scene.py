@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterator
 from importlib import resources
 from pathlib import Path
@@ -56,7 +55,7 @@ class Scene(Section):
 
     @model_validator(mode="after")
     def _parts_fit_together(self) -> Self:
-        if errors := [*self._machines(), *self._limits(), *self._faulty_teeth(), *self._play()]:
+        if errors := [*self._machines(), *self._limits(), *self._faulty_teeth()]:
             raise ValueError("\n".join(errors))
         return self
 
@@ -92,20 +91,6 @@ class Scene(Section):
                     yield f"faults.{n}.{name} = {value}: must be at most {last}"
             if isinstance(fault, Crack) and fault.depth and self.mesh.stiffness != "involute":
                 yield f"faults.{n}.depth: needs mesh.stiffness = involute; or give stiffness_loss"
-
-    def _play(self) -> Iterator[str]:
-        """Error of a runout that presses both flanks of a tooth into their neighbours."""
-        runout, angle = self.mesh.runout, self.gearset.pressure_angle
-        backlash = self.operating_point.backlash
-        half = self.mesh.flanks(backlash, angle)[0]
-        closed = math.sin(angle) * (runout.planet + max(runout.sun, runout.ring))
-        if closed > half:
-            least = 1.005 * closed / self.mesh.flanks(1.0, angle)[0]  # 3 digits do not fall below
-            yield (
-                f"backlash = {backlash!r}: must be at least {least:.3g} m, as mesh.runout closes "
-                f"the play by {2.0 * (closed - half):.3g} m more than there is: both flanks of a "
-                "tooth would touch at once"
-            )
 
     @property
     def tunables(self) -> dict[str, Tunable]:

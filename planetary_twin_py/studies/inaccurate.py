@@ -17,7 +17,7 @@ def inaccuracies(table: pa.Table) -> Iterator[str]:
     Args:
         table: of `tabulate`.
     """
-    names = ("unsettled", "reversals", "unrepeated_flank_events")
+    names = ("unsettled", "reversals", "both_flanks", "unrepeated_flank_events")
     for name in names:
         found = [value or 0.0 for value in table[name].to_pylist()]
         points, most = sum(value > 0.0 for value in found), max(found, default=0.0)
@@ -31,4 +31,6 @@ def _worst(name: str, most: float) -> Course:
         return Course(unsettled=most)
     if name == "reversals":
         return Course(reversals=int(most))
+    if name == "both_flanks":
+        return Course(both_flanks=int(most))
     return Course(flank_events=int(most))

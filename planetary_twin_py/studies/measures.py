@@ -84,6 +84,7 @@ MEASURES |= {
 COURSE = {
     "unsettled": Measure("s", "time that is missing until creeping gears forget the start"),
     "reversals": Measure("", "steps in which vibration stops gears, or nearly so"),
+    "both_flanks": Measure("", "steps in which both flanks of a tooth touch"),
     "unrepeated_flank_events": Measure(
         "", "flanks that meet or part in a motion that does not come to repeat itself"
     ),

@@ -42,6 +42,6 @@ class AccuracyReport:
             hardware_id=self._hardware,
             values=[
                 KeyValue(key=name, value=f"{getattr(course, name):.6g}")
-                for name in ("unsettled", "reversals", "unrepeated_flank_events")
+                for name in ("unsettled", "reversals", "both_flanks", "unrepeated_flank_events")
             ],
         )
