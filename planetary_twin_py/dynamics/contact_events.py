@@ -75,21 +75,8 @@ def play_left(
     push = d + load.release * motion[1]
     if side != OPEN:
         return side * push - half + slack
-    return slack - max(squeezes(load, motion, wider)) + half
-
-
-@law
-def squeezes(
-    load: Record, motion: tuple[float, float], wider: tuple[float, float]
-) -> tuple[float, float]:
-    """By how far [m] the drive and the coast flanks of an open mesh are beyond its middle.
-
-    Each is the smaller of its squeeze and of its force over the stiffness. Where errors of form
-    close the play, both may be positive.
-    """
-    d, push = motion[0], motion[0] + load.release * motion[1]
     gap, slower = wider[0], wider[0] + load.release * wider[1]
-    return min(d - gap, push - slower), min(-d - gap, -push - slower)
+    return slack - max(min(d - gap, push - slower), min(-d - gap, -push - slower)) + half
 
 
 @kernel
@@ -105,11 +92,8 @@ def change_contact(model: Record, state: Record, moment: Record, i: int) -> None
         place_mesh(
             train, state, moment, i, frame_cycle(train, state, 1) + cycle_shift(train, state.x)
         )
-        d, rate, _ = deflection(train, moment, i, state.x, state.v, 0.0, 0.0)
-        tau = damping_time(train, train.kind[i], passing_rate(train, moment, state.v))
-        wider = widening(train, moment, i, OPEN, 0.0, 0.0)
-        drive, coast = squeezes(model.load, (d, tau * rate), (wider[0], tau * wider[1]))
-        side = DRIVE_SIDE if drive > coast else COAST_SIDE
+        d = deflection(train, moment, i, state.x, state.v, 0.0, 0.0)[0]
+        side = DRIVE_SIDE if d > 0.0 else COAST_SIDE
         state.segment[i] = find_segment(
             train, train.kind[i], mesh_cycle(train, state, i, side), 1.0
         )

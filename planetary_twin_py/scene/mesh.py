@@ -81,8 +81,8 @@ class Runout(Section):
 
     Each adds its size times a sine of the gear's turn to the error of form e, with the sign of
     `sun_planet_error` and `planet_ring_error`. The sine leans by the pressure angle phi, on the
-    coast flanks the other way: the play changes by up to 2 sin(phi) times the size. A run in
-    which that makes both flanks of a tooth touch at once warns.
+    coast flanks the other way: the play changes by up to 2 sin(phi) times the size. A scene is
+    refused in which that presses both flanks of a tooth, under the static load or half of it.
     """
 
     sun: float = quantity("m", "eccentricity of the sun", 0.0, ge=0.0, le=1e-2)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
 from importlib import resources
 from pathlib import Path
@@ -24,6 +25,7 @@ from .quantity import SceneError, Section, listed
 from .supports import Supports
 from .yaml_text import LONGEST, read_yaml
 
+SPECIFIC_STIFFNESS = 2e10  # [Pa], of a mesh along the face (ISO 6336-1, 20 N/(mm um))
 _LIMITS = {  # fields of the drive that bound a quantity
     "input_speed": "speed_limit",
     "second_input_speed": "speed_limit",
@@ -55,7 +57,7 @@ class Scene(Section):
 
     @model_validator(mode="after")
     def _parts_fit_together(self) -> Self:
-        if errors := [*self._machines(), *self._limits(), *self._faulty_teeth()]:
+        if errors := [*self._machines(), *self._limits(), *self._faulty_teeth(), *self._play()]:
             raise ValueError("\n".join(errors))
         return self
 
@@ -91,6 +93,34 @@ class Scene(Section):
                     yield f"faults.{n}.{name} = {value}: must be at most {last}"
             if isinstance(fault, Crack) and fault.depth and self.mesh.stiffness != "involute":
                 yield f"faults.{n}.depth: needs mesh.stiffness = involute; or give stiffness_loss"
+
+    def _play(self) -> Iterator[str]:
+        """Error of a runout that presses both flanks of a tooth into their neighbours."""
+        runout, angle = self.mesh.runout, self.gearset.pressure_angle
+        backlash = self.operating_point.backlash
+        half = self.mesh.flanks(backlash, angle)[0]
+        closed = math.sin(angle) * (runout.planet + max(runout.sun, runout.ring)) - half
+        opened = self._least_deflection()
+        if 2.0 * closed > 0.5 * opened:  # half of it may be lost to vibration
+            least = 1.005 * (closed + half) / self.mesh.flanks(1.0, angle)[0]  # rounded upwards
+            yield (
+                f"backlash = {backlash!r}: must be at least {least:.3g} m, as mesh.runout closes "
+                f"the play by {2.0 * closed:.3g} m more than there is, of which the load opens "
+                f"{0.5 * opened:.3g} m: both flanks of a tooth would touch at once"
+            )
+
+    def _least_deflection(self) -> float:
+        """Deflection [m] of a sun mesh under the least torque, all its tooth pairs in contact."""
+        gearset, mesh, point = self.gearset, self.mesh, self.operating_point
+        teeth = gearset.teeth
+        # Torques of sun, ring and carrier are as these tooth numbers.
+        driven = {"sun": teeth.sun, "ring": teeth.ring, "carrier": teeth.sun + teeth.ring}
+        count = driven[self.drive.input.member]
+        radius = 0.5 * gearset.module * count * math.cos(gearset.pressure_angle)
+        torque = max(abs(point.input_torque) - abs(point.torque_ripple), 0.0)
+        force = torque / (gearset.planets * radius)
+        single = mesh.sun_planet_stiffness or SPECIFIC_STIFFNESS * gearset.face_width
+        return force / (single * max(mesh.double_pair_ratio, 1.0))
 
     @property
     def tunables(self) -> dict[str, Tunable]:
