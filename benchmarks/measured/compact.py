@@ -151,8 +151,8 @@ def rig_orders() -> Iterator[Row]:
             f"{found:.2f}",
             verdict(abs(found - measured) < 0.05) if same else UNDECIDED,
             "bound: 0.05 orders. The twin's line is the nearest in the force of one sun mesh that "
-            "has a tenth of the height of the mesh line. A runout of 20 um is assumed, and the rig's "
-            "lines are in the motor speed. "
+            "has a tenth of the height of the mesh line. A runout of 20 um is assumed, and the "
+            "rig's lines are in the motor speed. "
             + ("" if same else "The twin's line is mesh + 3 planet, too near to be separated."),
         )
 
