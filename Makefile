@@ -17,7 +17,7 @@ ifneq ($(AMENT_PREFIX_PATH)$(_ROS_WHEELS_BOOTSTRAP_COMPLETE),)
 unexport LD_LIBRARY_PATH _ROS_WHEELS_BOOTSTRAP_COMPLETE
 endif
 
-.PHONY: setup run test test-all test-exhaustive test-model test-nodes test-fast soak bench view picture sample studies docs lint lock clean
+.PHONY: setup run test test-all test-exhaustive test-model test-nodes test-fast soak bench view picture sample studies gallery measured docs lint lock clean
 
 setup: $(STAMPS)/interfaces $(STAMPS)/kernels $(STAMPS)/nodes
 
@@ -85,6 +85,14 @@ studies: setup
 	$(BIN)/planetary-twin bifurcation paper --input-speed 9500rpm:12500rpm:121 \
 		--set input_torque=10 --set backlash=20um --set mesh.damping.loss_factor=0.006 \
 		--set drive.speed_limit=14000rpm --cycles 40 --tolerance 1e-3 --out docs/bifurcation.png
+
+# The pictures of docs/gallery.md, made by the commands on that page.
+gallery: setup
+	cd docs && PATH=$(CURDIR)/$(BIN):$$PATH ../$(BIN)/python -m _generate.gallery
+
+# docs/measured.md: published and measured figures beside the twin's.
+measured: setup
+	cd benchmarks && PATH=$(CURDIR)/$(BIN):$$PATH ../$(BIN)/python -m measured ../docs/measured.md
 
 # The site, and the pages of its reference that are made from the code; a warning, so a broken link
 # too, is an error.

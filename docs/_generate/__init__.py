@@ -1,4 +1,4 @@
-"""Pages of the reference that are made from the code, each by a module of its own."""
+"""Pages of the reference that are generated from the code, each by a module of its own."""
 
 from . import command_line, interfaces, nodes, scene_fields, topics_and_services
 

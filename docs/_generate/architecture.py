@@ -1,6 +1,6 @@
 """Draws docs/architecture.svg: what the folders are, and which way data flows.
 
-Run it to draw the picture anew: python docs/_generate/architecture.py
+Run it to redraw the picture: python docs/_generate/architecture.py
 """
 
 from pathlib import Path

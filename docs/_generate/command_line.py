@@ -7,7 +7,7 @@ from typer.cli import get_docs_for_click
 
 from planetary_twin_py.cli import build_app
 
-_TITLE = "# Command line\n\nMade from the application that `planetary-twin --help` shows.\n"
+_TITLE = "# Command line\n\nGenerated from the application that `planetary-twin --help` shows.\n"
 
 
 def page() -> str:

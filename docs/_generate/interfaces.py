@@ -12,8 +12,8 @@ _PARTS = {"msg": ("",), "srv": ("Request", "Response")}
 _COLUMNS = "\n| field | type | unit | range | meaning |\n|---|---|---|---|---|\n"
 _HEAD = """# Messages and services
 
-Made from the files of `msgs_spec`, package `planetary_twin_msgs`. What stands in no column was not
-said there: a unit of - is none, a range that is empty is any.
+Generated from the files of `msgs_spec`, package `planetary_twin_msgs`. A unit of - means
+dimensionless. A field without a range accepts any value.
 """
 
 
@@ -24,7 +24,7 @@ def page() -> str:
 
 
 def section(file: Path) -> str:
-    """What one file says.
+    """The section of one file.
 
     Raises:
         ValueError: a line is neither a comment nor a field with one.
@@ -39,7 +39,7 @@ def section(file: Path) -> str:
 
 
 def _table(lines: list[str], file: Path) -> str:
-    """Comments as text, fields as rows; a comment between fields begins another table."""
+    """Comments as text, fields as rows; a comment between fields starts another table."""
     text, rows = "", False
     for line in lines:
         field = _FIELD.match(line)

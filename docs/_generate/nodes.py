@@ -1,10 +1,10 @@
-"""What the nodes publish, serve and can be set to, asked of the nodes themselves."""
+"""Topics, services and parameters of the nodes, read from the nodes themselves."""
 
 import os
 from collections.abc import Iterator
 from tempfile import TemporaryDirectory
 
-# The nodes are asked in this process: nobody else is to hear of them.
+# The nodes exist in this process only; no other process should discover them.
 os.environ["ROS_AUTOMATIC_DISCOVERY_RANGE"] = "OFF"
 
 import rclpy
@@ -27,13 +27,16 @@ _OF_ROS = {"use_sim_time", "start_type_description_service"}
 _TITLES = "parameter", "type", "default", "range", "changes", "meaning"
 _HEAD = """# Nodes
 
-Made from the nodes, with the scene `paper`. Names are below the namespace `/planetary_twin` unless
-they begin with a slash. [Topics and services](topics-and-services.md) says what these are for and
-how they act together. The parameter and lifecycle services that every node has are left out.
+Generated from the nodes, with the scene `paper`. Names are relative to the namespace
+`/planetary_twin` unless they start with a slash. [Topics and services](topics-and-services.md)
+explains their use. The parameter and lifecycle services of every node are left out.
 
-Parameters change *live*: at any time; *unconfigured*: until the node is configured, and after it is
-cleaned up; *with scene*: they show the scene and are set by choosing another one; *at start*: with
-`-p NAME:=VALUE` alone.
+| parameters change | when |
+|---|---|
+| live | at any time |
+| unconfigured | until the node is configured, and after it is cleaned up |
+| with scene | they show the scene; choose another scene to set them |
+| at start | with `-p NAME:=VALUE` only |
 """
 
 
@@ -61,7 +64,7 @@ def _table(title: str, second: str, rows: Iterator[tuple[str, str]]) -> str:
 
 
 def _topics(node: Node) -> Iterator[tuple[str, str]]:
-    """What a node offers once it is configured; a replay offers what its recording holds."""
+    """Topics of a configured node; those of a replay depend on its recording."""
     if isinstance(node, Replay):
         return
     with TemporaryDirectory() as folder:
@@ -98,15 +101,15 @@ def _parameters(node: Node) -> str:
     return "".join(lines)
 
 
-def _parameter(told: ParameterDescriptor, value: object) -> str:
-    limits = told.floating_point_range
+def _parameter(descriptor: ParameterDescriptor, value: object) -> str:
+    limits = descriptor.floating_point_range
     span = f"{limits[0].from_value:g} to {limits[0].to_value:g}" if limits else ""
     cells = (
-        f"`{told.name}`",
-        _TYPES[told.type],
+        f"`{descriptor.name}`",
+        _TYPES[descriptor.type],
         f"{value:g}" if isinstance(value, float) else f"`{value!r}`",
         span,
-        changes(told),
-        told.description,
+        changes(descriptor),
+        descriptor.description,
     )
     return "| " + " | ".join(cells) + " |\n"

@@ -4,14 +4,14 @@ from planetary_twin_py.scene.fields import SceneField, SceneSection, scene_secti
 
 _HEAD = """# Fields of a scene
 
-Made from the schema that checks a scene. `planetary-twin fields` lists them on the command line,
-`planetary-twin fields mesh.damping` a part of them. Names are those that `--set`, `sweep` and
-`Scene.replace` take; what is in `operating_point` goes without it, too: `backlash`. Faults are a
-list, N counts them from 0.
+Generated from the schema of a scene. `planetary-twin fields` lists the fields on the command line,
+`planetary-twin fields mesh.damping` a part of them. `--set`, `sweep` and `Scene.replace` accept
+these names; fields of `operating_point` also without the prefix: `backlash`. Faults are a list; N
+counts them from 0.
 
-Defaults and ranges are in the unit beside them; values may be given in any unit of its kind:
-`0.2 um`, `1000 rpm`. A round bracket leaves the end of a range out, a unit of - is that of a pure
-number. How they act together is told in [scenes](../scenes.md).
+Defaults and ranges are in the unit beside them. Values may have any compatible unit: `0.2 um`,
+`1000 rpm`. A round bracket excludes the end of a range. A unit of - means dimensionless.
+[Scenes](../scenes.md) explains how the fields act together.
 """
 _COLUMNS = "| field | unit | default | range | meaning |\n|---|---|---|---|---|\n"
 

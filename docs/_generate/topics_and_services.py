@@ -1,4 +1,4 @@
-"""The page that explains the interfaces, from `msgs_spec`, where it stands beside their files."""
+"""The page on topics, services and parameters: the README of `msgs_spec`."""
 
 import re
 
@@ -8,6 +8,6 @@ _FILE = re.compile(r"\((?:msg|srv)/(\w+)\.(?:msg|srv)\)")
 
 
 def page() -> str:
-    """The same with links into the page of messages instead of to the files."""
+    """The README, with links to the page of messages instead of the files."""
     text = (SPEC / "README.md").read_text()
     return _FILE.sub(lambda link: f"(messages.md#{link[1].lower()})", text)

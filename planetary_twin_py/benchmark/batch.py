@@ -93,7 +93,7 @@ def batch_markdown(rows: Sequence[Throughput]) -> str:
     return f"""
 ## Many operating points
 
-`simulate_many` at tolerance {TOLERANCE:g}: wall time, set-up and samples at 50 kHz included.
+`simulate_many` at tolerance {TOLERANCE:g}: wall time, with set-up and samples at 50 kHz.
 
 {table}
 """

@@ -177,11 +177,12 @@ def cost_markdown(costs: Sequence[Cost]) -> str:
     return f"""
 ## What speed costs
 
-The scene `paper` at tolerance {TOLERANCE:g}, method `{METHOD}`, without samples, set-up left out.
-Against planets: teeth {TEETH.sun}/{TEETH.planet}/{TEETH.ring} at the same meshing frequency and
-load of a planet, or those next to them with which planets mesh in phase, so that one is integrated
-for all. Against duration: `simulate` by wall time, with set-up and samples at
-{SAMPLE_RATE / 1e3:g} kHz.
+The scene `paper` at tolerance {TOLERANCE:g}, method `{METHOD}`, without samples and set-up.
+
+- Planets: teeth {TEETH.sun}/{TEETH.planet}/{TEETH.ring} at the same meshing frequency and load of a
+  planet. *In phase*: the nearest teeth with which planets mesh in phase, so that one is integrated
+  for all.
+- Duration: `simulate` by wall time, with set-up and samples at {SAMPLE_RATE / 1e3:g} kHz.
 
 {body}
 """

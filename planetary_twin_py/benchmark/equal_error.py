@@ -42,8 +42,8 @@ def equal_error_markdown(rows: Sequence[Row], steady: Sequence[Steady]) -> str:
     return f"""
 ## At equal error
 
-Speed of the quickest run whose error is no larger, samples included; in brackets how many times
-quicker `{METHOD}` is. *a minute*: as below, without samples.
+Speed of the fastest run within this error, with samples; in brackets the ratio of `{METHOD}` to it.
+*a minute*: as below, without samples.
 
 {body}
 """

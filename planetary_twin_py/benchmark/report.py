@@ -21,23 +21,23 @@ _TITLES = (
 
 _PAGE = Template("""# Speed against error
 
-Made by the command in `benchmarks/README.md`: one core of a shared machine, so read ratios.
-Kernels are compiled and cached before; scene, arrays and start take $setup ms more.
+Made by the command in `benchmarks/README.md` on one core of a shared machine, so compare ratios.
+Kernels are already compiled and cached; scene, arrays and start take $setup ms more.
 
-- *speed*: simulated over processor time without samples, median of $rounds rounds, beside it the
-  slowest and the fastest; *sampled*: the same with samples of all meshes at $rate kHz.
-- *end to end*: a run of `simulate` over $whole s by wall time, set-up and samples included.
-- *DTE error*: rms error of the dynamic transmission error over its rms, the worst mesh.
-- *loss error*: error of the mean power loss.
+- *speed*: simulated time over processor time without samples, median of $rounds rounds; *spread*: the
+  slowest and the fastest round; *sampled*: speed with samples of all meshes at $rate kHz.
+- *end to end*: speed of `simulate` over $whole s by wall time, with set-up and samples.
+- *DTE error*: rms error of the dynamic transmission error over its rms, for the worst mesh.
+- *loss error*: relative error of the mean power loss.
 - Reference: SciPy's DOP853 from event to event, relative tolerance $relative. It shares the
   equations with the integrator, but no step, step control, interpolant or event location.
-  `tests/reference_model.py` is a second one that shares no code with the model at all.
+  `tests/reference_model.py` is a second reference, which shares no code with the model.
 $peers
 The method `march` is exponential collocation at Radau points in the modes of the meshes in contact,
 from event to event; near standstill ROS34PW2, a linearly implicit Runge-Kutta method of order 3,
 takes over (`integrators/`). `tolerance` bounds the local error of a step relative to the static
-deflection of the meshes; in these cases the DTE error comes out at $least to $most times the
-tolerance. The default method, `auto`, does the same until steady running repeats itself, see below.
+deflection of the meshes; in these cases the DTE error is $least to $most times the tolerance. The
+default method, `auto`, does the same until steady running is periodic, see below.
 $picture$summary
 ## All runs
 
@@ -49,8 +49,8 @@ $cases
 
 _PEERS = f"""- Methods other than {" and ".join(f"`{name}`" for name in METHODS)} are off-the-shelf
   solvers and fixed steps, see `benchmark/peers/`. They take the same equations as one compiled
-  function of time and state, and are not told of events. Their only time is that with samples,
-  which they interpolate, but without working losses out of the states.
+  function of time and state, without information about events. Their only time is the one with
+  samples, which they interpolate; it excludes the computation of losses from the states.
 """
 
 

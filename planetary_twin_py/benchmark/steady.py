@@ -150,14 +150,15 @@ def steady_markdown(rows: Sequence[Steady]) -> str:
     return f"""
 ## Steady running
 
-What the default method, `auto`, makes of the same cases over {MINUTE:g} s: once mesh cycles
-come back to where they began, they are not computed again (`integrators/repetition.py`).
-*a minute*: simulated over processor time from the start, without samples, the time it takes to
-settle included. Errors are those of the last {COMPARED * 1e3:g} ms before {BY:g} s, against
-`{METHOD}` at tolerance {EXACT:g}. *late by*: mesh cycles. The speed loop makes good by an angle
-what friction is wrong by; with 3 Hz it is so soft that a loss wrong by 1e-6 is 3e-6 of a cycle.
-The DTE error is what this shift does not explain, as far as samples at
-{SAMPLE_RATE / 1e3:g} kHz resolve it: at 17 000 rpm there are six in a cycle.
+The default method, `auto`, in the same cases over {MINUTE:g} s. Once mesh cycles are periodic, they are
+not computed again (`integrators/repetition.py`).
+
+- *a minute*: simulated time over processor time from the start, without samples, with settling.
+- Errors are those of the last {COMPARED * 1e3:g} ms before {BY:g} s, against `{METHOD}` at tolerance {EXACT:g}.
+- *late by*: delay in mesh cycles. The speed loop compensates an error of friction by an angle; with
+  3 Hz it is so soft that a loss error of 1e-6 gives 3e-6 of a cycle.
+- *DTE error*: without this delay, as far as samples at {SAMPLE_RATE / 1e3:g} kHz resolve it: at
+  17 000 rpm there are six in a cycle.
 
 {body}
 """

@@ -209,7 +209,7 @@ def mode_shapes(evidence: Evidence) -> Entry:
             ),
             Claim(
                 says="the modes change drastically as Ksp varies",
-                ours=f"the least alike of all shapes at 1.4e3 and 1.5e4 N/m agree to "
+                ours=f"the least similar of all shapes at 1.4e3 and 1.5e4 N/m agree to "
                 f"{own:.3f} (modal assurance criterion)",
                 holds=own < SAME_SHAPE,
                 printed=f"to {alike:.3f}; at 1.4e3 and 2e8 N/m to {far:.2f}",

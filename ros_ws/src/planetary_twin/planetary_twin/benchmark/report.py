@@ -35,9 +35,9 @@ def _plain(value: Any) -> Any:
 Row = tuple[str, ...]
 _TIMES: Row = ("publish rate", "what", "p50", "p99", "max")
 _COSTS: Row = (
-    "scene", "tolerance", "mesh cycles", "listeners", "of a core", "real time x", "waveform",
+    "scene", "tolerance", "mesh cycles", "subscribers", "of a core", "real time x", "waveform",
 )  # fmt: skip
-_MEMORY: Row = ("seconds", "at first", "at last", "slope", "standard error")
+_MEMORY: Row = ("seconds", "start", "end", "slope", "standard error")
 
 
 def tables(figures: Figures) -> list[tuple[Row, list[Row]]]:
@@ -61,7 +61,7 @@ def tables(figures: Figures) -> list[tuple[Row, list[Row]]]:
 def _times(p: Punctuality) -> list[Row]:
     measured = {
         "jitter, sent": p.sent,
-        "jitter, come": p.came,
+        "jitter, received": p.came,
         "set to answer": p.answer,
         "set to message": p.shown,
     }
@@ -72,10 +72,10 @@ def _times(p: Punctuality) -> list[Row]:
 
 
 def remarks(figures: Figures) -> list[str]:
-    """Tell what the tables leave out."""
+    """Return messages and losses, which are not in the tables."""
     return [
-        f"{p.rate:g} Hz: {p.messages} messages in {figures.duration:g} s, {p.lost} lost on their "
-        f"way, real-time factor {p.real_time_factor:.4f}, {p.overruns} overruns"
+        f"{p.rate:g} Hz: {p.messages} messages in {figures.duration:g} s, {p.lost} lost in "
+        f"transit, real-time factor {p.real_time_factor:.4f}, {p.overruns} overruns"
         for p in figures.punctuality
     ]
 
@@ -100,15 +100,18 @@ def as_markdown(figures: Figures, command: str) -> str:
     notes = "\n".join(f"- {remark}." for remark in remarks(figures))
     return f"""# Real time, measured
 
-Made by `{command}`: a simulation in a process of its own, measured from
-another one, on {figures.machine}. Read ratios where others use the machine, too.
+Made by `{command}`: a simulation in one process, measured from another
+process, on {figures.machine}. Compare ratios if the machine is shared.
 
 ## Punctuality
 
-The scene `paper`, waveform at 50 kHz, one listener. *Jitter*: deviation of the time between two
-`gearbox_state` from the period, *sent* by the publisher's stamps, *come* by the listener's clock.
-*Set to message*: from the call of `set_parameters_atomically` until a `gearbox_state` has come
-that shows the value; half an interval of it, on average, is waiting for the next interval.
+The scene `paper`, waveform at 50 kHz, one subscriber.
+
+- *Jitter*: deviation of the time between two `gearbox_state` from the period; *sent*: by the stamps
+  of the publisher; *received*: by the clock of the subscriber.
+- *Set to answer*, *set to message*: from the call of `set_parameters_atomically` to its response,
+  and to the first `gearbox_state` with the new value. On average, half an interval of the latter is
+  the wait for the next interval.
 
 {times}
 
@@ -116,15 +119,15 @@ that shows the value; half an interval of it, on average, is waiting for the nex
 
 ## Processor
 
-Of the simulation's process at 100 Hz, waveform at 50 kHz, in real time; aim: below {CORES:.0%} of
-a core. Each listener is a participant of its own and hears `gearbox_state` and `mesh_waveform`.
-Where `tolerance` is 0, computing may take `compute_share` by choice, see `msgs_spec/README.md`.
+The simulation process at 100 Hz, waveform at 50 kHz, in real time; target: below {CORES:.0%} of a
+core. Each subscriber is a separate participant and receives `gearbox_state` and `mesh_waveform`.
+With `tolerance` 0, computing may take up to `compute_share`, see `msgs_spec/README.md`.
 
 {costs}
 
 ## Memory
 
-Resident; aim: below {RESIDENT:g} MB, and growing by less than {SLOPE:g} MB/h.
+Resident memory; target: below {RESIDENT:g} MB, and growth below {SLOPE:g} MB/h.
 
 {memory}
 """
