@@ -24,8 +24,8 @@ _PAGE = Template("""# Speed against error
 Made by the command in `benchmarks/README.md` on one core of a shared machine, so compare ratios.
 Kernels are already compiled and cached; scene, arrays and start take $setup ms more.
 
-- *speed*: simulated time over processor time without samples, median of $rounds rounds; *spread*: the
-  slowest and the fastest round; *sampled*: speed with samples of all meshes at $rate kHz.
+- *speed*: simulated time over processor time without samples, median of $rounds rounds; *spread*:
+  the slowest and the fastest round; *sampled*: speed with samples of all meshes at $rate kHz.
 - *end to end*: speed of `simulate` over $whole s by wall time, with set-up and samples.
 - *DTE error*: rms error of the dynamic transmission error over its rms, for the worst mesh.
 - *loss error*: relative error of the mean power loss.

@@ -150,11 +150,12 @@ def steady_markdown(rows: Sequence[Steady]) -> str:
     return f"""
 ## Steady running
 
-The default method, `auto`, in the same cases over {MINUTE:g} s. Once mesh cycles are periodic, they are
-not computed again (`integrators/repetition.py`).
+The default method, `auto`, in the same cases over {MINUTE:g} s. Once mesh cycles are periodic, they
+are not computed again (`integrators/repetition.py`).
 
 - *a minute*: simulated time over processor time from the start, without samples, with settling.
-- Errors are those of the last {COMPARED * 1e3:g} ms before {BY:g} s, against `{METHOD}` at tolerance {EXACT:g}.
+- Errors are those of the last {COMPARED * 1e3:g} ms before {BY:g} s, against `{METHOD}` at
+  tolerance {EXACT:g}.
 - *late by*: delay in mesh cycles. The speed loop compensates an error of friction by an angle; with
   3 Hz it is so soft that a loss error of 1e-6 gives 3e-6 of a cycle.
 - *DTE error*: without this delay, as far as samples at {SAMPLE_RATE / 1e3:g} kHz resolve it: at

@@ -107,11 +107,11 @@ process, on {figures.machine}. Compare ratios if the machine is shared.
 
 The scene `paper`, waveform at 50 kHz, one subscriber.
 
-- *Jitter*: deviation of the time between two `gearbox_state` from the period; *sent*: by the stamps
-  of the publisher; *received*: by the clock of the subscriber.
+- *Jitter*: deviation of the time between two `gearbox_state` from the period; *sent*: by the
+  stamps of the publisher; *received*: by the clock of the subscriber.
 - *Set to answer*, *set to message*: from the call of `set_parameters_atomically` to its response,
-  and to the first `gearbox_state` with the new value. On average, half an interval of the latter is
-  the wait for the next interval.
+  and to the first `gearbox_state` with the new value. On average, half an interval of the latter
+  is the wait for the next interval.
 
 {times}
 
