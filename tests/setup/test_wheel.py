@@ -62,7 +62,9 @@ def test_the_wheel_holds_the_package_and_what_it_reads(wheel):
         for pattern in ("**/*.py", "scene/packaged/*.yaml", "recording/ros2/msg/*.msg", "py.typed")
         for file in kept.glob(pattern)
     }
-    needed |= {f"planetary_twin_py/recording/ros2/msg/{m.name}" for m in ROOT.glob("msgs_spec/msg/*")}
+    needed |= {
+        f"planetary_twin_py/recording/ros2/msg/{m.name}" for m in ROOT.glob("msgs_spec/msg/*")
+    }
     assert "planetary_twin_py/py.typed" in needed and len(needed) > 300
     assert needed <= held
     assert {name.split("/")[0].split("-")[0] for name in held} == {"planetary_twin_py"}
