@@ -110,7 +110,7 @@ class Scene(Section):
             )
 
     def _least_deflection(self) -> float:
-        """Deflection [m] of a sun mesh under the least torque, all its tooth pairs in contact."""
+        """Deflection [m] of the stiffer meshes under the least torque, all pairs in contact."""
         gearset, mesh, point = self.gearset, self.mesh, self.operating_point
         teeth = gearset.teeth
         # Torques of sun, ring and carrier are as these tooth numbers.
@@ -119,7 +119,8 @@ class Scene(Section):
         radius = 0.5 * gearset.module * count * math.cos(gearset.pressure_angle)
         torque = max(abs(point.input_torque) - abs(point.torque_ripple), 0.0)
         force = torque / (gearset.planets * radius)
-        single = mesh.sun_planet_stiffness or SPECIFIC_STIFFNESS * gearset.face_width
+        given = mesh.sun_planet_stiffness, mesh.planet_ring_stiffness
+        single = max(k or SPECIFIC_STIFFNESS * gearset.face_width for k in given)
         return force / (single * max(mesh.double_pair_ratio, 1.0))
 
     @property
