@@ -23,10 +23,10 @@ from planetary_twin_py.ledger_check import (
 from planetary_twin_py.recording.runs.offline import Plan, record
 from planetary_twin_py.recording.runs.verify import verify
 from planetary_twin_py.studies.axes import Axis
+from planetary_twin_py.studies.energy_balance import unbalanced_runs
 from planetary_twin_py.studies.measures import EXCESS, measure
 from planetary_twin_py.studies.plan import Settings, grid
 from planetary_twin_py.studies.table import tabulate
-from planetary_twin_py.studies.unclosed import unclosed_ledgers
 from planetary_twin_py.studies.work import Failure
 
 # 1000 J through the train, 20 J lost by friction, 1 J by bearings, 5 J damped; all accounted for.
@@ -168,9 +168,9 @@ def test_a_sweep_names_the_points_whose_ledger_does_not_close():
     study = grid(PAPER, [Axis("input_torque", (20.0, 40.0, 63.0))], settings)
     closed = measure(PAPER, settings)
     assert 0.0 < closed[EXCESS] < 1.0
-    assert unclosed_ledgers(tabulate(study, dict.fromkeys(range(3), closed))) is None
+    assert unbalanced_runs(tabulate(study, dict.fromkeys(range(3), closed))) is None
     found = {0: closed, 1: closed | {EXCESS: 50.0}, 2: Failure("no such teeth")}
-    text = unclosed_ledgers(tabulate(study, found))
+    text = unbalanced_runs(tabulate(study, found))
     assert text.startswith("the energy ledger does not close at 1 of 3 points (ledger_excess up to")
     assert text.endswith("tighten the tolerance from 0.001 to 1e-05")
 

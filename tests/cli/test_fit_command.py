@@ -24,7 +24,7 @@ def test_figures_and_a_warning_of_what_is_not_told_with_exit_code_0(bag, tmp_pat
     free = "backlash=4e-7,input-torque=50"
     done = run(bag, "--free", free, "--from", 0.02, "--to", 0.09, "--json", out)
     assert done.exit_code == 0, done.output
-    assert "warning: backlash: not told by this stretch: teeth never part" in done.output
+    assert "warning: backlash: not told by this excerpt: teeth never part" in done.output
     figures = json.loads(out.read_text())
     torque, backlash = (figures["parameters"][name] for name in ("input_torque", "backlash"))
     assert torque["told"] and torque["low"] < torque["estimate"] < torque["high"]

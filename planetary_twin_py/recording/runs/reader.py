@@ -21,7 +21,7 @@ from ..ros2.namespaces import choose_namespace
 from ..ros2.repeats import Repeats
 from ..ros2.topics import ORIGIN, POINT, STATE, WAVEFORM
 from .origin import scene_of_origin
-from .waveform import Blocks, Held, Ranges, Samples, Source, Stretch, Waveform, joined, stamps
+from .waveform import Blocks, Held, Ranges, Samples, Source, TimeSpan, Waveform, joined, stamps
 
 SCENE_ATTACHMENT = "scene.yaml"
 TOPICS = (STATE, WAVEFORM, POINT)
@@ -83,7 +83,7 @@ class Recording:
         """
         return self.blocks.waveform(begin, end)
 
-    def within(self, stretches: Sequence[Stretch]) -> Recording:
+    def within(self, stretches: Sequence[TimeSpan]) -> Recording:
         """The same with the samples of these stretches alone, held in memory; in their order."""
         found = [self.samples(begin, end) for begin, end in stretches]
         return replace(self, blocks=Held(joined([part for part in found if part is not None])))

@@ -34,7 +34,7 @@ class Difference(NamedTuple):
 
 
 @dataclass
-class Verdict:
+class Comparison:
     """What a comparison has found; `remarks` says in lines what could not be compared."""
 
     same_makers: bool = True
@@ -66,14 +66,14 @@ class Verdict:
 
 def verify(
     path: Path, namespace: str, progress: Callable[[float], None] = lambda time: None
-) -> Verdict:
+) -> Comparison:
     """Simulate again the runs of the gearbox in `namespace` and compare all that was published.
 
     `progress` hears the simulated time [s] up to which all is compared.
     Raises:
         RecordingError: nothing in the recording can be simulated again, or it was measured.
     """
-    verdict = Verdict()
+    verdict = Comparison()
     runs = read_runs(path, namespace, verdict.remarks)
     _refuse_measured(path, runs)
     here = makers_here()
@@ -116,7 +116,7 @@ def _refuse_measured(path: Path, runs: list[Run]) -> None:
 
 
 def _compare(
-    verdict: Verdict, topic: str, message: Any, interval: Interval, window: Window
+    verdict: Comparison, topic: str, message: Any, interval: Interval, window: Window
 ) -> None:
     """Count a message, and what of it differs."""
     verdict.messages[topic] = verdict.messages.get(topic, 0) + 1

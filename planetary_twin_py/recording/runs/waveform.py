@@ -18,7 +18,7 @@ from ..ros2.layout import LayoutError, Layouts
 
 QUANTITIES = ("dte", "mesh_force", "friction")
 Values = dict[str, NDArray[np.float32]]
-Stretch = tuple[float, float]
+TimeSpan = tuple[float, float]
 """Begin and end in simulated time [s]."""
 
 
