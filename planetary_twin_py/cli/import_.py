@@ -62,6 +62,6 @@ def _summary(out: Path, done: Imported) -> Iterator[str]:
 
     step = done.measured.step
     yield f"{out}: {done.measured.rows} rows, one every {step:g} s"
-    for part in done.held:
+    for part in done.points:
         means = (f"{name} = {v:.6g} {TUNABLES[name].unit}" for name, v in part.means.items())
         yield f"from {part.first * step:g} s: {', '.join(means) or 'as in the scene'}"

@@ -78,7 +78,7 @@ class Spall(FlankFault):
 
 
 class Wear(FlankFault):
-    """A uniformly worn flank, which increases the backlash while it is the only flank in contact."""
+    """A uniformly worn flank, which increases the backlash while it alone is in contact."""
 
     kind: Literal["wear"] = Field(description="a worn flank")
     depth: float = quantity("m", "worn depth along the line of action", gt=0.0, le=1e-3)

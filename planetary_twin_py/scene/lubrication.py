@@ -19,7 +19,7 @@ class Lubrication(Section):
     friction: bool = Field(True, description="tooth friction on or off")
     friction_torque: Literal["sliding", "printed"] = Field(
         "sliding",
-        description="sliding: -f dVs/dw, dissipates f Vs; printed: P/w, Salagianni et al. (17)-(20)",
+        description="sliding: -f dVs/dw, dissipates f Vs; printed: P/w, Salagianni (17)-(20)",
     )
     film: Literal["dowson_higginson", "dowson_toyoda", "salagianni"] = Field(
         "dowson_higginson",

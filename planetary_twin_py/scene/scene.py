@@ -84,7 +84,7 @@ class Scene(Section):
                 yield f"{tunable.name} = {value!r}: {tunable.range}{why}"
 
     def _faulty_teeth(self) -> Iterator[str]:
-        """Errors of the faults: missing teeth or planets, or no tooth geometry for a crack depth."""
+        """Errors of the faults: missing teeth or planets, or a crack depth without geometry."""
         for n, fault in enumerate(self.faults):
             teeth = getattr(self.gearset.teeth, fault.gear)
             for name, last in (("tooth", teeth - 1), ("planet", self.gearset.planets)):

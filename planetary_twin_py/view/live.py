@@ -14,7 +14,7 @@ from ..recording.ros2.layout import Layouts
 from ..recording.ros2.topics import ORIGIN, POINT, STATE, WAVEFORM
 from ..recording.runs.origin import read_origin
 from ..recording.runs.reader import TOPICS, Recording, assemble
-from ..recording.runs.waveform import Held, waveform_of
+from ..recording.runs.waveform import InMemory, waveform_of
 from ..scene import Scene
 from .blueprint import LIVE
 from .events import log_events
@@ -49,7 +49,7 @@ class LiveView:
         self._topics = Topics("the running twin", lambda topic: True)
         self._layouts: dict[str, Layouts] = {}
         self._waiting: Messages = {name: [] for name in TOPICS}
-        self._run: _Run | None = None
+        self._run: _DrawnRun | None = None
 
     def take(self, records: Iterable[Any]) -> None:
         """Draw MCAP records.
@@ -88,7 +88,7 @@ class LiveView:
         if self._run is None:
             if not self._waiting[STATE]:
                 return False
-            self._run = _Run(self._namespace, self._begin(), scene)
+            self._run = _DrawnRun(self._namespace, self._begin(), scene)
         now: Messages = {}
         for name, messages in self._waiting.items():
             cut = _cut(messages, _TIME[name], self._run.reached[name])
@@ -98,7 +98,7 @@ class LiveView:
         return bool(self._waiting[STATE])
 
 
-class _Run:
+class _DrawnRun:
     """Draws one run of a twin."""
 
     def __init__(self, namespace: str, stream: rr.RecordingStream, scene: Scene) -> None:
@@ -134,7 +134,7 @@ class _Run:
         self._layer.stream.disconnect()
 
     def _recording(self, messages: Messages) -> Recording:
-        samples = Held(waveform_of(messages[WAVEFORM]))
+        samples = InMemory(waveform_of(messages[WAVEFORM]))
         return assemble(messages, samples, Path(self._namespace), self._namespace)
 
 

@@ -14,7 +14,7 @@ from ..recording.runs.waveform import TimeSpan
 from ..scene import Scene, SceneError, parse_scene
 from .blueprint import FILE, Mode, blueprint
 from .contacts import log_contacts
-from .detail import overview
+from .detail import detailed_spans, overview
 from .events import log_events
 from .frames import frames
 from .gears import log_gears, log_motion

@@ -1,4 +1,4 @@
-"""One MCAP file of a recording, read from any instant: by its chunk index, or in order without."""
+"""One MCAP file of a recording, read from any time: by its chunk index, or sequentially."""
 
 from __future__ import annotations
 
@@ -17,17 +17,14 @@ from .framing import TORN
 from .integrity import damaged_summary
 from .records import MOST_TOPICS, chunk_at, records_of
 
-# Messages stand in a file in the order a recorder got to them: far less than this apart.
+# Messages are in the order in which the recorder wrote them, out of order by far less than this.
 DISORDER = 1_000_000_000  # [ns]
 
-Tell = Callable[[str], None]
+Warn = Callable[[str], None]
 
 
 class Contents(NamedTuple):
-    """What a file holds: each channel with its schema, messages by topic, first and last log time.
-
-    A channel whose schema is missing has none.
-    """
+    """Contents of a file: channels with their schemas (None if missing), counts, and times."""
 
     channels: dict[int, tuple[Channel, Schema | None]]
     counts: Counter[str]
@@ -40,14 +37,14 @@ class Segment(Protocol):
     contents: Contents
 
     def messages(self, begin: int) -> Iterator[tuple[str, Message]]:
-        """Messages from `begin` on with their topics, in file order."""
+        """Messages at or after log time `begin` [ns] with their topics, in file order."""
 
     def newest(self, kept: Mapping[str, int], before: int) -> dict[str, list[Message]]:
-        """By topic the last so many messages before an instant, oldest first."""
+        """The last `kept[topic]` messages before log time `before` [ns], oldest first."""
 
 
-def open_segment(file: Path, tell: Tell) -> Segment:
-    """The file to read; `tell` hears in lines of what cannot be read, now and later."""
+def open_segment(file: Path, tell: Warn) -> Segment:
+    """Open a file; `tell` is called with a line for each unreadable part, now and later."""
     summary = _summary(file)
     if summary is None or summary.statistics is None or len(summary.channels) > MOST_TOPICS:
         return _InOrder(file, tell)
@@ -57,9 +54,9 @@ def open_segment(file: Path, tell: Tell) -> Segment:
 
 
 class _Indexed:
-    """A finished file: its summary tells which chunks there are to look at."""
+    """A finished file, whose summary has an index of the chunks."""
 
-    def __init__(self, file: Path, summary: Summary, tell: Tell) -> None:
+    def __init__(self, file: Path, summary: Summary, tell: Warn) -> None:
         self._file = file
         self._tell = tell
         self._chunks = sorted(summary.chunk_indexes, key=lambda index: index.chunk_start_offset)
@@ -90,7 +87,7 @@ class _Indexed:
         return found[-count:]
 
     def _read(self, index: ChunkIndex) -> Iterator[tuple[str, Message]]:
-        """Messages of a chunk; a damaged one is told of and left out."""
+        """Messages of a chunk; a damaged chunk is skipped with a warning."""
         try:
             records = chunk_at(self._file, index.chunk_start_offset)
         except TORN as reason:
@@ -98,7 +95,7 @@ class _Indexed:
             first, last = index.message_start_time - begin, index.message_end_time - begin
             self._tell(
                 f"{self._file.name}: damaged from {first * 1e-9:.3f} to {last * 1e-9:.3f} s "
-                f"({type(reason).__name__}), which is left out"
+                f"({type(reason).__name__}); this part is skipped"
             )
             return
         for record in records:
@@ -107,9 +104,9 @@ class _Indexed:
 
 
 class _InOrder:
-    """A file without an index, torn or written without chunks: every record is looked at."""
+    """A file without an index, truncated or written without chunks; it is read sequentially."""
 
-    def __init__(self, file: Path, tell: Tell) -> None:
+    def __init__(self, file: Path, tell: Warn) -> None:
         self._file = file
         self._tell = tell
         self.contents = Contents({}, Counter(), Extent())
@@ -147,9 +144,7 @@ class _InOrder:
 
 
 def _summary(file: Path) -> Summary | None:
-    """What a finished file says of itself; nothing where it was torn before it could, or where
-    that is damaged, which whoever reads the records then tells.
-    """
+    """The summary; None if the file is truncated or the summary fails its checksum."""
     if damaged_summary(file):
         return None
     with file.open("rb") as stream:

@@ -1,4 +1,4 @@
-"""The types that a message definition in a file describes, checked before code is made of them."""
+"""The types of a message definition in a file, checked before code is generated from them."""
 
 from __future__ import annotations
 
@@ -12,17 +12,17 @@ from rosbags.typesys.store import Typestore
 from .definitions import KINDS, definition_of
 
 _LONGEST = 100_000  # bytes of a definition
-_MOST_FIELDS = 10_000  # of a message with all those below it, and with each element of an array
+_MOST_FIELDS = 10_000  # of a message, including nested messages and array elements
 _BOUNDED = (Nodetype.ARRAY, Nodetype.SEQUENCE)
 
 
 class DefinitionError(ValueError):
-    """A definition that none can read, or that is not of the type it is named."""
+    """A definition that is invalid, or of another type."""
 
 
-@lru_cache(maxsize=32)  # takes 20 ms, and the files of a recording have the same definitions
+@lru_cache(maxsize=32)  # takes 20 ms; the files of a recording have the same definitions
 def types_of(definition: bytes, kind: str) -> Typestore:
-    """The type `kind` and those below it.
+    """Parse a definition: the type `kind` and its nested types.
 
     Args:
         definition: text in MCAP's encoding `ros2msg`.
@@ -32,8 +32,8 @@ def types_of(definition: bytes, kind: str) -> Typestore:
         A store that decodes messages of this type.
 
     Raises:
-        DefinitionError: the text is no definition of `kind`, has no end, or is another one than
-            that of the twin's type of this name.
+        DefinitionError: the text is not a definition of `kind`, is recursive, or differs from the
+            definition of the twin's type of this name.
     """
     if len(definition) > _LONGEST:
         raise DefinitionError(f"has {len(definition)} bytes: must be at most {_LONGEST}")
@@ -41,25 +41,25 @@ def types_of(definition: bytes, kind: str) -> Typestore:
         found = get_types_from_msg(definition.decode(), kind)
     except UnicodeDecodeError as reason:
         raise DefinitionError(f"must be in UTF-8, byte {reason.start + 1} is not") from None
-    except Exception as reason:  # of many kinds, of a text that is no definition
-        raise DefinitionError(f"is none: {str(reason) or type(reason).__name__}") from None
+    except Exception as reason:  # of many kinds, if the text is not a definition
+        raise DefinitionError(f"is invalid: {str(reason) or type(reason).__name__}") from None
     _fields(found, kind, ())
     if kind in KINDS.values():
         _compare(found, kind)
     types = get_typestore(Stores.EMPTY)
     try:
         types.register(found)
-    except Exception as reason:  # of names that Python does not take
-        raise DefinitionError(f"is none: {str(reason) or type(reason).__name__}") from None
+    except Exception as reason:  # of names that are not valid in Python
+        raise DefinitionError(f"is invalid: {str(reason) or type(reason).__name__}") from None
     return types
 
 
 def _fields(types: Any, kind: str, above: tuple[str, ...]) -> int:
-    """How many fields a message of a type has, with those below it."""
+    """Number of fields of a message of a type, including nested messages."""
     if kind not in types:
         raise DefinitionError(f"does not describe {kind}")
     if kind in above:
-        raise DefinitionError(f"has no end: {kind} holds itself")
+        raise DefinitionError(f"is recursive: {kind} contains itself")
     count, known = 0, dict[str, int]()
     for _, (sort, of) in types[kind][1]:
         times = 1
@@ -78,15 +78,15 @@ def _fields(types: Any, kind: str, above: tuple[str, ...]) -> int:
 
 
 def _compare(types: Any, kind: str) -> None:
-    """Raise `DefinitionError` where a field that the twin's type has is missing or another."""
+    """Raise `DefinitionError` if a field of the twin's type is missing or has another type."""
     for name, (_, fields) in _own(kind).items():
         if name not in types:
             raise DefinitionError(f"does not describe {name}")
         there = dict(types[name][1])
         for field, description in fields:
             if there.get(field) != description:
-                wrong = "is another" if field in there else "is missing"
-                raise DefinitionError(f"is not that of this version: {name}.{field} {wrong}")
+                wrong = "has another type" if field in there else "is missing"
+                raise DefinitionError(f"does not match this version: {name}.{field} {wrong}")
 
 
 @lru_cache(maxsize=len(KINDS))

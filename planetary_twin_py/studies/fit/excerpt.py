@@ -15,7 +15,14 @@ from ...recording.container.records import RecordingError
 from ...recording.ros2.namespaces import choose_namespace
 from ...recording.ros2.tape import Tape
 from ...recording.ros2.topics import STATE, WAVEFORM
-from ...recording.runs.schedule import Change, Interval, Run, messages_of, read_runs, stamp_of
+from ...recording.runs.schedule import (
+    Change,
+    Interval,
+    RecordedRun,
+    messages_of,
+    read_runs,
+    stamp_of,
+)
 from ...recording.runs.steadiness import between, length, longest_steady_part, settling
 from ...scene import Scene
 from ...twin import TICKS, Twin
@@ -135,7 +142,7 @@ def read_excerpt(
     )
 
 
-def _left_out(run: Run, intervals: list[Interval]) -> Iterator[str]:
+def _left_out(run: RecordedRun, intervals: list[Interval]) -> Iterator[str]:
     """Warning if the longest steady part does not contain all operating points of a run."""
     last = run.intervals[-1].end / TICKS
     points = sum(change.time < last for change in run.changes)
@@ -146,7 +153,7 @@ def _left_out(run: Run, intervals: list[Interval]) -> Iterator[str]:
         )
 
 
-def _reference(run: Run, begin: float) -> Interval | None:
+def _reference(run: RecordedRun, begin: float) -> Interval | None:
     """The last interval before `begin` that ends in steady running; None if none is needed."""
     if begin <= HISTORY:
         return None
@@ -161,7 +168,7 @@ def _reference(run: Run, begin: float) -> Interval | None:
     return run.intervals[place - 1] if place else None
 
 
-def _start(run: Run, state: Any, reference: Interval | None) -> tuple[Scene, float]:
+def _start(run: RecordedRun, state: Any, reference: Interval | None) -> tuple[Scene, float]:
     """Scene and time at which steady running has the recorded angles, or the start of the run."""
     scene = run.origin.scene
     if reference is None:
