@@ -1,9 +1,8 @@
-"""Runs whose figures are less accurate than their tolerance says.
+"""Runs whose results are less accurate than their tolerance suggests.
 
-A tolerance bounds the error of a step. Three kinds of motion make more of it than a sum of such
-errors: flanks that meet and part without ever coming to the same motion again, vibration that stops
-gears so that friction reverses, and friction that has not slid far enough to forget how the gears
-stood at the start.
+A tolerance limits the error of a step. Three kinds of motion amplify such errors: non-periodic
+impacts of flanks, vibration that reverses friction, and friction that has not slid far enough to be
+independent of the initial state.
 """
 
 from __future__ import annotations
@@ -17,19 +16,22 @@ from .gearset.geometry import pitch_radius
 from .result import Result
 from .scene import Scene
 
-SETTLED = 50.0  # presliding displacements to roll by until friction has forgotten the start
+SETTLED = 50.0  # presliding displacements of rolling after which the initial state has no effect
 
 
 class AccuracyWarning(UserWarning):
-    """Figures of a run are less accurate than its tolerance says."""
+    """Results of a run are less accurate than its tolerance suggests."""
 
 
 def accuracy_warnings(scene: Scene, run: Result) -> Iterator[str]:
-    """Sentences that say which figures of a run its tolerance does not bound, and what to do.
+    """Warnings about results that are less accurate than the tolerance, with a recommendation.
 
     Args:
-        scene: that was run.
+        scene: the scene.
         run: its result.
+
+    Returns:
+        A sentence per warning.
     """
     if scene.dynamics != "torsional":
         return
@@ -38,20 +40,20 @@ def accuracy_warnings(scene: Scene, run: Result) -> Iterator[str]:
     stats = run.stats
     if stats.reversals > 0:
         yield (
-            f"vibration stops gears against the carrier, or nearly so, in {stats.reversals} steps: "
-            "small errors grow where friction reverses, so errors may exceed ten times the "
-            "tolerance; compare with a run at a tighter one"
+            f"vibration stops gears relative to the carrier, or nearly so, in {stats.reversals} "
+            "steps: errors grow when friction reverses and may exceed ten times the tolerance; "
+            "compare with a run at a tighter tolerance"
         )
     if stats.flank_events > 0 and stats.repeated_steps == 0:
         yield (
-            f"flanks meet and part {stats.flank_events} times, and the motion has not come to "
-            "repeat itself: small errors may grow from hit to hit, so single values of the "
-            "waveform may be less accurate than the tolerance; compare with a run at a tighter one"
+            f"flanks engage and separate {stats.flank_events} times, and the motion has not become "
+            "periodic: errors may grow with each impact, so single values of the waveform may be "
+            "less accurate than the tolerance; compare with a run at a tighter tolerance"
         )
 
 
 def _unsettled(scene: Scene, run: Result) -> str | None:
-    """Say so where creeping gears have hardly moved."""
+    """Warning if creeping gears have hardly moved, else None."""
     gearset, friction = scene.gearset, scene.lubrication
     if not friction.friction:
         return None
@@ -61,15 +63,15 @@ def _unsettled(scene: Scene, run: Result) -> str | None:
     if rolling >= CREEPING or rolled >= enough or rolled == 0.0:
         return None
     return (
-        f"the gears creep and roll by {rolled:.2g} m only: until they have rolled by "
-        f"{enough:.2g} m, {SETTLED:g} times lubrication.presliding_displacement, losses and "
-        "transmission error are those of friction that settles; simulate "
+        f"the gears creep, and roll by {rolled:.2g} m only: losses and transmission error are "
+        f"transient until they have rolled by {enough:.2g} m, {SETTLED:g} times "
+        "lubrication.presliding_displacement; simulate "
         f"{run.duration * enough / rolled:.2g} s"
     )
 
 
 def _turning(scene: Scene) -> float:
-    """Magnitude of the sun's speed against the carrier [rad/s], as it is set."""
+    """Magnitude of the set speed of the sun relative to the carrier [rad/s]."""
     point, ratios = scene.operating_point, rigid_ratios(scene)
     inputs = point.input_speed, point.second_input_speed
     sun, carrier = (

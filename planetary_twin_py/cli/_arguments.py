@@ -8,6 +8,8 @@ from typing import Annotated
 
 import typer
 
+from ._durations import SECONDS
+from ._fields import scene_fields
 from ._output import output_file
 
 RECORDINGS = Path("recordings")
@@ -30,6 +32,18 @@ def complete_recording(incomplete: str) -> list[str]:
     folder = typed if incomplete.endswith("/") else typed.parent
     found = {str(path) for start in (folder, RECORDINGS) for path in _recordings(start)}
     return sorted(path for path in found if path.startswith(incomplete))
+
+
+def complete_setting(incomplete: str) -> list[str]:
+    """Fields of a scene for NAME=VALUE; their values have no completion."""
+    return [] if "=" in incomplete else [f"{name}=" for name in scene_fields(incomplete)]
+
+
+def complete_parameter(incomplete: str) -> list[str]:
+    """Fields of the operating point, which a running twin can change."""
+    from ..scene import TUNABLES
+
+    return [name for name in TUNABLES if name.startswith(incomplete)]
 
 
 def _recordings(folder: Path) -> Iterator[Path]:
@@ -65,8 +79,10 @@ SetOption = Annotated[
         metavar="NAME=VALUE",
         help="Change a field, in SI or with a unit: mesh.ramp=0, backlash=0.3um, faults.0.tooth=3. "
         "Write lists as in a scene file. Repeatable. `planetary-twin fields` lists the fields.",
+        autocompletion=complete_setting,
     ),
 ]
+DurationOption = Annotated[float, typer.Option(help="Simulated time.", **SECONDS)]
 JsonOption = Annotated[
     str | None,
     typer.Option(

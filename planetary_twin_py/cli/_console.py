@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     from rich.console import Console
+    from rich.status import Status
 
 _NO_BREAK = "\u00a0"
 _UNLIMITED = 100_000  # characters, wider than any table row
@@ -29,6 +30,11 @@ def make_console(stderr: bool = False, markup: bool = True) -> Console:
     if not (console.file.isatty() or os.environ.get("COLUMNS")):
         console.width = _UNLIMITED
     return console
+
+
+def busy(activity: str) -> Status:
+    """Context that shows an activity with a spinner on stderr, if that is a terminal."""
+    return make_console(stderr=True).status(activity)
 
 
 def print_list(console: Console, title: str, parts: Iterable[str]) -> None:

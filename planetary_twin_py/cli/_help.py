@@ -8,6 +8,7 @@ from typing import Any
 from typer.core import TyperCommand
 
 from ._fail import fail
+from ._fields import field_options
 
 PLAIN = None  # Rich would read "[s]" as markup
 _EXAMPLE = "\n\nExample: "
@@ -20,6 +21,14 @@ class Command(TyperCommand):
         text, _, example = inspect.cleandoc(help or "").partition(_EXAMPLE)
         self.example = example.splitlines()
         super().__init__(name, help=text, **attributes)
+
+    def shell_complete(self, ctx: Any, incomplete: str) -> list[Any]:
+        """Complete options, including fields of a scene if the command accepts them."""
+        found: list[Any] = super().shell_complete(ctx, incomplete)
+        if ctx.ignore_unknown_options and ctx.allow_extra_args and incomplete.startswith("--"):
+            (item,) = super().shell_complete(ctx, "--help")
+            found += [type(item)(option) for option in field_options(incomplete)]
+        return found
 
     def invoke(self, ctx: Any) -> Any:
         """Run the command; a run that diverges ends it with one line."""

@@ -8,6 +8,7 @@ from typing import Annotated
 import typer
 
 from ._arguments import SceneArgument, SetOption, ToleranceOption
+from ._durations import SECONDS
 from ._fail import fail, remark
 from ._settings import changed_scene, settings
 from ._study import PICTURES, TABLES, axis, check_suffix, progress, put
@@ -20,7 +21,8 @@ def bifurcation(
         str, typer.Option(metavar="FROM:TO:COUNT", help="Input speeds, each held constant.")
     ] = "1000rpm:10000rpm:181",
     settling: Annotated[
-        float, typer.Option(help="Simulated time at each speed before sampling starts.")
+        float,
+        typer.Option(help="Simulated time at each speed before sampling starts.", **SECONDS),
     ] = 0.2,
     cycles: Annotated[int, typer.Option(help="Mesh cycles sampled at each speed.")] = 60,
     phase: Annotated[float, typer.Option(help="Phase of the mesh cycle to sample, 0 to 1.")] = 0.0,

@@ -9,6 +9,7 @@ import typer
 
 from ._arguments import JsonOption, SceneArgument
 from ._console import print_list
+from ._durations import SECONDS
 from ._fail import fail, remark
 from ._figures import console_beside, put_figures
 from ._interrupt import interruptible
@@ -24,7 +25,7 @@ if TYPE_CHECKING:
 
 def explain(
     scene: SceneArgument = "paper",
-    duration: Annotated[float, typer.Option(help="Simulated time of each run.")] = 0.1,
+    duration: Annotated[float, typer.Option(help="Simulated time of each run.", **SECONDS)] = 0.1,
     json_: JsonOption = None,
 ) -> None:
     """List the terms that SCENE models, and simulate it without each of them.

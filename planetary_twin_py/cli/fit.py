@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from ._arguments import FileArgument, JsonOption, NamespaceOption
+from ._durations import SECONDS
 from ._fail import fail, need, remark
 from ._figures import console_beside, put_figures
 from ._settings import settings
@@ -29,11 +30,9 @@ def fit(
         ),
     ],
     from_: Annotated[
-        float | None, typer.Option("--from", metavar="S", help="Start [s of simulated time].")
+        float | None, typer.Option("--from", help="Start in simulated time.", **SECONDS)
     ] = None,
-    to: Annotated[
-        float | None, typer.Option(metavar="S", help="End [s of simulated time].")
-    ] = None,
+    to: Annotated[float | None, typer.Option(help="End in simulated time.", **SECONDS)] = None,
     observe: Annotated[
         str, typer.Option(metavar="NAMES", help="Measured quantities, separated by commas.")
     ] = "dte_rms,power_loss",

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from ._arguments import SetOption, complete_scene
-from ._console import make_console
+from ._console import busy, make_console
 from ._fail import fail, need
 from ._output import check_recording
 from ._settings import changed_scene, settings
@@ -47,7 +47,9 @@ def import_(
     from ..recording.tables.rig_recording import write_measured
 
     try:
-        done = write_measured(table, changed_scene(scene, settings(set_ or [])), out)
+        gearbox = changed_scene(scene, settings(set_ or []))
+        with busy("converting the table"):
+            done = write_measured(table, gearbox, out)
     except ValueError as error:
         fail(error)
     except OSError as error:

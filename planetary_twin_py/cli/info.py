@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from ._arguments import FileArgument, JsonOption
+from ._console import busy
 from ._fail import fail, need, remark
 from ._figures import console_beside, put_figures
 
@@ -36,8 +37,9 @@ def info(
     from ..recording.runs.info import read_info
 
     try:
-        found = read_info(file)
-        happened = _events(file, found) if events else None
+        with busy("reading the recording"):
+            found = read_info(file)
+            happened = _events(file, found) if events else None
     except RecordingError as error:
         fail(error)
     except OSError as error:

@@ -8,7 +8,7 @@ from typing import Annotated
 import typer
 
 from ._arguments import FileArgument
-from ._console import make_console
+from ._console import busy, make_console
 from ._fail import fail, need, remark
 from ._output import check_recording
 
@@ -40,7 +40,8 @@ def recover(
     folder = out or folder or file.with_name(f"{file.stem}_whole")
     check_recording("--out", folder)
     try:
-        saved = save(file, folder)
+        with busy("copying intact messages"):
+            saved = save(file, folder)
     except RecordingError as error:
         fail(error)
     except OSError as error:

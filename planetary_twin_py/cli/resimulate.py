@@ -9,6 +9,7 @@ import typer
 
 from ._arguments import FileArgument, NamespaceOption, SetOption
 from ._console import make_console
+from ._durations import SECONDS
 from ._fail import fail, need, remark
 from ._output import check_recording
 from ._settings import say_units, settings
@@ -18,11 +19,12 @@ def resimulate(
     file: FileArgument,
     set_: SetOption = None,
     from_: Annotated[
-        float, typer.Option("--from", help="Simulated time from which the new values apply [s].")
+        float,
+        typer.Option("--from", help="Simulated time from which the new values apply.", **SECONDS),
     ] = 0.0,
     duration: Annotated[
         float | None,
-        typer.Option(help="Length of the new run [s].", show_default="as recorded"),
+        typer.Option(help="Length of the new run.", show_default="as recorded", **SECONDS),
     ] = None,
     out: Annotated[
         Path | None,

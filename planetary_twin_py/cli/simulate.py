@@ -8,8 +8,9 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from ._arguments import JsonOption, SceneArgument, SetOption, ToleranceOption
+from ._arguments import DurationOption, JsonOption, SceneArgument, SetOption, ToleranceOption
 from ._console import print_list
+from ._durations import SECONDS
 from ._fail import fail, need, remark
 from ._figures import console_beside, put_figures
 from ._interrupt import interruptible
@@ -26,10 +27,11 @@ if TYPE_CHECKING:
 
 def simulate(
     scene: SceneArgument = "paper",
-    duration: Annotated[float, typer.Option(help="Simulated time.")] = 1.0,
+    duration: DurationOption = 1.0,
     sample_rate: Annotated[float, typer.Option(help="Samples per simulated second.")] = 50_000.0,
     settling: Annotated[
-        float, typer.Option(help="Simulated time before, excluded from results and samples.")
+        float,
+        typer.Option(help="Simulated time before, excluded from results and samples.", **SECONDS),
     ] = 0.0,
     tolerance: ToleranceOption = 1e-4,
     set_: SetOption = None,

@@ -11,6 +11,8 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from ._arguments import JsonOption, complete_recording
+from ._console import busy
+from ._durations import SECONDS
 from ._fail import fail, need, remark
 from ._figures import console_beside, put_figures
 from ._output import output_file
@@ -48,14 +50,15 @@ class Options:
             metavar="LOW:HIGH", help="Range of the axis, in Hz, or in orders with --order."
         ),
     ] = None
-    from_: Annotated[float | None, typer.Option("--from", help="Start [s of simulated time].")] = (
-        None
-    )
+    from_: Annotated[
+        float | None, typer.Option("--from", help="Start in simulated time.", **SECONDS)
+    ] = None
     to: Annotated[
         float | None,
         typer.Option(
-            help="End [s of simulated time]. Default without --from: the longest settled interval "
-            "at one operating point."
+            help="End in simulated time. Default without --from: the longest settled interval at "
+            "one operating point.",
+            **SECONDS,
         ),
     ] = None
     out: Annotated[
@@ -75,7 +78,8 @@ def spectrum(**given: Any) -> None:
     from ..analysis.signals import QUANTITIES
 
     try:
-        signal, found = _analysed(asked)
+        with busy("reading and analysing"):
+            signal, found = _analysed(asked)
         if asked.out is not None:
             _write(asked.out, found, _title(asked, signal), _labels(asked))
     except (ValueError, OSError) as error:

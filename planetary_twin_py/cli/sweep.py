@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from ._arguments import SceneArgument, ToleranceOption
+from ._durations import SECONDS
 from ._fail import fail, need, remark
 from ._settings import changed_scene, settings
 from ._study import PICTURES, TABLES, axis, check_suffix, progress, put, warn
@@ -33,8 +34,8 @@ def sweep(
     samples: Annotated[
         int | None, typer.Option(help="Number of Latin hypercube samples, in place of a grid.")
     ] = None,
-    duration: Annotated[float, typer.Option(help="Evaluated time of each run.")] = 0.2,
-    settling: Annotated[float, typer.Option(help="Simulated time before.")] = 0.05,
+    duration: Annotated[float, typer.Option(help="Evaluated time of each run.", **SECONDS)] = 0.2,
+    settling: Annotated[float, typer.Option(help="Simulated time before.", **SECONDS)] = 0.05,
     tolerance: ToleranceOption = 1e-4,
     scheduler: Annotated[
         str | None,

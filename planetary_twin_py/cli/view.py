@@ -13,6 +13,8 @@ from typing import TYPE_CHECKING, Annotated, NamedTuple
 import typer
 
 from ._arguments import complete_recording, complete_scene
+from ._console import busy
+from ._durations import SECONDS, read_seconds
 from ._fail import fail, need, remark
 from ._live import print_address, view_live
 from ._output import output_file
@@ -52,8 +54,9 @@ def view(
     at: Annotated[
         float | None,
         typer.Option(
-            help="Time cursor of the picture [s of simulated time].",
+            help="Time cursor of the picture in simulated time.",
             show_default="end of the recording",
+            **SECONDS,
         ),
     ] = None,
     serve: Annotated[
@@ -132,7 +135,8 @@ def _one_line_errors() -> Iterator[None]:
 def _read(file: Path, namespace: str | None) -> Recording:
     from ..recording.runs.reader import read_recording
 
-    recording = read_recording(file, namespace)
+    with busy(f"reading {file}"):
+        recording = read_recording(file, namespace)
     for line in recording.remarks:
         remark(line)
     return recording
@@ -156,8 +160,8 @@ def _read_span(text: str | None) -> TimeSpan | None:
         return None
     begin, colon, end = text.partition(":")
     try:
-        found = float(begin or -math.inf), float(end or math.inf)
-    except ValueError:
+        found = read_seconds(begin or -math.inf), read_seconds(end or math.inf)
+    except typer.BadParameter:
         found = math.nan, math.nan
     if not (colon and found[0] < found[1]):
         fail(f"--during {text!r}: must be BEGIN:END in seconds, e.g. 2.5:3 or 10: or :5")
@@ -198,8 +202,9 @@ def _picture(shown: _Shown, png: Path, at: float | None) -> None:
     detail = shown.detail or (at - _HALF_WIDTH, at + _HALF_WIDTH)
     with tempfile.TemporaryDirectory() as folder:
         rrd = Path(folder) / "picture.rrd"
-        save(first, shown.scene, rrd, others, PICTURE, detail)
-        save_screenshot(rrd, png, at)
+        with busy("drawing"):
+            save(first, shown.scene, rrd, others, PICTURE, detail)
+            save_screenshot(rrd, png, at)
     typer.echo(f"{png}")
 
 
@@ -243,5 +248,7 @@ def _write(shown: _Shown, rrd: Path) -> None:
     from ..view.show import save
 
     first, *others = shown.recordings
-    for line in save(first, shown.scene, rrd, others, detail=shown.detail):
+    with busy("drawing"):
+        remarks = save(first, shown.scene, rrd, others, detail=shown.detail)
+    for line in remarks:
         remark(line)

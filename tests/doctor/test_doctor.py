@@ -118,5 +118,5 @@ def test_a_command_that_cannot_be_loaded_takes_no_other_with_it(monkeypatch):
     done = CliRunner().invoke(build_app(), ["run"])
     assert done.exit_code == 2
     assert "librcl.so" in done.output
-    assert done.output.strip().endswith("planetary-twin doctor tells more")
+    assert done.output.strip().endswith("run `planetary-twin doctor` for details")
     assert CliRunner().invoke(build_app(), ["modal", "--help"]).exit_code == 0

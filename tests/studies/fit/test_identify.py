@@ -41,8 +41,8 @@ def test_steady_load_tells_torque_and_film_and_says_that_it_does_not_tell_backla
     told = list(remarks(found))
     assert len(told) == 1
     assert told[0].startswith(
-        "backlash: not told by this excerpt: teeth never part (contact_fraction = 1); any value "
-        "from 0 to "
+        "backlash: not identifiable from this excerpt: teeth never separate (contact_fraction = 1); "
+        "all values from 0 to "
     )
     assert np.isnan(found.estimate.correlation[0]).all()
 
@@ -98,7 +98,7 @@ def test_far_into_a_run_the_simulation_begins_at_the_recorded_angles(tmp_path, m
 @pytest.mark.parametrize(
     ("search", "told"),
     [
-        (Search(()), "nothing is free"),
+        (Search(()), "no free parameter"),
         (Search(("nosuch",)), "nosuch: no such field"),
         (Search(("mesh.nosuch",)), "mesh.nosuch: no such field"),
         (Search(("viscosity",)), "viscosity: no such field; did you mean lubrication.viscosity?"),
