@@ -13,7 +13,7 @@ from ..gearset.kinematics import Teeth
 from ..gearset.phasing import nearest_assembly
 from ..scene import Scene, load_scene
 from ..units import rpm
-from .timing import METHOD, SAMPLE_RATE, Speed, end_to_end, quality, speed
+from .timing import METHOD, SAMPLE_RATE, Speed, affordable, end_to_end, speed
 
 TOLERANCE = 1e-4
 SHORTEST, LONGEST = 0.02, 10.0  # [s] simulated in a round
@@ -70,7 +70,7 @@ def _kernels(scene: Scene) -> Callable[[], Speed]:
     """Measures integration alone, over as long as it takes to time it."""
 
     def measured() -> Speed:
-        duration = quality(scene, TOLERANCE, SHORTEST, LONGEST)
+        duration = affordable(scene, TOLERANCE, SHORTEST, LONGEST)
         return speed(scene, duration, METHOD, TOLERANCE, sampled=False)
 
     return measured

@@ -76,7 +76,7 @@ def repeats(seconds: float, most: int) -> int:
     return max(1, min(most, int(ROUND / max(seconds, 1e-6))))
 
 
-def quality(scene: Scene, tolerance: float, shortest: float, longest: float) -> float:
+def affordable(scene: Scene, tolerance: float, shortest: float, longest: float) -> float:
     """Duration [s] within these bounds that takes about a ROUND to run."""
     duration = shortest
     while duration < longest:

@@ -5,7 +5,7 @@ import math
 import pytest
 
 from planetary_twin_py.benchmark import costs
-from planetary_twin_py.benchmark.timing import Speed, quality
+from planetary_twin_py.benchmark.timing import Speed, affordable
 from planetary_twin_py.engine import Engine
 from planetary_twin_py.gearset.phasing import mesh_phases
 from planetary_twin_py.scene import load_scene
@@ -52,11 +52,11 @@ def test_every_term_has_its_speed(monkeypatch):
 
 def test_a_run_is_no_longer_than_it_takes_to_time_it(monkeypatch):
     monkeypatch.setattr("planetary_twin_py.benchmark.timing.ROUND", 0.0)
-    assert quality(load_scene("paper"), 1e-2, 0.001, 1.0) == 0.001
+    assert affordable(load_scene("paper"), 1e-2, 0.001, 1.0) == 0.001
 
 
 def test_a_run_is_never_longer_than_the_longest():
-    assert quality(load_scene("paper"), 1e-2, 0.0001, 0.0003) == 0.0003
+    assert affordable(load_scene("paper"), 1e-2, 0.0001, 0.0003) == 0.0003
 
 
 def test_the_section_of_the_page_shows_what_was_measured():

@@ -73,7 +73,7 @@ class Damages:
     def _line(self, gap: _Gap) -> str:
         last = gap.losses[-1]
         if last.end == self._size and last.opcode == 0:
-            return self._torn(gap)
+            return self._truncated(gap)
         begin = gap.losses[0].place
         size = sum(lost.end - lost.place for lost in gap.losses)
         return (
@@ -81,7 +81,7 @@ class Damages:
             f"are skipped ({_contents(gap)}; {type(gap.losses[0].reason).__name__})"
         )
 
-    def _torn(self, gap: _Gap) -> str:
+    def _truncated(self, gap: _Gap) -> str:
         begin = gap.losses[0].place
         before = "everything before is intact" if len(self._gaps) == 1 else ""
         if begin == self._size:

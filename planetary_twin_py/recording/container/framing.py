@@ -64,7 +64,7 @@ _CHUNK = re.compile(
 
 
 # Exceptions of a damaged record: at its end, in its fields, in its compressed data.
-TORN: tuple[type[Exception], ...] = (
+DAMAGED: tuple[type[Exception], ...] = (
     *(McapError, struct.error, ValueError, EOFError, zstandard.ZstdError),
     *(MemoryError, OverflowError),  # of an impossible length
 )
@@ -98,7 +98,7 @@ class _Fields(ReadDataStream):
 
 
 def piece_at(stream: BinaryIO) -> Piece:
-    """The record at the position of `stream`; raises one of `TORN` if there is none."""
+    """The record at the position of `stream`; raises one of `DAMAGED` if there is none."""
     place = stream.tell()
     head = stream.read(_HEAD.size)
     if len(head) < _HEAD.size:
@@ -116,7 +116,7 @@ def opened(piece: Piece) -> list[Any]:
     """Contents of a record: the records of a chunk, the record itself, or none for an index.
 
     Raises:
-        one of `TORN`: the record is damaged.
+        one of `DAMAGED`: the record is damaged.
     """
     opcode, content = piece.opcode, piece.content
     if opcode == Opcode.CHUNK:
@@ -158,7 +158,7 @@ def next_chunk(stream: BinaryIO, begin: int) -> int | None:
             try:
                 if opened(piece_at(stream)):
                     return found.start()
-            except TORN:
+            except DAMAGED:
                 continue
     return None
 

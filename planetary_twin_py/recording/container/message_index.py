@@ -17,13 +17,13 @@ from mcap.reader import make_reader
 from mcap.records import Channel, ChunkIndex, Message, Metadata, Schema
 from numpy.typing import NDArray
 
-from .framing import TORN
+from .framing import DAMAGED
 from .integrity import damaged_data, damaged_summary
 from .records import MOST_TOPICS, section_at
 
 _HEAD = struct.Struct("<BQHI")  # opcode, length, channel, bytes of entries (MCAP 0, Message Index)
 _ENTRY = np.dtype([("log_time", "<u8"), ("offset", "<u8")])
-UNSOUND: tuple[type[Exception], ...] = (*TORN, KeyError)
+UNSOUND: tuple[type[Exception], ...] = (*DAMAGED, KeyError)
 _KEPT = 8  # sections, so that neighbours are not unpacked again
 
 

@@ -18,7 +18,7 @@ from mcap.stream_reader import CRCValidationError
 
 from .damage import Damages
 from .foreign import how_stored
-from .framing import TORN, opened, piece_at
+from .framing import DAMAGED, opened, piece_at
 from .integrity import MAGIC, damaged_summary, end_of_data
 from .walk import Lost, Sound, Walk
 
@@ -90,7 +90,7 @@ def sections_of(file: Path, remarks: list[str]) -> Iterator[Section]:
                 damages.lose(step)
                 place, found = step.place, known.summarised()
             else:
-                behind = _torn(file, damages.reached, step)
+                behind = _truncated(file, damages.reached, step)
                 break
             if found:
                 yield Section(place, found)
@@ -153,7 +153,7 @@ def _summary(file: Path) -> list[Any]:
         try:
             while (piece := piece_at(stream)).opcode != Opcode.FOOTER:
                 found += opened(piece)
-        except TORN:
+        except DAMAGED:
             pass  # the writer of the summary made an error that its checksum does not show
     return found
 
@@ -173,7 +173,7 @@ def _begin(file: Path, stream: BinaryIO) -> list[str]:
         return [f"{file.name}: ends after {len(first)} bytes, before any message"]
     try:
         is_mcap = opened(header := piece_at(stream)) == [] and header.opcode == Opcode.HEADER
-    except TORN:
+    except DAMAGED:
         is_mcap = stream.seek(0, 2) > len(MAGIC) and end_of_data(file) is not None
     if not is_mcap:
         raise RecordingError(f"{file}: not a recording: not an MCAP file")
@@ -187,7 +187,7 @@ def _at_the_end(file: Path, ended: bool) -> str:
     return f"{file.name}: its summary is damaged" if damaged_summary(file) else ""
 
 
-def _torn(file: Path, sound: int, reason: Exception) -> str:
+def _truncated(file: Path, sound: int, reason: Exception) -> str:
     """Warning about damage after the data, or a wrong checksum of the data."""
     if isinstance(reason, CRCValidationError) and isinstance(reason.record, DataEnd):
         return f"{file.name}: its data fail their checksum: they may be wrong or incomplete"
@@ -206,7 +206,7 @@ def section_at(file: Path, place: int) -> list[Any]:
 
 
 def chunk_at(file: Path, place: int) -> list[Any]:
-    """The records of the chunk at position `place`; raises one of `TORN` if there is none."""
+    """The records of the chunk at position `place`; raises one of `DAMAGED` if there is none."""
     with file.open("rb") as stream:
         stream.seek(place)
         piece = piece_at(stream)

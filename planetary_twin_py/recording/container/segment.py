@@ -13,7 +13,7 @@ from mcap.records import Channel, ChunkIndex, Message, Schema
 from mcap.summary import Summary
 
 from .extent import Extent
-from .framing import TORN
+from .framing import DAMAGED
 from .integrity import damaged_summary
 from .records import MOST_TOPICS, chunk_at, records_of
 
@@ -43,22 +43,22 @@ class Segment(Protocol):
         """The last `kept[topic]` messages before log time `before` [ns], oldest first."""
 
 
-def open_segment(file: Path, tell: Warn) -> Segment:
-    """Open a file; `tell` is called with a line for each unreadable part, now and later."""
+def open_segment(file: Path, warn: Warn) -> Segment:
+    """Open a file; `warn` is called with a line for each unreadable part, now and later."""
     summary = _summary(file)
     if summary is None or summary.statistics is None or len(summary.channels) > MOST_TOPICS:
-        return _InOrder(file, tell)
+        return _InOrder(file, warn)
     if summary.statistics.message_count and not summary.chunk_indexes:
-        return _InOrder(file, tell)
-    return _Indexed(file, summary, tell)
+        return _InOrder(file, warn)
+    return _Indexed(file, summary, warn)
 
 
 class _Indexed:
     """A finished file, whose summary has an index of the chunks."""
 
-    def __init__(self, file: Path, summary: Summary, tell: Warn) -> None:
+    def __init__(self, file: Path, summary: Summary, warn: Warn) -> None:
         self._file = file
-        self._tell = tell
+        self._warn = warn
         self._chunks = sorted(summary.chunk_indexes, key=lambda index: index.chunk_start_offset)
         self._topics = {number: channel.topic for number, channel in summary.channels.items()}
         self.contents = _contents(summary)
@@ -90,10 +90,10 @@ class _Indexed:
         """Messages of a chunk; a damaged chunk is skipped with a warning."""
         try:
             records = chunk_at(self._file, index.chunk_start_offset)
-        except TORN as reason:
+        except DAMAGED as reason:
             begin = self.contents.extent.start
             first, last = index.message_start_time - begin, index.message_end_time - begin
-            self._tell(
+            self._warn(
                 f"{self._file.name}: damaged from {first * 1e-9:.3f} to {last * 1e-9:.3f} s "
                 f"({type(reason).__name__}); this part is skipped"
             )
@@ -106,9 +106,9 @@ class _Indexed:
 class _InOrder:
     """A file without an index, truncated or written without chunks; it is read sequentially."""
 
-    def __init__(self, file: Path, tell: Warn) -> None:
+    def __init__(self, file: Path, warn: Warn) -> None:
         self._file = file
-        self._tell = tell
+        self._warn = warn
         self.contents = Contents({}, Counter(), Extent())
         schemas: dict[int, Schema] = {}
         for record in self._records():
@@ -140,7 +140,7 @@ class _InOrder:
         remarks: list[str] = []
         yield from records_of(self._file, remarks)
         for remark in remarks:
-            self._tell(remark)
+            self._warn(remark)
 
 
 def _summary(file: Path) -> Summary | None:
@@ -150,7 +150,7 @@ def _summary(file: Path) -> Summary | None:
     with file.open("rb") as stream:
         try:
             return make_reader(stream).get_summary()
-        except TORN:
+        except DAMAGED:
             return None
 
 

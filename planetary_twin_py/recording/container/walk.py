@@ -20,7 +20,7 @@ from mcap.opcode import Opcode
 from mcap.records import DataEnd
 from mcap.stream_reader import CRCValidationError
 
-from .framing import TORN, Piece, next_chunk, opened, piece_at, unpacked_size
+from .framing import DAMAGED, Piece, next_chunk, opened, piece_at, unpacked_size
 from .integrity import MAGIC, end_of_data
 
 _AHEAD = 16 * (os.cpu_count() or 1)  # records; each chunk is followed by an index per topic
@@ -65,7 +65,7 @@ class Walk:
                 try:
                     yield from self._in_frames(threads)
                     return
-                except TORN as reason:
+                except DAMAGED as reason:
                     if self._ended:
                         yield reason
                         return
@@ -84,7 +84,7 @@ class Walk:
         return found
 
     def _in_frames(self, threads: ThreadPoolExecutor) -> Iterator[Sound | Lost]:
-        """Records in order; raises one of `TORN` if no intact record follows a damaged one."""
+        """Records in order; raises one of `DAMAGED` if no intact record follows a damaged one."""
         failed: Lost | None = None
         pieces = _pieces(self._stream, self._reached)
         for piece, open_it in _in_order(pieces, threads):
@@ -92,7 +92,7 @@ class Walk:
                 if piece.opcode in _OF_SUMMARY and not self._ended:
                     raise McapError("a summary before the end of the data")
                 records = open_it()
-            except TORN as reason:
+            except DAMAGED as reason:
                 if failed:
                     raise
                 failed = Lost(piece.place, piece.end, piece.opcode, reason)
@@ -145,7 +145,7 @@ def _pieces(stream: BinaryIO, begin: int) -> Iterator[Piece | Exception]:
             checksum = zlib.crc32(piece.content, zlib.crc32(piece.head, checksum))
         if (magic := stream.read(len(MAGIC))) != MAGIC:
             raise InvalidMagic(magic)
-    except TORN as reason:
+    except DAMAGED as reason:
         yield reason
 
 

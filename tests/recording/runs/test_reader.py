@@ -6,7 +6,7 @@ from mcap.records import Attachment, Channel, DataEnd, Message, Metadata, Schema
 from mcap.stream_reader import StreamReader
 from synthetic_recording import BLOCK, SAMPLE_PERIOD, START_NS, state, waveform, write_recording
 
-from planetary_twin_py.recording.container.framing import TORN
+from planetary_twin_py.recording.container.framing import DAMAGED
 from planetary_twin_py.recording.container.integrity import damaged_summary
 from planetary_twin_py.recording.container.records import RecordingError, records_of
 from planetary_twin_py.recording.runs.reader import read_recording
@@ -161,7 +161,7 @@ def test_records_of_a_damaged_file_go_on_where_mcap_stops_and_none_is_invented(s
                     in_data &= not isinstance(record, DataEnd)  # what follows only repeats
                     if in_data and isinstance(record, kinds):
                         expected.append(record)
-            except TORN:
+            except DAMAGED:
                 sound_end = False
         assert all(record in original for record in found)
         rest = iter(original)

@@ -41,8 +41,8 @@ def test_steady_load_tells_torque_and_film_and_says_that_it_does_not_tell_backla
     told = list(remarks(found))
     assert len(told) == 1
     assert told[0].startswith(
-        "backlash: not identifiable from this excerpt: teeth never separate (contact_fraction = 1); "
-        "all values from 0 to "
+        "backlash: not identifiable from this excerpt: teeth never separate (contact_fraction = 1)"
+        "; all values from 0 to "
     )
     assert np.isnan(found.estimate.correlation[0]).all()
 

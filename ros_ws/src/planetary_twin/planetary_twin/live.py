@@ -186,7 +186,7 @@ class LiveTwin:
         """
         Compute one interval, and publish it after `wait`; returns whether the twin could.
 
-        The setting is the quality one as far as is known; only the wait costs nothing.
+        The setting is that of the quality control so far; only the wait costs nothing.
         """
         quality = self.quality
         self._tune(quality)
