@@ -68,5 +68,5 @@ def test_what_cannot_be_ends_in_one_line(bag, arguments, told):
 def test_a_recording_without_its_scene_is_refused(tmp_path):
     file = write_recording(tmp_path / "one.mcap", 0.1)
     done = run(file, "--free", "backlash")
-    assert done.exit_code == 2 and "holds no run from its start" in done.output
+    assert done.exit_code == 2 and "has no run with its start" in done.output
     assert run(tmp_path / "missing", "--free", "backlash").exit_code == 2

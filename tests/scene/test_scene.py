@@ -59,7 +59,7 @@ CRACK = {"kind": "crack", "gear": "sun", "tooth": 0, "stiffness_loss": 0.2}
         ({"mesh__stifness": 1.0}, ["mesh.stifness", "no such field"]),
         (
             {"operating_point__backlash": "0.2 kg"},
-            ["backlash", "0.2 kg", "[kg] is no unit that goes into m"],
+            ["backlash", "0.2 kg", "[kg] cannot be converted to m"],
         ),
         ({"operating_point__backlash": "0,3 um"}, ["backlash = '0,3 um': write a decimal point"]),
         (
@@ -142,7 +142,7 @@ def test_all_errors_of_a_scene_are_listed_at_once_a_line_each():
             "mesh.ramp = 0.5: must be a number within 0 and 0.2",
             "mesh.backlash = 'gap': must be 'dead_zone' or 'regulatory_factor'",
             "gearset.modul: no such field; did you mean module?",
-            "input_speed = '3 m': [m] is no unit that goes into rad/s",
+            "input_speed = '3 m': [m] cannot be converted to rad/s",
             "faults.0.kind = 'hole': must be one of 'crack', 'spall', 'wear'",
             "faults.1.stiffness_loss = 2.0: must be a number within 0 and 0.9",
             "drive.output: missing",

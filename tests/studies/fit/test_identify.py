@@ -108,13 +108,19 @@ def test_far_into_a_run_the_simulation_begins_at_the_recorded_angles(tmp_path, m
         (Search(("backlash", "backlash")), "backlash: given twice"),
         (Search(("backlash",), start={"backlash": 1.0}), "backlash = 1.0: must be a number within"),
         (Search(("backlash",), start={"lambda_ratio": 1.0}), "lambda_ratio: is not free"),
-        (Search(("backlash",), ()), "nothing is observed"),
+        (Search(("backlash",), ()), "no observable: name at least one"),
         (Search(("backlash",), ("noise",)), "observe = noise: must be one of"),
-        (Search(("backlash",), noise={"dte_mean": 1.0}), "noise = dte_mean: is not observed"),
+        (
+            Search(("backlash",), noise={"dte_mean": 1.0}),
+            "noise = dte_mean: must be one of observe",
+        ),
         (Search(("backlash",), noise={"dte_rms": 0.0}), "must be above 0"),
         (Search(("backlash",), confidence=1.0), "confidence = 1.0: must be between 0 and 1"),
-        (Search(("backlash",), ("second_input_speed",)), "is no number anywhere"),
-        (Search(("backlash", "lambda_ratio"), ("power_loss",)), "1 readings cannot tell 2"),
+        (Search(("backlash",), ("second_input_speed",)), "was not recorded in this excerpt"),
+        (
+            Search(("backlash", "lambda_ratio"), ("power_loss",)),
+            "1 mean readings do not determine 2",
+        ),
     ],
 )
 def test_what_cannot_be_estimated_is_refused_in_one_line(short, search, told):

@@ -4,9 +4,9 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from planetary_twin_py.recording.tables.message_tables.rig_recording import write_measured
 
 import planetary_twin_py as pt
+from planetary_twin_py.recording.tables.rig_recording import write_measured
 from planetary_twin_py.studies.fit.identify import Search, identify
 from planetary_twin_py.studies.fit.remarks import remarks
 

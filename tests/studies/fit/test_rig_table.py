@@ -3,12 +3,12 @@
 import numpy as np
 import pyarrow as pa
 import pytest
-from planetary_twin_py.recording.tables.message_tables.export import Export, export
-from planetary_twin_py.recording.tables.message_tables.rig_recording import write_measured
 from pyarrow import csv, parquet
 from studies.fit.rig import PAPER, record
 
 import planetary_twin_py as pt
+from planetary_twin_py.recording.tables.export import Export, export
+from planetary_twin_py.recording.tables.rig_recording import write_measured
 from planetary_twin_py.studies.fit import excerpt
 from planetary_twin_py.studies.fit.excerpt import read_excerpt
 from planetary_twin_py.studies.fit.identify import Search, identify
@@ -55,7 +55,7 @@ def test_readings_of_one_mesh_are_enough(exported, tmp_path):
 @pytest.mark.parametrize(
     ("observe", "told"),
     [
-        ("dte_peak", "observe = dte_peak: is no number anywhere in this excerpt"),
+        ("dte_peak", "observe = dte_peak: was not recorded in this excerpt in this excerpt"),
         ("dte_waveform", "observe = dte_waveform: there is no waveform in this excerpt"),
         ("power_loss", "observe = power_loss: is no number somewhere in this excerpt"),
     ],
