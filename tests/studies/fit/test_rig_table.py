@@ -55,9 +55,9 @@ def test_readings_of_one_mesh_are_enough(exported, tmp_path):
 @pytest.mark.parametrize(
     ("observe", "told"),
     [
-        ("dte_peak", "observe = dte_peak: was not recorded in this excerpt in this excerpt"),
-        ("dte_waveform", "observe = dte_waveform: there is no waveform in this excerpt"),
-        ("power_loss", "observe = power_loss: is no number somewhere in this excerpt"),
+        ("dte_peak", "observe = dte_peak: was not recorded in this excerpt"),
+        ("dte_waveform", "observe = dte_waveform: no waveform was recorded in this excerpt"),
+        ("power_loss", "observe = power_loss: has NaN or infinite values in this excerpt"),
     ],
 )
 def test_what_was_not_measured_cannot_be_observed(tmp_path, observe, told):
