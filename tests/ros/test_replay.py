@@ -253,8 +253,8 @@ def test_what_cannot_be_played_ends_in_one_line(play: Play, bag: Path, tmp_path:
     (tmp_path / "text").write_text("no recording")
     (tmp_path / "empty").mkdir()
     _refused(play("nowhere"), "nowhere: no such file")
-    _refused(play("text"), "text: no recording")
-    _refused(play("empty"), "empty: no recording")
+    _refused(play("text"), "text: not a recording")
+    _refused(play("empty"), "empty: not a recording")
     _refused(play(bag, "--start", "99"), "start = 99", "s long")
 
 
