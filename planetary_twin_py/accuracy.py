@@ -1,9 +1,8 @@
-"""Runs whose figures are less accurate than their tolerance says.
+"""Runs whose results are less accurate than their tolerance suggests.
 
-A tolerance bounds the error of a step. Three kinds of motion make more of it than a sum of such
-errors: flanks that meet and part without ever coming to the same motion again, vibration that stops
-gears so that friction reverses, and friction that has not slid far enough to forget how the gears
-stood at the start.
+A tolerance limits the error of a step. Three kinds of motion amplify such errors: non-periodic
+impacts of flanks, vibration that reverses friction, and friction that has not slid far enough to be
+independent of the initial state.
 """
 
 from __future__ import annotations
@@ -21,34 +20,34 @@ from .scene import OperatingPoint, Scene
 if TYPE_CHECKING:
     from .result import Result
 
-SETTLED = 50.0  # presliding displacements to roll by until friction has forgotten the start
+SETTLED = 50.0  # presliding displacements of rolling after which the initial state has no effect
 
 
 class AccuracyWarning(UserWarning):
-    """Figures of a run are less accurate than its tolerance says."""
+    """Results of a run are less accurate than its tolerance suggests."""
 
 
 class Course(NamedTuple):
-    """What the accuracy of a run, or of a part of it, is judged by."""
+    """Counters of a run, or of a part of it, from which its accuracy is estimated."""
 
     flank_events: int = 0
-    """Flanks that have met or parted."""
+    """Engagements and separations of flanks."""
     reversals: int = 0
     """Steps in which vibration stops gears, or nearly so."""
     repeated_steps: int = 0
-    """Steps of a motion that repeats itself."""
+    """Steps that were not computed because the motion is periodic."""
     unsettled: float = 0.0
-    """Time that is missing until friction has forgotten the start [s]."""
+    """Remaining time until friction has forgotten the initial state [s]."""
     both_flanks: int = 0
-    """Steps in which both flanks of a mesh touch, of which one carries in this model."""
+    """Steps in which both flanks of a mesh touch; the model has a force on one of them only."""
 
     @property
     def unrepeated_flank_events(self) -> int:
-        """Flanks that have met or parted, 0 where the motion has come to repeat itself."""
+        """Engagements and separations of flanks, 0 if the motion has become periodic."""
         return 0 if self.repeated_steps else self.flank_events
 
     def since(self, before: Course) -> Course:
-        """What has been counted since `before`, which is of the same run."""
+        """Counters of the part of the run after `before`."""
         return Course(
             self.flank_events - before.flank_events,
             self.reversals - before.reversals,
@@ -58,7 +57,7 @@ class Course(NamedTuple):
         )
 
     def joined(self, later: Course) -> Course:
-        """The course of this part of a run and of the `later` one."""
+        """Counters of this part of a run together with the `later` part."""
         return Course(
             self.flank_events + later.flank_events,
             self.reversals + later.reversals,
@@ -69,11 +68,11 @@ class Course(NamedTuple):
 
 
 def course_so_far(control: Record, unsettled: float) -> Course:
-    """The course of a run from its start.
+    """Counters of a run from its start.
 
     Args:
         control: counters of the run, see `integrators.progress`.
-        unsettled: time that is missing until friction has forgotten the start [s].
+        unsettled: remaining time until friction has forgotten the initial state [s].
     """
     return Course(
         int(control.flank_events),
@@ -85,11 +84,14 @@ def course_so_far(control: Record, unsettled: float) -> Course:
 
 
 def accuracy_warnings(scene: Scene, run: Result) -> Iterator[str]:
-    """Sentences that say which figures of a run its tolerance does not bound, and what to do.
+    """Warnings about results that are less accurate than the tolerance, with a recommendation.
 
     Args:
-        scene: that was run.
+        scene: the scene.
         run: its result.
+
+    Returns:
+        A sentence per warning.
     """
     stats, rate = run.stats, settling_rate(scene, scene.operating_point)
     elapsed = max(run.duration, float(run.time[-1]))  # the time of settling counts, too
@@ -102,43 +104,43 @@ def accuracy_warnings(scene: Scene, run: Result) -> Iterator[str]:
 
 
 def course_warnings(course: Course) -> Iterator[str]:
-    """The same of the course of a run, or of a part of it."""
+    """Warnings of `accuracy_warnings` for a run or a part of it, from its counters."""
     if course.unsettled > 0.0:
         yield (
-            "the gears creep, and friction has not forgotten how they stood at the start: until "
-            f"they have rolled by {SETTLED:g} times lubrication.presliding_displacement, losses "
-            "and transmission error are those of friction that settles; simulate "
-            f"{course.unsettled:.2g} s more"
+            "the gears creep, and friction has not forgotten the initial state: losses and "
+            f"transmission error are transient until they have rolled by {SETTLED:g} times "
+            f"lubrication.presliding_displacement; simulate {course.unsettled:.2g} s more"
         )
     if course.reversals > 0:
         yield (
-            f"vibration stops gears against the carrier, or nearly so, in {course.reversals} "
-            "steps: small errors grow where friction reverses, so errors may exceed ten times the "
-            "tolerance; compare with a run at a tighter one"
+            f"vibration stops gears relative to the carrier, or nearly so, in {course.reversals} "
+            "steps: errors grow when friction reverses and may exceed ten times the tolerance; "
+            "compare with a run at a tighter tolerance"
         )
     if course.both_flanks > 0:
         yield (
             f"both flanks of a tooth touch in {course.both_flanks} steps, because mesh.runout "
-            "closes the backlash by more than the load opens it, and only one of them carries in "
-            "this model: mesh forces and transmission error are wrong there; increase backlash, "
-            "or reduce mesh.runout"
+            "closes the backlash by more than the load opens it. In this model only one flank "
+            "carries: mesh forces and transmission error are wrong there; increase backlash, or "
+            "reduce mesh.runout"
         )
     if course.unrepeated_flank_events > 0:
         yield (
-            f"flanks meet and part {course.flank_events} times, and the motion has not come to "
-            "repeat itself: small errors may grow from hit to hit, so single values of the "
-            "waveform may be less accurate than the tolerance; compare with a run at a tighter one"
+            f"flanks engage and separate {course.unrepeated_flank_events} times, and the motion "
+            "has not become periodic: errors may grow with each impact, so single values of the "
+            "waveform may be less accurate than the tolerance; compare with a run at a tighter "
+            "tolerance"
         )
 
 
 def settling_rate(scene: Scene, point: OperatingPoint) -> float:
-    """Share of the way per second that gears roll until friction has forgotten the start [1/s].
+    """Rate at which friction of creeping gears forgets the initial state [1/s].
 
-    Infinite where they do not creep, 0 where they stand or friction has no past.
+    Infinite if gears do not creep, 0 if they stand or friction has no memory.
 
     Args:
-        scene: that is run.
-        point: where it is run.
+        scene: the scene.
+        point: its operating point.
     """
     gearset, friction = scene.gearset, scene.lubrication
     if scene.dynamics != "torsional" or not friction.friction:
@@ -151,17 +153,17 @@ def settling_rate(scene: Scene, point: OperatingPoint) -> float:
 
 
 def unsettled(share: float, rate: float) -> float:
-    """Time that is missing until friction has forgotten the start [s].
+    """Time until friction has forgotten the initial state [s].
 
     Args:
-        share: of the way that the gears have rolled.
-        rate: of `settling_rate`, at which they roll now.
+        share: rolled share of the distance after which it has.
+        rate: present rate of that share [1/s], see `settling_rate`.
     """
     return (1.0 - share) / rate if 0.0 < rate < math.inf and share < 1.0 else 0.0
 
 
 def _turning(scene: Scene, point: OperatingPoint) -> float:
-    """Magnitude of the sun's speed against the carrier [rad/s], as it is set."""
+    """Magnitude of the set speed of the sun relative to the carrier [rad/s]."""
     ratios, inputs = rigid_ratios(scene), (point.input_speed, point.second_input_speed)
     sun, carrier = (
         sum(float(ratio) * speed for ratio, speed in zip(ratios[name], inputs, strict=False))

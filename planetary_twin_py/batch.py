@@ -1,4 +1,4 @@
-"""Many scenes at once. The kernels release the interpreter lock, so threads use all cores."""
+"""Simulation of many scenes in threads; the kernels release the global interpreter lock."""
 
 from __future__ import annotations
 
@@ -12,25 +12,25 @@ from .result import Result
 from .scene import Scene
 from .simulation import check_run, simulate
 
-AHEAD = 2  # runs for each worker that are under way or wait to be taken
+AHEAD = 2  # runs per thread that are running, queued or waiting for the caller
 
 
 @dataclass(frozen=True)
 class Outcome:
-    """What came of one scene of a batch."""
+    """Outcome of one scene of a batch."""
 
     place: int
-    """Of the scene in the batch, from 0."""
+    """Index of the scene in the batch, from 0."""
     scene: Scene
     found: Result | ValueError | ArithmeticError
-    """The result, or why there is none."""
+    """The result, or the error."""
 
     @property
     def result(self) -> Result:
         """The result.
 
         Raises:
-            ValueError: there is none; says which scene it is, and why.
+            ValueError: the run failed; the message names the scene and the reason.
         """
         if isinstance(self.found, Result):
             return self.found
@@ -45,19 +45,22 @@ def simulate_many(
     tolerance: float = 1e-4,
     workers: int | None = None,
 ) -> Iterator[Outcome]:
-    """Simulate every scene as `simulate` does, to the last bit, in the order of the scenes.
+    """Simulate many scenes in parallel, each with the same result as `simulate`.
 
-    Outcomes come as they are taken: only a few runs are ahead of the caller, so a thousand scenes
-    need no more memory than those few, unless the caller keeps their results. A scene that fails
-    has its error as outcome and stops no other.
+    Only a few runs are ahead of the caller, so memory does not grow with the number of scenes
+    unless the caller keeps the results. A scene that fails has its error as outcome and does not
+    affect the others.
 
     Args:
-        scenes: what to simulate; may itself come bit by bit.
-        duration: simulated time of each [s].
+        scenes: the scenes; may be a generator.
+        duration: simulated time of each run [s].
         sample_rate: of the results [Hz].
-        method: as of `simulate`.
-        tolerance: relative local error of a step.
-        workers: threads; as many as the process has cores unless given.
+        method: as in `simulate`.
+        tolerance: relative local error tolerance of the integrator.
+        workers: number of threads; None is the number of available cores.
+
+    Returns:
+        An iterator over the outcomes, in the order of the scenes.
 
     Raises:
         ValueError: an argument is out of range.

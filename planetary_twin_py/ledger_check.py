@@ -1,8 +1,7 @@
-"""Whether the energy ledger of a run closes well enough to believe its losses.
+"""Check of the energy ledger of a run, which determines whether its losses are reliable.
 
-Integration is the only reason for which energy in is not energy out, stored or lost. The residual
-is as uncertain a part of the losses, so it is judged by them: 1 % of the loss, or 1e-5 of what is
-turned over where hardly anything is lost.
+The residual of the energy balance is due to the integration only, and makes the losses uncertain by
+the same amount. It must be at most 1 % of the loss, or 1e-5 of the turnover if losses are small.
 """
 
 from __future__ import annotations
@@ -14,28 +13,28 @@ from .result import Energy
 from .tolerance import TOLERANCES
 from .window import Window
 
-OF_LOSS = 0.01  # largest residual
-OF_TURNOVER = 1e-5  # the same of a train that hardly loses anything
-OF_STORED = 1e-9  # what the rounding of masses and springs leaves, where nothing is turned over
+OF_LOSS = 0.01  # allowed residual/loss
+OF_TURNOVER = 1e-5  # allowed residual/turnover, for trains with small losses
+OF_STORED = 1e-9  # allowed residual/stored energy, due to rounding
 
 
 class LedgerWarning(UserWarning):
-    """The energy ledger of a run does not close."""
+    """The energy ledger of a run does not balance."""
 
 
 class Balance(NamedTuple):
-    """What the ledger of a run, or of a part of it, is judged by [J]."""
+    """Energy balance of a run, or of a part of it [J]."""
 
     residual: float = 0.0
     loss: float = 0.0
     turnover: float = 0.0
-    """What passes the machines, and by how much the stored energy changes."""
+    """Work of the machines, and change of the stored energy, as absolute values."""
     stored: float = 0.0
-    """In masses and springs."""
+    """Kinetic and elastic energy."""
 
     @property
     def excess(self) -> float:
-        """Magnitude of the residual over what is allowed; the ledger closes up to 1."""
+        """Residual/allowed residual; the ledger balances up to 1."""
         allowed = max(
             OF_LOSS * abs(self.loss), OF_TURNOVER * self.turnover, OF_STORED * self.stored
         )
@@ -44,7 +43,7 @@ class Balance(NamedTuple):
         return abs(self.residual) / allowed if allowed > 0.0 else math.inf
 
     def joined(self, other: Balance) -> Balance:
-        """The balance of this part and of the `other`, which comes after it."""
+        """Balance of this part and the following part `other` together."""
         return Balance(
             self.residual + other.residual,
             self.loss + other.loss,
@@ -54,13 +53,13 @@ class Balance(NamedTuple):
 
 
 def balance_of_run(energy: Energy) -> Balance:
-    """The balance of a whole run."""
+    """Balance of a run."""
     turnover = sum(map(abs, energy.machines)) + abs(energy.kinetic) + abs(energy.elastic)
     return Balance(energy.residual, energy.loss, turnover, energy.stored)
 
 
 def balance_of_window(window: Window) -> Balance:
-    """The balance of a window of a twin; one that lies within a step tells nothing."""
+    """Balance of a window of a twin; zero for a window within one step of the integrator."""
     if math.isnan(window.residual_power):
         return Balance()
     duration = window.end - window.start
@@ -74,27 +73,30 @@ def balance_of_window(window: Window) -> Balance:
 
 
 def ledger_warning(balance: Balance, tolerance: float) -> str | None:
-    """A sentence where the ledger does not close, else None.
+    """Warning if the ledger does not balance.
 
     Args:
         balance: of the run.
-        tolerance: at which it was integrated.
+        tolerance: of the integration.
+
+    Returns:
+        A sentence, or None if the ledger balances.
     """
     if balance.excess <= 1.0:
         return None
     share = f"{abs(balance.residual / balance.loss):.2g} of the loss" if balance.loss else "no loss"
     return (
-        f"the energy ledger does not close: {balance.residual:.3g} J of {balance.turnover:.3g} J "
-        f"turned over are not accounted for ({share}), so losses and efficiency are uncertain by "
-        f"as much; {advice(balance.excess, tolerance)}"
+        f"the energy ledger does not balance: the residual is {balance.residual:.3g} J of a "
+        f"turnover of {balance.turnover:.3g} J ({share}), so losses and efficiency are uncertain "
+        f"by as much; {advice(balance.excess, tolerance)}"
     )
 
 
 def advice(excess: float, tolerance: float) -> str:
-    """What to do about an `excess` above 1 at a `tolerance`."""
+    """Recommended change for an `excess` above 1 at a `tolerance`."""
     tightest = TOLERANCES[0]
     if tolerance <= tightest:
-        return f"the tolerance of {tightest:g} is the tightest: try another method"
-    # Errors fall with the tolerance at least in proportion; the next power of ten, to be safe.
+        return f"the tolerance {tightest:g} is the tightest: use another method"
+    # Errors decrease at least in proportion to the tolerance; rounded to the next power of ten.
     tighter = max(10.0 ** math.floor(math.log10(tolerance / min(excess, 1.0 / tightest))), tightest)
     return f"tighten the tolerance from {tolerance:g} to {tighter:g}"

@@ -1,17 +1,17 @@
-"""Text of unknown origin, as a terminal can show it without obeying it."""
+"""Escapes control characters in text of unknown origin, for printing to a terminal."""
 
 from __future__ import annotations
 
 
 def printable(text: str) -> str:
-    """`text` with an escape for each character that would steer a terminal, but for line ends."""
+    """`text` with control characters escaped, except line ends and tabs."""
     if text.isprintable():
         return text
     return "".join(c if c.isprintable() or c in "\n\t" else ascii(c)[1:-1] for c in text)
 
 
 def one_line(text: str, longest: int) -> str:
-    """`text` as one line, without its middle where it has more than `longest` characters."""
+    """`text` as one line; if it is longer than `longest` characters, its middle is omitted."""
     line = printable(text).replace("\n", "\\n").replace("\t", " ")
     if len(line) <= longest:
         return line

@@ -1,7 +1,6 @@
-"""What is plotted: one table of quantities with their units, as people read them.
+"""Plotted quantities with their titles and customary units.
 
-Recordings are in SI. Plots use the engineer's units (um, rpm, %), named in every title; the third
-column is the factor between the two.
+Recordings are in SI. Plots use customary units (um, rpm, %), which every title states.
 """
 
 from __future__ import annotations
@@ -13,7 +12,7 @@ RPM = 30.0 / math.pi
 
 
 class Quantity(NamedTuple):
-    """A plotted quantity: title, unit, and plotted value per SI value."""
+    """A plotted quantity: title, unit, and plotted value/SI value."""
 
     title: str
     unit: str
@@ -25,14 +24,14 @@ class Quantity(NamedTuple):
         return f"{self.title} [{self.unit}]"
 
 
-# Per mesh, by GearboxState's names without the leading sun_planet_ or planet_ring_.
+# Per mesh, by field of GearboxState without the prefix sun_planet_ or planet_ring_.
 MESH = {
     "dte_mean": Quantity("DTE, mean", "µm", 1e6),
     "dte_rms": Quantity("DTE, rms of the deviation from the mean", "µm", 1e6),
     "dte_peak": Quantity("DTE, largest magnitude", "µm", 1e6),
     "mesh_force_mean": Quantity("Mesh force, mean", "N"),
     "mesh_force_peak": Quantity("Mesh force, largest magnitude", "N"),
-    "contact_fraction": Quantity("Share of time in contact", "%", 100.0),
+    "contact_fraction": Quantity("Fraction of time in contact", "%", 100.0),
     "film_thickness": Quantity("Film thickness", "µm", 1e6),
     "lambda_ratio": Quantity("Lambda ratio", "-"),
     "boundary_friction": Quantity("Boundary friction", "N"),
@@ -40,7 +39,7 @@ MESH = {
     "power_loss": Quantity("Power loss per mesh", "W"),
 }
 
-# Every sample of every mesh, by MeshWaveform's names.
+# Samples of every mesh, by field of MeshWaveform.
 WAVEFORM = {
     "dte": Quantity("DTE", "µm", 1e6),
     "mesh_force": Quantity("Mesh force", "N"),
@@ -58,7 +57,7 @@ TRAIN = {
     "efficiency": (Quantity("Efficiency", "%", 100.0), ("efficiency",)),
 }
 
-# By OperatingPoint's names.
+# By field of OperatingPoint.
 OPERATING_POINT = {
     "backlash": Quantity("Backlash", "µm", 1e6),
     "lambda_ratio": Quantity("Prescribed lambda ratio", "-"),

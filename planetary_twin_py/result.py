@@ -1,4 +1,4 @@
-"""What a whole run leaves behind."""
+"""Result of a run: samples, energy ledger and statistics."""
 
 from __future__ import annotations
 
@@ -14,21 +14,21 @@ class Energy:
     """Energy ledger of a run [J]: input = output + stored + lost - stiffness_work + residual."""
 
     machines: tuple[float, ...]
-    """Work put in by the motor, the load, and the second motor of a differential."""
+    """Work done on the train by the motor, the load, and the second motor of a differential."""
     kinetic: float
-    """Growth of the kinetic energy."""
+    """Increase of the kinetic energy."""
     elastic: float
-    """Growth of the elastic energy of meshes and couplings."""
+    """Increase of the elastic energy of meshes and couplings."""
     friction: float
-    """Taken by tooth friction."""
+    """Dissipated by tooth friction."""
     damping: float
-    """Taken by the damping of meshes and couplings."""
+    """Dissipated by the damping of meshes and couplings."""
     bearing: float
-    """Taken by bearings, seals and grease."""
+    """Dissipated by bearings, seals and grease."""
     churning: float
-    """Taken by churned oil."""
+    """Dissipated by oil churning."""
     stiffness_work: float
-    """Put in by the meshes as their stiffness changes with the tooth pairs in contact."""
+    """Work due to the change of mesh stiffness with the tooth pairs in contact."""
     stored: float
     """Kinetic and elastic energy at the end."""
 
@@ -39,60 +39,60 @@ class Energy:
 
     @property
     def output(self) -> float:
-        """Work taken by the load."""
+        """Work done on the load."""
         return -self.machines[LOAD_MACHINE]
 
     @property
     def put_in(self) -> float:
-        """Work of those machines that drive; none of what they do circulates."""
+        """Work of the driving machines."""
         return sum(max(work, 0.0) for work in self.machines)
 
     @property
     def residual(self) -> float:
-        """What does not add up: the error of the integration."""
+        """Residual of the balance: the error of the integration."""
         lost = self.loss + self.damping - self.stiffness_work
         return self.input - self.output - self.kinetic - self.elastic - lost
 
     @property
     def loss(self) -> float:
-        """Taken by tooth friction, bearings and churning."""
+        """Dissipated by tooth friction, bearings and churning."""
         return self.friction + self.bearing + self.churning
 
 
 @dataclass(frozen=True)
 class Stats:
-    """What a run took."""
+    """Statistics of the integration."""
 
     steps: int
-    """That were computed."""
+    """Computed steps."""
     repeated_steps: int
-    """That were not, because steady running repeats itself."""
+    """Steps that were not computed because the motion is periodic."""
     stiff_steps: int
-    """Of them by Rosenbrock's method."""
+    """Steps by Rosenbrock's method."""
     rejected_steps: int
     evaluations: int
-    """Of the equations of motion."""
+    """Evaluations of the equations of motion."""
     pair_events: int
-    """Tooth pairs that began or ended to enter or leave."""
+    """Starts and ends of the entry and exit of tooth pairs."""
     flank_events: int
-    """Flanks that met or parted."""
+    """Engagements and separations of flanks."""
     reversals: int
-    """Steps in which vibration may have stopped or reversed a gear against the carrier."""
+    """Steps in which vibration may have stopped or reversed a gear relative to the carrier."""
     both_flanks: int
-    """Steps in which both flanks of a mesh touch, of which one carries in this model."""
+    """Steps in which both flanks of a mesh touch; the model has a force on one of them only."""
     wall_time: float
     """[s]"""
     real_time_factor: float
-    """Simulated over wall time."""
+    """Simulated time/wall time."""
 
 
 @dataclass(frozen=True)
 class Result:
-    """Samples and balance of one run; arrays are (samples,), (samples, bodies/meshes)."""
+    """Samples and energy ledger of a run; arrays are (samples,), (samples, bodies/meshes)."""
 
     duration: float
-    """[s], from the end of the settling to the end of the run, each to the end of its step: what
-    the ledger of energy is over."""
+    """Time that the energy ledger covers [s]: from the end of the step in which settling ends to
+    the end of the last step."""
     time: np.ndarray
     """[s]"""
     bodies: tuple[str, ...]
@@ -118,16 +118,16 @@ class Result:
     power_loss: np.ndarray
     """Tooth friction [W], (samples, meshes)."""
     mesh_power: np.ndarray
-    """Power that rolls through a mesh, seen from the carrier [W], (samples, meshes)."""
+    """Power that a mesh transmits in the frame of the carrier [W], (samples, meshes)."""
     bearing_loss: np.ndarray
     """All bearings, seals and grease [W], (samples,)."""
     churning_loss: np.ndarray
-    """Churned oil [W], (samples,)."""
+    """Oil churning [W], (samples,)."""
     energy: Energy
     mesh: dict[str, np.ndarray]
-    """Statistics of the meshes over the time asked for, (meshes,) each: see `mesh_statistics`."""
+    """Statistics of the meshes over the evaluated time, (meshes,) each: see `mesh_statistics`."""
     mesh_efficiency: tuple[float, float]
-    """Of the sun meshes and of the ring meshes: 1 - tooth friction/power that rolls through."""
+    """Of the sun meshes and of the ring meshes: 1 - tooth friction/transmitted power."""
     stats: Stats
 
     @property

@@ -1,4 +1,4 @@
-"""A run in progress, with or without dynamics, as `Twin` and `simulate` see it."""
+"""Interface of a run in progress, dynamic or quasi-static, for `Twin` and `simulate`."""
 
 from __future__ import annotations
 
@@ -18,13 +18,13 @@ from .scene import OperatingPoint, Scene
 
 
 class Run(Protocol):
-    """A model that is stepped."""
+    """A model that is advanced in time."""
 
     train: Record
 
     @property
     def reached(self) -> Fraction:
-        """Up to where the ledger counts [s], at or after the end of the last window."""
+        """End of the ledger [s], at or after the end of the last window."""
 
     @property
     def control(self) -> Record:
@@ -32,28 +32,28 @@ class Run(Protocol):
 
     @property
     def repeats(self) -> bool:
-        """Whether mesh cycles repeat and are not computed again."""
+        """Whether the motion is periodic, so that mesh cycles are not computed again."""
 
     @property
     def powers(self) -> np.ndarray:
-        """By which the ledger grows at `reached`."""
+        """Rate of the ledger at `reached` [W]."""
 
     def advance(
         self, until: float | Fraction, first_sample: int, sample_rate: float, room: int
     ) -> Samples:
-        """Run to `until` [s]; samples lie at whole multiples of 1/sample_rate."""
+        """Simulate until `until` [s]; sample times are integer multiples of 1/sample_rate."""
 
     def sample(self, time: float | Fraction) -> Samples:
         """One sample at `time` [s], the end of the last window."""
 
     def change(self, point: OperatingPoint, tolerance: float, time: float | Fraction) -> None:
-        """Run on with these from `time` [s], the end of the last window."""
+        """Change operating point and tolerance at `time` [s], the end of the last window."""
 
     def take_ledger(self) -> np.ndarray:
-        """Integrals of the ledger up to `reached` since they were last taken."""
+        """Integrals of the ledger up to `reached` since the last call."""
 
     def take_mesh_sums(self, time: float | Fraction) -> MeshSums:
-        """Integrals and extremes of the meshes since they were last taken.
+        """Integrals and extremes of the meshes since the last call.
 
         Up to `time` [s], the end of the last window.
         """
@@ -63,11 +63,15 @@ class Run(Protocol):
 
 
 def start(scene: Scene, tolerance: float, method: str = "auto") -> Run:
-    """Begin a run of `scene` with the dynamics it asks for.
+    """Start a run of `scene` with the dynamics that it selects.
 
     Args:
-        scene: what to simulate.
-        tolerance, method: see `Engine`; without dynamics there is no choice of a method.
+        scene: to simulate.
+        tolerance: see `Engine`.
+        method: see `Engine`; quasi-static runs have no choice.
+
+    Returns:
+        The run.
 
     Raises:
         ValueError: an argument is out of range, or the scene cannot be built.
@@ -76,21 +80,20 @@ def start(scene: Scene, tolerance: float, method: str = "auto") -> Run:
         return Engine(scene, tolerance, method)
     if method not in ("auto", "march"):
         raise ValueError(
-            f"method = {method!r}: must be auto or march, "
-            f"dynamics = {scene.dynamics!r} takes no steps"
+            f"method = {method!r}: must be auto or march, because dynamics = {scene.dynamics!r}"
         )
     return QuasiStaticEngine(scene, tolerance)
 
 
 def check_point(scene: Scene, point: OperatingPoint) -> None:
-    """Refuse an operating point at which a run of `scene` would not be stable.
+    """Check that a run of `scene` is stable at an operating point.
 
     Args:
-        scene: what runs.
-        point: where it is to run.
+        scene: the scene.
+        point: the operating point.
 
     Raises:
-        ValueError: the speed loop of the drive is not stable there.
+        ValueError: the speed loop of the drive is not stable.
     """
     if scene.dynamics == "torsional":
         check_speed_loop(scene, build_train(scene), point)

@@ -1,8 +1,7 @@
-"""Where a run is stopped, because its figures are none that a gearbox could show.
+"""Limits at which a run is stopped, because no gearbox can reach them.
 
-An unstable drive or a load beyond all strength makes the motion grow until the numbers overflow.
-Long before, the equations describe no gearbox: a mesh that is squeezed by a base pitch has a tooth
-where its neighbour should be, so teeth have broken or jumped over.
+With an unstable drive or an extreme load the motion grows until numbers overflow. The equations are
+invalid long before: a mesh deflection of a base pitch means that teeth have broken or jumped.
 """
 
 from __future__ import annotations
@@ -19,11 +18,11 @@ from .dynamics.static_load import static_torques
 from .integrators.interpolant import Samples
 from .scene import Scene
 
-EXCESS = 10.0  # what speeds and torques may be, over what the limits of the drive make of them
+EXCESS = 10.0  # allowed ratio of speeds and torques to those at the limits of the drive
 
 
 class RunawayError(ArithmeticError):
-    """A run that cannot go on; its line says when and why."""
+    """A run was stopped; the message is a line with time and reason."""
 
 
 class Limit(NamedTuple):
@@ -31,13 +30,13 @@ class Limit(NamedTuple):
 
     quantity: str
     unit: str
-    names: Sequence[str]  # of what has it
+    names: Sequence[str]  # of the bodies, machines or meshes
     largest: np.ndarray  # (names,)
-    reason: str  # why more cannot be
+    reason: str  # of the limit
 
     def check(self, values: np.ndarray) -> None:
-        """Raise an `ArithmeticError` where one of `values`, (instants, names), is not within it."""
-        peak = np.abs(values).max(axis=0, initial=0.0)  # NaN where there is one
+        """Raise `ArithmeticError` if one of `values` (times, names) exceeds its limit or is NaN."""
+        peak = np.abs(values).max(axis=0, initial=0.0)  # NaN if there is one
         passed = np.flatnonzero(~(peak <= self.largest))
         if passed.size:
             k = int(passed[0])
@@ -48,11 +47,11 @@ class Limit(NamedTuple):
 
 
 class Limits:
-    """What a run of a scene may show.
+    """Limits of a run.
 
     Args:
-        scene: what runs.
-        train: of `dynamics.train.build_train`.
+        scene: the scene.
+        train: from `dynamics.train.build_train`.
     """
 
     def __init__(self, scene: Scene, train: Record) -> None:
@@ -62,8 +61,8 @@ class Limits:
             "m",
             _names(dict(zip(meshes.names, meshes.place, strict=True)), int(train.meshes)),
             np.full(train.meshes, train.base_pitch),
-            "a base pitch: teeth would have broken or jumped over; lower the torques or stiffen "
-            "the teeth",
+            "a base pitch, at which teeth break or jump; reduce the torques or increase the "
+            "stiffness",
         )
         """See `squeeze`."""
         fastest = max(drive.speed_limit, abs(drive.speed_control.start_speed or 0.0))
@@ -72,7 +71,7 @@ class Limits:
             "rad/s",
             _names(build_bodies(scene).place, int(train.bodies)),
             EXCESS * fastest * np.abs(train.ratio[: train.bodies]).sum(axis=1),
-            f"{EXCESS:g} times what drive.speed_limit = {drive.speed_limit:g} rad/s allows",
+            f"{EXCESS:g} times the speed at drive.speed_limit = {drive.speed_limit:g} rad/s",
         )
         """Of the bodies."""
         accelerating = drive.speed_control.slew_rate * _inertia(train)
@@ -81,16 +80,21 @@ class Limits:
             "N m",
             MACHINE_NAMES[: train.machines],
             EXCESS * (drive.torque_limit + accelerating) * np.abs(static_torques(scene)),
-            f"{EXCESS:g} times what drive.torque_limit = {drive.torque_limit:g} N m and "
-            f"drive.speed_control.slew_rate = {drive.speed_control.slew_rate:g} rad/s^2 ask for",
+            f"{EXCESS:g} times the torque at drive.torque_limit = {drive.torque_limit:g} N m and "
+            f"drive.speed_control.slew_rate = {drive.speed_control.slew_rate:g} rad/s^2",
         )
         """Of the machines."""
 
 
 def squeeze(samples: Samples, train: Record, load: Record) -> np.ndarray:
-    """How far teeth are pressed into one another, at least [m], shape (instants, meshes).
+    """Lower bound of the mesh deflection along the line of action [m], shape (times, meshes).
 
-    Along the line of action: |DTE| less half the backlash and the largest errors of form.
+    It is |DTE| minus half the backlash and the largest errors of form.
+
+    Args:
+        samples: of the meshes.
+        train: gives the errors of form.
+        load: gives the backlash.
     """
     size = np.hypot(train.line_tangential, train.line_radial)
     errors = size.sum(axis=1)[train.kind[: train.meshes]]
@@ -105,6 +109,6 @@ def _inertia(train: Record) -> float:
 
 
 def _names(place: Mapping[str, int], count: int) -> list[str]:
-    """Names by their places, of those that share one the first."""
+    """Names in order of their indices; the first of several names with the same index."""
     first = {at: name for name, at in reversed(list(place.items()))}
     return [first[at] for at in range(count)]

@@ -1,4 +1,4 @@
-"""A whole run, as fast as it goes."""
+"""Simulation of a run, as fast as possible."""
 
 from __future__ import annotations
 
@@ -45,31 +45,31 @@ def simulate(
     tolerance: float = TOLERANCE,
     settling: float = 0.0,
 ) -> Result:
-    """Simulate `duration` seconds of a scene from steady running.
+    """Simulate a scene from a steady state.
 
-    Means, rms and peaks of the result come from the integrator and do not depend on the samples.
+    The integrator computes means, rms and peaks, independently of the samples.
 
     Args:
-        scene: what to simulate.
+        scene: to simulate.
         duration: simulated time of the result [s].
-        sample_rate: of the result [Hz]; samples lie at whole multiples of its period.
-        method: "collocation", "rosenbrock", "march": the first wherever it is fit, or "auto": the
-            same, but steady running that repeats itself is not computed again. Gears that creep
-            are integrated by "rosenbrock" whatever the method, see `Stats.stiff_steps`.
-        tolerance: relative local error of a step.
-        settling: simulated time before that [s], which leaves out what the start sets swinging;
-            the clock of the result counts it.
+        sample_rate: of the result [Hz]; sample times are integer multiples of its period.
+        method: "collocation", "rosenbrock", "march" (collocation wherever it is applicable) or
+            "auto" (the same, but periodic motion is not computed again). Creeping gears are always
+            integrated by "rosenbrock", see `Stats.stiff_steps`.
+        tolerance: relative local error tolerance.
+        settling: simulated time before the result [s], to exclude the transient of the start; the
+            time of the result includes it.
 
     Returns:
         Samples, energy ledger and statistics of the time after `settling`.
 
     Raises:
-        ValueError: an argument is out of range, or the scene cannot be run.
-        RunawayError: the train shows what no gearbox can, see `runaway`.
+        ValueError: an argument is out of range, or the scene is invalid.
+        RunawayError: the run exceeds physical limits, see `runaway`.
 
     Warns:
-        LedgerWarning: the energy ledger does not close, see `ledger_check`.
-        AccuracyWarning: figures are less accurate than the tolerance says, see `accuracy`.
+        LedgerWarning: the energy ledger does not balance, see `ledger_check`.
+        AccuracyWarning: results are less accurate than the tolerance, see `accuracy`.
     """
     check_run(duration, sample_rate, method, tolerance)
     if not 0.0 <= settling < math.inf:
@@ -94,21 +94,21 @@ def simulate(
 
 
 class _Start(NamedTuple):
-    """Where the result of a run begins."""
+    """State at the start of the result."""
 
     reached: Fraction  # [s]
     stored: tuple[float, float]  # [J]
-    samples: int  # up to there
-    turned: np.ndarray  # bodies [rad]
+    samples: int  # before
+    turned: np.ndarray  # angles of the bodies [rad]
 
 
 def _turned(engine: Run, time: float) -> np.ndarray:
-    """Angles [rad] of the bodies that are integrated at `time` [s], the end of the last window."""
+    """Angles of the integrated bodies [rad] at `time` [s], the end of the last window."""
     return _angles(engine, engine.sample(time))[0]
 
 
 def _angles(engine: Run, samples: Samples) -> np.ndarray:
-    """Of the bodies that are integrated [rad], (samples, bodies)."""
+    """Angles of the integrated bodies [rad], (samples, bodies)."""
     train = engine.train
     turned = 2.0 * math.pi * samples.turns @ train.ratio[: train.bodies].T
     return np.asarray(turned + samples.angle)
@@ -120,7 +120,7 @@ def _samples(time: float, sample_rate: float) -> int:
 
 
 def check_run(duration: float, sample_rate: float, method: str, tolerance: float) -> None:
-    """Raise the ValueError of an argument of `simulate` that is out of range."""
+    """Raise `ValueError` if an argument of `simulate` is out of range."""
     if method not in METHODS:
         raise ValueError(f"method = {method!r}: must be one of {', '.join(METHODS)}")
     if not (duration > 0.0 and 1.0 <= duration * sample_rate <= MOST_SAMPLES):
@@ -182,7 +182,7 @@ def _result(
 
 
 def _mesh_efficiency(sums: MeshSums) -> tuple[float, float]:
-    """Of the sun meshes and of the ring meshes."""
+    """Efficiency of the sun meshes and of the ring meshes."""
     lost, rolled = (
         sums.integral[row].reshape(2, -1).sum(axis=1) for row in (POWER_LOSS, MESH_POWER)
     )

@@ -1,4 +1,4 @@
-"""How exact a run is to be: the tolerances there are."""
+"""Tolerances of a run."""
 
 from __future__ import annotations
 
@@ -6,14 +6,14 @@ from collections.abc import Sequence
 
 TOLERANCES = (1e-8, 0.1)  # allowed range
 LADDER = (1e-2, 3e-3, 1e-3, 3e-4, 1e-4, 3e-5, 1e-5, 3e-6, 1e-6)
-"""Tolerances to choose from, the loosest first."""
+"""Tolerances for automatic selection, the loosest first."""
 AUTOMATIC = 0.0
-"""Stands for the choice among all of `LADDER` where one tolerance could be named."""
-LIVE_TOLERANCE = 3e-3  # as long as nothing is known of the machine
+"""In place of a tolerance: automatic selection from `LADDER`."""
+LIVE_TOLERANCE = 3e-3  # default for live twins, on a machine of unknown speed
 
 
 def check_tolerance(tolerance: float) -> None:
-    """Raise `ValueError` for one out of range."""
+    """Raise `ValueError` if a tolerance is out of range."""
     if not TOLERANCES[0] <= tolerance <= TOLERANCES[1]:
         raise ValueError(
             f"tolerance = {tolerance!r}: must be within {TOLERANCES[0]:g} and {TOLERANCES[1]:g}"
@@ -21,10 +21,10 @@ def check_tolerance(tolerance: float) -> None:
 
 
 def ladder_of(tolerance: float) -> Sequence[float]:
-    """The tolerances to choose from: `tolerance` alone, or all where it is AUTOMATIC.
+    """Tolerances to select from: only `tolerance`, or all of `LADDER` if it is AUTOMATIC.
 
     Raises:
-        ValueError: it is neither AUTOMATIC nor in range.
+        ValueError: `tolerance` is neither AUTOMATIC nor in range.
     """
     if tolerance == AUTOMATIC:
         return LADDER

@@ -1,4 +1,4 @@
-"""The model stepped live: what the simulation node drives."""
+"""A twin that is advanced in windows and can be changed between them."""
 
 from __future__ import annotations
 
@@ -21,33 +21,33 @@ from .scene import TUNABLES, OperatingPoint, Scene, SceneError
 from .tolerance import LIVE_TOLERANCE, check_tolerance
 from .window import Waveform, Window, mesh_statistics
 
-TICKS = 10**12  # of the clock, in a second
-LEEWAY = Fraction(1, 10**6)  # of a sample period, by which a sample may lie beyond its window
-LONGEST_WINDOW = 60.0  # [s] of samples held in memory at once, or
-MOST_SAMPLES = 4096  # if that is longer
+TICKS = 10**12  # of the clock per second
+LEEWAY = Fraction(1, 10**6)  # sample periods by which a sample may be beyond its window
+LONGEST_WINDOW = 60.0  # [s], because samples are in memory; or
+MOST_SAMPLES = 4096  # samples, if that is longer
 LOWEST_SAMPLE_RATE = 1.0  # [Hz]
 
 
 class Change(NamedTuple):
-    """What a run follows from, and the simulated instant [s] from which it holds."""
+    """Inputs of a run, and the simulated time [s] from which they apply."""
 
     time: float
     point: OperatingPoint
     tolerance: float
     sample_rate: float
-    """Of the waveform [Hz]: what is looked at, which does not change what happens."""
+    """Of the waveform [Hz]; it does not affect the motion."""
 
 
 class Twin:
-    """A gearbox that runs and can be changed while it runs.
+    """A running gearbox, whose operating point can be changed between windows.
 
     Args:
-        scene: what to simulate; it starts in steady running at the scene's operating point.
+        scene: to simulate; it starts in a steady state at the operating point of the scene.
         sample_rate: of the waveform [Hz].
-        tolerance: relative error of a step; the live default leaves time to spare.
+        tolerance: relative local error tolerance; the default is fast enough for real time.
 
     Raises:
-        ValueError: the scene, the sample rate or the tolerance cannot be.
+        ValueError: the scene, the sample rate or the tolerance is invalid.
     """
 
     def __init__(
@@ -64,8 +64,7 @@ class Twin:
         self._whole_turns = [_WholeTurns.of(ratios) for ratios in self._names.ratio]
         self._clock = Fraction(0)
         self.log = [Change(0.0, scene.operating_point, tolerance, float(sample_rate))]
-        """Every operating point, tolerance and sample rate: made again at the same instants, the
-        same run and the same samples of it."""
+        """All changes; applied again at the same times, they reproduce the run and its samples."""
         self._books = self._account()
         self._end = self._engine.sample(self._clock)
         self._settled, self._settling = 0.0, settling_rate(scene, scene.operating_point)
@@ -73,12 +72,12 @@ class Twin:
 
     @property
     def bodies(self) -> tuple[str, ...]:
-        """Names of the bodies, in the order of all arrays over bodies."""
+        """Names of the bodies, in the order of arrays over bodies."""
         return self._names.names
 
     @property
     def meshes(self) -> tuple[str, ...]:
-        """Names of the meshes, in the order of all arrays over meshes."""
+        """Names of the meshes, in the order of arrays over meshes."""
         return self._mesh_names.names
 
     @property
@@ -88,24 +87,30 @@ class Twin:
 
     @property
     def operating_point(self) -> OperatingPoint:
-        """The one in force."""
+        """Present operating point."""
         return self.log[-1].point
 
     @property
     def tolerance(self) -> float:
-        """The one in force."""
+        """Present tolerance."""
         return self.log[-1].tolerance
 
     @property
     def sample_rate(self) -> float:
-        """The one in force [Hz]."""
+        """Present sample rate [Hz]."""
         return self.log[-1].sample_rate
 
     def set(self, **changes: float) -> float:
-        """Change fields of the operating point, all at `time`, which is returned [s].
+        """Change fields of the operating point at the present time.
+
+        Args:
+            changes: values in SI by field name.
+
+        Returns:
+            The simulated time from which they apply [s].
 
         Raises:
-            ValueError: a name or a value is not allowed; nothing has changed.
+            ValueError: a name is unknown, or a value is out of range; nothing is changed.
         """
         for name in changes:
             if name not in TUNABLES:
@@ -116,22 +121,31 @@ class Twin:
         return self._change(point, self.tolerance)
 
     def set_tolerance(self, tolerance: float) -> float:
-        """Change the tolerance at `time`, which is returned [s].
+        """Change the tolerance at the present time.
+
+        Args:
+            tolerance: relative local error tolerance.
+
+        Returns:
+            The simulated time from which it applies [s].
 
         Raises:
-            ValueError: it is out of range; nothing has changed.
+            ValueError: it is out of range; nothing is changed.
         """
         check_tolerance(tolerance)
         return self._change(self.operating_point, tolerance)
 
     def set_sample_rate(self, sample_rate: float) -> float:
-        """Change the rate [Hz] of the waveform from `time` on, which is returned [s].
+        """Change the sample rate of the waveform at the present time; the motion is not affected.
 
-        The states that the twin passes through stay the same. Samples lie at whole multiples of
-        the new period.
+        Args:
+            sample_rate: [Hz]; sample times are integer multiples of the new period.
+
+        Returns:
+            The simulated time from which it applies [s].
 
         Raises:
-            ValueError: it is out of range; nothing has changed.
+            ValueError: it is out of range; nothing is changed.
         """
         _check_sample_rate(sample_rate)
         if sample_rate != self.sample_rate:
@@ -140,16 +154,23 @@ class Twin:
         return self.time
 
     def advance(self, duration: float) -> Window:
-        """Run for `duration` [s] of simulated time.
+        """Simulate one window.
+
+        Args:
+            duration: simulated time [s], above 0 and at most 60 s or 4096 samples, whichever is
+                longer.
+
+        Returns:
+            Statistics and waveform of the window.
 
         Raises:
-            ValueError: the duration is not within 0 and 60 s, or the time of 4096 samples.
-            RunawayError: the train shows what no gearbox can; the twin stays at `time` for good.
+            ValueError: the duration is out of range.
+            RunawayError: the run exceeds physical limits; the twin cannot be advanced any more.
         """
         longest = max(LONGEST_WINDOW, MOST_SAMPLES / self.sample_rate)
         if not 0.0 < duration <= longest:
             raise ValueError(f"duration = {duration!r} s: must be above 0 and at most {longest:g}")
-        # Windows of 10 ms end on whole samples; their sum must not drift off them.
+        # Windows of 10 ms end on samples; rounding errors of their sum must not accumulate.
         step = Fraction(round(duration * TICKS), TICKS)
         if not step:
             raise ValueError(f"duration = {duration!r} s: must be at least 1e-12, the clock's step")
@@ -160,7 +181,7 @@ class Twin:
         try:
             samples = self._engine.advance(self._clock, first, self.sample_rate, room)
         except RunawayError:
-            self._clock -= step  # what was reached before stands
+            self._clock -= step  # the last completed window remains valid
             raise
         return self._window(step, first, samples, repeated)
 
@@ -168,18 +189,18 @@ class Twin:
         change = Change(self.time, point, tolerance, self.sample_rate)
         if change[1:] != self.log[-1][1:]:
             self._engine.change(point, tolerance, self._clock)
-            self._books = self._account()  # play that opens or closes stores no work of this window
-            self._end = self._engine.sample(self._clock)  # as the new point has it
+            self._books = self._account()  # a change of backlash is not work of this window
+            self._end = self._engine.sample(self._clock)  # with the new operating point
             self._settling = settling_rate(self.scene, point)
             self.log.append(change)
         return self.time
 
     def _samples(self) -> int:
-        """Number of samples up to now."""
+        """Number of samples up to the present time."""
         return math.floor(self._clock * Fraction(self.sample_rate) + LEEWAY)
 
     def _account(self) -> tuple[Fraction, np.ndarray, float]:
-        """Time reached, ledger since the last account and stored energy at that time."""
+        """Time reached, ledger since the last call, and stored energy at that time."""
         return self._engine.reached, self._engine.take_ledger(), sum(self._engine.stored())
 
     def _window(self, step: Fraction, first: int, samples: Samples, repeated: bool) -> Window:
@@ -235,7 +256,7 @@ class Twin:
         return self._course.since(before)
 
     def _angles(self) -> np.ndarray:
-        """Angles modulo a turn, exact in the whole turns of the motor."""
+        """Angles modulo a turn [rad], with exact whole turns of the motor."""
         turns = [int(turn) for turn in self._end.turns[0]]
         relative = np.append(self._end.angle[0], 0.0)[self._names.place]
         whole = [body.part(turns) for body in self._whole_turns]
@@ -243,25 +264,25 @@ class Twin:
 
 
 def _residual(rate: np.ndarray, machines: int) -> float:
-    """Power [W] put in and neither lost nor damped, of the growth `rate` of the ledger."""
+    """Input power minus dissipated power [W], from the rate of the ledger."""
     lost = rate[FRICTION] + rate[DAMPING] + rate[BEARING] + rate[CHURNING]
     return float(rate[WORK : WORK + machines].sum() + rate[STIFFNESS_WORK] - lost)
 
 
 class _WholeTurns(NamedTuple):
-    """What whole turns of the motors make of a body, in whole numbers."""
+    """Turns of a body per whole turns of the motors, as integers."""
 
     numerators: tuple[int, ...]
     denominator: int
 
     @classmethod
     def of(cls, ratios: Ratios) -> _WholeTurns:
-        """From its speeds per speed of each motor."""
+        """From the speed ratios of the body to each motor."""
         common = math.lcm(*(ratio.denominator for ratio in ratios))
         return cls(tuple(int(ratio * common) for ratio in ratios), common)
 
     def part(self, turns: list[int]) -> float:
-        """Part of a turn, in [0, 1), by which the body is turned."""
+        """Fraction of a turn of the body, in [0, 1)."""
         turned = sum(turn * n for turn, n in zip(turns, self.numerators, strict=False))
         return turned % self.denominator / self.denominator
 

@@ -1,4 +1,4 @@
-"""Units at the edge: inside, every quantity is in SI."""
+"""Conversion of units at the interfaces; internally every quantity is in SI."""
 
 from __future__ import annotations
 
@@ -12,8 +12,8 @@ from numpy.typing import NDArray
 
 _QUANTITY = re.compile(r"([-+]?[\d._]+(?:[eE][-+]?\d+)?)\s*(\S.*)")
 _POWER = re.compile(r"(?<=[^\W\d_])(-?\d)")  # of mm2, min-1
-_INSTEAD = (  # a unit often given, that which is wanted, and what to write
-    ("1/s", "rad/s", "turns are told in rpm or rev/s"),
+_INSTEAD = (  # a common wrong unit, the expected unit, and advice
+    ("1/s", "rad/s", "write rpm or rev/s for turns"),
     ("U/min", "rad/s", "write rpm"),
     ("C", "K", "write degC"),
     ("deg C", "K", "write degC"),
@@ -23,7 +23,7 @@ _INSTEAD = (  # a unit often given, that which is wanted, and what to write
 )
 
 
-_CUSTOMARY = {  # by the SI unit: unit, how many of it one of SI is, and its zero in them
+_CUSTOMARY = {  # by SI unit: customary unit, factor, and offset
     "rad/s": ("rpm", 30.0 / math.pi, 0.0),
     "rad": ("deg", 180.0 / math.pi, 0.0),
     "K": ("degC", 1.0, 273.15),
@@ -39,7 +39,7 @@ _RAISED = re.compile(r"[^\W\d]\s*(?:\*\*|\^)\s*\(?[-+]?\d{1,2}(?![\d\s]*[\d*^])"
 
 
 class UnitError(ValueError):
-    """A number in a unit that is none here, or with a comma: no range would explain it."""
+    """A number in a wrong unit, or with a decimal comma."""
 
 
 def rpm(value: float) -> float:
@@ -49,23 +49,30 @@ def rpm(value: float) -> float:
 
 @cache
 def _registry() -> Any:
-    import pint  # Costs 0.2 s, and most values come without a unit.
+    import pint  # takes 0.2 s, and most values have no unit
 
     registry: Any = pint.UnitRegistry(
         autoconvert_offset_to_baseunit=True,
         preprocessors=[lambda text: _POWER.sub(r"**\1", text)],
     )
-    registry.define("newton_metre = newton * metre = Nm")  # else a number of metres
+    registry.define("newton_metre = newton * metre = Nm")  # otherwise nanometres
     registry.define("@alias turn = rev")
     return registry
 
 
 def to_si(value: object, unit: str) -> object:
-    """Convert ``"0.2 um"`` to a float in `unit`; pass on what carries no unit of its own.
+    """Convert a text such as ``"0.2 um"`` to a number.
+
+    Args:
+        value: text with or without a unit; other values are returned unchanged.
+        unit: SI unit of the result.
+
+    Returns:
+        Number in `unit`.
 
     Raises:
-        UnitError: the text has a comma, or a unit of another quantity than `unit`.
-        ValueError: the text is no number with a unit, or the value is true or false.
+        UnitError: the text has a comma, or its unit does not match `unit`.
+        ValueError: the text is not a number with a unit, or the value is true or false.
     """
     if isinstance(value, bool):
         raise ValueError("must be a number, not true or false")
@@ -76,21 +83,21 @@ def to_si(value: object, unit: str) -> object:
     if is_number(value):  # YAML reads "2e8" as text
         return float(value)
     parts = _QUANTITY.fullmatch(value.strip())
-    # Number and unit apart: an expression in which pint reads both loses signs that it knows not.
+    # Number and unit are parsed separately, because pint drops unknown characters in expressions.
     if parts is None or not is_number(parts[1]):
         raise ValueError(f"{value!r} is not a number with a unit")
     return float(column_to_si(np.array(float(parts[1])), parts[2], unit))
 
 
 def customary(value: float, unit: str) -> str:
-    """A quantity in the unit that engineers use: 1000 rad/s is "9549 rpm"; empty without one.
+    """Format a quantity in its customary unit: 1000 rad/s is "9549 rpm".
 
     Args:
         value: in SI.
-        unit: the SI unit of `value`.
+        unit: SI unit of `value`.
 
     Returns:
-        Number and unit, in four digits.
+        Number with four digits, and unit; empty if there is no customary unit.
     """
     if unit == "m":
         return f"{1e6 * value:.4g} um" if abs(value) < 1e-4 else f"{1e3 * value:.4g} mm"
@@ -108,26 +115,34 @@ def is_number(text: str) -> bool:
 
 
 def has_unit(text: str) -> bool:
-    """Whether `text` begins with a number and goes on."""
+    """Whether `text` is a number with a unit."""
     return not is_number(text) and _QUANTITY.fullmatch(text.strip()) is not None
 
 
 def column_to_si(values: NDArray[np.float64], given: str, unit: str) -> NDArray[np.float64]:
-    """Convert `values` in the unit `given`, e.g. "rpm", to the SI unit `unit`; "-" is that of 1.
+    """Convert values to SI.
+
+    Args:
+        values: any shape.
+        given: unit of `values`, e.g. "rpm"; "-" for dimensionless numbers.
+        unit: SI unit of the result.
+
+    Returns:
+        Values in `unit`, same shape.
 
     Raises:
-        UnitError: `given` is no unit of the same quantity.
+        UnitError: `given` does not match `unit`.
     """
-    if not _alike(given, unit):
-        raise UnitError(f"[{given}] is no unit that goes into {unit or '1'}{_instead(given, unit)}")
+    if not _compatible(given, unit):
+        raise UnitError(f"[{given}] cannot be converted to {unit or '1'}{_instead(given, unit)}")
     source, target = _unit(given), _unit(unit)
     return np.asarray(_registry().Quantity(values, source).to(target).magnitude, dtype=float)
 
 
 def _instead(given: str, unit: str) -> str:
-    """What to write for `given`, as the end of a refusal; empty where that is not known."""
+    """Advice for the wrong unit `given`, to append to an error message; may be empty."""
     for source, target, advice in _INSTEAD:
-        if _alike(given, source) and _alike(unit, target):
+        if _compatible(given, source) and _compatible(unit, target):
             return f"; {advice}"
     return ""
 
@@ -143,14 +158,14 @@ def _unit(name: str) -> Any:
     return _registry().Unit("" if name == "-" else name)
 
 
-def _alike(one: str, other: str) -> bool:
+def _compatible(one: str, other: str) -> bool:
     """Whether two texts are units of the same quantity.
 
-    A speed has an angle in its unit: "1/min" is none of rad/s, lest a turn count as a radian.
+    Angles count as a dimension: "1/min" is not a unit of rad/s, because a turn is not a radian.
     """
     registry = _registry()
     try:
         roots = [registry.get_root_units(_unit(name))[1] for name in (one, other)]
-    except Exception:  # of many kinds, for a text that is no unit
+    except Exception:  # of many kinds, if the text is not a unit
         return False
     return bool(roots[0] == roots[1])

@@ -1,4 +1,4 @@
-"""What the twin shows of a stretch of time: a waveform, and statistics over it."""
+"""Results of a twin over an interval of time: waveform and statistics."""
 
 from __future__ import annotations
 
@@ -15,10 +15,10 @@ from .dynamics.observe import BOUNDARY, DTE, FILM, LAMBDA, MESH_FORCE, POWER_LOS
 
 @dataclass(frozen=True)
 class Waveform:
-    """Every sample of every mesh; samples lie at whole multiples of the sample period."""
+    """Every sample of every mesh; sample times are integer multiples of the sample period."""
 
     period: float
-    """From one sample to the next [s]."""
+    """Sample period [s]."""
     time: np.ndarray
     """[s], shape (samples,)"""
     dte: np.ndarray
@@ -31,11 +31,11 @@ class Waveform:
 
 @dataclass(frozen=True)
 class Window:
-    """One stretch of simulated time. Angles stand at its end.
+    """Results over one interval of simulated time; angles are those at its end.
 
-    Statistics of the meshes are over the window exactly. Powers and torques of the train are over
-    the steps of the integrator that end within it: no window cuts a step short, so the path does
-    not depend on the windows.
+    Statistics of the meshes cover exactly the window. Powers and torques of the train cover the
+    steps of the integrator that end in the window: windows do not shorten steps, so the motion does
+    not depend on them.
     """
 
     start: float
@@ -43,11 +43,11 @@ class Window:
     end: float
     """[s]"""
     tolerance: float
-    """Relative error of a step."""
+    """Relative local error tolerance of the integrator."""
     sample_rate: float
     """Of the waveform [Hz]."""
     repeated: bool
-    """Whether it began in steady running that repeats itself and is not computed again."""
+    """Whether the motion at the start was periodic, so that it was not computed again."""
     bodies: tuple[str, ...]
     meshes: tuple[str, ...]
     waveform: Waveform
@@ -58,7 +58,7 @@ class Window:
     mean_speed: np.ndarray
     """[rad/s], shape (bodies,)"""
     mesh_frequency: float
-    """Rate at which teeth pass a mesh [Hz]."""
+    """Mesh frequency [Hz]."""
     machine_speed: np.ndarray
     """Of the motor, the load, and the second motor of a differential [rad/s], (machines,)."""
     machine_torque: np.ndarray
@@ -68,13 +68,13 @@ class Window:
     power_loss: float
     """Tooth friction of all meshes, bearings and churning [W]."""
     stored_power: float
-    """Rate at which kinetic and elastic energy grow [W]."""
+    """Rate of increase of kinetic and elastic energy [W]."""
     stored_energy: float
     """Kinetic and elastic energy at the end [J]."""
     residual_power: float
-    """What does not add up of the energy ledger [W]: the error of the integration."""
+    """Residual of the energy ledger [W]: the error of the integration."""
     course: Course
-    """What the accuracy is judged by, see `accuracy`."""
+    """Counters from which the accuracy is estimated, see `accuracy`."""
 
     @property
     def input_speed(self) -> float:
@@ -122,21 +122,24 @@ class Window:
 
     @property
     def efficiency(self) -> float:
-        """1 - power_loss over the power of those machines that drive; NaN if none does."""
+        """1 - power_loss/power of the driving machines; NaN if no machine drives."""
         put_in = float(np.maximum(self.machine_power, 0.0).sum())
         return 1.0 - self.power_loss / put_in if put_in > 0.0 else math.nan
 
 
 def mesh_statistics(sums: MeshSums) -> dict[str, np.ndarray]:
-    """Mean, rms and peak over a stretch of time, shape (meshes,) each.
+    """Mean, rms and peak over an interval, shape (meshes,) each.
 
-    They come from the integrator, whatever samples are taken. rms is that of the deviation from
-    the mean, peak the largest magnitude; film thickness and lambda ratio are means over the time
-    in contact, NaN without any. `without_viscous` is the share of the time in which teeth carry
-    load but have no viscous friction.
+    The integrator computes them, independently of samples. rms is that of the deviation from the
+    mean, peak the largest magnitude; film thickness and lambda ratio are means over the time in
+    contact, NaN without contact. `without_viscous` is the fraction of time in which teeth carry
+    load without viscous friction.
 
     Args:
-        sums: of the meshes over the stretch, in the order of the result.
+        sums: integrals and extremes of the meshes over the interval.
+
+    Returns:
+        Statistics in SI by name.
     """
     mean = sums.integral / sums.time
     with np.errstate(invalid="ignore"):

@@ -54,7 +54,7 @@ def test_a_run_that_keeps_to_its_tolerance_is_not_warned_of(changes):
     ("changes", "reason"),
     [
         ({"input_speed": pt.rpm(0.01)}, "the gears creep, and friction has not forgotten"),
-        (RATTLE, "flanks meet and part"),
+        (RATTLE, "flanks engage and separate"),
         (STOPPING, "vibration stops gears"),
     ],
 )

@@ -23,10 +23,10 @@ from planetary_twin_py.ledger_check import (
 from planetary_twin_py.recording.runs.offline import Plan, record
 from planetary_twin_py.recording.runs.verify import verify
 from planetary_twin_py.studies.axes import Axis
+from planetary_twin_py.studies.energy_balance import unbalanced_runs
 from planetary_twin_py.studies.measures import EXCESS, measure
 from planetary_twin_py.studies.plan import Settings, grid
 from planetary_twin_py.studies.table import tabulate
-from planetary_twin_py.studies.unclosed import unclosed_ledgers
 from planetary_twin_py.studies.work import Failure
 
 # 1000 J through the train, 20 J lost by friction, 1 J by bearings, 5 J damped; all accounted for.
@@ -89,7 +89,7 @@ def test_rounding_of_what_a_train_at_rest_holds_is_no_residual():
         (1.5, 1e-4, "tighten the tolerance from 0.0001 to 1e-05"),
         (50.0, 1e-3, "tighten the tolerance from 0.001 to 1e-05"),
         (np.inf, 1e-1, "tighten the tolerance from 0.1 to 1e-08"),
-        (2.0, 1e-8, "the tolerance of 1e-08 is the tightest: try another method"),
+        (2.0, 1e-8, "the tolerance 1e-08 is the tightest: use another method"),
     ],
 )
 def test_the_advice_is_a_tolerance_there_is(excess, tolerance, text):
@@ -168,16 +168,20 @@ def test_a_sweep_names_the_points_whose_ledger_does_not_close():
     study = grid(PAPER, [Axis("input_torque", (20.0, 40.0, 63.0))], settings)
     closed = measure(PAPER, settings)
     assert 0.0 < closed[EXCESS] < 1.0
-    assert unclosed_ledgers(tabulate(study, dict.fromkeys(range(3), closed))) is None
+    assert unbalanced_runs(tabulate(study, dict.fromkeys(range(3), closed))) is None
     found = {0: closed, 1: closed | {EXCESS: 50.0}, 2: Failure("no such teeth")}
-    text = unclosed_ledgers(tabulate(study, found))
-    assert text.startswith("the energy ledger does not close at 1 of 3 points (ledger_excess up to")
+    text = unbalanced_runs(tabulate(study, found))
+    assert text.startswith(
+        "the energy ledger does not balance at 1 of 3 points (ledger_excess up to"
+    )
     assert text.endswith("tighten the tolerance from 0.001 to 1e-05")
 
 
 def test_simulate_prints_the_warning_once_and_puts_it_among_the_remarks(monkeypatch):
+    simulate = pt.simulate  # before it is replaced
+
     def careless(*given, **options):
-        result = pt.simulate(*given, **options)
+        result = simulate(*given, **options)
         return replace(result, energy=off_by(0.05 * result.energy.loss, result.energy))
 
     command = ["simulate", "paper", "--duration", "0.01", "--tolerance", "1e-3"]
@@ -186,7 +190,7 @@ def test_simulate_prints_the_warning_once_and_puts_it_among_the_remarks(monkeypa
     monkeypatch.setattr(simulation, "simulate", careless)
     bad = CliRunner().invoke(build_app(), [*command, "--json", "-"])
     (line,) = json.loads(bad.stdout)["remarks"]
-    assert line.startswith("the energy ledger does not close: ")
+    assert line.startswith("the energy ledger does not balance: ")
     assert line.endswith("tighten the tolerance from 0.001 to 0.0001")
     assert bad.stderr.count("energy ledger") == 1
 
@@ -198,4 +202,4 @@ def test_verify_says_where_the_ledger_of_a_recording_does_not_close(monkeypatch,
     for limit in ("OF_LOSS", "OF_TURNOVER", "OF_STORED"):
         monkeypatch.setattr(ledger_check, limit, 1e-12)
     verdict = verify(file, "/planetary_twin")
-    assert verdict.ledger.startswith("the energy ledger does not close") and verdict.identical
+    assert verdict.ledger.startswith("the energy ledger does not balance") and verdict.identical

@@ -136,3 +136,7 @@ def test_it_is_the_function_whatever_was_imported_before():
     assert callable(planetary_twin_py.simulate)
     for name in pt.__all__:
         assert not isinstance(getattr(pt, name), type(pt))
+
+
+def test_dir_lists_the_public_names():
+    assert dir(pt) == sorted(pt.__all__)

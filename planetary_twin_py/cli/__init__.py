@@ -1,11 +1,11 @@
 """The command line `planetary-twin`: one file per command.
 
-Each public module here holds one command, a function of the module's name. Other packages add
-theirs through the entry-point group `planetary_twin.commands`, so that what needs ROS comes with
-the ROS package; what they share with the commands here is `_arguments`, `_console`, `_fail`,
-`_figures`, `_interrupts` and `_settings`.
-A command is loaded when it is asked for, and imports what is heavy only when it runs, so that
-`--help` and completion are quick.
+Each public module here holds one command, a function with the name of the module. Other packages
+add commands through the entry-point group `planetary_twin.commands`; the ROS package adds those
+that need ROS. They may use `_arguments`, `_console`, `_fail`, `_figures`, `_interrupts` and
+`_settings`.
+A command is loaded on first use and imports heavy modules only when it runs, so that `--help` and
+completion are fast.
 """
 
 from __future__ import annotations
@@ -26,21 +26,21 @@ def build_app() -> typer.Typer:
     app = typer.Typer(
         name="planetary-twin",
         cls=Group,
-        help="Digital twin of a planetary gearbox: run it, record it, look at it.",
-        epilog="Exit codes: 0 all is well, 1 something was found that is not, 2 a wrong argument, "
+        help="Digital twin of a planetary gearbox: simulate, record, analyse and view it.",
+        epilog="Exit codes: 0 success, 1 a check or a run failed, 2 invalid argument, "
         "130 interrupted.",
         no_args_is_help=True,
         rich_markup_mode=PLAIN,
         pretty_exceptions_enable=False,
     )
-    app.callback()(lambda: None)  # without it Typer would make no group
+    app.callback()(lambda: None)  # Typer makes a group only if there is a callback
     return app
 
 
 def main() -> None:
     """Entry point of the console script."""
     repeat_lost(interrupt)
-    if signal.getsignal(signal.SIGINT) is signal.default_int_handler:  # else it is to be ignored
+    if signal.getsignal(signal.SIGINT) is signal.default_int_handler:  # otherwise it is ignored
         signal.signal(signal.SIGINT, interrupt)
     try:
         try:
@@ -48,7 +48,7 @@ def main() -> None:
         finally:
             sys.stdout.flush()
     except BrokenPipeError:
-        # Whoever reads has read enough; Python would complain once more when it closes the pipe.
+        # The reader closed the pipe; flushing it again at exit would print a second error.
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         sys.exit(1)
     except KeyboardInterrupt:

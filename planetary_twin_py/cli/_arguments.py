@@ -1,4 +1,4 @@
-"""Arguments and options that several commands take, and how a shell completes them."""
+"""Arguments and options that several commands share, with their shell completion."""
 
 from __future__ import annotations
 
@@ -8,6 +8,8 @@ from typing import Annotated
 
 import typer
 
+from ._durations import SECONDS
+from ._fields import scene_fields
 from ._output import output_file
 
 RECORDINGS = Path("recordings")
@@ -15,9 +17,9 @@ _PACKAGED = Path(__file__).parents[1] / "scene" / "packaged"
 
 
 def complete_scene(incomplete: str) -> list[str]:
-    """Names of packaged scenes; where none fits, the shell offers files.
+    """Names of packaged scenes; if none matches, the shell completes file names.
 
-    Listed without `planetary_twin_py.scene`, which takes longer to load than a person waits.
+    They are listed without `planetary_twin_py.scene`, which takes too long to import.
     """
     return sorted(
         file.stem for file in _PACKAGED.glob("*.yaml") if file.stem.startswith(incomplete)
@@ -25,28 +27,40 @@ def complete_scene(incomplete: str) -> list[str]:
 
 
 def complete_recording(incomplete: str) -> list[str]:
-    """Recordings where `incomplete` points to and in recordings/; else the shell offers files."""
+    """Recordings in the folder of `incomplete` and in recordings/; otherwise file names."""
     typed = Path(incomplete)
     folder = typed if incomplete.endswith("/") else typed.parent
     found = {str(path) for start in (folder, RECORDINGS) for path in _recordings(start)}
     return sorted(path for path in found if path.startswith(incomplete))
 
 
+def complete_setting(incomplete: str) -> list[str]:
+    """Fields of a scene for NAME=VALUE; their values have no completion."""
+    return [] if "=" in incomplete else [f"{name}=" for name in scene_fields(incomplete)]
+
+
+def complete_parameter(incomplete: str) -> list[str]:
+    """Fields of the operating point, which a running twin can change."""
+    from ..scene import TUNABLES
+
+    return [name for name in TUNABLES if name.startswith(incomplete)]
+
+
 def _recordings(folder: Path) -> Iterator[Path]:
-    """MCAP files in `folder`, and folders in it that hold some."""
+    """MCAP files in `folder`, and its subfolders that contain MCAP files."""
     try:
         for path in folder.iterdir():
             if path.suffix == ".mcap" or (path.is_dir() and any(path.glob("*.mcap"))):
                 yield path
     except OSError:
-        return  # nothing to offer
+        return  # no completions
 
 
 SceneArgument = Annotated[
     str,
     typer.Argument(
         metavar="SCENE",
-        help="Packaged scene, or path of a YAML file.",
+        help="Name of a packaged scene, or path of a YAML file.",
         autocompletion=complete_scene,
     ),
 ]
@@ -54,7 +68,7 @@ FileArgument = Annotated[
     Path,
     typer.Argument(
         metavar="FILE",
-        help="Recording: an .mcap file or the folder of one.",
+        help="Recording: an .mcap file, or its folder.",
         autocompletion=complete_recording,
     ),
 ]
@@ -63,17 +77,25 @@ SetOption = Annotated[
     typer.Option(
         "--set",
         metavar="NAME=VALUE",
-        help="Change a field, in SI or with a unit: mesh.ramp=0, backlash=0.3um, faults.0.tooth=3; "
-        "lists as in a scene file; repeatable. `planetary-twin fields` lists them.",
+        help="Change a field, in SI or with a unit: mesh.ramp=0, backlash=0.3um, faults.0.tooth=3. "
+        "Write lists as in a scene file. Repeatable. `planetary-twin fields` lists the fields.",
+        autocompletion=complete_setting,
     ),
 ]
+DurationOption = Annotated[float, typer.Option(help="Simulated time.", **SECONDS)]
 JsonOption = Annotated[
     str | None,
     typer.Option(
-        "--json", metavar="FILE", help="Write figures; - prints them.", callback=output_file
+        "--json",
+        metavar="FILE",
+        help="Write the results as JSON; - writes to standard output.",
+        callback=output_file,
     ),
 ]
 NamespaceOption = Annotated[
-    str | None, typer.Option("--namespace", help="Which gearbox, if the recording holds several.")
+    str | None,
+    typer.Option("--namespace", help="Namespace of the gearbox, if the recording has several."),
 ]
-ToleranceOption = Annotated[float, typer.Option(help="Relative local error of a step.")]
+ToleranceOption = Annotated[
+    float, typer.Option(help="Relative local error tolerance of the integrator.")
+]

@@ -1,4 +1,4 @@
-"""The commands by their names, each loaded when it is asked for."""
+"""Commands by name, each loaded on first use."""
 
 from __future__ import annotations
 
@@ -20,18 +20,18 @@ _SENTENCE = 300  # characters at most
 
 
 class Group(TyperGroup):
-    """A group that knows the names of its commands, and makes a command on first use."""
+    """A group that lists its commands by name and loads a command on first use."""
 
     def __init__(self, **attributes: Any) -> None:
         super().__init__(**attributes)
         self.commands: Mapping[str, Any] = Commands()  # type: ignore[assignment]
 
     def list_commands(self, ctx: Any) -> list[str]:
-        """Return names alone: Typer's own would load every command for them."""
+        """Return the names only; Typer's method would load every command."""
         return list(self.commands)
 
     def format_commands(self, ctx: Any, formatter: Any) -> None:
-        """Write each command with the whole first sentence of its help."""
+        """Write each command with the first sentence of its help."""
         rows = [
             (name, command.get_short_help_str(_SENTENCE)) for name, command in self.commands.items()
         ]
@@ -40,7 +40,7 @@ class Group(TyperGroup):
 
 
 class Commands(Mapping[str, Any]):
-    """What is installed: the commands of this package, and those of entry points."""
+    """Installed commands: those of this package, and those of entry points."""
 
     def __init__(self) -> None:
         package = importlib.import_module(__package__)
@@ -64,19 +64,19 @@ class Commands(Mapping[str, Any]):
 
 def _own(name: str) -> Any:
     module = importlib.import_module(f"{__package__}.{name}")
-    # A file and a function cannot be called `import`, so an underscore follows.
-    return _made(name.rstrip("_"), getattr(module, name), getattr(module, "CONTEXT", None))
+    # `import` is a keyword, so the file and the function are named `import_`.
+    return _as_click(name.rstrip("_"), getattr(module, name), getattr(module, "CONTEXT", None))
 
 
 def _added(entry: EntryPoint) -> Any:
     try:
-        return _made(entry.name, entry.load())
+        return _as_click(entry.name, entry.load())
     except ImportError as reason:
-        return _made(entry.name, _out_of_order(entry.name, reason))
+        return _as_click(entry.name, _unavailable(entry.name, reason))
 
 
-def _made(name: str, command: Any, context: dict[str, Any] | None = None) -> Any:
-    """The command, or the group of commands, as what Typer makes of it."""
+def _as_click(name: str, command: Any, context: dict[str, Any] | None = None) -> Any:
+    """The click command, or click group, of a function or a Typer application."""
     app = typer.Typer(rich_markup_mode=PLAIN)
     app.callback()(lambda: None)
     if isinstance(command, typer.Typer):
@@ -88,11 +88,11 @@ def _made(name: str, command: Any, context: dict[str, Any] | None = None) -> Any
     return typer.main.get_command(app).commands[name]  # type: ignore[attr-defined]
 
 
-def _out_of_order(name: str, reason: ImportError) -> Callable[[], None]:
-    """A command that cannot be loaded must not take the others, and the doctor, with it."""
+def _unavailable(name: str, reason: ImportError) -> Callable[[], None]:
+    """Replacement for a command that fails to import, so that the other commands keep working."""
 
     def command() -> None:
-        fail(f"{name}: {reason}; planetary-twin doctor tells more")
+        fail(f"{name}: {reason}; run `planetary-twin doctor` for details")
 
-    command.__doc__ = "Out of order: see planetary-twin doctor."
+    command.__doc__ = "Not available: see planetary-twin doctor."
     return command

@@ -1,4 +1,4 @@
-"""Where a command prints for a person, and how wide."""
+"""Console output of commands, and its width."""
 
 from __future__ import annotations
 
@@ -9,30 +9,40 @@ from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     from rich.console import Console
+    from rich.status import Status
 
 _NO_BREAK = "\u00a0"
-_ENDLESS = 100_000  # characters: more than any row of a table has
+_UNLIMITED = 100_000  # characters, wider than any table row
 
 
 def make_console(stderr: bool = False, markup: bool = True) -> Console:
-    """Return a console that fits lines and tables to a terminal, or to the COLUMNS asked for.
+    """Return a console that fits lines and tables to the terminal, or to COLUMNS.
 
-    In a pipe or a file a row stays one line, so that it can be searched for.
+    In a pipe or a file each row stays on one line, so that it can be searched.
+
+    Args:
+        stderr: whether to print to standard error.
+        markup: whether Rich markup in strings is interpreted.
     """
     from ._tables import TableConsole
 
     console = TableConsole(stderr=stderr, markup=markup)
     if not (console.file.isatty() or os.environ.get("COLUMNS")):
-        console.width = _ENDLESS
+        console.width = _UNLIMITED
     return console
 
 
-def put_together(console: Console, title: str, parts: Iterable[str]) -> None:
-    """Print parts one after another, folded between them only, so that units stay with values.
+def busy(activity: str) -> Status:
+    """Context that shows an activity with a spinner on stderr, if that is a terminal."""
+    return make_console(stderr=True).status(activity)
+
+
+def print_list(console: Console, title: str, parts: Iterable[str]) -> None:
+    """Print parts separated by commas; lines break between parts only, not before a unit.
 
     Args:
-        console: where to print, and how wide.
-        title: stands before them.
+        console: where to print; its width limits the lines.
+        title: text before the first part.
         parts: texts without commas.
     """
     whole = ", ".join(part.replace(" ", _NO_BREAK) for part in parts)

@@ -1,4 +1,4 @@
-"""How a command ends on a user's error: one line on stderr, exit code 2."""
+"""Messages on stderr, one line each; a user's error ends the command with exit code 2."""
 
 from __future__ import annotations
 
@@ -9,29 +9,37 @@ import typer
 
 
 def fail(message: object, code: int = 2) -> NoReturn:
-    """Print `message` as one line and end the command."""
+    """Print `message` as one line and end the command.
+
+    Args:
+        message: text, or an exception.
+        code: exit code.
+
+    Raises:
+        typer.Exit: always.
+    """
     _say(f"planetary-twin: {message}", "red")
     raise typer.Exit(code)
 
 
 def remark(message: str) -> None:
-    """Print a line that the user should know but that ends nothing."""
+    """Print a warning; the command continues."""
     _say(f"planetary-twin: {message}", "yellow")
 
 
 def note(message: str) -> None:
-    """Print a line that says how something was understood."""
+    """Print a line that says how an argument was interpreted."""
     _say(f"planetary-twin: {message}", "")
 
 
 def need(extra: str, *modules: str) -> None:
-    """End the command where the `extra` that brings `modules` is not installed."""
+    """End the command if one of `modules`, which the `extra` installs, is missing."""
     if any(find_spec(module) is None for module in modules):
-        fail(f"this needs more packages: pip install 'planetary_twin_py[{extra}]'")
+        fail(f"required packages are missing: pip install 'planetary_twin_py[{extra}]'")
 
 
 def _say(line: str, colour: str) -> None:
-    from rich.console import Console  # which knows where colours are not wanted
+    from rich.console import Console  # honours NO_COLOR and pipes
 
     from ..printable import printable
 

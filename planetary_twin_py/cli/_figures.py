@@ -1,4 +1,4 @@
-"""`--json FILE`: figures for machines, beside what a person reads."""
+"""`--json FILE`: results as JSON, in addition to the printed text."""
 
 from __future__ import annotations
 
@@ -15,12 +15,12 @@ if TYPE_CHECKING:
 
 
 def console_beside(target: str | None) -> Console:
-    """Where a person reads: standard output, unless figures go there."""
+    """Console for text: standard output, or standard error if JSON goes to standard output."""
     return make_console(stderr=target == "-")
 
 
 def put_figures(figures: Any, target: str | None) -> None:
-    """Write `figures` as JSON into the file `target`, or to standard output where it is "-"."""
+    """Write `figures` as JSON to the file `target`; "-" is standard output, None writes none."""
     if target is None:
         return
     text = json.dumps(figures, indent=2) + "\n"

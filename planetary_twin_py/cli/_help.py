@@ -1,4 +1,4 @@
-"""What all commands share: plain help with examples as one types them, and how runs fail."""
+"""Base class of commands: plain help with an example, and one-line errors of failed runs."""
 
 from __future__ import annotations
 
@@ -8,25 +8,34 @@ from typing import Any
 from typer.core import TyperCommand
 
 from ._fail import fail
+from ._fields import field_options
 
-PLAIN = None  # Rich would take "[s]" for markup
+PLAIN = None  # Rich would read "[s]" as markup
 _EXAMPLE = "\n\nExample: "
 
 
 class Command(TyperCommand):
-    """A command whose docstring ends in an example; its lines are kept, as a shell needs them."""
+    """A command whose docstring ends with an example; its line breaks are kept for the shell."""
 
     def __init__(self, name: str | None, *, help: str | None = None, **attributes: Any) -> None:
-        told, _, example = inspect.cleandoc(help or "").partition(_EXAMPLE)
+        text, _, example = inspect.cleandoc(help or "").partition(_EXAMPLE)
         self.example = example.splitlines()
-        super().__init__(name, help=told, **attributes)
+        super().__init__(name, help=text, **attributes)
+
+    def shell_complete(self, ctx: Any, incomplete: str) -> list[Any]:
+        """Complete options, including fields of a scene if the command accepts them."""
+        found: list[Any] = super().shell_complete(ctx, incomplete)
+        if ctx.ignore_unknown_options and ctx.allow_extra_args and incomplete.startswith("--"):
+            (item,) = super().shell_complete(ctx, "--help")
+            found += [type(item)(option) for option in field_options(incomplete)]
+        return found
 
     def invoke(self, ctx: Any) -> Any:
-        """Run the command; a run that cannot go on ends it with one line."""
+        """Run the command; a run that diverges ends it with one line."""
         try:
             return super().invoke(ctx)
         except ArithmeticError as error:
-            from ..runaway import RunawayError  # loads the compiler, which has run by now
+            from ..runaway import RunawayError  # imports numba, which is loaded by now
 
             if not isinstance(error, RunawayError):
                 raise

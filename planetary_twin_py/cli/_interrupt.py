@@ -11,10 +11,19 @@ Answer = TypeVar("Answer")
 
 
 def interruptible(task: Callable[[], Answer]) -> Answer:
-    """Return what `task` returns, or raise what it raises; Ctrl-C ends the wait for it at once.
+    """Run `task` in a thread, so that Ctrl-C interrupts the wait for it.
 
-    A whole run is one call of compiled code, in which Python takes no signal: it has a thread of
-    its own, which ends with the process.
+    A run is one call of compiled code, during which Python handles no signals. The thread ends
+    with the process.
+
+    Args:
+        task: function without arguments.
+
+    Returns:
+        The return value of `task`.
+
+    Raises:
+        BaseException: the exception of `task`.
     """
     answer: Future[Answer] = Future()
 

@@ -1,4 +1,4 @@
-"""Interrupts that fall where exceptions are lost are made again, until one is heard."""
+"""Repeats an interrupt that arrives where Python discards exceptions, until it takes effect."""
 
 from __future__ import annotations
 
@@ -14,10 +14,10 @@ _IMPORTS = "<frozen importlib._bootstrap>"
 
 def interrupt(number: int, frame: FrameType | None) -> None:
     """
-    Raise `KeyboardInterrupt`, as a signal handler; while a module is imported, soon after.
+    Raise `KeyboardInterrupt`, as a signal handler; during an import, shortly afterwards.
 
-    An extension module that is being made answers exceptions with others, or forgets them. It
-    takes `repeat_lost` to have it called again.
+    An extension module that is being initialised replaces or discards exceptions. Call
+    `repeat_lost` first: it installs the handler of the timer that is set here.
     """
     if _importing(frame):
         signal.setitimer(signal.ITIMER_REAL, _SOON)
@@ -27,10 +27,10 @@ def interrupt(number: int, frame: FrameType | None) -> None:
 
 def repeat_lost(handler: Callable[[int, FrameType | None], Any]) -> None:
     """
-    Have the signal handler `handler` called again where its `KeyboardInterrupt` is lost.
+    Call the signal handler `handler` again if its `KeyboardInterrupt` is lost.
 
-    Python prints and forgets what is raised in a callback of a weak reference, of which every
-    import has some, or in a destructor. The handler is called with `signal.SIGALRM` then.
+    Python prints and discards exceptions raised in destructors and in callbacks of weak
+    references, which every import has. The handler is then called with `signal.SIGALRM`.
     """
 
     def hook(lost: Any) -> None:
@@ -40,7 +40,7 @@ def repeat_lost(handler: Callable[[int, FrameType | None], Any]) -> None:
             sys.__unraisablehook__(lost)
 
     def repeat(number: int, frame: FrameType | None) -> None:
-        if frame is not None and frame.f_code is hook.__code__:  # it would be lost here too
+        if frame is not None and frame.f_code is hook.__code__:  # would be lost here, too
             signal.setitimer(signal.ITIMER_REAL, _SOON)
         else:
             handler(number, frame)
@@ -50,7 +50,7 @@ def repeat_lost(handler: Callable[[int, FrameType | None], Any]) -> None:
 
 
 def repeat_no_more() -> None:
-    """At the end of a program: Python gives up its handlers before all is over."""
+    """Ignore the timer at the end of a program, when Python has removed its handlers."""
     signal.signal(signal.SIGALRM, signal.SIG_IGN)
 
 

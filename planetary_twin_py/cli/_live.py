@@ -1,6 +1,6 @@
-"""`planetary-twin view` without a recording: what a running twin publishes, as it comes.
+"""`planetary-twin view` without a recording: the messages of a running twin, live.
 
-What hears the twin needs ROS: it comes with the ROS package, through an entry point.
+The subscriber needs ROS; the ROS package provides it through an entry point.
 """
 
 from __future__ import annotations
@@ -24,29 +24,37 @@ if TYPE_CHECKING:
 
 _GROUP = "planetary_twin.live"
 _NAMESPACE = "/planetary_twin"
-_YIELDING = 10  # niceness: where the processor is short, the twin goes first
-_MEMORY = "1GB"  # of what is shown; where it is full, the oldest goes
+_NICENESS = 10  # lower priority than the twin
+_MEMORY = "1GB"  # of the viewer; when it is full, the oldest data are dropped
 
-Begin = Callable[[], "rr.RecordingStream"]
+OpenStream = Callable[[], "rr.RecordingStream"]
 Closed = Callable[[], bool]
 
 
-def look_at_twin(
+def view_live(
     namespace: str | None, scene: str | None, save: Path | None, serve: bool, duration: float | None
 ) -> None:
-    """Draw the twin in `namespace` for `duration` [s], or until it is no longer looked at."""
+    """Draw a running twin until `duration` has passed or the viewer is closed.
+
+    Args:
+        namespace: of the twin; None is /planetary_twin.
+        scene: packaged scene or file to draw; None draws the scene of the twin.
+        save: Rerun file to write instead of opening a window.
+        serve: whether to show it in a browser.
+        duration: wall time [s]; None has no limit.
+    """
     from ..scene import load_scene
     from ..view.live import LiveView
     from ..view.viewer import until_interrupted
 
     follow = next(iter(entry_points(group=_GROUP)), None)
     if follow is None:
-        fail("a running twin is heard by the nodes' package, which is not installed")
+        fail("viewing a running twin needs the ROS package planetary_twin, which is not installed")
     chosen = None if scene is None else load_scene(scene)
     namespace = namespace or _NAMESPACE
-    os.nice(_YIELDING)  # also what is started here
-    with until_interrupted(), _looked_at(save, serve) as (begin, closed):
-        view = LiveView(namespace, begin, chosen)
+    os.nice(_NICENESS)  # inherited by the viewer
+    with until_interrupted(), _opened(save, serve) as (open_stream, closed):
+        view = LiveView(namespace, open_stream, chosen)
         try:
             for records in follow.load()(namespace, duration):
                 view.take(records)
@@ -57,14 +65,14 @@ def look_at_twin(
                 view.close()
 
 
-def tell(page: Viewer) -> None:
-    """Say where a page is."""
-    typer.echo(f"{page.address}\non this machine only; Ctrl-C ends it")
+def print_address(page: Viewer) -> None:
+    """Print the address of a page."""
+    typer.echo(f"{page.address}\nreachable from this machine only; press Ctrl-C to stop")
 
 
 @contextmanager
-def _looked_at(save: Path | None, serve: bool) -> Iterator[tuple[Begin, Closed]]:
-    """What opens the stream of a run, and whether nobody looks any longer."""
+def _opened(save: Path | None, serve: bool) -> Iterator[tuple[OpenStream, Closed]]:
+    """A function that opens the stream of a run, and one that says whether the viewer is closed."""
     from ..view import viewer
     from ..view.show import to_file, to_viewer
 
@@ -73,18 +81,18 @@ def _looked_at(save: Path | None, serve: bool) -> Iterator[tuple[Begin, Closed]]
         yield lambda: to_file(_numbered(save, next(numbers))), lambda: False
         return
     if not serve and not viewer.has_display():
-        fail("no display to open a window on: use --serve or --save OUT.rrd")
+        fail("no display for a window: use --serve or --save OUT.rrd")
     shown = (
         viewer.page("--server-memory-limit", _MEMORY)
         if serve
         else viewer.window("--memory-limit", _MEMORY, "--hide-welcome-screen")
     )
-    with shown as there:
+    with shown as opened:
         if serve:
-            tell(there)
-        yield lambda: to_viewer(there.url), lambda: there.process.poll() is not None
+            print_address(opened)
+        yield lambda: to_viewer(opened.url), lambda: opened.process.poll() is not None
 
 
 def _numbered(file: Path, number: int) -> Path:
-    """The file of a run: of the first as it is called."""
+    """The file of a run: `file` itself for the first run, then with a number."""
     return file if number == 1 else file.with_stem(f"{file.stem}_{number}")

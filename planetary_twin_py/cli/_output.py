@@ -1,4 +1,4 @@
-"""Where a command writes: checked while the options are read, before anything is computed."""
+"""Checks of output files, made while the options are read, before anything is computed."""
 
 from __future__ import annotations
 
@@ -16,35 +16,35 @@ Target = TypeVar("Target", Path, str)
 def output_file(
     context: typer.Context, param: typer.CallbackParam, value: Target | None
 ) -> Target | None:
-    """Callback of an option that names a file: end the command where it cannot be written."""
+    """Callback of an option that names a file: end the command if it cannot be written."""
     if value is not None and str(value) != "-" and not context.resilient_parsing:
         check_file(_option(param), Path(value))
     return value
 
 
 def check_file(option: str, path: Path) -> None:
-    """End the command where the file at `path`, which `option` names, cannot be written.
+    """End the command if the file `path` cannot be written.
 
     Args:
-        option: name of the option, e.g. "--out".
-        path: of a file that may exist.
+        option: name of the option that gives the path, e.g. "--out".
+        path: a file, which may exist.
     """
     if path.is_dir():
         _refuse(option, path, "is a folder; name a file")
     if path.exists() and not os.access(path, os.W_OK):
-        _refuse(option, path, "may not be written")
+        _refuse(option, path, "is not writable")
     _check_folder(option, path, path.parent)
 
 
 def check_recording(option: str, path: Path) -> None:
-    """End the command where no recording can be made at `path`, which `option` names.
+    """End the command if no recording can be created at `path`.
 
     Args:
-        option: name of the option, e.g. "--out".
-        path: of a folder, whose parents are made, or of one file NAME.mcap; it must be free.
+        option: name of the option that gives the path, e.g. "--out".
+        path: a folder, whose parents are created, or one file NAME.mcap; it must not exist.
     """
     if path.exists():
-        _refuse(option, path, "exists; choose a free name")
+        _refuse(option, path, "already exists; choose another name")
     above = path.parent
     while path.suffix != ".mcap" and not above.exists():
         above = above.parent
@@ -56,7 +56,7 @@ def _check_folder(option: str, path: Path, folder: Path) -> None:
         wrong = "is not a folder" if folder.exists() else "does not exist"
         _refuse(option, path, f"the folder {folder} {wrong}")
     if not os.access(folder, os.W_OK):
-        _refuse(option, path, f"the folder {folder} may not be written")
+        _refuse(option, path, f"the folder {folder} is not writable")
 
 
 def _refuse(option: str, path: Path, reason: str) -> None:

@@ -1,4 +1,4 @@
-"""`--set NAME=VALUE`: changes of a scene typed on the command line."""
+"""`--set NAME=VALUE`: changes to a scene on the command line."""
 
 from __future__ import annotations
 
@@ -14,17 +14,17 @@ _COLLECTIONS = ("[", "{")
 
 
 def settings(given: Sequence[str]) -> dict[str, Any]:
-    """Names and values of settings, for `Scene.replace`.
+    """Parse settings for `Scene.replace`.
 
     Args:
-        given: texts NAME=VALUE. A list or a section is written as in a scene file:
+        given: texts NAME=VALUE. Lists and sections are written as in a scene file:
             gearset.planet_angles=[0 deg, 180 deg], losses.planet_bearing={mean_diameter: 10 mm}.
 
     Returns:
-        Texts, lists and mappings by their names.
+        Values (texts, lists and mappings) by name.
 
     Raises:
-        ValueError: one is not NAME=VALUE, or a name is given twice.
+        ValueError: a text is not NAME=VALUE, or a name occurs twice.
     """
     from ..scene.yaml_text import read_yaml
 
@@ -42,17 +42,17 @@ def settings(given: Sequence[str]) -> dict[str, Any]:
 
 
 def changed_scene(name: str, changes: Mapping[str, Any]) -> Scene:
-    """Load the scene that a command asks for, and say in which unit a bare number was taken.
+    """Load a scene, apply changes, and print in which unit each number without unit was read.
 
     Args:
         name: packaged scene, or path of a YAML file.
-        changes: what `settings` has read.
+        changes: values by field name, from `settings`.
 
     Returns:
-        The scene with the changes.
+        The changed scene.
 
     Raises:
-        SceneError: there is no such scene, or a field in it is wrong.
+        SceneError: the scene does not exist, or a field is invalid.
     """
     from ..scene import load_scene
 
@@ -62,17 +62,17 @@ def changed_scene(name: str, changes: Mapping[str, Any]) -> Scene:
 
 
 def say_units(scene: Scene, changes: Mapping[str, Any]) -> None:
-    """Say of each quantity that is given as a bare number how it was understood.
+    """Print in which unit each number without unit was read.
 
     Args:
-        scene: that has all fields of `changes`.
-        changes: values by dotted names, as they were typed.
+        scene: has all fields of `changes`.
+        changes: values by dotted name, as typed.
     """
-    for line in _understood(scene, changes):
+    for line in _interpreted(scene, changes):
         note(line)
 
 
-def _understood(scene: Scene, changes: Mapping[str, Any]) -> Iterator[str]:
+def _interpreted(scene: Scene, changes: Mapping[str, Any]) -> Iterator[str]:
     from ..scene.paths import leaves
     from ..scene.quantity import unit_of
     from ..studies.axes import look_up
@@ -84,12 +84,12 @@ def _understood(scene: Scene, changes: Mapping[str, Any]) -> Iterator[str]:
 
 
 def in_words(name: str, value: float, unit: str) -> str:
-    """A quantity with its SI unit and, in brackets, in the unit that engineers use.
+    """Format a quantity in its SI unit and, in brackets, in the customary unit.
 
     Args:
-        name: of the quantity.
-        value: in SI.
-        unit: the SI unit; empty for a pure number.
+        name: name of the quantity.
+        value: value in SI.
+        unit: SI unit; empty for a dimensionless number.
 
     Returns:
         For example "input_speed = 1000 rad/s (9549 rpm)".

@@ -1,4 +1,4 @@
-"""What the commands that run studies share: a table or its picture as the outcome, and a bar."""
+"""Functions shared by the commands that run studies: output as table or picture, progress."""
 
 from __future__ import annotations
 
@@ -19,11 +19,16 @@ if TYPE_CHECKING:
 
 TABLES = (".parquet", ".csv")
 PICTURES = (".png", ".svg", ".pdf")
-PRINTED = 150  # dots per inch
+PICTURE_DPI = 150  # dots per inch
 
 
 def check_suffix(out: Path, admitted: Sequence[str]) -> None:
-    """End the command where `out` is none of these, cannot be written, or lacks what writes it."""
+    """End the command if `out` has another suffix, is not writable, or its packages are missing.
+
+    Args:
+        out: file to write.
+        admitted: suffixes with their dots.
+    """
     if out.suffix not in admitted:
         fail(f"--out = {str(out)!r}: must end in {', '.join(admitted)}")
     check_file("--out", out)
@@ -33,10 +38,10 @@ def check_suffix(out: Path, admitted: Sequence[str]) -> None:
 
 
 def axis(scene: Scene, field: str, text: str) -> Axis | Span:
-    """Read the values of a field, and say in which unit bare numbers were taken.
+    """Parse the values of a field, and print in which unit numbers without unit were read.
 
     Args:
-        scene: that has the field.
+        scene: has the field.
         field: dotted name.
         text: values or a range, see `read_axis`.
 
@@ -67,17 +72,25 @@ def put(
     by: str | None = None,
     kind: str | None = None,
 ) -> None:
-    """Write `table`, or draw it (see `plot_study`), by the suffix of `out`.
+    """Write `table` as a table or as a picture, according to the suffix of `out`.
+
+    Args:
+        table: of a study, a row per point.
+        out: file to write.
+        x: field of the horizontal axis, see `plot_study` for this and the following.
+        measures: columns to draw, a panel each.
+        by: field that distinguishes the curves.
+        kind: "curves", "map" or "stribeck"; None chooses by the fields.
 
     Raises:
-        OSError: it cannot be written.
-        ValueError: it cannot be drawn.
+        OSError: `out` cannot be written.
+        ValueError: the table cannot be drawn.
     """
     if out.suffix in PICTURES:
         from ..plots.study import plot_study
         from ..plots.style import save
 
-        save(plot_study(table, x, measures, by, kind), str(out), PRINTED)
+        save(plot_study(table, x, measures, by, kind), str(out), PICTURE_DPI)
     else:
         from ..studies.table import write
 
@@ -85,19 +98,27 @@ def put(
 
 
 def warn(table: pa.Table) -> None:
-    """Print what limits the figures of a study, a line each."""
+    """Print the warnings that apply to the results of a study, a line each."""
     from ..studies.clipping import clipping_of_study
+    from ..studies.energy_balance import unbalanced_runs
     from ..studies.inaccurate import inaccuracies
-    from ..studies.unclosed import unclosed_ledgers
 
-    lines = (clipping_of_study(table), unclosed_ledgers(table), *inaccuracies(table))
+    lines = (clipping_of_study(table), unbalanced_runs(table), *inaccuracies(table))
     for line in filter(None, lines):
         remark(f"warning: {line}")
 
 
 @contextmanager
 def progress(what: str, total: int) -> Iterator[Callable[[int], None]]:
-    """A bar with the time that is left, on stderr; call it with how many more are done."""
+    """Show a progress bar with the remaining time on stderr.
+
+    Args:
+        what: label of the bar.
+        total: number of units of work.
+
+    Yields:
+        A function to call with the number of units completed since the last call.
+    """
     from rich.console import Console
     from rich.progress import MofNCompleteColumn, Progress, TimeRemainingColumn
 

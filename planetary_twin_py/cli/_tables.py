@@ -1,7 +1,7 @@
-"""Tables that can be read at any width: no word or number of them is cut.
+"""Tables that are readable at any width: no word or number is cut.
 
-A table that is too wide gives up width of its columns where their cells can be folded between
-words. If that is not enough, every row becomes a paragraph that begins with its first cell.
+The columns of a table that is too wide are narrowed by folding cells between words. If that is not
+enough, each row becomes a paragraph that starts with its first cell.
 """
 
 from __future__ import annotations
@@ -18,24 +18,24 @@ from rich.text import Text
 from ..printable import printable
 
 _INDENT = 4
-_UNBOUND = 100_000  # characters, more than any table has
+_UNLIMITED = 100_000  # characters, wider than any table
 
 
 class TableConsole(Console):
-    """A console that prints tables as `readable` makes them."""
+    """A console that formats tables with `readable`."""
 
     def print(self, *objects: Any, **how: Any) -> None:
-        """Print as Rich does; tables are fitted to the width, and no text steers the terminal."""
-        super().print(*(self._harmless(one) for one in objects), **how)
+        """Print as Rich does; tables fit the width, and control characters are escaped."""
+        super().print(*(self._escaped(one) for one in objects), **how)
 
-    def _harmless(self, shown: Any) -> Any:
+    def _escaped(self, shown: Any) -> Any:
         if isinstance(shown, str):
             return printable(shown)
-        return _Harmless(readable(shown, self) if isinstance(shown, Table) else shown)
+        return _Escaped(readable(shown, self) if isinstance(shown, Table) else shown)
 
 
-class _Harmless:
-    """What Rich prints, with an escape for what steers a terminal: a name in a file may hold it."""
+class _Escaped:
+    """A Rich renderable with control characters escaped; names from a file may contain them."""
 
     def __init__(self, shown: Any) -> None:
         self._shown = shown
@@ -46,14 +46,14 @@ class _Harmless:
 
 
 def readable(table: Table, console: Console) -> RenderableType:
-    """The table with columns that fit the width of `console`, or its rows one after another.
+    """Fit a table to the width of `console`.
 
     Args:
-        table: whose headings and cells are texts.
-        console: where it is to be printed.
+        table: a table whose headings and cells are texts.
+        console: where the table is to be printed.
 
     Returns:
-        What to print in its place.
+        The table with narrower columns, or, if the words do not fit, a paragraph per row.
     """
     columns = [_texts(column, console) for column in table.columns]
     wanted = [_longest(texts, by_word=False) for texts in columns]
@@ -61,7 +61,7 @@ def readable(table: Table, console: Console) -> RenderableType:
         most if column.no_wrap else _longest(texts, by_word=True)
         for column, texts, most in zip(table.columns, columns, wanted, strict=True)
     ]
-    wide = console.options.update(width=_UNBOUND, max_width=_UNBOUND)
+    wide = console.options.update(width=_UNLIMITED, max_width=_UNLIMITED)
     frame = Measurement.get(console, wide, table).maximum - sum(wanted)
     room = console.width - frame
     if sum(wanted) <= room:
@@ -75,7 +75,7 @@ def readable(table: Table, console: Console) -> RenderableType:
 
 
 def _texts(column: Column, console: Console) -> list[Text]:
-    """Heading and cells, as `console` would print them."""
+    """Heading and cells of a column, as `console` prints them."""
     return [
         cell if isinstance(cell, Text) else console.render_str(str(cell), highlight=False)
         for cell in (column.header, *column.cells)
@@ -83,13 +83,13 @@ def _texts(column: Column, console: Console) -> list[Text]:
 
 
 def _longest(texts: list[Text], by_word: bool) -> int:
-    """Cells that the longest line takes, or the longest word."""
+    """Width, in character cells, of the longest line or of the longest word."""
     parts = (text.plain.split() if by_word else text.plain.splitlines() for text in texts)
     return max((Text(part).cell_len for own in parts for part in own), default=0)
 
 
 def _entries(table: Table, columns: list[list[Text]]) -> Iterator[RenderableType]:
-    """Title; of every row its first cell, and below it the others with their headings; caption."""
+    """Title; for each row its first cell, then the other cells with their headings; caption."""
     if table.title:
         yield table.title
     headings = [" ".join(texts[0].plain.split()) for texts in columns]

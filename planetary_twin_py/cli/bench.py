@@ -1,4 +1,4 @@
-"""`planetary-twin bench`: speed against error."""
+"""`planetary-twin bench`: computing time against error."""
 
 from __future__ import annotations
 
@@ -27,14 +27,16 @@ def bench(
     ] = None,
     costs: Annotated[
         bool,
-        typer.Option("--costs", help="Measure against terms, planets, speed, duration, too."),
+        typer.Option(
+            "--costs", help="Also measure how time depends on terms, planets, speed and duration."
+        ),
     ] = False,
     peers: Annotated[
         bool,
-        typer.Option("--peers", help="Measure off-the-shelf solvers, too (a quarter of an hour)."),
+        typer.Option("--peers", help="Also measure general-purpose solvers (15 minutes)."),
     ] = False,
 ) -> None:
-    """Measure speed against error, beside a converged reference by SciPy's DOP853.
+    """Measure computing time against error; the reference is a converged run of SciPy's DOP853.
 
     Example: planetary-twin bench --plot speed.png --json figures.json
     """

@@ -1,4 +1,4 @@
-"""`planetary-twin bifurcation`: what a gearbox settles to, speeding up and slowing down."""
+"""`planetary-twin bifurcation`: steady motions against speed, with rising and falling speed."""
 
 from __future__ import annotations
 
@@ -8,6 +8,7 @@ from typing import Annotated
 import typer
 
 from ._arguments import SceneArgument, SetOption, ToleranceOption
+from ._durations import SECONDS
 from ._fail import fail, remark
 from ._settings import changed_scene, settings
 from ._study import PICTURES, TABLES, axis, check_suffix, progress, put
@@ -17,21 +18,22 @@ def bifurcation(
     scene: SceneArgument,
     out: Annotated[Path, typer.Option(help="Table (.parquet, .csv) or picture (.png, .svg, .pdf)")],
     input_speed: Annotated[
-        str, typer.Option(metavar="FROM:TO:COUNT", help="Speeds that are held.")
+        str, typer.Option(metavar="FROM:TO:COUNT", help="Input speeds, each held constant.")
     ] = "1000rpm:10000rpm:181",
     settling: Annotated[
-        float, typer.Option(help="Seconds at each speed before it is looked at.")
+        float,
+        typer.Option(help="Simulated time at each speed before sampling starts.", **SECONDS),
     ] = 0.2,
-    cycles: Annotated[int, typer.Option(help="Mesh cycles that are looked at.")] = 60,
-    phase: Annotated[float, typer.Option(help="Place in the mesh cycle, 0 to 1.")] = 0.0,
+    cycles: Annotated[int, typer.Option(help="Mesh cycles sampled at each speed.")] = 60,
+    phase: Annotated[float, typer.Option(help="Phase of the mesh cycle to sample, 0 to 1.")] = 0.0,
     tolerance: ToleranceOption = 1e-4,
     set_: SetOption = None,
 ) -> None:
-    """Poincare sections of the DTE of SCENE against speed, each begun with the motion before it.
+    """Poincare sections of the DTE of SCENE against speed, each started from the previous motion.
 
-    The DTE of every mesh is taken once each mesh cycle. One dot: the motion repeats with the
-    meshing; two: with every other tooth; a cloud: chaos. Where the two ways differ, two motions
-    are possible.
+    The DTE of every mesh is sampled once per mesh cycle. One point at a speed: the motion has the
+    period of the mesh cycle; two points: twice that period; a cloud: chaotic motion. Where rising
+    and falling speed differ, two motions are possible.
 
     Example: planetary-twin bifurcation paper --set input_torque=10 --set backlash=20um
     --input-speed 8000rpm:10000rpm:41 --out jumps.png
@@ -39,7 +41,7 @@ def bifurcation(
     check_suffix(out, TABLES + PICTURES)
     from ..scene.unused import without_effect
     from ..studies.axes import Axis
-    from ..studies.bifurcation import Holding
+    from ..studies.bifurcation import Dwell
     from ..studies.bifurcation import bifurcation as run
 
     try:
@@ -48,18 +50,18 @@ def bifurcation(
         speeds = axis(loaded, "input_speed", input_speed)
         if not isinstance(speeds, Axis):
             fail(f"--input-speed = {input_speed!r}: must be FROM:TO:COUNT")
-        holding = Holding(settling, cycles, phase, tolerance)
+        dwell = Dwell(settling, cycles, phase, tolerance)
         with progress("speeds held", 2 * len(speeds.values)) as advance:
 
-            def hear(failure: str | None) -> None:
+            def report(failure: str | None) -> None:
                 advance(1)
                 if failure:
                     remark(failure)
 
-            table = run(loaded, speeds.values, holding, hear)
+            table = run(loaded, speeds.values, dwell, report)
         put(table, out)
     except (ValueError, OSError) as error:
         fail(error)
     for line in without_effect(loaded, changes):
         remark(f"warning: {line}")
-    typer.echo(f"{out}: {len(speeds.values)} speeds up and down")
+    typer.echo(f"{out}: {len(speeds.values)} speeds, rising and falling")

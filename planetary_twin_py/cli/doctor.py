@@ -1,4 +1,4 @@
-"""`planetary-twin doctor`: is the installation sound?"""
+"""`planetary-twin doctor`: checks of the installation."""
 
 from __future__ import annotations
 
@@ -19,9 +19,9 @@ _COLOURS = {"sound": "green", "absent": "yellow", "broken": "red"}
 def doctor(
     json_: JsonOption = None,
 ) -> None:
-    """Check the installation part by part, and say how to mend what is missing.
+    """Check each part of the installation, and say how to fix what is missing or broken.
 
-    Exit code 1: a part is broken. Parts that are absent can be done without.
+    The exit code is 1 if a part is broken. Parts that are absent are optional.
 
     Example: planetary-twin doctor --json findings.json
     """
@@ -29,19 +29,24 @@ def doctor(
     from rich.text import Text
 
     console = console_beside(json_)
-    with console.status("looking"):
+    with console.status("checking the installation"):
         found = list(_findings())
     table = Table(box=None, pad_edge=False)
-    for heading in ("part", "state", "found", "to mend it"):
+    for heading in ("part", "state", "details", "fix"):
         table.add_column(heading, overflow="fold")
     for finding in found:
         colour = _COLOURS[finding.state]
         state = Text(finding.state, colour)
-        table.add_row(finding.part, state, Text(finding.told), Text(finding.mend))
+        table.add_row(finding.part, state, Text(finding.details), Text(finding.fix))
     console.print(table)
-    put_figures([finding._asdict() for finding in found], json_)
+    put_figures([_as_figures(finding) for finding in found], json_)
     if any(finding.state == "broken" for finding in found):
         raise typer.Exit(1)
+
+
+def _as_figures(finding: Finding) -> dict[str, str]:
+    """The fields of a finding; `told` and `mend` are deprecated names of `details` and `fix`."""
+    return finding._asdict() | {"told": finding.details, "mend": finding.fix}
 
 
 def _findings() -> Iterator[Finding]:

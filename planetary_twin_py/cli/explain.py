@@ -1,4 +1,4 @@
-"""`planetary-twin explain`: what a scene models, what it does not, and what each term does."""
+"""`planetary-twin explain`: the terms of the model of a scene, their effects and the limits."""
 
 from __future__ import annotations
 
@@ -8,7 +8,8 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from ._arguments import JsonOption, SceneArgument
-from ._console import put_together
+from ._console import print_list
+from ._durations import SECONDS
 from ._fail import fail, remark
 from ._figures import console_beside, put_figures
 from ._interrupt import interruptible
@@ -24,10 +25,10 @@ if TYPE_CHECKING:
 
 def explain(
     scene: SceneArgument = "paper",
-    duration: Annotated[float, typer.Option(help="Simulated seconds of every run.")] = 0.1,
+    duration: Annotated[float, typer.Option(help="Simulated time of each run.", **SECONDS)] = 0.1,
     json_: JsonOption = None,
 ) -> None:
-    """Tell what SCENE models, and measure what leaving out each term would change.
+    """List the terms that SCENE models, and simulate it without each of them.
 
     Example: planetary-twin explain cracked_tooth --duration 0.2
     """
@@ -40,22 +41,22 @@ def explain(
     from ..scene.summary import gears
 
     console = console_beside(json_)
-    for kind in (AccuracyWarning, LedgerWarning):  # they are among the remarks
+    for kind in (AccuracyWarning, LedgerWarning):  # printed with the remarks
         warnings.simplefilter("ignore", kind)
     try:
         loaded = load_scene(scene)
         meshes = describe_meshes(loaded)
-        with console.status("running the scene") as status:
+        with console.status("simulating the scene") as status:
             found = interruptible(
                 lambda: measure(
-                    loaded, duration, lambda name: status.update(f"running it without {name}")
+                    loaded, duration, lambda name: status.update(f"simulating without {name}")
                 )
             )
     except ValueError as error:
         fail(error)
-    told = f": {loaded.description}" if loaded.description else ""
-    console.print(f"[bold]{loaded.name}[/bold]{told}\n")
-    put_together(console, "gears", gears(loaded))
+    description = f": {loaded.description}" if loaded.description else ""
+    console.print(f"[bold]{loaded.name}[/bold]{description}\n")
+    print_list(console, "gears", gears(loaded))
     console.print()
     console.print(_mesh_table(loaded, meshes))
     console.print(_table(loaded, found))
@@ -73,7 +74,7 @@ def _mesh_table(scene: Scene, meshes: Meshes) -> Table:
     point = scene.operating_point
     inputs = (point.input_speed, point.second_input_speed)[: len(scene.drive.inputs)]
     speed = " and ".join(f"{speed / rpm(1.0):.6g} rpm" for speed in inputs)
-    figures = (  # a line each, as a table folds its caption between a value and its unit, too
+    figures = (  # one line each, because a caption may be folded between a value and its unit
         f"mesh frequency f_m {meshes.mesh_frequency:.4g} Hz",
         f"input speed {speed}",
         f"input torque {point.input_torque:.4g} N m",
@@ -90,24 +91,24 @@ def _mesh_table(scene: Scene, meshes: Meshes) -> Table:
     return table
 
 
-# Of the fields of `MeshFigures`, in their order.
+# Labels of the fields of `MeshFigures`, in their order.
 _MESH_ROWS = (
     "teeth [-]",
     "contact ratio [-]",
     "stiffness of one pair [N/m]",
     "stiffness, mean over the mesh cycle [N/m]",
-    "natural frequency on its own two gears, one pair in contact [Hz]",
+    "natural frequency of the two gears alone, one pair in contact [Hz]",
     "damping ratio of that mode [-]",
     "static mesh force [N]",
-    "Hertz pressure of that force on one pair at the pitch point [Pa]",
+    "Hertz pressure at the pitch point, that force on one pair [Pa]",
     "tooth loss factor H_v [-]",
     "backlash on the line of action [m]",
     "friction coefficient, that force on one pair at a slide-to-roll ratio of 0.1 [-]",
     "the same with eyring [-]",
     "the same with evans_johnson [-]",
     "the same with schlenk [-]",
-    "shear number of the film, 1: from Newtonian to shear-thinning [-]",
-    "laws of the film in their range [-]",
+    "shear number of the film, above 1 shear-thinning [-]",
+    "film laws within their range [-]",
 )
 
 
@@ -129,13 +130,13 @@ def _table(scene: Scene, found: Explanation) -> Table:
     from rich.table import Table
 
     figures = found.figures
-    told = (
+    values = (
         f"{name} {factor * getattr(figures, field):.4g} {unit}"
         for field, (name, unit, factor) in _JUDGED.items()
     )
     table = Table(
-        title="Modelled, and by how many per cent figures differ without it",
-        caption="\n".join(("as it is", *told)),
+        title="Modelled terms, and the change of results without each [%]",
+        caption="\n".join(("results of the complete scene", *values)),
     )
     table.add_column("term: law")
     for heading in (*(name for name, _, _ in _JUDGED.values()), "run time"):
@@ -149,8 +150,8 @@ def _table(scene: Scene, found: Explanation) -> Table:
     return table
 
 
-# Fields of a glance: what they are called, in which unit, and what one of SI is in it. Means and
-# rms are over all meshes, peaks in any of them.
+# Fields of a glance: name, unit, and factor from SI. Means and rms are over all meshes, peaks are
+# the largest of any mesh.
 _JUDGED = {
     "dte_mean": ("DTE mean", "um", 1e6),
     "dte_rms": ("DTE rms", "um", 1e6),
@@ -170,7 +171,7 @@ def _limits(scene: Scene) -> Table:
 
     from ..explanation.terms import limits
 
-    table = Table("not modelled", "so", title="Left out")
+    table = Table("not modelled", "consequence", title="Limits of the model")
     for limit in limits(scene):
         table.add_row(*limit)
     return table

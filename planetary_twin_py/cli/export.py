@@ -14,16 +14,22 @@ from ._fail import fail, need, remark
 
 def export(
     file: FileArgument,
-    out: Annotated[Path, typer.Option(help="Folder; or a file, for one topic: gears.parquet.")],
+    out: Annotated[Path, typer.Option(help="Folder; or, for one topic, a file: gears.parquet.")],
     format_: Annotated[
-        str | None, typer.Option("--format", help="parquet, csv or npz; or as --out ends.")
+        str | None,
+        typer.Option(
+            "--format", help="parquet, csv or npz.", show_default="according to the suffix of --out"
+        ),
     ] = None,
     topics: Annotated[
-        str, typer.Option(help="gearbox_state,operating_point,mesh_waveform; all unless given.")
+        str,
+        typer.Option(
+            help="Any of gearbox_state,operating_point,mesh_waveform.", show_default="all"
+        ),
     ] = "",
     namespace: NamespaceOption = None,
 ) -> None:
-    """Write FILE as tables: a row per message, of the waveform a row per sample. SI units.
+    """Write FILE as tables in SI units: a row per message, or per sample of the waveform.
 
     Example: planetary-twin export recordings/NAME --out tables --format csv
     """
@@ -48,5 +54,5 @@ def export(
     for line in done.remarks:
         remark(line)
     for path, rows in done.rows.items():
-        told = f"{path}: {rows} rows, {path.stat().st_size / 1e6:.1f} MB"
-        console.print(told, highlight=False, soft_wrap=True)
+        line = f"{path}: {rows} rows, {path.stat().st_size / 1e6:.1f} MB"
+        console.print(line, highlight=False, soft_wrap=True)

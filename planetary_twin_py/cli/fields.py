@@ -1,4 +1,4 @@
-"""`planetary-twin fields`: what a scene can say, with units, defaults and ranges."""
+"""`planetary-twin fields`: the fields of a scene with units, defaults and ranges."""
 
 from __future__ import annotations
 
@@ -13,14 +13,17 @@ from ._figures import console_beside, put_figures
 
 def fields(
     part: Annotated[
-        str, typer.Argument(metavar="PART", help="Those whose dotted names have this in them.")
+        str,
+        typer.Argument(
+            metavar="PART", help="Text that the dotted name contains.", show_default="all fields"
+        ),
     ] = "",
     json_: JsonOption = None,
 ) -> None:
-    """List the fields of a scene: what --set, sweep and a YAML file may name.
+    """List the fields of a scene, which --set, sweep and scene files accept.
 
-    Those of the operating point may be named without operating_point. before them. A round bracket
-    leaves the end of a range out.
+    Fields of the operating point need no prefix operating_point. A round bracket excludes the end
+    of a range.
 
     Example: planetary-twin fields mesh.damping
     """
@@ -37,7 +40,7 @@ def fields(
     ]
     if not found:
         names = ", ".join(field.name for field in sections[0].fields)
-        fail(f"PART = {part!r}: is in the name of no field; they begin with {names}")
+        fail(f"PART = {part!r}: no field name contains it; names start with {names}")
     console = console_beside(json_)
     table = Table()
     for heading in SceneField._fields:

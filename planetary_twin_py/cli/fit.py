@@ -1,4 +1,4 @@
-"""`planetary-twin fit`: parameters from a recording."""
+"""`planetary-twin fit`: estimates scene parameters from a recording."""
 
 from __future__ import annotations
 
@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from ._arguments import FileArgument, JsonOption, NamespaceOption
+from ._durations import SECONDS
 from ._fail import fail, need, remark
 from ._figures import console_beside, put_figures
 from ._settings import settings
@@ -24,28 +25,30 @@ def fit(
         str,
         typer.Option(
             metavar="NAMES",
-            help="Fields to estimate, by commas; NAME=VALUE begins the search elsewhere than "
-            "at the recorded value.",
+            help="Fields to estimate, separated by commas; NAME=VALUE sets the initial value, "
+            "otherwise the recorded value.",
         ),
     ],
     from_: Annotated[
-        float | None, typer.Option("--from", metavar="S", help="Simulated second to begin at.")
+        float | None, typer.Option("--from", help="Start in simulated time.", **SECONDS)
     ] = None,
-    to: Annotated[float | None, typer.Option(metavar="S", help="Second to end at.")] = None,
+    to: Annotated[float | None, typer.Option(help="End in simulated time.", **SECONDS)] = None,
     observe: Annotated[
-        str, typer.Option(metavar="NAMES", help="What was measured, by commas.")
+        str, typer.Option(metavar="NAMES", help="Measured quantities, separated by commas.")
     ] = "dte_rms,power_loss",
     noise: Annotated[
         list[str] | None,
-        typer.Option(metavar="NAME=VALUE", help="Standard deviation of a reading, in SI."),
+        typer.Option(
+            metavar="NAME=VALUE", help="Standard deviation of one reading, in SI. Repeatable."
+        ),
     ] = None,
     namespace: NamespaceOption = None,
     json_: JsonOption = None,
 ) -> None:
-    """Estimate fields of the scene of FILE from what was measured, and say what it cannot tell.
+    """Estimate scene parameters from FILE with confidence intervals, if they are identifiable.
 
-    Without --from and --to: the longest second on which the operating point stays the same. A
-    field that the readings do not tell is named in a warning; the exit code stays 0.
+    Without --from and --to, up to one second with a constant operating point is used. Parameters
+    that the readings do not determine are reported in a warning; the exit code is still 0.
 
     Example: planetary-twin fit recordings/NAME --free lambda_ratio,input_torque
     """
@@ -65,17 +68,17 @@ def fit(
         with console.status("simulating") as status:
             found = identify(
                 file, search, namespace, from_, to,
-                hear=lambda count: status.update(f"{count} simulations"),
+                report=lambda count: status.update(f"{count} simulations"),
             )  # fmt: skip
     except (ValueError, ArithmeticError) as error:
         fail(error)
     except OSError as error:
         fail(f"{error.filename}: {error.strerror}")
-    told = list(remarks(found))
-    _tell(console, found)
-    for line in told:
+    warnings = list(remarks(found))
+    _print(console, found)
+    for line in warnings:
         remark(f"warning: {line}")
-    put_figures(_figures(found) | {"remarks": told}, json_)
+    put_figures(_figures(found) | {"remarks": warnings}, json_)
 
 
 def _name(text: str) -> str:
@@ -101,11 +104,11 @@ def _numbers(given: list[str]) -> dict[str, float]:
     return found
 
 
-def _tell(console: Console, found: Identified) -> None:
+def _print(console: Console, found: Identified) -> None:
     from rich.table import Table
 
-    stretch, estimate = found.stretch, found.estimate
-    table = Table(title=f"{stretch.scene.name}, {stretch.start:g} to {stretch.end:g} s")
+    excerpt, estimate = found.excerpt, found.estimate
+    table = Table(title=f"{excerpt.scene.name}, {excerpt.start:g} to {excerpt.end:g} s")
     for heading in (
         "field",
         "estimate",
@@ -116,49 +119,53 @@ def _tell(console: Console, found: Identified) -> None:
         table.add_column(heading, justify="right")
     for k, parameter in enumerate(found.parameters):
         low, high, profiled = estimate.intervals[k]
-        told = estimate.told(k)
-        source = ("profile" if profiled else "curvature") if told else "tried"
-        value = f"{estimate.values[k]:.6g}" if told else "not told"
+        identifiable = estimate.identifiable(k)
+        source = ("profile" if profiled else "curvature") if identifiable else "search range"
+        value = f"{estimate.values[k]:.6g}" if identifiable else "not identifiable"
         span = f"{low:.6g} to {high:.6g}"
         if math.isnan(low):
-            span, source = "-", "only together"
+            span, source = "-", "combination only"
         table.add_row(parameter.name, value, span, parameter.unit, source)
     console.print(table)
     console.print(f"{found.simulations} simulations in {found.wall_time:.1f} s", highlight=False)
 
 
 def _figures(found: Identified) -> dict[str, Any]:
+    """Results for `--json`; "told" and "untold" are deprecated names, kept for compatibility."""
     estimate = found.estimate
     parameters = {
         p.name: {
-            "estimate": float(estimate.values[k]) if estimate.told(k) else None,
+            "estimate": float(estimate.values[k]) if estimate.identifiable(k) else None,
             "low": _finite(estimate.intervals[k].low),
             "high": _finite(estimate.intervals[k].high),
             "unit": p.unit,
-            "told": estimate.told(k),
+            "identifiable": estimate.identifiable(k),
+            "told": estimate.identifiable(k),
             "at_bound": estimate.at_bound[k],
             "profiled": estimate.intervals[k].profiled,
         }
         for k, p in enumerate(found.parameters)
     }
+    groups = [[found.parameters[k].name for k in group] for group in estimate.not_identifiable]
     return {
         "parameters": parameters,
         "confidence": found.confidence,
         "correlation": [[_finite(value) for value in row] for row in estimate.correlation],
-        "untold": [[found.parameters[k].name for k in group] for group in estimate.untold],
+        "not_identifiable": groups,
+        "untold": groups,
         "excess": estimate.excess,
         "noise": {
             readings.name: _finite(float(noise.reading.max()))
-            for readings, noise in zip(found.yardstick.recorded, found.yardstick.noise, strict=True)
+            for readings, noise in zip(found.weighted.recorded, found.weighted.noise, strict=True)
         },
         "contact_fraction": found.contact_fraction,
-        "from_s": found.stretch.start,
-        "to_s": found.stretch.end,
+        "from_s": found.excerpt.start,
+        "to_s": found.excerpt.end,
         "simulations": found.simulations,
         "wall_time_s": found.wall_time,
     }
 
 
 def _finite(value: float) -> float | None:
-    """JSON has no infinity and no NaN."""
+    """`value`, or None in place of an infinity or NaN, which JSON lacks."""
     return float(value) if math.isfinite(value) else None

@@ -1,4 +1,4 @@
-"""`planetary-twin import`: what a rig has measured, as a recording."""
+"""`planetary-twin import`: converts measurements of a test rig to a recording."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from ._arguments import SetOption, complete_scene
-from ._console import make_console
+from ._console import busy, make_console
 from ._fail import fail, need
 from ._output import check_recording
 from ._settings import changed_scene, settings
@@ -22,23 +22,23 @@ def import_(
     table: Annotated[
         Path,
         typer.Argument(
-            metavar="TABLE", help="CSV or Parquet; headings name fields: time, power_loss [kW]."
+            metavar="TABLE", help="CSV or Parquet file; headings: time [s], power_loss [kW]."
         ),
     ],
-    out: Annotated[Path, typer.Option(help="Folder of the recording, or one file NAME.mcap.")],
+    out: Annotated[Path, typer.Option(help="Folder of the new recording, or one file NAME.mcap.")],
     scene: Annotated[
         str,
         typer.Option(
-            help="The gearbox: packaged scene, or path of a YAML file.",
+            help="Scene of the gearbox: a packaged scene, or path of a YAML file.",
             autocompletion=complete_scene,
         ),
     ] = "paper",
     set_: SetOption = None,
 ) -> None:
-    """Write TABLE, which a rig has measured, as a recording that `fit` and `view` take.
+    """Convert TABLE, the measurements of a test rig, to a recording for `fit` and `view`.
 
-    A row tells of the interval that ends at its time stamp. Columns are named as `export` names
-    those of gearbox_state and operating_point.
+    Each row describes the interval that ends at its time. Columns have the names that `export`
+    gives to the fields of gearbox_state and operating_point.
 
     Example: planetary-twin import rig.csv --scene paper --out recordings/rig
     """
@@ -47,21 +47,23 @@ def import_(
     from ..recording.tables.rig_recording import write_measured
 
     try:
-        done = write_measured(table, changed_scene(scene, settings(set_ or [])), out)
+        gearbox = changed_scene(scene, settings(set_ or []))
+        with busy("converting the table"):
+            done = write_measured(table, gearbox, out)
     except ValueError as error:
         fail(error)
     except OSError as error:
         fail(error if error.filename is None else f"{error.filename}: {error.strerror}")
-    for line in _told(out, done):
+    for line in _summary(out, done):
         make_console().print(line, highlight=False, soft_wrap=True)
 
 
-def _told(out: Path, done: Imported) -> Iterator[str]:
-    """How much was written, and where operating points begin."""
+def _summary(out: Path, done: Imported) -> Iterator[str]:
+    """Number of rows, and the operating points with their start times."""
     from ..scene import TUNABLES
 
     step = done.measured.step
     yield f"{out}: {done.measured.rows} rows, one every {step:g} s"
-    for part in done.held:
+    for part in done.points:
         means = (f"{name} = {v:.6g} {TUNABLES[name].unit}" for name, v in part.means.items())
-        yield f"from {part.first * step:g} s on: {', '.join(means) or 'as in the scene'}"
+        yield f"from {part.first * step:g} s: {', '.join(means) or 'as in the scene'}"

@@ -1,4 +1,4 @@
-"""`planetary-twin info`: what a recording holds."""
+"""`planetary-twin info`: the contents of a recording."""
 
 from __future__ import annotations
 
@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from ._arguments import FileArgument, JsonOption
+from ._console import busy
 from ._fail import fail, need, remark
 from ._figures import console_beside, put_figures
 
@@ -22,11 +23,11 @@ if TYPE_CHECKING:
 def info(
     file: FileArgument,
     events: Annotated[
-        bool, typer.Option(help="Also what happened: looks at every interval, which takes longer.")
+        bool, typer.Option(help="Also list events; this reads every message and takes longer.")
     ] = False,
     json_: JsonOption = None,
 ) -> None:
-    """Tell what FILE holds: topics, rates, losses, longest gaps, and what was changed when.
+    """Show the contents of FILE: topics, rates, lost messages, longest gaps, parameter changes.
 
     Example: planetary-twin info recordings/paper_20260101_120000
     """
@@ -36,8 +37,9 @@ def info(
     from ..recording.runs.info import read_info
 
     try:
-        found = read_info(file)
-        happened = _events(file, found) if events else None
+        with busy("reading the recording"):
+            found = read_info(file)
+            happened = _events(file, found) if events else None
     except RecordingError as error:
         fail(error)
     except OSError as error:
@@ -45,7 +47,7 @@ def info(
     for line in found.remarks:
         remark(line)
     console = console_beside(json_)
-    _tell(console, found)
+    _print(console, found)
     for namespace, event in happened or []:
         text = f"{namespace} run {event.run:<3} {event.time:10.4f} s  {event.text}"
         console.print(text, highlight=False, soft_wrap=True)
@@ -58,7 +60,7 @@ def info(
 
 
 def _events(file: Path, found: Info) -> list[tuple[str, Event]]:
-    """What happened to each gearbox."""
+    """Events of each gearbox, with its namespace."""
     from ..recording.ros2.topics import STATE
     from ..recording.runs.events import read_events
 
@@ -68,7 +70,7 @@ def _events(file: Path, found: Info) -> list[tuple[str, Event]]:
     return [(name, event) for name in sorted(names) for event in read_events(file, name, [])]
 
 
-def _tell(console: Console, found: Info) -> None:
+def _print(console: Console, found: Info) -> None:
     from rich.table import Table
 
     from ..recording.runs.ramps import ramps
@@ -96,15 +98,17 @@ def _tell(console: Console, found: Info) -> None:
     for number, ramp in enumerate(ramps(found.changes)):
         title = "" if number else "changes"
         console.print(
-            f"{title:13} {ramp.times[0]:10.4f} s  {_told(ramp)}", highlight=False, soft_wrap=True
+            f"{title:13} {ramp.times[0]:10.4f} s  {_described(ramp)}",
+            highlight=False,
+            soft_wrap=True,
         )
 
 
-def _told(ramp: Ramp) -> str:
-    """What has changed, in words."""
+def _described(ramp: Ramp) -> str:
+    """The changed parameters and their values."""
     steps = len(ramp.times)
     if not ramp.last:
-        return "as before"
+        return "no change"
     if steps == 1:
         return ", ".join(f"{k} = {value:.6g} {_unit(k)}".rstrip() for k, value in ramp.last.items())
     ways = ", ".join(

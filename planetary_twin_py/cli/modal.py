@@ -1,4 +1,4 @@
-"""`planetary-twin modal`: natural frequencies and the speeds at which the meshing meets them."""
+"""`planetary-twin modal`: natural frequencies, and the speeds at which meshing excites them."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ LEAST_CHANGE = 0.005  # [Hz]
 def modal(
     scene: SceneArgument = "paper",
     model: Annotated[
-        str, typer.Option(help="torsional, machines, printed, planar or spatial.")
+        str, typer.Option(help="One of torsional, machines, printed, planar, spatial.")
     ] = "torsional",
     set_: SetOption = None,
     campbell: Annotated[
@@ -35,10 +35,10 @@ def modal(
     ] = None,
     json_: JsonOption = None,
 ) -> None:
-    """List the natural modes of SCENE, how stiffnesses move them, and resonant speeds.
+    """List the natural modes of SCENE, their sensitivity to stiffness, and the resonant speeds.
 
-    Frequencies are told with one tooth pair in every mesh and at mean mesh stiffness; resonant
-    speeds and the Campbell diagram are those at mean stiffness.
+    Frequencies are given for one tooth pair in every mesh and for the mean mesh stiffness;
+    resonant speeds and the Campbell diagram use the mean mesh stiffness.
 
     Example: planetary-twin modal wind_turbine_stage --model planar --campbell campbell.png
     """
@@ -88,7 +88,7 @@ def modal(
 def _mode_table(
     title: str, single: NaturalModes, mean: NaturalModes, springs: SpringModel
 ) -> Table:
-    """Modes in the order of their frequencies; `springs` are those of `mean`."""
+    """Modes in ascending order of frequency; `springs` is the model of `mean`."""
     from rich.table import Table
 
     from ..modal.sensitivity import frequency_sensitivities
@@ -97,17 +97,17 @@ def _mode_table(
     stiffness = {spring.kind: spring.stiffness for spring in springs.springs}
     table = Table(
         title=title,
-        caption="f with one tooth pair in every mesh, f with the mean stiffness over the mesh "
-        "cycle, and its change by 1 % of the stiffness of each kind of spring; changes below "
-        f"{LEAST_CHANGE:g} Hz are left out",
+        caption="Frequency f with one tooth pair in every mesh, with the mean mesh stiffness, and "
+        "its change if the stiffness of one kind of spring rises by 1 %; changes below "
+        f"{LEAST_CHANGE:g} Hz are omitted",
     )
     for heading in ("mode", r"f, one pair \[Hz]", r"f, mean \[Hz]", "kind"):
         table.add_column(heading, justify="right")
-    table.add_column(r"change by 1 % of a stiffness \[Hz]")
+    table.add_column(r"change per 1 % of stiffness \[Hz]")
     for m, kinds in enumerate(zip(single.kinds, mean.kinds, strict=True)):
         changes = {name: slopes[name][m] * 0.01 * stiffness[name] for name in slopes}
         frequencies = (f"{modes.frequencies[m]:.2f}" for modes in (single, mean))
-        # Where kinds of mesh stiffen unequally, one mode may overtake another.
+        # The order of two modes may differ between the two stiffnesses.
         table.add_row(
             str(m + 1), *frequencies, ", then ".join(dict.fromkeys(kinds)), _shown(changes)
         )
@@ -115,7 +115,7 @@ def _mode_table(
 
 
 def _shown(changes: dict[str, float]) -> str:
-    """Changes [Hz] by kind of spring, the largest first; those that are rounded to 0 left out."""
+    """Changes [Hz] by kind of spring, largest first, without those that round to 0."""
     ordered = sorted(changes.items(), key=lambda change: -abs(change[1]))
     felt = (
         f"{name.replace('_', ' ')} {change:+.2f}"
@@ -130,8 +130,8 @@ def _heading(limit: float) -> str:
     from ..units import rpm
 
     return (
-        f"At mean mesh stiffness, harmonics 1 to {HARMONICS} of the meshing, speeds up to "
-        f"{limit / rpm(1.0):.0f} rpm (drive.speed_limit):"
+        f"Resonances at mean mesh stiffness, harmonics 1 to {HARMONICS} of the mesh frequency, "
+        f"speeds up to {limit / rpm(1.0):.0f} rpm (drive.speed_limit):"
     )
 
 
@@ -142,5 +142,5 @@ def _line(resonance: Resonance) -> str:
     modes = f"mode{'s' * (len(numbers) > 1)} {', '.join(map(str, numbers))}"
     return (
         f"{resonance.speed / rpm(1.0):10.1f} rpm: harmonic {resonance.harmonic} "
-        f"of the meshing meets {modes} at {resonance.frequency:.1f} Hz"
+        f"of the mesh frequency excites {modes} at {resonance.frequency:.1f} Hz"
     )

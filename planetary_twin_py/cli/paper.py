@@ -1,4 +1,4 @@
-"""`planetary-twin paper`: every table and figure of the paper beside ours."""
+"""`planetary-twin paper`: recomputes every table and figure of the paper."""
 
 from __future__ import annotations
 
@@ -20,13 +20,13 @@ if TYPE_CHECKING:
 
 def paper(
     out: Annotated[
-        Path, typer.Option(help="The page; its pictures go into a folder of its name.")
+        Path, typer.Option(help="Page to write; its pictures go into a folder of the same name.")
     ] = Path("docs/paper.md"),
-    pictures: Annotated[str, typer.Option(help="Their format: png, svg or pdf.")] = "png",
+    pictures: Annotated[str, typer.Option(help="Format of the pictures: png, svg or pdf.")] = "png",
     json_: JsonOption = None,
-    jobs: Annotated[int, typer.Option(min=1, max=64, help="Processes.")] = 2,
+    jobs: Annotated[int, typer.Option(min=1, max=64, help="Number of processes.")] = 2,
 ) -> None:
-    """Recompute every table and figure of the paper, and write them beside what it states.
+    """Recompute every table and figure of the paper, and compare them with the published ones.
 
     Example: planetary-twin paper --out paper.md --pictures svg
     """

@@ -1,4 +1,4 @@
-"""`planetary-twin plot`: a study's table as a picture."""
+"""`planetary-twin plot`: draws the table of a study."""
 
 from __future__ import annotations
 
@@ -19,21 +19,23 @@ def plot(
     x: Annotated[str | None, typer.Option("--x", metavar="FIELD", help="Horizontal axis.")] = None,
     y: Annotated[
         str | None,
-        typer.Option("--y", metavar="MEASURE,...", help="What to draw, a panel for each."),
+        typer.Option("--y", metavar="MEASURE,...", help="Columns to draw, one panel each."),
     ] = None,
     by: Annotated[
         str | None,
-        typer.Option(metavar="FIELD", help="Told apart by colour; vertical axis of a map."),
+        typer.Option(
+            metavar="FIELD", help="Field shown by colour; in a map, on the vertical axis."
+        ),
     ] = None,
     kind: Annotated[
         str | None,
-        typer.Option(help="curves, map or stribeck.", show_default="what the fields ask for"),
+        typer.Option(help="curves, map or stribeck.", show_default="according to the fields"),
     ] = None,
 ) -> None:
-    """Draw what `sweep`, `stribeck` or `bifurcation` has found, in the engineer's units.
+    """Draw the results of `sweep`, `stribeck` or `bifurcation` in customary units.
 
-    Without options: curves where one field varies, a curve for each value of a second one, a
-    panel for each value of a third; a map where two have six values or more.
+    By default: curves over the first field that varies, one curve per value of a second field,
+    one panel per value of a third; a map if two fields have six values or more.
 
     Example: planetary-twin plot study.parquet --y efficiency,power_loss --out study.svg
     """
@@ -55,5 +57,5 @@ def plot(
     except (ValueError, OSError) as error:
         fail(error)
     if failed := failures(table):
-        remark(f"{failed} of {len(table)} points failed and are left out")
+        remark(f"{failed} of {len(table)} points failed and are omitted")
     typer.echo(f"{out}")

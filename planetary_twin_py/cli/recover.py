@@ -1,4 +1,4 @@
-"""`planetary-twin recover`: make a whole recording of a damaged one."""
+"""`planetary-twin recover`: copies the intact parts of a damaged recording."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from typing import Annotated
 import typer
 
 from ._arguments import FileArgument
-from ._console import make_console
+from ._console import busy, make_console
 from ._fail import fail, need, remark
 from ._output import check_recording
 
@@ -16,15 +16,16 @@ from ._output import check_recording
 def recover(
     file: FileArgument,
     folder: Annotated[
-        Path | None, typer.Argument(metavar="[OUT]", help="Older way to give --out.")
+        Path | None, typer.Argument(metavar="[OUT]", help="Deprecated: use --out.")
     ] = None,
     out: Annotated[
-        Path | None, typer.Option(help="New folder; by default beside FILE, its name and _whole.")
+        Path | None,
+        typer.Option(help="New folder.", show_default="name of FILE with _whole, beside FILE"),
     ] = None,
 ) -> None:
-    """Write what is sound of FILE, torn or damaged anywhere, as a recording that is whole.
+    """Copy the intact messages of FILE, which may be truncated or damaged, to a valid recording.
 
-    Says what is missing: bytes, stretch of time, chunks, and messages where the index lists them.
+    Reports what is missing: bytes, time intervals, chunks, and messages if the index lists them.
 
     Example: planetary-twin recover recordings/paper_20260101_120000 --out recordings/saved
     """
@@ -39,12 +40,13 @@ def recover(
     folder = out or folder or file.with_name(f"{file.stem}_whole")
     check_recording("--out", folder)
     try:
-        saved = save(file, folder)
+        with busy("copying intact messages"):
+            saved = save(file, folder)
     except RecordingError as error:
         fail(error)
     except OSError as error:
         fail(f"{error.filename}: {error.strerror}")
-    for line in saved.remarks or ["nothing is damaged: the copy holds all that the recording does"]:
+    for line in saved.remarks or ["no damage found: the copy is complete"]:
         remark(line)
     table = Table("topic", "messages saved", box=None)
     for topic, count in saved.messages.items():

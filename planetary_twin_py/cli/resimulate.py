@@ -1,4 +1,4 @@
-"""`planetary-twin resimulate`: a recorded run again, with other values from an instant on."""
+"""`planetary-twin resimulate`: repeats a recorded run with other values from a given time."""
 
 from __future__ import annotations
 
@@ -9,6 +9,7 @@ import typer
 
 from ._arguments import FileArgument, NamespaceOption, SetOption
 from ._console import make_console
+from ._durations import SECONDS
 from ._fail import fail, need, remark
 from ._output import check_recording
 from ._settings import say_units, settings
@@ -18,22 +19,26 @@ def resimulate(
     file: FileArgument,
     set_: SetOption = None,
     from_: Annotated[
-        float, typer.Option("--from", help="Simulated instant from which it differs [s].")
+        float,
+        typer.Option("--from", help="Simulated time from which the new values apply.", **SECONDS),
     ] = 0.0,
     duration: Annotated[
-        float | None, typer.Option(help="Length of the new run [s]; as recorded unless given.")
+        float | None,
+        typer.Option(help="Length of the new run.", show_default="as recorded", **SECONDS),
     ] = None,
     out: Annotated[
-        Path | None, typer.Option(help="New folder; by default beside FILE, its name and _again.")
+        Path | None,
+        typer.Option(help="New folder.", show_default="name of FILE with _again, beside FILE"),
     ] = None,
     run: Annotated[
-        int | None, typer.Option(help="Which run, from 1, if there are several; or the last.")
+        int | None,
+        typer.Option(help="Number of the run, from 1, if FILE has several.", show_default="last"),
     ] = None,
     namespace: NamespaceOption = None,
 ) -> None:
-    """Ask what would have been: simulate FILE again with other values, into a second recording.
+    """What if: simulate FILE again with other values, and write a second recording.
 
-    What is set stays so; everything else changes when it was changed in FILE.
+    The values of --set stay constant; all other values change as they did in FILE.
 
     Example: planetary-twin resimulate recordings/NAME --set lambda_ratio=1.0 --from 3.0
     """
@@ -68,5 +73,5 @@ def resimulate(
     say_units(made.scene, changes)
     for line in made.remarks:
         remark(line)
-    told = f"as recorded up to {made.begins:g} s, then as set up to {made.end:g} s: {made.file}"
-    console.print(told, highlight=False, soft_wrap=True)
+    line = f"{made.file}: as recorded until {made.begins:g} s, then as set until {made.end:g} s"
+    console.print(line, highlight=False, soft_wrap=True)

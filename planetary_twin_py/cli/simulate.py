@@ -1,4 +1,4 @@
-"""`planetary-twin simulate`: a whole run without ROS, as fast as it goes."""
+"""`planetary-twin simulate`: a run without ROS, as fast as possible."""
 
 from __future__ import annotations
 
@@ -8,8 +8,9 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from ._arguments import JsonOption, SceneArgument, SetOption, ToleranceOption
-from ._console import put_together
+from ._arguments import DurationOption, JsonOption, SceneArgument, SetOption, ToleranceOption
+from ._console import print_list
+from ._durations import SECONDS
 from ._fail import fail, need, remark
 from ._figures import console_beside, put_figures
 from ._interrupt import interruptible
@@ -26,10 +27,11 @@ if TYPE_CHECKING:
 
 def simulate(
     scene: SceneArgument = "paper",
-    duration: Annotated[float, typer.Option(help="Simulated seconds.")] = 1.0,
+    duration: DurationOption = 1.0,
     sample_rate: Annotated[float, typer.Option(help="Samples per simulated second.")] = 50_000.0,
     settling: Annotated[
-        float, typer.Option(help="Seconds simulated before, which no figure and sample is of.")
+        float,
+        typer.Option(help="Simulated time before, excluded from results and samples.", **SECONDS),
     ] = 0.0,
     tolerance: ToleranceOption = 1e-4,
     set_: SetOption = None,
@@ -38,10 +40,10 @@ def simulate(
     ] = None,
     json_: JsonOption = None,
 ) -> None:
-    """Simulate SCENE and print what it does.
+    """Simulate SCENE and print the results.
 
-    Means, rms and peaks come from the integrator: they do not depend on --sample-rate. They are
-    over --duration; a recording (.mcap, folder) holds the time of --settling, too.
+    The integrator computes means, rms and peaks over --duration, so they do not depend on
+    --sample-rate. A recording (.mcap, folder) also contains the time of --settling.
 
     Example: planetary-twin simulate paper --duration 0.5 --set lambda_ratio=1.5 --out run.npz
     """
@@ -54,7 +56,7 @@ def simulate(
     from ..simulation import simulate as run
 
     console = console_beside(json_)
-    for kind in (AccuracyWarning, LedgerWarning):  # they are among the remarks
+    for kind in (AccuracyWarning, LedgerWarning):  # printed with the remarks
         warnings.simplefilter("ignore", kind)
     try:
         if out is not None:
@@ -73,26 +75,26 @@ def simulate(
         fail(error)
     train = {"settling_s": settling} | _train(loaded, result)
     meshes = _meshes(result)
-    put_together(console, "gears", gears(loaded))
-    put_together(console, "operating point", operating_point(loaded))
+    print_list(console, "gears", gears(loaded))
+    print_list(console, "operating point", operating_point(loaded))
     for name, value in train.items():
         console.print(f"{_TRAIN[name]:42} {value:.6g}", markup=False)
     console.print(_table(meshes))
-    told = [*without_effect(loaded, changes), *remarks(loaded, result, tolerance)]
-    for line in told:
+    warned = [*without_effect(loaded, changes), *remarks(loaded, result, tolerance)]
+    for line in warned:
         remark(f"warning: {line}")
-    put_figures(train | meshes | {"remarks": told}, json_)
+    put_figures(train | meshes | {"remarks": warned}, json_)
 
 
 def _check(out: Path) -> None:
-    """End the command where it cannot write what is asked for."""
+    """End the command if `out` cannot be written."""
     if out.suffix in _WRITERS:
         check_file("--out", out)
     elif out.suffix in _RECORDINGS:
         check_recording("--out", out)
         need("recording", "mcap", "rosbags")
     else:
-        fail(f"--out = {str(out)!r}: must end in {', '.join(_WRITERS)} or .mcap, or in nothing")
+        fail(f"--out = {str(out)!r}: must end in {', '.join(_WRITERS)} or .mcap, or be a folder")
 
 
 def _record(console: Console, out: Path, scene: Scene, *how: float) -> None:
@@ -106,9 +108,9 @@ def _record(console: Console, out: Path, scene: Scene, *how: float) -> None:
         record(plan, out, lambda time: progress.update(task, completed=time))
 
 
-# What a person reads of the whole train, by the names in JSON.
+# Labels of the results of the whole train, by JSON name.
 _TRAIN = {
-    "settling_s": "left out at the start [s]",
+    "settling_s": "excluded at the start [s]",
     "efficiency": "efficiency [-]",
     "mean_power_loss_W": "power loss, mean [W]",
     "mean_dte_m": "DTE of all meshes, mean [m]",
@@ -117,13 +119,13 @@ _TRAIN = {
     "mean_mesh_force_N": "force of all meshes, mean [N]",
     "mesh_force_peak_N": "force of any mesh, peak [N]",
     "mesh_frequency_Hz": "mesh frequency, mean [Hz]",
-    "energy_residual": "energy residual/energy put in [-]",
+    "energy_residual": "energy residual/input energy [-]",
     "real_time_factor": "real-time factor [-]",
 }
 
 
 def _train(scene: Scene, result: Result) -> dict[str, float]:
-    """Figures of the whole train, and means over all its meshes."""
+    """Results of the whole train, and means over all its meshes, by JSON name."""
     from ..gearset.kinematics import mesh_frequency
     from ..studies.measures import glance
 
@@ -157,7 +159,7 @@ _MESH_MEASURES = (
 
 
 def _meshes(result: Result) -> dict[str, dict[str, float]]:
-    """Figures of the sun meshes and of the ring meshes, as studies have them, by SI names."""
+    """Results of the sun meshes and of the ring meshes, by measure with its SI unit."""
     from ..studies.measures import MESH, mesh_rows
 
     units = {name: MESH[name].unit for name in _MESH_MEASURES}
@@ -183,7 +185,7 @@ def _table(meshes: dict[str, dict[str, float]]) -> Table:
 
 
 def _columns(result: Result) -> dict[str, Any]:
-    """Every series of a result by its name."""
+    """Every time series of a result, by column name."""
     columns: dict[str, Any] = {"time": result.time}
     for names, quantities in (
         (result.bodies, ("angle", "speed")),

@@ -1,4 +1,4 @@
-"""`planetary-twin spectrum`: the lines in the vibration of a mesh, by frequency or by order."""
+"""`planetary-twin spectrum`: spectral lines of the vibration of a mesh, by frequency or order."""
 
 from __future__ import annotations
 
@@ -11,6 +11,8 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from ._arguments import JsonOption, complete_recording
+from ._console import busy
+from ._durations import SECONDS
 from ._fail import fail, need, remark
 from ._figures import console_beside, put_figures
 from ._output import output_file
@@ -26,43 +28,48 @@ LINES = 12
 
 @dataclass(frozen=True)
 class Options:
-    """What the command takes: what of which mesh, when, on which part of which axis, where to."""
+    """Arguments and options of the command."""
 
     file: Annotated[
         Path,
         typer.Argument(
             metavar="FILE",
-            help="Recording, or the .npz file that `simulate --out` wrote.",
+            help="Recording, or an .npz file from `simulate --out`.",
             autocompletion=complete_recording,
         ),
     ]
     order: Annotated[
-        bool, typer.Option("--order", help="Over cycles per turn of the sun against the carrier.")
+        bool,
+        typer.Option("--order", help="Orders: cycles per turn of the sun relative to the carrier."),
     ] = False
-    mesh: Annotated[str, typer.Option(help="Which mesh.")] = "sun_planet_1"
+    mesh: Annotated[str, typer.Option(help="Name of the mesh.")] = "sun_planet_1"
     quantity: Annotated[str, typer.Option(help="dte, mesh_force or friction.")] = "dte"
     band: Annotated[
         str | None,
         typer.Option(
-            metavar="LOW:HIGH", help="Only this part of the axis, in Hz or with --order in orders."
+            metavar="LOW:HIGH", help="Range of the axis, in Hz, or in orders with --order."
         ),
     ] = None
     from_: Annotated[
-        float | None, typer.Option("--from", help="Begin: simulated time in seconds.")
+        float | None, typer.Option("--from", help="Start in simulated time.", **SECONDS)
     ] = None
     to: Annotated[
         float | None,
-        typer.Option(help="End. Without both: the longest time at one operating point, settled."),
+        typer.Option(
+            help="End in simulated time. Default without --from: the longest settled interval at "
+            "one operating point.",
+            **SECONDS,
+        ),
     ] = None
     out: Annotated[
         Path | None,
-        typer.Option(help="Write all there is in the band: .png or .csv.", callback=output_file),
+        typer.Option(help="Write the spectrum to a .png or .csv file.", callback=output_file),
     ] = None
     json_: JsonOption = None
 
 
 def spectrum(**given: Any) -> None:
-    """List the highest lines in the spectrum of one mesh, and which are harmonics of the meshing.
+    """List the largest lines in the spectrum of one mesh, and identify mesh harmonics.
 
     Example: planetary-twin spectrum recordings/NAME --band 400:600 --out spectrum.png
     """
@@ -71,7 +78,8 @@ def spectrum(**given: Any) -> None:
     from ..analysis.signals import QUANTITIES
 
     try:
-        signal, found = _analysed(asked)
+        with busy("reading and analysing"):
+            signal, found = _analysed(asked)
         if asked.out is not None:
             _write(asked.out, found, _title(asked, signal), _labels(asked))
     except (ValueError, OSError) as error:
@@ -80,18 +88,18 @@ def spectrum(**given: Any) -> None:
         remark(line)
     figures = {"mesh": asked.mesh, "quantity": asked.quantity}
     figures |= _figures(signal, found, "order" if asked.order else "frequency_hz")
-    _tell(console_beside(asked.json_), figures, QUANTITIES[asked.quantity])
+    _print(console_beside(asked.json_), figures, QUANTITIES[asked.quantity])
     put_figures(figures, asked.json_)
 
 
-# Typer reads the options off the signature.
+# Typer reads the options from the signature.
 vars(spectrum)["__signature__"] = inspect.signature(Options, eval_str=True).replace(
     return_annotation=None
 )
 
 
 def _check(asked: Options) -> None:
-    """End the command where it cannot write what is asked for, or read it."""
+    """End the command if the output suffix is unknown or a package is missing."""
     out = asked.out
     if out is not None and out.suffix not in (".png", ".csv"):
         fail(f"--out = {str(out)!r}: must end in .png or .csv")
@@ -123,7 +131,7 @@ def _title(asked: Options, signal: Signal) -> str:
 
 
 def _labels(asked: Options) -> tuple[str, str]:
-    """Of the axes."""
+    """Labels of the two axes."""
     from ..analysis.signals import QUANTITIES
 
     axis = "order [cycles per turn]" if asked.order else "frequency [Hz]"
@@ -131,7 +139,7 @@ def _labels(asked: Options) -> tuple[str, str]:
 
 
 def _steady(file: Path, signal: Signal) -> Signal:
-    """The longest part at one operating point; all of what tells of none."""
+    """The longest settled part at one operating point, or all of it if there is none."""
     from ..recording.runs.steadiness import steady_span
 
     if file.suffix == ".npz":
@@ -139,8 +147,8 @@ def _steady(file: Path, signal: Signal) -> Signal:
     if span := steady_span(file):
         return signal.within(*span)
     whole = signal.within(None, None)
-    told = f"{file}: tells of no time at one operating point: all of it is analysed"
-    return replace(whole, remarks=(*whole.remarks, told))
+    line = f"{file}: no settled interval at one operating point was found; all of it is analysed"
+    return replace(whole, remarks=(*whole.remarks, line))
 
 
 def _sun_teeth(signal: Signal) -> int | None:
@@ -152,7 +160,7 @@ def _sun_teeth(signal: Signal) -> int | None:
 
 
 def _aliases(signal: Signal, found: MeshSpectrum) -> Iterator[str]:
-    """A line where the samples do not carry the signal."""
+    """A warning if the sample rate is too low for the signal."""
     from ..analysis.aliases import CARRIED, alias_remark
     from ..modal.natural import natural_modes
     from ..scene import parse_scene
@@ -187,7 +195,7 @@ def _figures(signal: Signal, found: MeshSpectrum, axis: str) -> dict[str, Any]:
     }
 
 
-def _tell(console: Console, figures: dict[str, Any], unit: str) -> None:
+def _print(console: Console, figures: dict[str, Any], unit: str) -> None:
     from rich.table import Table
 
     table = Table(box=None, pad_edge=False)
@@ -207,19 +215,19 @@ def _tell(console: Console, figures: dict[str, Any], unit: str) -> None:
     console.print(table)
     console.print(
         f"{figures['quantity']} of {figures['mesh']}, "
-        f"from {figures['from_s']:.4f} to {figures['to_s']:.4f} s, resolved to "
-        f"{figures['resolution']:.4g} {'of an order' if axis == 'order' else 'Hz'}, "
+        f"from {figures['from_s']:.4f} to {figures['to_s']:.4f} s, resolution "
+        f"{figures['resolution']:.4g} {'orders' if axis == 'order' else 'Hz'}, "
         f"mean {figures['mean']:.6g} {unit}",
         highlight=False,
     )
 
 
 def _name(harmonic: int | None, alias: int | None) -> str:
-    """What a line is, from its `harmonic` and the harmonic it may be an `alias` of."""
+    """Description of a line: its mesh `harmonic`, and the harmonic it may be an `alias` of."""
     if harmonic is None:
-        return "" if alias is None else f"alias of harmonic {alias} of the meshing"
+        return "" if alias is None else f"alias of mesh harmonic {alias}"
     beside = "" if alias is None else f", or alias of harmonic {alias}"
-    return f"harmonic {harmonic} of the meshing{beside}"
+    return f"mesh harmonic {harmonic}{beside}"
 
 
 def _write(out: Path, found: MeshSpectrum, title: str, labels: tuple[str, str]) -> None:

@@ -1,4 +1,4 @@
-"""`planetary-twin stribeck`: friction of the meshes against their lambda ratio."""
+"""`planetary-twin stribeck`: friction of the meshes against the lambda ratio."""
 
 from __future__ import annotations
 
@@ -17,14 +17,14 @@ def stribeck(
     scene: SceneArgument,
     out: Annotated[Path, typer.Option(help="Table (.parquet, .csv) or picture (.png, .svg, .pdf)")],
     input_speed: Annotated[
-        str, typer.Option(metavar="VALUES", help="Speeds, as for sweep.")
+        str, typer.Option(metavar="VALUES", help="Input speeds, written as for sweep.")
     ] = "1rpm:10000rpm:41:log",
     set_: SetOption = None,
 ) -> None:
     """Stribeck curves of the sun and ring meshes of SCENE: boundary, viscous and total friction.
 
-    Each speed is one mesh cycle under the scene's load without vibration, with the lambda ratio
-    computed whatever the scene prescribes.
+    Each speed is one quasi-static mesh cycle under the load of the scene. The lambda ratio is
+    computed, even if the scene prescribes one.
 
     Example: planetary-twin stribeck paper --set lubrication.boundary=load_sharing --out curve.png
     """
@@ -40,12 +40,12 @@ def stribeck(
         count = len(speeds.values) if isinstance(speeds, Axis) else 0
         with progress("speeds", count) as advance:
 
-            def hear(done: int, failure: Failure | None) -> None:
+            def report(done: int, failure: Failure | None) -> None:
                 advance(done)
                 if failure:
                     remark(failure.reason)
 
-            table = run(loaded, speeds, Threads(), hear)
+            table = run(loaded, speeds, Threads(), report)
         put(table, out, kind="stribeck")
     except (ValueError, OSError) as error:
         fail(error)
@@ -53,8 +53,8 @@ def stribeck(
     oil = loaded.lubrication
     if oil.boundary == "greenwood_tripp" and oil.traction != "schlenk":
         remark(
-            "warning: lubrication.boundary = greenwood_tripp: asperities carry a few per cent of "
-            "the load, so friction hardly rises as the film vanishes; load_sharing has a boundary "
-            "regime"
+            "warning: lubrication.boundary = greenwood_tripp: asperities carry only a few per cent "
+            "of the load, so friction hardly rises for thin films; use load_sharing for a "
+            "boundary regime"
         )
     typer.echo(f"{out}: {count} speeds")

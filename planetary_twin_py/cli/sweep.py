@@ -1,4 +1,4 @@
-"""`planetary-twin sweep`: a study over any fields of a scene."""
+"""`planetary-twin sweep`: a parameter study over any fields of a scene."""
 
 from __future__ import annotations
 
@@ -10,17 +10,18 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from ._arguments import SceneArgument, ToleranceOption
+from ._durations import SECONDS
 from ._fail import fail, need, remark
 from ._settings import changed_scene, settings
 from ._study import PICTURES, TABLES, axis, check_suffix, progress, put, warn
 
 if TYPE_CHECKING:
     from ..studies.plan import Study
-    from ..studies.sweep import Hearer
-    from ..studies.work import Crew, Failure
+    from ..studies.sweep import Report
+    from ..studies.work import Executor, Failure
 
-# Fields of the scene are options, too; click passes on what it does not know.
-FIXED = "set"  # is none of them
+# Options that click does not know are fields of the scene.
+FIXED = "set"  # not a field
 CONTEXT = {"allow_extra_args": True, "ignore_unknown_options": True}
 
 
@@ -31,28 +32,28 @@ def sweep(
         Path, typer.Option(help="Table (.parquet with units, .csv) or picture (.png, .svg, .pdf).")
     ],
     samples: Annotated[
-        int | None, typer.Option(help="Draw this many points (Latin hypercube), no grid.")
+        int | None, typer.Option(help="Number of Latin hypercube samples, in place of a grid.")
     ] = None,
-    duration: Annotated[float, typer.Option(help="Measured seconds of each run.")] = 0.2,
-    settling: Annotated[float, typer.Option(help="Seconds simulated before.")] = 0.05,
+    duration: Annotated[float, typer.Option(help="Evaluated time of each run.", **SECONDS)] = 0.2,
+    settling: Annotated[float, typer.Option(help="Simulated time before.", **SECONDS)] = 0.05,
     tolerance: ToleranceOption = 1e-4,
     scheduler: Annotated[
         str | None,
         typer.Option(
             metavar="ADDRESS|THREADS",
-            help="A Dask cluster, e.g. tcp://10.0.0.1:8786, or a number of threads here.",
-            show_default="all cores here",
+            help="Address of a Dask scheduler, e.g. tcp://10.0.0.1:8786, or number of threads.",
+            show_default="a thread per core",
         ),
     ] = None,
 ) -> None:
-    """Run SCENE at many points: any field of it is an option, with values or a range.
+    """Simulate SCENE at many points; each field of the scene is an option with values or a range.
 
-    Values are a list (1000rpm,2000rpm), a grid (1:2:5: five values from 1 to 2) or one of equal
-    ratios (0.01:0.1:5:log); with --samples also a range (1:2, 0.01:0.1:log); with a unit each, or
-    all in SI. What is done survives a kill: the same command goes on where it was. Fields with a
-    dot are given by it: --mesh.damping.loss_factor 0.005:0.02:4; `planetary-twin fields` lists
-    them. --set NAME=VALUE, repeatable, changes the scene at all points: --set
-    drive.speed_limit=30000rpm.
+    Values are a list (1000rpm,2000rpm), a linear grid (1:2:5 is five values from 1 to 2), a
+    logarithmic grid (0.01:0.1:5:log) or, with --samples, a range (1:2, 0.01:0.1:log). Give every
+    number a unit, or all in SI. Write nested fields with dots: --mesh.damping.loss_factor
+    0.005:0.02:4; `planetary-twin fields` lists them. --set NAME=VALUE changes the scene at all
+    points and is repeatable: --set drive.speed_limit=30000rpm. To resume an interrupted study,
+    repeat the command.
 
     Example: planetary-twin sweep paper --backlash 2e-7:3.5e-7:4 --lambda-ratio 1:2:5
     --input-speed 1000rpm,2000rpm --out study.parquet
@@ -73,8 +74,8 @@ def sweep(
             else latin_hypercube(loaded, axes, samples, settings=how)
         )
         journal = out.with_name(f"{out.name}.journal")
-        with _crew(scheduler) as crew, _progress(study) as hear:
-            table = run(study, crew, journal, hear)
+        with _executor(scheduler) as executor, _progress(study) as report:
+            table = run(study, executor, journal, report)
         put(table, out)
         journal.unlink()
     except (ValueError, OSError) as error:
@@ -87,7 +88,7 @@ def sweep(
 
 
 def _fields(given: list[str]) -> Iterator[tuple[str, str]]:
-    """Names and texts of options that are fields: --mesh.ramp 0:1:3 or --mesh.ramp=0:1:3."""
+    """Names and texts of field options: --mesh.ramp 0:1:3 or --mesh.ramp=0:1:3."""
     rest = iter(given)
     for option in rest:
         name, equals, text = option.removeprefix("--").partition("=")
@@ -101,16 +102,16 @@ def _fields(given: list[str]) -> Iterator[tuple[str, str]]:
 
 
 def _without_effect(study: Study, fixed: Iterable[str]) -> Iterator[str]:
-    """A line for each field that is given in vain, wherever the study goes."""
+    """A warning for each given field that has no effect at any point."""
     from ..scene.unused import without_effect
 
-    chosen = "lubrication.lambda_ratio"  # which decides of one of them, may vary, too
+    chosen = "lubrication.lambda_ratio"  # if it varies, so may the effect of other fields
     names = (*fixed, *study.fields)
     return iter(()) if chosen in study.fields else without_effect(study.scene, names)
 
 
 @contextmanager
-def _crew(scheduler: str | None) -> Iterator[Crew]:
+def _executor(scheduler: str | None) -> Iterator[Executor]:
     if scheduler is None or scheduler.isdecimal():
         from ..studies.local import Threads
 
@@ -127,12 +128,12 @@ def _crew(scheduler: str | None) -> Iterator[Crew]:
 
 
 @contextmanager
-def _progress(study: Study) -> Iterator[Hearer]:
+def _progress(study: Study) -> Iterator[Report]:
     with progress("points", len(study.points)) as advance:
 
-        def hear(done: int, failure: Failure | None) -> None:
+        def report(done: int, failure: Failure | None) -> None:
             advance(done)
             if failure is not None:
                 remark(failure.reason)
 
-        yield hear
+        yield report

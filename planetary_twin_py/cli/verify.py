@@ -1,4 +1,4 @@
-"""`planetary-twin verify`: simulate a recording again and compare every value."""
+"""`planetary-twin verify`: simulates a recording again and compares every value."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from ._figures import console_beside, put_figures
 if TYPE_CHECKING:
     from rich.console import Console
 
-    from ..recording.runs.verify import Verdict
+    from ..recording.runs.verify import Comparison
 
 
 def verify(
@@ -21,10 +21,10 @@ def verify(
     namespace: NamespaceOption = None,
     json_: JsonOption = None,
 ) -> None:
-    """Simulate FILE again from what is in it and compare every value that was published.
+    """Simulate FILE again from its recorded inputs, and compare every published value.
 
-    On the machine that recorded it, not a bit may differ; elsewhere, no more than two machines do.
-    Exit code 1 says that something does.
+    On the machine that made the recording, values must be identical bit for bit; on another
+    machine, they may differ within a bound. The exit code is 1 if they differ more.
 
     Example: planetary-twin verify recordings/paper_20260101_120000
     """
@@ -40,33 +40,33 @@ def verify(
         tape = Tape(file)
         chosen = choose_namespace(tape.topics, namespace, file)
         with console.status("simulating again") as status:
-            verdict = compare(
+            result = compare(
                 file, chosen, lambda time: status.update(f"simulating again: {time:.1f} s")
             )
     except RecordingError as error:
         fail(error)
     except OSError as error:
         fail(f"{error.filename}: {error.strerror}")
-    _tell(console, verdict)
-    put_figures(_figures(verdict), json_)
-    if not (verdict.identical if verdict.same_makers else verdict.within_bound):
+    _print(console, result)
+    put_figures(_figures(result), json_)
+    if not (result.identical if result.same_makers else result.within_bound):
         raise typer.Exit(1)
 
 
-def _tell(console: Console, verdict: Verdict) -> None:
+def _print(console: Console, result: Comparison) -> None:
     from ..recording.runs.verify import BOUND
 
-    for remark in filter(None, (*verdict.remarks, verdict.ledger, *verdict.accuracy)):
+    for remark in filter(None, (*result.remarks, result.ledger, *result.accuracy)):
         console.print(f"warning: {remark}", style="yellow", soft_wrap=True, highlight=False)
-    counts = ", ".join(f"{count} {topic}" for topic, count in verdict.messages.items())
-    console.print(f"compared          {counts}: {verdict.values} values", highlight=False)
-    if verdict.not_recorded:
-        console.print(f"not recorded      {verdict.not_recorded} states on the way")
-    if not verdict.same_makers:
-        console.print("recorded by       other kernels or another kind of machine")
-    first = verdict.first_difference
+    counts = ", ".join(f"{count} {topic}" for topic, count in result.messages.items())
+    console.print(f"compared          {counts}: {result.values} values", highlight=False)
+    if result.not_recorded:
+        console.print(f"not recorded      {result.not_recorded} states")
+    if not result.same_makers:
+        console.print("recorded by       other kernels or another type of machine")
+    first = result.first_difference
     if first is None:
-        console.print(f"result            {_sameness(verdict)}", highlight=False, soft_wrap=True)
+        console.print(f"result            {_conclusion(result)}", highlight=False, soft_wrap=True)
         return
     console.print(
         f"first difference  {first.topic}.{first.field}[{first.place}] at {first.time:.9g} s: "
@@ -74,38 +74,38 @@ def _tell(console: Console, verdict: Verdict) -> None:
         highlight=False,
     )
     console.print(
-        f"largest           {verdict.largest:.3g} x tolerance (bound between machines: {BOUND:g})"
+        f"largest           {result.largest:.3g} x tolerance (bound between machines: {BOUND:g})"
     )
 
 
-def _sameness(verdict: Verdict) -> str:
-    """How much is the same; the warnings before have told why it is not all."""
-    if verdict.identical:
-        return "no bit differs"
-    same = sum(verdict.messages.values())
-    if verdict.left_out:
+def _conclusion(result: Comparison) -> str:
+    """What was identical; the warnings above state why not everything was compared."""
+    if result.identical:
+        return "identical bit for bit"
+    same = sum(result.messages.values())
+    if result.left_out:
         return (
-            f"no bit differs in {same} of {same + verdict.left_out} messages; "
-            "the others could not be compared, as warned"
+            f"identical bit for bit in {same} of {same + result.left_out} messages; "
+            "the others could not be compared, see the warnings"
         )
     return (
-        f"{same} messages read, all of them compared equal; "
-        "but the recording is not whole, as warned"
+        f"{same} messages read, all identical bit for bit; "
+        "but the recording is incomplete, see the warnings"
     )
 
 
-def _figures(verdict: Verdict) -> dict[str, Any]:
-    first = verdict.first_difference
+def _figures(result: Comparison) -> dict[str, Any]:
+    first = result.first_difference
     return {
-        "identical": verdict.identical,
+        "identical": result.identical,
         "first_difference": None if first is None else first._asdict(),
-        "same_makers": verdict.same_makers,
-        "within_bound": verdict.within_bound,
-        "largest_difference": verdict.largest,
-        "messages": verdict.messages,
-        "values": verdict.values,
-        "not_recorded": verdict.not_recorded,
-        "remarks": verdict.remarks,
-        "ledger": verdict.ledger,
-        "accuracy": verdict.accuracy,
+        "same_makers": result.same_makers,
+        "within_bound": result.within_bound,
+        "largest_difference": result.largest,
+        "messages": result.messages,
+        "values": result.values,
+        "not_recorded": result.not_recorded,
+        "remarks": result.remarks,
+        "ledger": result.ledger,
+        "accuracy": result.accuracy,
     }

@@ -1,4 +1,4 @@
-"""`planetary-twin view`: look at recordings, or at a running twin, in Rerun."""
+"""`planetary-twin view`: shows recordings, or a running twin, in Rerun."""
 
 from __future__ import annotations
 
@@ -13,17 +13,19 @@ from typing import TYPE_CHECKING, Annotated, NamedTuple
 import typer
 
 from ._arguments import complete_recording, complete_scene
+from ._console import busy
+from ._durations import SECONDS, read_seconds
 from ._fail import fail, need, remark
-from ._live import look_at_twin, tell
+from ._live import print_address, view_live
 from ._output import output_file
 
 if TYPE_CHECKING:
     from ..recording.runs.reader import Recording
-    from ..recording.runs.waveform import Stretch
+    from ..recording.runs.waveform import TimeSpan
     from ..scene import Scene
 
 
-_SEEN = 0.5  # [s] on either side of the time cursor, in a picture that cannot be zoomed
+_HALF_WIDTH = 0.5  # [s] shown on either side of the time cursor in a picture
 
 
 def view(
@@ -32,41 +34,50 @@ def view(
         typer.Argument(
             metavar="FILE",
             autocompletion=complete_recording,
-            help="Recordings, each an .mcap file or the folder of one: several lie over one "
-            "another. Without: the twin that runs.",
+            help="Recordings, each an .mcap file or its folder; several are overlaid.",
+            show_default="the running twin",
         ),
     ] = None,
     save: Annotated[
-        Path | None, typer.Option(help="Write a Rerun file (.rrd) instead.", callback=output_file)
+        Path | None,
+        typer.Option(
+            help="Write a Rerun file (.rrd) instead of opening a window.", callback=output_file
+        ),
     ] = None,
     screenshot: Annotated[
         Path | None,
         typer.Option(
-            help="Write a picture (.png) instead; needs no display.", callback=output_file
+            help="Write a picture (.png) instead of opening a window; needs no display.",
+            callback=output_file,
         ),
     ] = None,
     at: Annotated[
-        float | None, typer.Option(help="Time cursor of the picture: simulated time in seconds.")
+        float | None,
+        typer.Option(
+            help="Time cursor of the picture in simulated time.",
+            show_default="end of the recording",
+            **SECONDS,
+        ),
     ] = None,
     serve: Annotated[
-        bool, typer.Option("--serve", help="Show it in a browser instead, until Ctrl-C.")
+        bool, typer.Option("--serve", help="Show it in a browser, until Ctrl-C.")
     ] = False,
     scene: Annotated[
         str | None,
         typer.Option(
-            help="Scene to draw, in place of the one in the recording.",
+            help="Scene to draw, in place of the recorded one.",
             autocompletion=complete_scene,
         ),
     ] = None,
     namespace: Annotated[
-        str | None, typer.Option(help="Which gearbox, where there are several.")
+        str | None, typer.Option(help="Namespace of the gearbox, if there are several.")
     ] = None,
     during: Annotated[
         str | None,
         typer.Option(
             metavar="BEGIN:END",
-            help="Show every sample of this stretch of simulated time [s]; of a running twin, "
-            "look for so long.",
+            help="Show every sample of this interval of simulated time [s]; with a running twin, "
+            "the length of the interval is the time to watch.",
         ),
     ] = None,
 ) -> None:
@@ -78,12 +89,12 @@ def view(
         if path is not None and path.suffix != suffix:
             fail(f"{option} = {str(path)!r}: must end in {suffix}")
     with _one_line_errors():
-        asked = _read_stretch(during)
+        asked = _read_span(during)
         if not files:
             if screenshot is not None:
                 fail("--screenshot needs a recording: name one")
             lasting = None if asked is None else asked[1] - max(asked[0], 0.0)
-            look_at_twin(namespace, scene, save, serve, lasting)
+            view_live(namespace, scene, save, serve, lasting)
             return
         recordings = [_read(file, namespace) for file in files]
         shown = _Shown(recordings, _scene(recordings[0], scene), _detail(recordings[0], asked))
@@ -98,16 +109,16 @@ def view(
 
 
 class _Shown(NamedTuple):
-    """What is looked at: the first recording under the others, its gears, the stretch in detail."""
+    """Contents of a view: recordings, scene of the first one, time span shown in detail."""
 
     recordings: list[Recording]
     scene: Scene | None
-    detail: Stretch | None
+    detail: TimeSpan | None
 
 
 @contextmanager
 def _one_line_errors() -> Iterator[None]:
-    os.environ.setdefault("RUST_LOG", "off")  # what goes wrong is raised, too, and told once
+    os.environ.setdefault("RUST_LOG", "off")  # Rerun raises its errors; do not print them twice
     need("view", "rerun", "mcap", "rosbags")
     from ..recording.container.records import RecordingError
     from ..scene import SceneError
@@ -124,7 +135,8 @@ def _one_line_errors() -> Iterator[None]:
 def _read(file: Path, namespace: str | None) -> Recording:
     from ..recording.runs.reader import read_recording
 
-    recording = read_recording(file, namespace)
+    with busy(f"reading {file}"):
+        recording = read_recording(file, namespace)
     for line in recording.remarks:
         remark(line)
     return recording
@@ -142,22 +154,22 @@ def _scene(recording: Recording, chosen: str | None) -> Scene | None:
     return drawn
 
 
-def _read_stretch(text: str | None) -> Stretch | None:
-    """Begin and end [s] of BEGIN:END; an end left out is infinite."""
+def _read_span(text: str | None) -> TimeSpan | None:
+    """Start and end [s] of BEGIN:END; an omitted one is infinite."""
     if text is None:
         return None
     begin, colon, end = text.partition(":")
     try:
-        found = float(begin or -math.inf), float(end or math.inf)
-    except ValueError:
+        found = read_seconds(begin or -math.inf), read_seconds(end or math.inf)
+    except typer.BadParameter:
         found = math.nan, math.nan
     if not (colon and found[0] < found[1]):
         fail(f"--during {text!r}: must be BEGIN:END in seconds, e.g. 2.5:3 or 10: or :5")
     return found
 
 
-def _detail(recording: Recording, asked: Stretch | None) -> Stretch | None:
-    """The stretch that is asked for, None where it is left to the viewer."""
+def _detail(recording: Recording, asked: TimeSpan | None) -> TimeSpan | None:
+    """The given time span clipped to the recording; None leaves the choice to the view."""
     from ..recording.container.records import RecordingError
 
     if asked is None:
@@ -187,11 +199,12 @@ def _picture(shown: _Shown, png: Path, at: float | None) -> None:
     if at is not None and not begin <= at <= end:
         raise RecordingError(f"at = {at:g}: the recording runs from {begin:g} to {end:g} s")
     at = end if at is None else at
-    detail = shown.detail or (at - _SEEN, at + _SEEN)
+    detail = shown.detail or (at - _HALF_WIDTH, at + _HALF_WIDTH)
     with tempfile.TemporaryDirectory() as folder:
         rrd = Path(folder) / "picture.rrd"
-        save(first, shown.scene, rrd, others, PICTURE, detail)
-        save_screenshot(rrd, png, at)
+        with busy("drawing"):
+            save(first, shown.scene, rrd, others, PICTURE, detail)
+            save_screenshot(rrd, png, at)
     typer.echo(f"{png}")
 
 
@@ -199,14 +212,14 @@ def _window(shown: _Shown) -> None:
     from ..view import viewer
 
     if not viewer.has_display():
-        fail("no display to open a window on: use --serve, --save OUT.rrd or --screenshot OUT.png")
+        fail("no display for a window: use --serve, --save OUT.rrd or --screenshot OUT.png")
     with (
         _written(shown) as rrd,
         viewer.until_interrupted(),
         viewer.window(str(rrd)) as window,
     ):
         if code := window.process.wait():
-            fail(f"the viewer ended with exit code {code}")
+            fail(f"the viewer exited with code {code}")
 
 
 def _serve(shown: _Shown) -> None:
@@ -217,14 +230,14 @@ def _serve(shown: _Shown) -> None:
         viewer.until_interrupted(),
         viewer.page(str(rrd), "--server-memory-limit", "50%") as page,
     ):
-        tell(page)
+        print_address(page)
         if code := page.process.wait():
-            fail(f"the viewer ended with exit code {code}")
+            fail(f"the viewer exited with code {code}")
 
 
 @contextmanager
 def _written(shown: _Shown) -> Iterator[Path]:
-    """A Rerun file for as long as it is looked at."""
+    """A temporary Rerun file."""
     with tempfile.TemporaryDirectory() as folder:
         rrd = Path(folder) / f"{shown.recordings[0].path.stem}.rrd"
         _write(shown, rrd)
@@ -235,5 +248,7 @@ def _write(shown: _Shown, rrd: Path) -> None:
     from ..view.show import save
 
     first, *others = shown.recordings
-    for line in save(first, shown.scene, rrd, others, detail=shown.detail):
+    with busy("drawing"):
+        remarks = save(first, shown.scene, rrd, others, detail=shown.detail)
+    for line in remarks:
         remark(line)

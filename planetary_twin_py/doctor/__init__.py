@@ -1,6 +1,5 @@
-"""Whether an installation is sound, part by part, and how to mend what is not.
+"""Checks of the installation, part by part, with the fix for each problem.
 
-Each module here looks at one part. Packages that add parts add their checks through the entry-point
-group `planetary_twin.checks`: functions without arguments that yield
-findings.
+Each module here checks one part. Other packages add checks through the entry-point group
+`planetary_twin.checks`: functions without arguments that yield findings.
 """

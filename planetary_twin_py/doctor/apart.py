@@ -1,6 +1,6 @@
-"""Checks that other packages add, each in a process of its own.
+"""Checks that other packages add, each in a separate process.
 
-Where ROS is out of order, loading it may end the process; the doctor goes on and says so.
+Importing a broken ROS installation may end the process; the doctor then reports it and continues.
 """
 
 from __future__ import annotations
@@ -14,16 +14,16 @@ from importlib.metadata import entry_points
 from .finding import Finding
 
 GROUP = "planetary_twin.checks"
-_PATIENCE = 8.0  # [s]
-_MEND = "check RMW_IMPLEMENTATION, and that no other ROS 2 is sourced; or make setup"
+_TIMEOUT = 8.0  # [s]
+_FIX = "check RMW_IMPLEMENTATION, and that no other ROS 2 is sourced; or run make setup"
 
 
 def check() -> Iterator[Finding]:
-    """What is found by each, or why it found nothing."""
+    """Findings of each check, or the reason why a check failed."""
     names = sorted(entry.name for entry in entry_points(group=GROUP))
     if not names:
-        mend = "see 'Where ROS 2 Jazzy is installed' in the README"
-        yield Finding("nodes", "absent", "the package planetary_twin is not installed", mend)
+        fix = "see 'Where ROS 2 Jazzy is installed' in the README"
+        yield Finding("nodes", "absent", "the package planetary_twin is not installed", fix)
     for name in names:
         yield from _ask(name)
 
@@ -31,19 +31,19 @@ def check() -> Iterator[Finding]:
 def _ask(name: str) -> Iterator[Finding]:
     command = [sys.executable, "-m", __name__, name]
     try:
-        done = subprocess.run(command, capture_output=True, text=True, timeout=_PATIENCE)
+        done = subprocess.run(command, capture_output=True, text=True, timeout=_TIMEOUT)
     except subprocess.TimeoutExpired:
-        yield Finding(name, "broken", f"no answer within {_PATIENCE:g} s", _MEND)
+        yield Finding(name, "broken", f"no answer within {_TIMEOUT:g} s", _FIX)
         return
     if done.returncode:
         reasons = done.stderr.strip().splitlines() or [f"exit code {done.returncode}"]
-        yield Finding(name, "broken", reasons[-1], _MEND)
+        yield Finding(name, "broken", reasons[-1], _FIX)
         return
     yield from (Finding(*found) for found in json.loads(done.stdout.splitlines()[-1]))
 
 
 def main(name: str) -> None:
-    """Print as one line of JSON what the check `name` finds."""
+    """Print the findings of the check `name` as one line of JSON."""
     (entry,) = entry_points(group=GROUP, name=name)
     print(json.dumps([*entry.load()()]))
 

@@ -1,4 +1,4 @@
-"""Where compiled kernels are kept, and whether a start finds them."""
+"""The cache of compiled kernels."""
 
 from __future__ import annotations
 
@@ -9,27 +9,27 @@ from pathlib import Path
 from .._compile import cache_folder
 from .finding import Finding
 
-_ROOM = 1e9  # [B] of kernels of other versions, from which on it is worth a line
+_LARGE = 1e9  # [B] of kernels of other versions that are worth a finding
 
 
 def check() -> Iterator[Finding]:
-    """The folder of this version's kernels, and what others have left beside it."""
+    """Findings about the kernels of this version, and of other versions."""
     folder = cache_folder()
-    yield _kept(folder)
+    yield _own(folder)
     left = sum(_size(other) for other in folder.parent.glob("*") if other != folder)
-    if left > _ROOM:
-        told = f"{left * 1e-9:.1f} GB of kernels of other versions"
-        yield Finding("old kernels", "sound", told, f"rm -r {folder.parent}")
+    if left > _LARGE:
+        details = f"{left * 1e-9:.1f} GB of kernels of other versions"
+        yield Finding("old kernels", "sound", details, f"rm -r {folder.parent}")
 
 
-def _kept(folder: Path) -> Finding:
+def _own(folder: Path) -> Finding:
     writable = next(parent for parent in (folder, *folder.parents) if parent.exists())
     if not os.access(writable, os.W_OK):
-        told = f"{writable} cannot be written: every start compiles for half a minute"
-        return Finding("kernels", "broken", told, "set XDG_CACHE_HOME to a folder of your own")
+        details = f"{writable} is not writable: every start compiles for half a minute"
+        return Finding("kernels", "broken", details, "set XDG_CACHE_HOME to a writable folder")
     if not any(folder.rglob("*.nbc")):
-        told = f"not compiled yet: the first run does it, in half a minute, into {folder}"
-        return Finding("kernels", "absent", told, "planetary-twin simulate --duration 0.01")
+        details = f"not compiled yet: the first run compiles them into {folder}, in half a minute"
+        return Finding("kernels", "absent", details, "planetary-twin simulate --duration 0.01")
     return Finding("kernels", "sound", f"{_size(folder) * 1e-6:.0f} MB in {folder}")
 
 

@@ -1,4 +1,4 @@
-"""Room for recordings where one would land now."""
+"""Free disk space for recordings."""
 
 from __future__ import annotations
 
@@ -15,15 +15,16 @@ _ENOUGH = 3600.0  # [s]
 
 
 def check() -> Iterator[Finding]:
-    """Whether the folder can be written, and for how long there is room."""
+    """Whether the folder of recordings is writable, and how long a recording fits."""
     folder = _FOLDER if _FOLDER.exists() else Path.cwd()
     if not os.access(folder, os.W_OK):
-        told = f"{folder.resolve()} cannot be written"
-        yield Finding("disk", "broken", told, "run from a folder of your own")
+        details = f"{folder.resolve()} is not writable"
+        yield Finding("disk", "broken", details, "run from a writable folder")
         return
     free = shutil.disk_usage(folder).free
-    told = f"{free * 1e-9:.0f} GB free in {folder.resolve()}: {free / _RATE / 3600.0:.0f} h or more"
+    hours = free / _RATE / 3600.0
+    details = f"{free * 1e-9:.0f} GB free in {folder.resolve()}: {hours:.0f} h or more"
     if free < _RATE * _ENOUGH:
-        yield Finding("disk", "broken", told, "free some, or record onto another disk")
+        yield Finding("disk", "broken", details, "free some space, or record to another disk")
     else:
-        yield Finding("disk", "sound", told)
+        yield Finding("disk", "sound", details)

@@ -1,4 +1,4 @@
-"""What the shell has set that another ROS needs, and this one does not bear."""
+"""Environment variables that conflict with the ROS distribution of the nodes."""
 
 from __future__ import annotations
 
@@ -14,5 +14,5 @@ def check() -> Iterator[Finding]:
     """Whether another distribution of ROS is sourced."""
     sourced = os.environ.get("ROS_DISTRO", _DISTRIBUTION)
     if sourced != _DISTRIBUTION:
-        told = f"ROS_DISTRO = {sourced!r}: the nodes are made for {_DISTRIBUTION}"
-        yield Finding("environment", "broken", told, "use a shell in which it is not sourced")
+        details = f"ROS_DISTRO = {sourced!r}: the nodes require {_DISTRIBUTION}"
+        yield Finding("environment", "broken", details, "use a shell in which it is not sourced")

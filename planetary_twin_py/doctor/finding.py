@@ -1,4 +1,4 @@
-"""What is found of one part of an installation."""
+"""Result of checking one part of the installation."""
 
 from __future__ import annotations
 
@@ -8,12 +8,12 @@ State = Literal["sound", "absent", "broken"]
 
 
 class Finding(NamedTuple):
-    """A part, in which state it is, and in one line each what was found and how to mend it.
+    """A part, its state, and one line each of details and fix.
 
-    "absent" is a part that one may do without, "broken" one that does not do what it is there for.
+    An "absent" part is optional; a "broken" part does not work.
     """
 
     part: str
     state: State
-    told: str
-    mend: str = ""
+    details: str
+    fix: str = ""

@@ -1,4 +1,4 @@
-"""Python, and the packages that parts of this project need."""
+"""Python, and the packages that the extras need."""
 
 from __future__ import annotations
 
@@ -12,13 +12,13 @@ from packaging.requirements import Requirement
 from .finding import Finding
 
 PACKAGE = "planetary_twin_py"
-# What the extras are good for; those for developers and for ROS are no matter here.
+# Purpose of each extra, without those for developers and for ROS.
 EXTRAS = {
     "recording": "read, verify and recover recordings",
     "analysis": "export recordings as tables",
-    "view": "look at recordings",
-    "plots": "draw",
-    "studies": "sweep, and draw and fit what comes of it",
+    "view": "view recordings",
+    "plots": "draw plots",
+    "studies": "run parameter studies",
 }
 
 
@@ -30,14 +30,14 @@ def check() -> Iterator[Finding]:
     for extra, purpose in EXTRAS.items():
         lacking = [str(need) for need in _needs(extra) if not _installed(need)]
         if lacking:
-            mend = f"pip install '{PACKAGE}[{extra}]'"
-            yield Finding(extra, "absent", f"to {purpose}: lacks {', '.join(lacking)}", mend)
+            fix = f"pip install '{PACKAGE}[{extra}]'"
+            yield Finding(extra, "absent", f"to {purpose}: missing {', '.join(lacking)}", fix)
         else:
             yield Finding(extra, "sound", purpose)
 
 
 def _needs(extra: str) -> list[Requirement]:
-    """Requirements that this extra adds."""
+    """Requirements of an extra."""
     found = [Requirement(text) for text in requires(PACKAGE) or []]
     return [need for need in found if need.marker and need.marker.evaluate({"extra": extra})]
 

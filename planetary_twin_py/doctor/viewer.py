@@ -1,4 +1,4 @@
-"""The Rerun viewer: whether it starts, and what it can draw on."""
+"""The Rerun viewer, its display and its graphics driver."""
 
 from __future__ import annotations
 
@@ -9,27 +9,27 @@ from pathlib import Path
 
 from .finding import Finding
 
-_PATIENCE = 5.0  # [s]
+_TIMEOUT = 5.0  # [s]
 _DRIVERS = ("/usr/share/vulkan/icd.d", "/etc/vulkan/icd.d")
 
 
 def check() -> Iterator[Finding]:
-    """The viewer itself, a window for it, and pictures without one."""
+    """Whether the viewer starts, and whether windows and pictures are possible."""
     if find_spec("rerun_cli") is None:
-        return  # told with the extras
+        return  # reported with the extras
     import rerun_cli
 
     binary = Path(rerun_cli.__file__).parent / "rerun"
     try:
         done = subprocess.run(
-            [str(binary), "--version"], capture_output=True, text=True, timeout=_PATIENCE
+            [str(binary), "--version"], capture_output=True, text=True, timeout=_TIMEOUT
         )
     except (OSError, subprocess.TimeoutExpired) as reason:
         yield Finding("viewer", "broken", str(reason), "pip install --force-reinstall rerun-sdk")
         return
     if done.returncode:
-        told = (done.stderr.strip().splitlines() or [f"exit code {done.returncode}"])[-1]
-        yield Finding("viewer", "broken", told, "pip install --force-reinstall rerun-sdk")
+        details = (done.stderr.strip().splitlines() or [f"exit code {done.returncode}"])[-1]
+        yield Finding("viewer", "broken", details, "pip install --force-reinstall rerun-sdk")
         return
     yield Finding("viewer", "sound", " ".join(done.stdout.split()[:2]))
     yield _window()
@@ -40,14 +40,14 @@ def _window() -> Finding:
     from ..view.viewer import has_display
 
     if has_display():
-        return Finding("display", "sound", "a window can be opened")
-    told = "none: view works with --save, --serve and --screenshot"
-    return Finding("display", "absent", told)
+        return Finding("display", "sound", "windows can be opened")
+    details = "none: view works with --save, --serve and --screenshot"
+    return Finding("display", "absent", details)
 
 
 def _driver() -> Finding:
     found = [file for folder in _DRIVERS for file in Path(folder).glob("*.json")]
     if found:
         return Finding("graphics", "sound", ", ".join(sorted(file.stem for file in found)))
-    told = "no Vulkan driver is listed: pictures and windows may fail"
-    return Finding("graphics", "absent", told, "Debian: apt install mesa-vulkan-drivers")
+    details = "no Vulkan driver found: pictures and windows may fail"
+    return Finding("graphics", "absent", details, "Debian: apt install mesa-vulkan-drivers")

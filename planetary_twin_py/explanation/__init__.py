@@ -1,1 +1,1 @@
-"""What a scene models, what it leaves out, and what every term of it costs and changes."""
+"""Terms and limits of the model of a scene, and the effect and computing time of each term."""

@@ -1,4 +1,4 @@
-"""What each law of friction gives for one tooth pair, and which laws of the film hold there."""
+"""Friction of one tooth pair by each friction law, and the film laws within their range."""
 
 from __future__ import annotations
 
@@ -12,11 +12,11 @@ from ..gearset.geometry import pitch_radius
 from ..lubrication.shear_thinning import LARGEST_EXPONENT
 from ..scene import Scene
 
-SLIDE_TO_ROLL = 0.1  # of a tooth pair between pitch point and tip
+SLIDE_TO_ROLL = 0.1  # typical of a tooth pair between pitch point and tip
 
 
 class TypicalPair(NamedTuple):
-    """A pair that carries a whole mesh force at the radii of curvature of the pitch point."""
+    """A tooth pair with the whole mesh force and the radii of curvature of the pitch point."""
 
     rho1: float  # radii of curvature [m]
     rho2: float
@@ -26,7 +26,7 @@ class TypicalPair(NamedTuple):
 
     @property
     def motion(self) -> tuple[float, float, float, float, float, float]:
-        """As `tooth_contact` takes it, sliding at SLIDE_TO_ROLL."""
+        """Argument of `tooth_contact` at the slide-to-roll ratio SLIDE_TO_ROLL."""
         fast, slow = (self.speed * (1.0 + sign * 0.5 * SLIDE_TO_ROLL) for sign in (1.0, -1.0))
         turns = fast / self.rho1, -self.external * slow / self.rho2
         return self.rho1, self.rho2, self.external, *turns, self.load
@@ -40,11 +40,11 @@ def friction_figures(
     Args:
         scene: the scene.
         kind: 0 for sun-planet meshes, 1 for planet-ring meshes.
-        loaded: load of the pair [N], and the largest pressure it makes there (Hertz) [Pa].
-        frequency: at which teeth pass the mesh [Hz].
+        loaded: load of the pair [N], and its largest Hertz pressure [Pa].
+        frequency: mesh frequency [Hz].
 
     Returns:
-        The fields of `MeshFigures` on friction, by name.
+        The friction fields of `MeshFigures`, by name.
     """
     gearset, (load, peak) = scene.gearset, loaded
     sine = math.sin(gearset.pressure_angle)
@@ -55,7 +55,7 @@ def friction_figures(
     pair = TypicalPair(rho1, rho2, 1.0 if kind == 0 else -1.0, speed, load)
     by_law = {law: _friction(scene, law, pair) for law in ("eyring", "evans_johnson", "schlenk")}
     shear = _shear_number(scene, pair, 0.25 * math.pi * peak)
-    # The plateau has no sliding speed in it, and is clipped to zero where it would be negative.
+    # The plateau is independent of the sliding speed, and is clipped to zero if negative.
     plateau = shear >= 1.0 and by_law["evans_johnson"][1] > 0.0
     return {
         "friction": sum(_friction(scene, scene.lubrication.traction, pair)),
@@ -66,14 +66,14 @@ def friction_figures(
 
 
 def _friction(scene: Scene, traction: str, pair: TypicalPair) -> tuple[float, float]:
-    """Boundary and viscous friction over the load [-] with a law of viscous friction."""
+    """Boundary and viscous friction coefficients [-] with a law of viscous friction."""
     oil = build_oil(scene.replace(**{"lubrication.traction": traction}), scene.operating_point)
     _, boundary, viscous, *_ = tooth_contact(oil, choices(oil), pair.motion)
     return (boundary / pair.load, viscous / pair.load) if pair.load else (0.0, 0.0)
 
 
 def _shear_number(scene: Scene, pair: TypicalPair, pressure: float) -> float:
-    """eta Vs/(h tau0) [-], viscosity at the mean pressure [Pa]; Newtonian well below 1."""
+    """eta Vs/(h tau0) [-], with eta at the mean pressure [Pa]; Newtonian if well below 1."""
     oil = build_oil(scene, scene.operating_point)
     log_film = tooth_contact(oil, choices(oil), pair.motion)[3]
     exponent = scene.lubrication.pressure_viscosity * pressure

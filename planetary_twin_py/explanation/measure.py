@@ -1,4 +1,4 @@
-"""What leaving a term out changes, measured by running the scene with and without it."""
+"""Effect of each term, from simulations of the scene with and without it."""
 
 from __future__ import annotations
 
@@ -13,29 +13,41 @@ from ..studies.measures import Glance, glance
 from .remarks import remarks
 from .terms import Term, terms
 
-REPEATS = 3  # of every run, to time it
+REPEATS = 3  # runs for each timing
 
 
 class Effect(NamedTuple):
-    """A term with the figures of the scene without it."""
+    """A term, and the results of the scene without it."""
 
     term: Term
     without: Glance
-    cost: float  # share of the run time that the term takes, median of paired runs
+    cost: float  # fraction of the computing time due to the term, median of paired runs
 
 
 class Explanation(NamedTuple):
-    """A scene and what each of its terms does."""
+    """Results of a scene, and the effect of each of its terms."""
 
     figures: Glance
     effects: tuple[Effect, ...]
-    remarks: tuple[str, ...]  # what whoever reads the figures must know
+    remarks: tuple[str, ...]  # warnings about the results
 
 
 def explain(
     scene: Scene, duration: float, progress: Callable[[str], None] = lambda _: None
 ) -> Explanation:
-    """Run `scene` for `duration` [s] as it is and without each of its terms, as `simulate` does."""
+    """Simulate a scene as it is and without each of its terms.
+
+    Args:
+        scene: the scene.
+        duration: simulated time of each run [s].
+        progress: called with the name of each term before its runs.
+
+    Returns:
+        Results, effects and warnings.
+
+    Raises:
+        ValueError: the scene or the duration is invalid.
+    """
     whole = simulate(scene, duration)
     effects = []
     for term in terms(scene):

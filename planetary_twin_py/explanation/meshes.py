@@ -1,4 +1,4 @@
-"""The two kinds of mesh of a scene in the figures one asks for first, at its operating point."""
+"""Key figures of the two kinds of mesh of a scene at its operating point."""
 
 from __future__ import annotations
 
@@ -20,28 +20,28 @@ from .friction import friction_figures
 
 
 class MeshFigures(NamedTuple):
-    """Of each mesh between these two kinds of gears, with healthy teeth."""
+    """Key figures of a mesh between two kinds of gears, with healthy teeth."""
 
     teeth: tuple[int, int]
     contact_ratio: float
     single_stiffness: float  # of one pair, about the pitch point [N/m]
     mean_stiffness: float  # over the mesh cycle [N/m]
-    natural_frequency: float  # on its own two gears, with one pair in contact [Hz]
+    natural_frequency: float  # of the two gears alone, with one pair in contact [Hz]
     damping_ratio: float  # of that mode at the operating point [-]
     static_force: float  # mean under the torque of the operating point, without friction [N]
-    pitch_pressure: float  # largest, of that force on one pair at the pitch point (Hertz) [Pa]
-    loss_factor: float  # H_v (Ohlendorf 1958): a loss of friction coefficient times it [-]
-    backlash: float  # total play on the line of action [m]
-    friction: float  # coefficient by the laws of the scene, of that force on one pair [-]
-    friction_eyring: float  # with each law of viscous friction in place of the scene's [-]
+    pitch_pressure: float  # largest Hertz pressure at the pitch point, that force on one pair [Pa]
+    loss_factor: float  # H_v (Ohlendorf 1958): relative loss = H_v times friction coefficient [-]
+    backlash: float  # total, along the line of action [m]
+    friction: float  # coefficient by the laws of the scene, that force on one pair [-]
+    friction_eyring: float  # the same with this law of viscous friction [-]
     friction_evans_johnson: float
-    friction_schlenk: float  # a regression of the losses of test gears, boundary friction included
+    friction_schlenk: float  # regression of measured gear losses, includes boundary friction
     shear_number: float  # eta Vs/(h tau0) of the film at its mean pressure [-]
     film_laws_in_range: tuple[str, ...]  # eyring always, evans_johnson on its plateau
 
 
 class Meshes(NamedTuple):
-    """Both kinds of mesh, and how fast teeth pass them at the operating point."""
+    """Key figures of both kinds of mesh, and the mesh frequency, at the operating point."""
 
     mesh_frequency: float  # [Hz]
     sun_planet: MeshFigures
@@ -49,10 +49,10 @@ class Meshes(NamedTuple):
 
 
 def describe_meshes(scene: Scene) -> Meshes:
-    """Figures of the meshes of `scene` at its operating point.
+    """Key figures of the meshes of `scene` at its operating point.
 
     Raises:
-        ValueError: there are no such teeth, or they leave a moment without contact.
+        ValueError: the tooth geometry is impossible, or the contact ratio is below 1.
     """
     point = scene.operating_point
     train = build_train(scene)
@@ -86,7 +86,7 @@ def describe_meshes(scene: Scene) -> Meshes:
 
 
 def _pitch_pressure(scene: Scene, force: float, kind: int) -> float:
-    """Largest pressure [Pa] where one pair touches at the pitch point under `force` [N].
+    """Largest pressure [Pa] of one pair at the pitch point under `force` [N].
 
     p = E* b/(2 R) (Johnson 1985, sec. 4.2(c)). A flank's radius of curvature there is r sin(alpha).
     """

@@ -1,4 +1,4 @@
-"""What whoever reads the figures of a run must know of it, in lines."""
+"""Warnings about the results of a run."""
 
 from __future__ import annotations
 
@@ -13,9 +13,15 @@ from ..studies.measures import clipped_friction
 
 
 def remarks(scene: Scene, run: Result, tolerance: float) -> Iterator[str]:
-    """What limits the figures of a `run` of `scene` at a `tolerance`."""
+    """Warnings that apply to the results of a run, a line each.
+
+    Args:
+        scene: the scene.
+        run: its result.
+        tolerance: of the run.
+    """
     if line := ledger_warning(balance_of_run(run.energy), tolerance):
         yield line
     yield from accuracy_warnings(scene, run)
-    if told := clipping_of_run(clipped_friction(scene, run)):
-        yield told
+    if line := clipping_of_run(clipped_friction(scene, run)):
+        yield line

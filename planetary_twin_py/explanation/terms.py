@@ -1,4 +1,4 @@
-"""The terms of a scene: what each models, by which law, and the scene without it."""
+"""The terms of a scene: name, law, and the changes that leave the term out."""
 
 from __future__ import annotations
 
@@ -14,39 +14,45 @@ class Term(NamedTuple):
 
     name: str
     law: str
-    without: dict[str, Any]  # changes of the scene that leave it out
+    without: dict[str, Any]  # changes to the scene that leave it out
 
 
 class Limit(NamedTuple):
-    """Something no scene models, and what that means."""
+    """Something that is not modelled, and the consequence."""
 
     name: str
     meaning: str
 
 
 NOT_MODELLED = (
-    Limit("motion of axes", "gears and carrier turn on rigid axes: no bearing load or orbit"),
-    Limit("tilting, axial motion", "in `modal --model spatial` only; no face load distribution"),
-    Limit("bending of carrier, ring, shafts", "elastic are teeth and the couplings of machines"),
-    Limit("warming", "oil temperature is given and uniform; it does not follow the losses"),
-    Limit("growth of faults", "wear, spalls and cracks are as the scene says and stay so"),
-    Limit("memory of the oil film", "film and traction follow load and speed at once"),
+    Limit(
+        "translation of axes",
+        "gears and carrier rotate about rigid axes: no bearing loads, no orbits",
+    ),
+    Limit("tilting, axial motion", "only in `modal --model spatial`; no face load distribution"),
+    Limit(
+        "flexibility of carrier, ring and shafts",
+        "only the teeth and the couplings of motor and load are elastic",
+    ),
+    Limit("heating", "the oil temperature is given and uniform; losses do not change it"),
+    Limit("growth of faults", "wear, spalls and cracks are constant during a run"),
+    Limit("transient oil film", "film and traction follow load and speed without delay"),
 )
 
 STATICS_ONLY = Limit(
-    "dynamics", "dynamics: quasi_static; the train turns rigidly, meshes do not vibrate or rattle"
+    "vibration", "dynamics is quasi_static: the train turns rigidly, without vibration or rattle"
 )
 
 
 HELIX = Limit(
     "helix",
-    "in `modal --model spatial` only; runs as spur teeth of the transverse plane, without overlap "
-    "or axial force",
+    "only in `modal --model spatial`; simulated as spur teeth of the transverse section, without "
+    "overlap or axial force",
 )
 
 
 def limits(scene: Scene) -> tuple[Limit, ...]:
-    """What `scene` leaves out for good, of its helix, or by its choice of statics alone."""
+    """Limits of the model that apply to `scene`."""
     statics = (STATICS_ONLY,) if scene.dynamics == "quasi_static" else ()
     helix = (HELIX,) if scene.gearset.helix_angle != 0.0 else ()
     return (*statics, *helix, *NOT_MODELLED)
@@ -59,10 +65,10 @@ def terms(scene: Scene) -> tuple[Term, ...]:
 
 
 def _dynamics(scene: Scene) -> Term | None:
-    # A force that jumps where flanks meet has no equilibrium under any load below the jump.
+    # A force that jumps at first contact has no equilibrium for loads below the jump.
     if scene.dynamics == "quasi_static" or scene.mesh.backlash == "regulatory_factor":
         return None
-    law = "every body free to turn, couplings and teeth elastic"
+    law = "rotation of every body, elastic couplings and teeth"
     return Term("torsional dynamics", law, {"dynamics": "quasi_static"})
 
 
@@ -107,7 +113,7 @@ def _tooth_pairs(scene: Scene) -> Term | None:
         single = (law.single for law in stiffness_laws(scene))
         names = ("mesh.sun_planet_stiffness", "mesh.planet_ring_stiffness")
         constant |= {"mesh.stiffness": "given", **dict(zip(names, single, strict=True))}
-        # The depth of a crack tells nothing without the tooth it is in.
+        # The depth of a crack has a meaning only with the tooth geometry.
         constant["faults"] = [f for f in scene.faults if not (f.kind == "crack" and f.depth)]
     elif mesh.double_pair_ratio == 1.0:
         return None

@@ -1,1 +1,1 @@
-"""Pictures, all in one style."""
+"""Plots in a common style."""

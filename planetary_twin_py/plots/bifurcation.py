@@ -1,4 +1,4 @@
-"""Bifurcation diagram: every section of every settled motion, against speed."""
+"""Bifurcation diagram: Poincare sections of the steady motions against speed."""
 
 from __future__ import annotations
 
@@ -10,22 +10,27 @@ from ..studies.bifurcation import DOWN, UP
 from .quantity import Column
 from .style import BLUE, ORANGE, panels
 
-# Speeding up is drawn first and larger, so that it shows around what slowing down has in common.
-WAYS = ((UP, "speeding up", BLUE, 2.6), (DOWN, "slowing down", ORANGE, 1.1))
+# The larger dots of rising speed are drawn first, so that they show around common dots.
+BRANCHES = ((UP, "rising speed", BLUE, 2.6), (DOWN, "falling speed", ORANGE, 1.1))
 
 
 def bifurcation_diagram(known: dict[str, Column], meshes: Sequence[str] = ()) -> Figure:
-    """A dot for each mesh cycle that was looked at; a panel for each of `meshes` (columns).
+    """Draw a dot for each sampled mesh cycle.
 
-    None: the first mesh.
+    Args:
+        known: columns of the table by name.
+        meshes: columns to draw, a panel each; if empty, the first mesh.
+
+    Returns:
+        The figure.
     """
     first = next(name for name in known if name.endswith("_dte"))
     shown = tuple(meshes) or (first,)
     figure, panes = panels(len(shown), 4.2 if len(shown) == 1 else 2.9, 1)
     speed, direction = known["input_speed"], known["direction"].values
     for axes, name in zip(panes, shown, strict=True):
-        for way, label, colour, size in WAYS:
-            own = direction == way
+        for branch, label, colour, size in BRANCHES:
+            own = direction == branch
             axes.plot(
                 speed.values[own],
                 known[name].values[own],

@@ -1,4 +1,4 @@
-"""Campbell diagram: natural frequencies, the harmonics of the meshing, and where they meet."""
+"""Campbell diagram: natural frequencies, mesh harmonics and their crossings."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from ..scene import Scene
 from .style import GREY, applied, colour_of, panels
 
 RPM = 30.0 / np.pi  # per rad/s
-MARGIN = 1.1  # of the highest frequency shown over the highest natural frequency
+MARGIN = 1.1  # highest frequency shown/highest natural frequency
 
 
 def campbell_diagram(
@@ -21,10 +21,17 @@ def campbell_diagram(
     highest_speed: float,
     harmonics: int = HARMONICS,
 ) -> Figure:
-    """Frequencies against the speed of the first motor, up to `highest_speed` [rad/s].
+    """Draw frequencies against the speed of the first motor.
 
-    `modes` are those at mean mesh stiffness, at which a run resonates; those of one kind share a
-    colour. `found` (see `resonances`) are the marked crossings.
+    Args:
+        scene: gives the mesh frequency and the title.
+        modes: at mean mesh stiffness; modes of one kind have the same colour.
+        found: crossings to mark, from `resonances`.
+        highest_speed: end of the speed axis [rad/s].
+        harmonics: number of mesh harmonics.
+
+    Returns:
+        The figure.
     """
     with applied():
         figure, (axes,) = panels(height=4.5)
@@ -38,7 +45,7 @@ def campbell_diagram(
         for h in range(1, harmonics + 1):
             end = h * mesh_frequency_per_speed(scene) * highest_speed
             axes.plot([0.0, highest_speed * RPM], [0.0, end], color=GREY, lw=0.8)
-            share = min(1.0, top / end)  # where the line leaves the picture
+            share = min(1.0, top / end)  # fraction of the line inside the picture
             place = (share * highest_speed * RPM, share * end)
             axes.annotate(
                 f"{h}", place, (2, 2), textcoords="offset points", color=GREY, clip_on=False
@@ -48,7 +55,7 @@ def campbell_diagram(
             [r.frequency for r in found],
             "o",
             color="black",
-            label="met by a harmonic of the meshing",
+            label="excited by a mesh harmonic",
             zorder=3,
         )
         axes.set(

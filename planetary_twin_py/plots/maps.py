@@ -21,10 +21,13 @@ def draw_map(
     rows: np.ndarray,
     limits: tuple[float, float],
 ) -> None:
-    """The third column over the first and the second, at `rows` (bool).
+    """Draw filled contours; a missing point of a grid is a hole, scattered points are triangulated.
 
-    A point that lacks in a grid leaves a hole; scattered points are joined to triangles. `limits`
-    of the colours are those of all maps of one measure. Dots are the points that were run.
+    Args:
+        axes: where to draw.
+        fields: columns of the horizontal axis, of the vertical axis and of the colour.
+        rows: rows to draw (bool).
+        limits: of the colours.
     """
     x, y, z = (column.values[rows] for column in fields)
     levels = MaxNLocator(LEVELS).tick_values(*limits)
@@ -47,7 +50,7 @@ def draw_map(
 def _grid(
     x: np.ndarray, y: np.ndarray, z: np.ndarray
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray] | None:
-    """Axes and values (y, x) with NaN where a point lacks; None where the points are scattered."""
+    """Axes and masked values (y, x) of a grid; None for scattered points."""
     across, column = np.unique(x, return_inverse=True)
     up, row = np.unique(y, return_inverse=True)
     if len(across) * len(up) > 2 * len(z):

@@ -1,4 +1,4 @@
-"""A column of a study's table as it is drawn: in the engineer's units, with both in its label."""
+"""Columns of a study's table in customary units, with their labels."""
 
 from __future__ import annotations
 
@@ -13,13 +13,13 @@ if TYPE_CHECKING:
     import pyarrow as pa
 
 SIDES = {"sun_planet": "sun-planet", "planet_ring": "planet-ring"}
-LENGTHS = ((1e-3, "µm", 1e6), (1.0, "mm", 1e3))  # below which [m], unit, factor
+LENGTHS = ((1e-3, "µm", 1e6), (1.0, "mm", 1e3))  # upper limit [m], unit, factor
 UNITS = {"rad/s": ("rpm", RPM), "rad": ("°", 180.0 / np.pi)}
-LEAST_RATIO = 25.0  # from the least value to the largest, for a logarithmic axis
+LEAST_RATIO = 25.0  # largest/smallest value for a logarithmic axis
 
 
 class Column(NamedTuple):
-    """Values as they are drawn, shape (rows,), numbers or words."""
+    """Values in customary units, shape (rows,), numbers or text."""
 
     name: str
     values: np.ndarray
@@ -27,24 +27,24 @@ class Column(NamedTuple):
 
     @property
     def label(self) -> str:
-        """Of an axis."""
+        """Label of an axis."""
         return self.quantity.heading if self.is_number else self.quantity.title
 
     @property
     def is_number(self) -> bool:
-        """Whether there is an axis on which the values lie."""
+        """Whether the values are numbers."""
         return self.values.dtype.kind in "fi"
 
     @property
     def distinct(self) -> np.ndarray:
-        """Values that occur, in their order; words as they come first."""
+        """Distinct values: numbers sorted, text in order of occurrence."""
         if self.is_number:
             return np.unique(self.values)
         return np.array(list(dict.fromkeys(self.values.tolist())))
 
     @property
     def is_logarithmic(self) -> bool:
-        """Whether the values stand closer to equal ratios than to equal distances."""
+        """Whether the values are spaced logarithmically rather than linearly."""
         if not self.is_number or len(self.distinct) < 3 or self.distinct[0] <= 0.0:
             return False
         if self.distinct[-1] < LEAST_RATIO * self.distinct[0]:
@@ -52,28 +52,33 @@ class Column(NamedTuple):
         steps, ratios = np.diff(self.distinct), np.diff(np.log(self.distinct))
         return bool(ratios.std() / ratios.mean() < steps.std() / steps.mean())
 
-    def told(self, value: Any) -> str:
-        """One of the values, in words."""
+    def text(self, value: Any) -> str:
+        """One of the values with its unit."""
         if not self.is_number:
             return f"{value}"
         return f"{value:.4g} {self.quantity.unit}".removesuffix(" -")
 
 
 def columns(table: pa.Table) -> dict[str, Column]:
-    """Every column of a study's table."""
+    """All columns of a study's table by name."""
     return {field.name: _column(table, field) for field in table.schema}
 
 
 def find(known: dict[str, Column], name: str, role: str) -> Column:
-    """The column of this name.
+    """Find a column.
+
+    Args:
+        known: columns by name.
+        name: of the column.
+        role: name of the argument, for the error message.
 
     Raises:
-        ValueError: there is none; names those that are called alike.
+        ValueError: there is no such column; the message has similar names.
     """
     if name in known:
         return known[name]
     near = get_close_matches(name, known, n=4, cutoff=0.5) or list(known)
-    raise ValueError(f"{role} = {name!r}: the table has no such column, but {', '.join(near)}")
+    raise ValueError(f"{role} = {name!r}: no such column; the table has {', '.join(near)}")
 
 
 def _column(table: pa.Table, field: pa.Field) -> Column:
@@ -88,10 +93,10 @@ def _column(table: pa.Table, field: pa.Field) -> Column:
 
 
 def _known(name: str) -> Quantity | None:
-    """Of a figure or a set-point that has a name of its own."""
+    """Quantity of a result or a set-point; None for other columns."""
     plain = {key: each for key, (each, _) in TRAIN.items() if key not in ("speed", "power")}
     plain |= OPERATING_POINT
-    plain["power_loss"] = Quantity("Power loss", "W")  # of bearings and churning, too
+    plain["power_loss"] = Quantity("Power loss", "W")  # includes bearings and churning
     if name in plain:
         return plain[name]
     for side, words in SIDES.items():
@@ -110,7 +115,7 @@ def _known(name: str) -> Quantity | None:
 
 
 def _by_unit(name: str, unit: str, values: np.ndarray) -> Quantity:
-    """Of any other field of a scene, by its name."""
+    """Quantity of another field of a scene, from its name and unit."""
     words = name.rpartition(".")[2].replace("_", " ")
     title = words[:1].upper() + words[1:]
     if unit == "m" and values.dtype.kind == "f" and len(values):

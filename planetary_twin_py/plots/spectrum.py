@@ -1,4 +1,4 @@
-"""Spectrum of a mesh: amplitudes on a logarithmic scale, harmonics of the meshing marked."""
+"""Spectrum of a mesh: amplitudes on a logarithmic scale, with mesh harmonics marked."""
 
 from __future__ import annotations
 
@@ -10,13 +10,22 @@ from matplotlib.figure import Figure
 from ..analysis.mesh_spectrum import MeshSpectrum
 from .style import GREY, WIDTH, applied, panels
 
-DECADES = 5  # below the highest line
-HARMONICS = 30  # of the meshing at most: beyond, marks would hide the curve
-LABEL_WIDTH = 0.3  # [in] for the number of a harmonic
+DECADES = 5  # shown below the highest line
+HARMONICS = 30  # marked at most, so that the marks do not hide the curve
+LABEL_WIDTH = 0.3  # [in] of the number of a harmonic
 
 
 def spectrum_plot(spectrum: MeshSpectrum, title: str, labels: tuple[str, str]) -> Figure:
-    """The curve without its mean, in its band; `labels` of both axes with their units."""
+    """Draw a spectrum in its band, without the mean.
+
+    Args:
+        spectrum: amplitudes.
+        title: of the figure.
+        labels: of both axes, with their units.
+
+    Returns:
+        The figure.
+    """
     with applied():
         figure, (axes,) = panels(height=3.6)
         seen = spectrum.seen & (spectrum.axis > 0.0)

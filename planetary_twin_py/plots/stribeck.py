@@ -1,4 +1,4 @@
-"""Stribeck curve of the meshes of a study: what asperities and what oil take, over lambda ratio."""
+"""Stribeck curve of the meshes: boundary and viscous friction against lambda ratio."""
 
 from __future__ import annotations
 
@@ -13,10 +13,18 @@ PARTS = (("boundary", ORANGE, "--"), ("viscous", GREEN, "--"))
 
 
 def stribeck_diagram(known: dict[str, Column]) -> Figure:
-    """Mean friction over mean mesh force of sun and ring meshes, against their mean lambda ratio.
+    """Draw friction coefficients of sun and ring meshes against their mean lambda ratio.
+
+    The coefficient is mean friction/mean mesh force.
+
+    Args:
+        known: columns of the table by name.
+
+    Returns:
+        The figure.
 
     Raises:
-        ValueError: a column that this needs lacks, or the lambda ratio hardly varies.
+        ValueError: a column is missing, or the lambda ratio does not vary.
     """
     figure, panes = panels(len(SIDES), 3.2)
     for axes, (side, words) in zip(panes, SIDES.items(), strict=True):
@@ -24,7 +32,7 @@ def stribeck_diagram(known: dict[str, Column]) -> Figure:
         force = np.abs(find(known, f"{side}_mesh_force_mean", "y").values)
         if not np.ptp(ratio) > 0.0:
             raise ValueError(
-                f"{side}_lambda_ratio: does not vary; vary the speed with "
+                f"{side}_lambda_ratio: does not vary; vary the speed, with "
                 "lubrication.lambda_ratio = computed"
             )
         order = np.argsort(ratio)

@@ -1,4 +1,4 @@
-"""A study as the figure a reader expects of it: curves, small multiples of them, or a map."""
+"""Figures of a study: curves, small multiples or a map."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from matplotlib.axes import Axes
 from matplotlib.colors import to_hex
 from matplotlib.figure import Figure
 
-from ..studies.bifurcation import STUDY as BIFURCATION
+from ..studies.marks import BIFURCATION
 from ..studies.measures import MEASURES
 from .bifurcation import bifurcation_diagram
 from .clipped import LEGEND, clipped_points, mark
@@ -25,22 +25,22 @@ if TYPE_CHECKING:
     import pyarrow as pa
 
 KINDS = ("curves", "map", "stribeck")
-MANY = 6  # values of each of two fields that fill a map
+MANY = 6  # values of each of two fields for a map
 MOST_PANELS = 12
 MOST_LINES = 12
 SHADES = "viridis"
-LABEL = 34  # letters in a line of a vertical axis's label
+LABEL = 34  # characters per line of the label of a vertical axis
 
 
 class Choice(NamedTuple):
-    """What goes where."""
+    """Roles of the columns in a figure."""
 
     x: Column
     measures: tuple[Column, ...]
     by: Column | None
-    panel: Column | None  # small multiples over its values
+    panel: Column | None  # a panel for each of its values
     is_map: bool
-    clipped: np.ndarray  # points whose viscous friction is clipped to zero (bool)
+    clipped: np.ndarray  # points with viscous friction clipped to zero (bool)
 
 
 def plot_study(
@@ -50,21 +50,24 @@ def plot_study(
     by: str | None = None,
     kind: str | None = None,
 ) -> Figure:
-    """Draw a study's table; what is not said is chosen by how many of its fields vary.
+    """Draw the table of a study.
 
-    One field: curves over it. Two: a curve for each value of the second, or a map where both have
-    many. Three: a panel for each value of the third.
-    Points that failed are left out, and the figure says how many.
+    By default the figure depends on the number of fields that vary. One: curves over it. Two: a
+    curve for each value of the second, or a map if both have many values. Three: a panel for each
+    value of the third. Failed points are omitted, and the figure states their number.
 
     Args:
         table: of a sweep or a bifurcation.
-        x: column on the horizontal axis.
-        measures: columns to draw, each in panels of its own; none: the first there is.
-        by: field whose values are told apart by colour, on a map its vertical axis.
+        x: column of the horizontal axis.
+        measures: columns to draw, in separate panels; if empty, the first measure.
+        by: field distinguished by colour; in a map, the vertical axis.
         kind: "curves", "map" or "stribeck".
 
+    Returns:
+        The figure, in customary units.
+
     Raises:
-        ValueError: there is no such column or nothing to draw.
+        ValueError: a column does not exist, or there is nothing to draw.
     """
     known, (whole, failed) = columns(table), _without_failures(table)
     if kind is not None and kind not in KINDS:
@@ -73,7 +76,7 @@ def plot_study(
         if name is not None:
             find(known, name, role)
     if not len(whole):
-        raise ValueError("the table has no point that did not fail")
+        raise ValueError("all points of the table failed")
     known = columns(whole)
     with applied():
         if (table.schema.metadata or {}).get(b"study") == BIFURCATION.encode():
@@ -83,7 +86,7 @@ def plot_study(
         else:
             varying = [name for name in fields(table) if len(known[name].distinct) > 1]
             figure = _draw(_choose(known, varying, (x, tuple(measures), by), kind))
-        notes = [f"{failed} of {len(table)} points failed and are left out"] if failed else []
+        notes = [f"{failed} of {len(table)} points failed and are omitted"] if failed else []
         notes += [LEGEND] if clipped_points(known, len(whole)).any() else []
         if notes:
             remark(figure, "; ".join(notes))
@@ -91,13 +94,13 @@ def plot_study(
 
 
 def fields(table: pa.Table) -> list[str]:
-    """The columns that a sweep has set."""
+    """Names of the columns that the study varied."""
     own = ("point", "failure", *MEASURES)
     return [name for name in table.column_names if name not in own]
 
 
 def failures(table: pa.Table) -> int:
-    """Number of rows without figures."""
+    """Number of rows without results."""
     return len(table) - table["failure"].null_count if "failure" in table.column_names else 0
 
 
@@ -126,7 +129,7 @@ def _choose(
     second = known[by] if by else None
     is_map = kind == "map" or (kind is None and _fill_a_map(known[x], second))
     if is_map and (second is None or not (known[x].is_number and second.is_number)):
-        raise ValueError("a map needs two fields that are numbers and vary")
+        raise ValueError("a map needs two numerical fields that vary")
     clipped = clipped_points(known, len(known[x].values))
     return Choice(known[x], chosen, second, known[panel] if panel else None, is_map, clipped)
 
@@ -151,7 +154,7 @@ def _draw(choice: Choice) -> Figure:
     parts = [None] if choice.panel is None else list(choice.panel.distinct)
     places = [(measure, part) for measure in choice.measures for part in parts]
     if len(places) > MOST_PANELS:
-        raise ValueError(f"{len(places)} panels: must be at most {MOST_PANELS}; choose less")
+        raise ValueError(f"{len(places)} panels: must be at most {MOST_PANELS}; draw fewer columns")
     most = 2 if choice.is_map else 3
     across = min(len(places) if len(parts) == 1 else len(parts), most)
     figure, panes = panels(len(places), 3.6 if len(places) == 1 else 2.9, across)
@@ -160,7 +163,7 @@ def _draw(choice: Choice) -> Figure:
         rows = np.full(len(choice.x.values), True)
         if choice.panel is not None:
             rows = choice.panel.values == part
-            axes.set_title(f"{choice.panel.quantity.title} {choice.panel.told(part)}")
+            axes.set_title(f"{choice.panel.quantity.title} {choice.panel.text(part)}")
         if choice.is_map and choice.by is not None:
             draw_map(axes, (choice.x, choice.by, measure), rows, limits[measure.name])
             hollow = rows & choice.clipped
@@ -180,7 +183,7 @@ def _draw(choice: Choice) -> Figure:
 
 
 def _share_limits(panes: list[Axes], count: int) -> None:
-    """Let every `count` panels, which are of one measure, be read against each other."""
+    """Give every group of `count` panels, which show one measure, the same limits."""
     for first in range(0, len(panes), count):
         own = panes[first : first + count]
         lows, highs = zip(*(axes.get_ylim() for axes in own), strict=True)
@@ -206,7 +209,7 @@ def _curves(axes: Axes, choice: Choice, measure: Column, rows: np.ndarray) -> No
             measure.values[own][order],
             "o-" if x.is_number else "o",
             color=colour,
-            label="" if by is None else by.told(value).removesuffix(f" {by.quantity.unit}"),
+            label="" if by is None else by.text(value).removesuffix(f" {by.quantity.unit}"),
             markersize=3.0 if x.is_number else None,
         )
         mark(axes, x.values[hollow], measure.values[hollow], colour)

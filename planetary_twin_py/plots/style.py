@@ -1,4 +1,4 @@
-"""How the plots look: colours that the colour-blind can tell apart, thin axes, no frames."""
+"""Style of the plots: colours that colour-blind people can distinguish, thin axes, no frames."""
 
 from __future__ import annotations
 
@@ -20,10 +20,10 @@ CYCLE = (BLUE, ORANGE, GREEN, PINK, AMBER, SKY)
 
 WIDTH = 8.0  # [in]
 DOTS_PER_INCH = 100
-FINE = 300  # dots per inch of what is no line in a vector drawing
-LEAST_SPAN = 1e-3  # of the values on an axis
+FINE = 300  # dots per inch of raster parts in a vector drawing
+LEAST_SPAN = 1e-3  # smallest relative span of an axis
 FORMATS = (".png", ".svg", ".pdf")
-# What a format would write of the moment at which the file is made.
+# Metadata to omit, so that files do not depend on the time of writing.
 _MOMENT: dict[str, dict[str, Any]] = {
     ".png": {"Software": None},
     ".svg": {"Date": None},
@@ -46,19 +46,28 @@ _STYLE: Any = {
     "xtick.direction": "out",
     "savefig.dpi": DOTS_PER_INCH,
     "pdf.fonttype": 42,  # text stays text
-    "svg.hashsalt": "planetary_twin",  # names in the file are the same every time
+    "svg.hashsalt": "planetary_twin",  # reproducible names in the file
 }
 
 
 def applied() -> AbstractContextManager[None]:
-    """Within it, figures are made in this style."""
+    """Context in which figures have this style."""
     return matplotlib.rc_context(_STYLE)
 
 
 def panels(
     count: int = 1, height: float = 2.9, columns: int | None = None
 ) -> tuple[Figure, list[Axes]]:
-    """A figure with `count` axes in rows of `height` [in]: all side by side, or in `columns`."""
+    """A figure with several axes.
+
+    Args:
+        count: number of axes.
+        height: of a row [in].
+        columns: number of columns; None places all axes in one row.
+
+    Returns:
+        The figure and its axes.
+    """
     columns = columns or count
     rows = -(-count // columns)
     figure = Figure(figsize=(WIDTH, rows * height), layout="constrained")
@@ -81,14 +90,14 @@ def drawing(axes: Axes) -> Axes:
 
 
 def logarithmic(axes: Axes, name: Literal["x", "y"]) -> None:
-    """Equal ratios at equal distances along one axis, numbers without exponents."""
+    """Make one axis logarithmic, with numbers without exponents."""
     axes.set(**{f"{name}scale": "log"})
     axis = axes.xaxis if name == "x" else axes.yaxis
     axis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
 
 
 def widen(axes: Axes) -> None:
-    """Let the vertical axis span a share of its values at least: less is what tolerances leave."""
+    """Give the vertical axis a minimum relative span; smaller variations are numerical errors."""
     low, high = axes.get_ylim()
     lacking = LEAST_SPAN * max(abs(low), abs(high)) - (high - low)
     if lacking > 0.0:
@@ -96,11 +105,16 @@ def widen(axes: Axes) -> None:
 
 
 def save(figure: Figure, path: str, dots_per_inch: int = DOTS_PER_INCH) -> None:
-    """Write a picture in the format of the suffix, which depends on nothing but its content.
+    """Write a picture reproducibly, in the format of the suffix.
+
+    Args:
+        figure: to write.
+        path: of the file; its suffix is one of FORMATS.
+        dots_per_inch: resolution of a .png file.
 
     Raises:
-        ValueError: the suffix is none of FORMATS.
-        OSError: it cannot be written.
+        ValueError: the suffix is not one of FORMATS.
+        OSError: the file cannot be written.
     """
     suffix = PurePath(path).suffix
     if suffix not in FORMATS:

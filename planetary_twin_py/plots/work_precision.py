@@ -1,4 +1,4 @@
-"""Work against precision: the error of every method over the time it takes."""
+"""Work-precision diagram: error of every method against its computing time."""
 
 from __future__ import annotations
 
@@ -13,14 +13,14 @@ from ..benchmark.table import METHODS, Row
 from .style import CYCLE, applied, colour_of, panels
 
 COLUMNS = 3
-MARKERS = "osv^"  # a colour that comes again has another
-FEWER = 0.8  # line width of the peers
+MARKERS = "osv^"  # the next one if a colour repeats
+FEWER = 0.8  # line width of general-purpose solvers
 
 
 def work_precision(rows: Sequence[Row]) -> Figure:
-    """One panel for every case in `rows`; rows without figures are left out.
+    """Draw a panel for every case in `rows`; rows without results are omitted.
 
-    Times are those with samples: a peer has no other.
+    Times include sampling, because general-purpose solvers have no others.
     """
     measured = [row for row in rows if not row.note]
     cases = list(dict.fromkeys(row.case for row in measured))

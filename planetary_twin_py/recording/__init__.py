@@ -1,6 +1,6 @@
 """
 Recordings: bag folders with MCAP files, written and read without ROS.
 
-Four layers, of which each imports only those before it: `container` knows MCAP, `ros2` knows
-messages and bags, `runs` knows what was simulated, `tables` exchanges data with other tools.
+Four layers, each of which imports only the layers before it. `container`: MCAP files. `ros2`:
+messages and bags. `runs`: simulation runs. `tables`: exchange of data with other tools.
 """

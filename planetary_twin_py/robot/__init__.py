@@ -1,4 +1,4 @@
-"""The gearset as a robot: its parts as solids, and the URDF that puts them together."""
+"""The gearset as a robot: its parts as solids, and its URDF."""
 
 from __future__ import annotations
 

@@ -1,9 +1,9 @@
-"""The frames of the gearset: what turns on what, and by which angle.
+"""The frames of the gearset: parents and rotation angles.
 
-Angles are the absolute angles of the bodies, as everywhere in this project. Sun, ring and carrier
-therefore hang on the base. A planet is carried round, yet must not be turned, by the carrier: it
-hangs on a frame `planet_i_centre` that stands on the carrier and turns back by the carrier's angle.
-This holds whichever member is held, and nothing but the absolute angles is needed.
+Angles are the absolute angles of the bodies, as everywhere in this project. The base is therefore
+the parent of sun, ring and carrier. The carrier moves a planet but must not rotate it: the parent
+of a planet is the frame `planet_i_centre`, which is attached to the carrier and rotates by minus
+the angle of the carrier. This is valid whichever member is fixed.
 """
 
 from __future__ import annotations
@@ -16,7 +16,7 @@ from . import parts
 
 
 class Frame(NamedTuple):
-    """A frame that turns about z on its parent, by the angle of a body or against it."""
+    """A frame that rotates about z in its parent, by `sign` times the angle of `body`."""
 
     name: str
     parent: str
@@ -26,7 +26,12 @@ class Frame(NamedTuple):
 
 
 def frames(gearset: Gearset, base: str) -> list[Frame]:
-    """Frames on `base`, parents first: one of each body's name, and the planets' centres."""
+    """Frames of all bodies and of the planet centres, parents first.
+
+    Args:
+        gearset: gives the planets and their positions.
+        base: name of the root frame.
+    """
     members = [Frame(name, base, name) for name in ("sun", "ring", "carrier")]
     radius = parts.carrier_radius(gearset)
     planets = []

@@ -1,4 +1,4 @@
-"""The parts of a gearset as solids about their own axis, in metres; tooth 0 around angle zero."""
+"""The parts of a gearset as solids about their own axis, in metres; tooth 0 is at angle zero."""
 
 from __future__ import annotations
 
@@ -38,7 +38,7 @@ def ring(gearset: Gearset) -> TriangleMesh:
 
 
 def pin(gearset: Gearset) -> TriangleMesh:
-    """The pin that a planet turns on, from the carrier through the planet."""
+    """The pin of a planet, from the carrier through the planet."""
     low, high = -0.7 * gearset.face_width, 0.56 * gearset.face_width
     return extrude(0.0, circle(pin_radius(gearset)), low, high)
 
@@ -60,7 +60,7 @@ def gear_of(gearset: Gearset, teeth: int, internal: bool = False) -> SpurGear:
 
 
 def carrier_radius(gearset: Gearset) -> float:
-    """Radius of the circle the planets' centres stand on [m]."""
+    """Radius of the circle of the planet centres [m]."""
     return 0.5 * gearset.module * (gearset.teeth.sun + gearset.teeth.planet)
 
 
@@ -110,7 +110,7 @@ def _wheel(gearset: Gearset, teeth: int, bore: float) -> TriangleMesh:
 
 
 def _toothed_rim(gear: SpurGear, edge: float, half: float) -> TriangleMesh:
-    """The teeth, and apart from them the plain rim between the root circle and radius `edge`."""
+    """The teeth, and separately the plain rim between the root circle and radius `edge`."""
     outline = gear.outline()
     root = np.column_stack((np.full(len(outline), gear.root_radius), outline[:, 1]))
     if gear.internal:

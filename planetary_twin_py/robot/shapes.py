@@ -1,6 +1,6 @@
-"""The parts of a gearset as boxes and cylinders, the shapes that a URDF carries in itself.
+"""The parts of a gearset as boxes and cylinders, the primitive shapes of URDF.
 
-Every tool that reads a URDF draws these, on any machine; a mesh it would have to find as a file.
+Every tool that reads URDF draws these on any machine; meshes would need separate files.
 """
 
 from __future__ import annotations
@@ -20,8 +20,8 @@ Point = tuple[float, float, float]
 class Shape(NamedTuple):
     """A box of `size` (x, y, z) [m], or a cylinder of `size` (radius, length) [m] about z.
 
-    It stands at `at` [m] in the frame of its part, turned by `angle` [rad] about z; `material` is
-    the name of its colour.
+    Its position is `at` [m] in the frame of its part, rotated by `angle` [rad] about z; `material`
+    is the name of its colour.
     """
 
     size: tuple[float, ...]
@@ -34,10 +34,13 @@ def wheel(gearset: Gearset, teeth: int, part: str, mount: float) -> list[Shape]:
     """An external gear: a disc up to the root circle, and its teeth.
 
     Args:
-        gearset: to which it belongs.
-        teeth: number of its teeth.
-        part: name of its colour.
+        gearset: gives module, pressure angle and face width.
+        teeth: number of teeth.
+        part: name of the colour.
         mount: direction of tooth 0 [rad].
+
+    Returns:
+        The shapes.
     """
     gear = gear_of(gearset, teeth)
     disc = Shape((gear.root_radius, gearset.face_width), part)
@@ -45,7 +48,7 @@ def wheel(gearset: Gearset, teeth: int, part: str, mount: float) -> list[Shape]:
 
 
 def ring(gearset: Gearset, mount: float) -> list[Shape]:
-    """The ring: teeth inside a rim of flat pieces, one behind each tooth; `mount` as of `wheel`."""
+    """The ring: teeth inside a rim of flat pieces, one behind each tooth; `mount` as in `wheel`."""
     teeth, width = gearset.teeth.ring, gearset.face_width
     gear = gear_of(gearset, teeth, internal=True)
     inner, outer = gear.root_radius, rim(gear)
@@ -72,11 +75,11 @@ def carrier(gearset: Gearset) -> list[Shape]:
 
 
 def _tooth(gear: SpurGear, width: float, part: str) -> list[Shape]:
-    """A trapezium in place of a tooth about angle zero: two flanks and what is between them.
+    """A trapezium in place of a tooth at angle zero: two flank boxes and a middle box.
 
-    Its sides cut the involutes at 15 % of the height from foot and tip, which keeps them within
-    0.15 modules of teeth of usual proportions. A flank box is as thick as it must be to meet the
-    middle one at the wider end of the tooth, where the gap between them is widest.
+    Its sides cut the involutes at 15 % of the height from foot and tip, so that they are within
+    0.15 modules of teeth of usual proportions. A flank box is thick enough to touch the middle box
+    at the wider end of the tooth, where the gap is largest.
     """
     foot, tip = gear.root_radius, gear.tip_radius
     radii = np.array([foot + 0.15 * (tip - foot), tip - 0.15 * (tip - foot)])
@@ -84,7 +87,7 @@ def _tooth(gear: SpurGear, width: float, part: str) -> list[Shape]:
     x, y = radii * np.cos(half), radii * np.sin(half)
     slope = float((y[1] - y[0]) / (x[1] - x[0]))
     foot_y, tip_y = (float(y[0] + slope * (end - x[0])) for end in (foot, tip))
-    # Straight sides of a tooth that is nearly pointed would meet below its tip.
+    # Straight sides of a nearly pointed tooth would intersect below its tip.
     tip_y = max(tip_y, tip * math.sin(gear.half_thickness(np.array(tip))))
     height = abs(tip - foot)
     flank = math.hypot(height, foot_y - tip_y)

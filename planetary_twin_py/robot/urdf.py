@@ -1,10 +1,9 @@
-"""The gearset as a URDF that turns with the published joint states.
+"""URDF of the gearset, for the published joint states.
 
-A joint's position is the absolute angle of its body. Where a frame turns against one, that is a
-`mimic`, which robot_state_publisher and RViz follow by themselves.
+The position of a joint is the absolute angle of its body. Frames that rotate against a body are
+`mimic` joints, which robot_state_publisher and RViz support.
 
-Tooth 0 stands at the mount angle where the position is zero: the angle of a link is the absolute
-angle of its body, and the mount turns only what is seen.
+At position zero, tooth 0 is at the mount angle: the mount rotates only the visual shapes.
 """
 
 from __future__ import annotations
@@ -28,10 +27,10 @@ _COLOURS = {
 
 
 def robot_description(gearset: Gearset, base: str = "gearbox") -> str:
-    """URDF of a gearset, made of boxes and cylinders, so that it refers to no file.
+    """URDF of a gearset, made of boxes and cylinders, without references to files.
 
     Args:
-        gearset: what is described; lengths [m].
+        gearset: to describe; lengths in m.
         base: name of the root link.
 
     Returns:
@@ -55,7 +54,7 @@ def robot_description(gearset: Gearset, base: str = "gearbox") -> str:
 
 
 def _turning(robot: Element, frame: Frame) -> Element:
-    """A link that turns about z on its parent by a joint of its own, or against another joint."""
+    """Add a link that rotates about z in its parent, by its own joint or as a mimic joint."""
     joint = SubElement(robot, "joint", name=f"{frame.name}_joint", type="continuous")
     SubElement(joint, "parent", link=frame.parent)
     SubElement(joint, "child", link=frame.name)
@@ -69,7 +68,7 @@ def _turning(robot: Element, frame: Frame) -> Element:
 
 
 def _show(link: Element, seen: Iterable[shapes.Shape]) -> None:
-    """Add shapes to what is seen of a link; six digits are far below what a screen resolves."""
+    """Add visual shapes to a link; six digits are far below the resolution of a screen."""
     for shape in seen:
         visual = SubElement(link, "visual")
         SubElement(visual, "origin", xyz=_numbers(shape.at), rpy=f"0 0 {shape.angle:.6g}")

@@ -1,4 +1,4 @@
-"""What is simulated: schema, packaged scenes, the operating point."""
+"""Scenes: schema, packaged scenes and the operating point."""
 
 from .operating_point import TUNABLES, OperatingPoint, Tunable
 from .quantity import SceneError

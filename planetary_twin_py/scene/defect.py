@@ -1,4 +1,4 @@
-"""What is wrong with a scene, a line for each error: field, value, what is allowed."""
+"""Error messages of a scene, a line each: field, value and allowed range."""
 
 from __future__ import annotations
 
@@ -14,17 +14,17 @@ from ..units import UnitError
 from .names import nearest, no_such_field
 from .quantity import Section, bounds, listed, sections_in, unit_of, within
 
-_REASONS = {  # by the type of a defect, where pydantic's words are those of Python
+_REASONS = {  # in place of pydantic's messages, by error type
     "model_type": "must be a section",
     "tuple_type": "must be a list",
-    "string_type": "must be a text",
+    "string_type": "must be text",
     **dict.fromkeys(("int_type", "int_parsing", "int_from_float"), "must be a whole number"),
     **dict.fromkeys(("bool_type", "bool_parsing"), "must be true or false"),
 }
 
 
 class _Place(NamedTuple):
-    """Where a defect is: its dotted name, the section it is in and the field, if they are known."""
+    """Location of an error: dotted name, and section and field if they are known."""
 
     name: str
     section: type[Section] | None
@@ -32,12 +32,12 @@ class _Place(NamedTuple):
 
 
 def explain(error: ValidationError, model: type[Section]) -> str:
-    """All defects of `error`: one is a line; several are a heading and a line each.
+    """Format the errors of a validation: one line, or a heading and a line each.
 
-    A mistyped name leaves the right one missing, which is not listed as well.
+    If a name is mistyped, the correct name is not listed as missing.
 
     Args:
-        error: of pydantic, from `model`.
+        error: raised by pydantic for `model`.
         model: the section that was validated.
 
     Returns:
@@ -55,7 +55,7 @@ def explain(error: ValidationError, model: type[Section]) -> str:
 
 
 def _locate(model: type[Section], location: Sequence[str | int]) -> _Place:
-    """Follow a location of pydantic, which names the kind of a section where there are several."""
+    """Convert a location of pydantic, which contains the kind of a section if there are several."""
     kinds, parts = [model], []
     section, field = None, None
     for part in location:
@@ -72,7 +72,7 @@ def _locate(model: type[Section], location: Sequence[str | int]) -> _Place:
 
 
 def _meant(defect: ErrorDetails, place: _Place) -> Iterator[str]:
-    """Dotted names of the fields that a mistyped name may be meant for."""
+    """Dotted names of the fields that a mistyped name may stand for."""
     if defect["type"] == "extra_forbidden" and place.section is not None:
         above, dot, own = place.name.rpartition(".")
         yield from (f"{above}{dot}{name}" for name in nearest(own, place.section.model_fields))
@@ -109,7 +109,7 @@ def _is_of_units(defect: ErrorDetails) -> bool:
 
 
 def _allowed(field: FieldInfo | None) -> str | None:
-    """The range of a quantity, in words; None for what is not one."""
+    """Description of the range of a quantity; None for other fields."""
     if field is None or (unit := unit_of(field)) is None:
         return None
     low, high = bounds(field)

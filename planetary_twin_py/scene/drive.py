@@ -1,4 +1,4 @@
-"""What drives the gearset and what it drives."""
+"""Motors, load and speed control."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from .quantity import Section, quantity
 class Machine(Section):
     """Motor or load, coupled elastically to a member of the gearset."""
 
-    member: Member = Field(description="member of the gearset it turns")
+    member: Member = Field(description="member of the gearset to which it is coupled")
     inertia: float = quantity("kg m^2", "moment of inertia", gt=0.0, le=1e9)
     coupling_stiffness: float = quantity(
         "N m/rad", "stiffness of the shaft coupling to the member", gt=0.0, le=1e12
@@ -24,12 +24,11 @@ class Machine(Section):
 
 
 class SpeedControl(Section):
-    """How the drive reaches and keeps the speed, and how its torque fluctuates."""
+    """Speed control of the drive, and its torque ripple."""
 
     bandwidth: float | None = quantity(
         "Hz",
-        "bandwidth of the speed loop; not given: 3 Hz, or less where soft couplings or large "
-        "inertias ask for it",
+        "bandwidth of the speed loop; default: 3 Hz, or less for soft couplings or large inertias",
         None,
         gt=0.0,
         le=100.0,
@@ -39,7 +38,7 @@ class SpeedControl(Section):
     )
     start_speed: float | None = quantity(
         "rad/s",
-        "speed of the first motor at time zero; not given: that of the operating point",
+        "speed of the first motor at time zero; default: that of the operating point",
         None,
         ge=-1e5,
         le=1e5,
@@ -50,18 +49,20 @@ class SpeedControl(Section):
 class Drive(Section):
     """Power flow: motors at the inputs, a load at the output.
 
-    A gearset with a held member has one input. A differential has two: both speeds are given, and
-    the torque of the second follows from that of the first.
+    A gearset with a fixed member has one input. A differential has two: both speeds are
+    prescribed, and the torque of the second follows from that of the first.
     """
 
     input: Machine = Field(description="motor")
     second_input: Machine | None = Field(None, description="second motor, of a differential")
     output: Machine = Field(description="load")
-    speed_control: SpeedControl = Field(SpeedControl(), description="how the speed is kept")
+    speed_control: SpeedControl = Field(SpeedControl(), description="speed control")
     speed_limit: float = quantity(
-        "rad/s", "largest speed a motor may be set to", 1100.0, gt=0, le=1e5
+        "rad/s", "largest speed set-point of a motor", 1100.0, gt=0, le=1e5
     )
-    torque_limit: float = quantity("N m", "largest torque it may be set to", 1000.0, gt=0, le=1e9)
+    torque_limit: float = quantity(
+        "N m", "largest torque set-point of a motor", 1000.0, gt=0, le=1e9
+    )
 
     @property
     def inputs(self) -> tuple[Machine, ...]:
@@ -76,6 +77,6 @@ class Drive(Section):
             if machine is None:
                 continue
             if machine.member in taken:
-                raise ValueError(f"{side}.member = {machine.member!r}: has a machine already")
+                raise ValueError(f"{side}.member = {machine.member!r}: already has a motor or load")
             taken.add(machine.member)
         return self

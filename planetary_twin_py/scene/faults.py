@@ -1,4 +1,4 @@
-"""Local faults: one tooth of one gear that is not as the others."""
+"""Local faults: one faulty tooth of one gear."""
 
 from __future__ import annotations
 
@@ -10,40 +10,44 @@ from pydantic import Discriminator, Field, Tag, model_validator
 from .quantity import Section, quantity
 
 MOST_FAULTS = 4
-SPALL_EDGE = 0.02  # base pitches over which a contact line runs onto a spall
+SPALL_EDGE = 0.02  # base pitches over which a contact line enters or leaves a spall
 
 
 class ToothFault(Section):
-    """Which tooth: teeth count from 0, the one that meets planet 1 first.
+    """Faulty tooth: teeth are numbered from 0, the tooth that meets planet 1 first.
 
     A tooth of a planet meets the sun and the ring with opposite flanks.
     """
 
-    gear: Literal["sun", "planet", "ring"] = Field(description="which gear the tooth is of")
-    planet: int = Field(1, ge=1, le=7, description="which planet, if the gear is one")
+    gear: Literal["sun", "planet", "ring"] = Field(description="gear with the faulty tooth")
+    planet: int = Field(1, ge=1, le=7, description="number of the planet, if gear is planet")
     tooth: int = Field(
-        0, ge=0, le=2999, description="which tooth, counted from 0, that which meets planet 1 first"
+        0, ge=0, le=2999, description="number of the tooth; 0 is the one that meets planet 1 first"
     )
 
 
 class Crack(ToothFault):
-    """A crack at the root, which softens the tooth on both flanks in every mesh."""
+    """A crack at the root, which reduces the stiffness for both flanks in every mesh."""
 
     kind: Literal["crack"] = Field(description="a crack at the root")
     stiffness_loss: float | None = quantity(
-        "", "share of the stiffness a pair with this tooth has lost", None, gt=0.0, le=0.9
+        "", "relative stiffness loss of a pair with this tooth", None, gt=0.0, le=0.9
     )
     depth: float | None = quantity(
-        "m", "length of the crack, from which its loss is computed", None, gt=0.0, le=0.1
+        "m", "length of the crack, from which the loss is computed", None, gt=0.0, le=0.1
     )
     angle: float = quantity(
-        "rad", "of the crack to the centre line of the tooth", math.radians(70.0), ge=0.5, le=1.58
+        "rad",
+        "angle between the crack and the centre line of the tooth",
+        math.radians(70.0),
+        ge=0.5,
+        le=1.58,
     )
 
     @model_validator(mode="after")
     def _one_measure(self) -> Self:
         if (self.stiffness_loss is None) == (self.depth is None):
-            raise ValueError("stiffness_loss, depth: give one of them for a crack")
+            raise ValueError("stiffness_loss, depth: a crack needs exactly one of them")
         return self
 
 
@@ -51,18 +55,20 @@ class FlankFault(ToothFault):
     """A fault of one flank."""
 
     flank: Literal["drive", "coast"] = Field(
-        "drive", description="drive: the flank that carries where the torque on the sun is positive"
+        "drive", description="drive: the flank that is loaded if the torque on the sun is positive"
     )
-    mesh: Literal["sun", "ring"] = Field("sun", description="of a planet: which mesh it is in")
+    mesh: Literal["sun", "ring"] = Field("sun", description="mesh of a planet with the fault")
 
 
 class Spall(FlankFault):
-    """A pit in the flank, where part of the face width no longer carries."""
+    """A pit in the flank, where part of the face width carries no load."""
 
     kind: Literal["spall"] = Field(description="a pit in a flank")
-    begin: float = quantity("", "position on the path [base pitches]", -0.1, ge=-2.0, le=2.0)
-    end: float = quantity("", "position on the path [base pitches]", 0.1, ge=-2.0, le=2.0)
-    stiffness_loss: float = quantity("", "share of the stiffness lost there", gt=0.0, le=0.9)
+    begin: float = quantity(
+        "", "start on the path of contact [base pitches]", -0.1, ge=-2.0, le=2.0
+    )
+    end: float = quantity("", "end on the path of contact [base pitches]", 0.1, ge=-2.0, le=2.0)
+    stiffness_loss: float = quantity("", "relative stiffness loss in this range", gt=0.0, le=0.9)
 
     @model_validator(mode="after")
     def _runs_forwards(self) -> Self:
@@ -72,10 +78,10 @@ class Spall(FlankFault):
 
 
 class Wear(FlankFault):
-    """A flank worn by `depth` all over, which adds to the backlash while it carries alone."""
+    """A uniformly worn flank, which increases the backlash while it alone is in contact."""
 
     kind: Literal["wear"] = Field(description="a worn flank")
-    depth: float = quantity("m", "missing material, on the line of action", gt=0.0, le=1e-3)
+    depth: float = quantity("m", "worn depth along the line of action", gt=0.0, le=1e-3)
 
 
 def _kind(fault: object) -> object:

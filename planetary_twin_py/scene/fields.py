@@ -1,4 +1,4 @@
-"""The fields of a scene as its schema has them: name, unit, default, range, meaning."""
+"""The fields of a scene from its schema: name, unit, default, range and meaning."""
 
 from __future__ import annotations
 
@@ -13,37 +13,37 @@ from .scene import Scene
 
 REQUIRED = "required"
 NONE = "none"
-NUMBER = "N"  # in a name: which of several, from 0
+NUMBER = "N"  # in a name: index in a list, from 0
 
 
 class SceneField(NamedTuple):
-    """A field in words."""
+    """Description of a field."""
 
     name: str
-    """Dotted, as `Scene.replace` and `--set` take it."""
+    """Dotted, as in `Scene.replace` and `--set`."""
     unit: str
-    """"-" of a pure number, empty of what is no number."""
+    """"-" for a dimensionless number, empty for other types."""
     default: str
     """In SI, or "required", or "none"."""
     range: str
-    """An interval, whose round bracket leaves the end out; or the choices, or what it holds."""
+    """An interval, whose round bracket excludes the end; or the choices, or the contents."""
     meaning: str
 
 
 class SceneSection(NamedTuple):
-    """A section of a scene with its own fields, sections below it named among them."""
+    """A section of a scene with its fields, including subsections."""
 
     name: str
     """Dotted; empty for the scene itself."""
     kind: str
-    """Of those sections of which a place takes several kinds, else empty."""
+    """Kind of the section if several kinds are allowed there, else empty."""
     meaning: str
-    """Paragraphs of the schema's text, lines folded."""
+    """Docstring of the section."""
     fields: tuple[SceneField, ...]
 
 
 def scene_sections() -> Iterator[SceneSection]:
-    """All sections of a scene, each before those below it."""
+    """All sections of a scene, each before its subsections."""
     yield from _sections("", "", Scene)
 
 
@@ -94,7 +94,7 @@ def _range(field: FieldInfo) -> str:
 
 
 def _lengths(field: FieldInfo) -> tuple[int, int] | None:
-    """Fewest and most values of a field that holds several."""
+    """Minimum and maximum length of a list; None for other fields."""
     most = [item.max_length for item in field.metadata if hasattr(item, "max_length")]
     fewest = [item.min_length for item in field.metadata if hasattr(item, "min_length")]
     return (max(fewest, default=0), min(most)) if most else None

@@ -1,4 +1,4 @@
-"""What the gears are: teeth, sizes, inertia, positions."""
+"""The gearset: teeth, dimensions, inertia and planet positions."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ class ToothNumbers(Section):
 
 
 class EquivalentMasses(Section):
-    """J/r^2 with the pitch radius; with the radius of the planet centres for the carrier."""
+    """J/r^2 with the pitch radius; for the carrier with the radius of the planet centres."""
 
     sun: float = quantity("kg", "J/r^2 of the sun", gt=0.0, le=1e6)
     planet: float = quantity("kg", "J/r^2 of one planet", gt=0.0, le=1e6)
@@ -35,8 +35,8 @@ class EquivalentMasses(Section):
 class Gearset(Section):
     """Geometry and inertia of a simple planetary gearset of standard gears.
 
-    Module and pressure angle are those of the transverse plane. The helix angle counts in natural
-    modes in space; else helical gears run as spur gears do whose stiffness varies less.
+    Module and pressure angle are those of the transverse plane. Only the spatial natural modes use
+    the helix angle; in simulations helical gears are spur gears of the transverse section.
     """
 
     teeth: ToothNumbers = Field(description="tooth numbers")
@@ -45,17 +45,19 @@ class Gearset(Section):
         "rad", "pressure angle, in the transverse plane", ge=0.15, le=0.6
     )
     helix_angle: float = quantity(
-        "rad", "on the pitch circle, positive for a right-hand sun", 0.0, ge=-0.8, le=0.8
+        "rad",
+        "helix angle on the pitch circle, positive for a right-hand sun",
+        0.0,
+        ge=-0.8,
+        le=0.8,
     )
     addendum: float = quantity("", "addendum in modules", 1.0, gt=0.0, le=1.5)
     face_width: float = quantity("m", "face width", gt=0.0, le=5.0)
     planet_angles: tuple[float, ...] = quantity(
-        "rad", "positions of the planets on the carrier, one each", min_length=2, max_length=7
+        "rad", "angular positions of the planets on the carrier", min_length=2, max_length=7
     )
-    held: Held = Field(
-        "carrier", description="member held fast; none: a differential with two inputs"
-    )
-    equivalent_mass: EquivalentMasses = Field(description="moments of inertia over r^2")
+    held: Held = Field("carrier", description="fixed member; none: a differential with two inputs")
+    equivalent_mass: EquivalentMasses = Field(description="moments of inertia divided by r^2")
     planet_mass: float = quantity("kg", "mass of one planet", gt=0.0, le=1e6)
 
     @property
@@ -65,7 +67,7 @@ class Gearset(Section):
 
     @property
     def tooth_numbers(self) -> Teeth:
-        """Tooth numbers as the kinematics takes them."""
+        """Tooth numbers as a tuple."""
         return Teeth(self.teeth.sun, self.teeth.planet, self.teeth.ring)
 
     @model_validator(mode="after")
@@ -73,7 +75,7 @@ class Gearset(Section):
         sun, planet, ring = self.tooth_numbers
         if ring != sun + 2 * planet:
             raise ValueError(
-                f"teeth = {sun}/{planet}/{ring}: standard gears share their axes only if "
+                f"teeth = {sun}/{planet}/{ring}: standard gears are coaxial only if "
                 f"ring = sun + 2 planet = {sun + 2 * planet}"
             )
         size = Size(self.tooth_numbers, self.module, self.addendum)

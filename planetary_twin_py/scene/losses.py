@@ -1,4 +1,4 @@
-"""Losses outside the tooth contacts: bearings, seals and grease, and oil that is churned."""
+"""Losses outside the tooth contacts: bearings, seals and grease, and oil churning."""
 
 from __future__ import annotations
 
@@ -13,12 +13,14 @@ class Bearing(Section):
     """Friction of a rolling bearing by Palmgren's two coefficients."""
 
     mean_diameter: float = quantity("m", "pitch diameter dm", gt=0.0, le=10.0)
-    f0: float = quantity("", "of the friction without load", 2.0, ge=0.0, le=100.0)
-    f1: float = quantity("", "of the friction by load, M1 = f1 F dm", 5e-4, ge=0.0, le=0.1)
+    f0: float = quantity("", "coefficient of load-independent friction", 2.0, ge=0.0, le=100.0)
+    f1: float = quantity(
+        "", "coefficient of load-dependent friction, M1 = f1 F dm", 5e-4, ge=0.0, le=0.1
+    )
 
 
 class Drag(Section):
-    """Drag torque of a member in the housing that no load changes: seals, grease, preload.
+    """Load-independent drag torque of a member in the housing: seals, grease, preload.
 
     coulomb + viscous |w|, against the rotation: the friction model of a joint in robotics
     (Armstrong-Helouvry, Dupont and Canudas de Wit 1994, Automatica 30, 1083-1138).
@@ -31,13 +33,15 @@ class Drag(Section):
 
 
 class Churning(Section):
-    """Members that turn as discs in a housing with oil and air."""
+    """Oil churning: members that rotate as discs in a housing with oil and air."""
 
-    fill: float = quantity("", "share of oil in the housing, by volume", gt=0.0, le=1.0)
-    gap: float = quantity("m", "between a disc and the wall of the housing", gt=0.0, le=1.0)
-    sun: float | None = quantity("m", "radius of its disc; none: not churning", None, gt=0.0, le=10)
-    ring: float | None = quantity("m", "radius of its disc", None, gt=0.0, le=10.0)
-    carrier: float | None = quantity("m", "radius of its disc", None, gt=0.0, le=10.0)
+    fill: float = quantity("", "volume fraction of oil in the housing", gt=0.0, le=1.0)
+    gap: float = quantity("m", "gap between a disc and the wall of the housing", gt=0.0, le=1.0)
+    sun: float | None = quantity(
+        "m", "radius of the sun's disc; none: no churning", None, gt=0.0, le=10
+    )
+    ring: float | None = quantity("m", "radius of the ring's disc", None, gt=0.0, le=10.0)
+    carrier: float | None = quantity("m", "radius of the carrier's disc", None, gt=0.0, le=10.0)
 
     @model_validator(mode="after")
     def _something_churns(self) -> Self:
@@ -47,13 +51,17 @@ class Churning(Section):
 
 
 class Losses(Section):
-    """What is not given does not resist."""
+    """Losses outside the tooth contacts; those that are not given are zero."""
 
-    planet_bearing: Bearing | None = Field(None, description="of every planet on the carrier")
-    sun_bearing: Bearing | None = Field(None, description="of the sun in the housing")
-    ring_bearing: Bearing | None = Field(None, description="of the ring in the housing")
-    carrier_bearing: Bearing | None = Field(None, description="of the carrier in the housing")
-    sun_drag: Drag = Field(Drag(), description="of the sun, whatever the load")
-    ring_drag: Drag = Field(Drag(), description="of the ring, whatever the load")
-    carrier_drag: Drag = Field(Drag(), description="of the carrier, whatever the load")
-    churning: Churning | None = Field(None, description="members that turn in oil")
+    planet_bearing: Bearing | None = Field(
+        None, description="bearing of every planet on the carrier"
+    )
+    sun_bearing: Bearing | None = Field(None, description="bearing of the sun in the housing")
+    ring_bearing: Bearing | None = Field(None, description="bearing of the ring in the housing")
+    carrier_bearing: Bearing | None = Field(
+        None, description="bearing of the carrier in the housing"
+    )
+    sun_drag: Drag = Field(Drag(), description="load-independent drag of the sun")
+    ring_drag: Drag = Field(Drag(), description="load-independent drag of the ring")
+    carrier_drag: Drag = Field(Drag(), description="load-independent drag of the carrier")
+    churning: Churning | None = Field(None, description="oil churning")

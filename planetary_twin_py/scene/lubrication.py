@@ -1,4 +1,4 @@
-"""Oil, surfaces, and the laws of their friction."""
+"""Oil, surfaces and friction laws."""
 
 from __future__ import annotations
 
@@ -10,26 +10,27 @@ from .quantity import Section, quantity
 
 
 class Lubrication(Section):
-    """Oil, surfaces, and the choice of laws for film, lambda ratio and friction.
+    """Oil, surfaces, and laws for film thickness, lambda ratio and friction.
 
     Printed forms are those of Salagianni et al. 2017: asperity functions of the appendix,
-    traction (12) without thermal coefficient and without a floor, one modulus E' in (11) to (15).
+    traction (12) without thermal coefficient and lower limit, one modulus E' in (11) to (15).
     """
 
     friction: bool = Field(True, description="tooth friction on or off")
     friction_torque: Literal["sliding", "printed"] = Field(
         "sliding",
-        description="sliding: -f dVs/dw, takes f Vs; printed: P/w, Salagianni et al. (17)-(20)",
+        description="sliding: -f dVs/dw, dissipates f Vs; printed: P/w, Salagianni (17)-(20)",
     )
     film: Literal["dowson_higginson", "dowson_toyoda", "salagianni"] = Field(
-        "dowson_higginson", description="law of the film thickness; salagianni: their (15)"
+        "dowson_higginson",
+        description="law of the film thickness; salagianni: (15) of Salagianni et al.",
     )
     lambda_ratio: Literal["prescribed", "computed"] = Field(
         "computed",
-        description="prescribed: that of the operating point; computed: film/composite roughness",
+        description="prescribed: by the operating point; computed: film/composite roughness",
     )
     asperities: Literal["exact", "printed"] = Field(
-        "exact", description="functions F_2, F_5/2; printed: the polynomials of the appendix"
+        "exact", description="functions F_2, F_5/2; printed: polynomials of the paper's appendix"
     )
     boundary: Literal["greenwood_tripp", "load_sharing"] = Field(
         "load_sharing", description="law of boundary friction"
@@ -37,8 +38,8 @@ class Lubrication(Section):
     traction: Literal["eyring", "evans_johnson", "printed", "schlenk"] = Field(
         "eyring",
         description="law of viscous friction; eyring: shear-thinning film up to its limiting "
-        "stress; evans_johnson: plateau under a heavy load; printed: their (12); "
-        "schlenk: regression of gear losses, boundary friction included",
+        "stress; evans_johnson: plateau under heavy load; printed: (12) of Salagianni et al.; "
+        "schlenk: regression of gear losses, includes boundary friction",
     )
     modulus: Literal["by_equation", "printed"] = Field(
         "by_equation", description="by_equation: E* in (11), 2 E* in (13) and (15)"
@@ -53,7 +54,7 @@ class Lubrication(Section):
         le=10.0,
     )
     reference_temperature: float = quantity(
-        "K", "temperature at which the oil has that viscosity", 343.15, ge=233.15, le=433.15
+        "K", "temperature to which `viscosity` refers", 343.15, ge=233.15, le=433.15
     )
     viscosity_slope: float = quantity(
         "",
@@ -69,7 +70,7 @@ class Lubrication(Section):
     temperature_viscosity: float = quantity("1/K", "thermal coefficient", 0.04, gt=0.0, le=1.0)
     shear_stress: float = quantity("Pa", "Eyring stress", gt=0.0, le=1e9)
     limiting_stress: float = quantity(
-        "", "limiting shear stress of the oil over pressure, for eyring", 0.047, gt=0.0, le=0.2
+        "", "limiting shear stress/pressure of the oil, for eyring", 0.047, gt=0.0, le=0.2
     )
     oil_factor: float = quantity(
         "", "X_L of the oil, 1 for mineral oil, for schlenk", 1.0, gt=0.0, le=2.0
@@ -94,7 +95,9 @@ class Lubrication(Section):
     boundary_coefficient: float = quantity(
         "", "friction coefficient without a film, for load sharing", 0.11, ge=0.0, le=1.0
     )
-    composite_roughness: float = quantity("m", "sigma of both flanks", 2e-7, gt=0.0, le=1e-4)
+    composite_roughness: float = quantity(
+        "m", "composite roughness sigma of both flanks", 2e-7, gt=0.0, le=1e-4
+    )
     sliding_threshold: float = quantity(
         "",
         "slide-to-roll ratio at which traction reaches tanh(1) of its plateau",
@@ -104,7 +107,7 @@ class Lubrication(Section):
     )
     presliding_displacement: float = quantity(
         "m",
-        "by which flanks that stand still yield before they slide (static friction)",
+        "presliding displacement of static friction: elastic displacement before flanks slide",
         5e-7,
         ge=1e-9,
         le=1e-4,

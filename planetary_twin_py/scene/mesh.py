@@ -1,4 +1,4 @@
-"""How teeth touch along the line of action: stiffness, damping, backlash, errors of form."""
+"""The mesh along the line of action: stiffness, damping, backlash and transmission error."""
 
 from __future__ import annotations
 
@@ -9,11 +9,11 @@ from pydantic import Field, model_validator
 
 from .quantity import Section, quantity
 
-LARGEST_ERROR = 1e-3  # [m] an error of form beyond it is not one of a tooth
+LARGEST_ERROR = 1e-3  # [m], beyond plausible form errors of a tooth
 
 
 class MeshDamping(Section):
-    """Damping c = tau k of a mesh in every state of contact.
+    """Damping c = tau k of a mesh, proportional to its present stiffness k.
 
     "meshing_frequency": tau = loss_factor/f_m, f_m not below `lowest_frequency` (Salagianni et
     al. 2017, section 3, whose printed law is unbounded at standstill).
@@ -25,7 +25,7 @@ class MeshDamping(Section):
 
     law: Literal[
         "meshing_frequency", "printed_meshing_frequency", "natural_frequency", "viscous"
-    ] = Field("viscous", description="what tau follows from")
+    ] = Field("viscous", description="law of tau")
     damping_ratio: float = quantity(
         "", "damping ratio of one mesh, for law: viscous", 0.05, ge=0.0, le=2.0
     )
@@ -33,21 +33,22 @@ class MeshDamping(Section):
         "", "tau times frequency, for the other laws", 0.009, ge=0.0, le=1.0
     )
     lowest_frequency: float = quantity(
-        "Hz", "meshing frequency below which the law no longer follows it", 5.0, gt=0.0, le=1e4
+        "Hz", "lower limit of the mesh frequency in the law", 5.0, gt=0.0, le=1e4
     )
 
     @property
     def follows_speed(self) -> bool:
-        """Whether the damping changes with the meshing frequency."""
+        """Whether the damping depends on the mesh frequency."""
         return self.law in ("meshing_frequency", "printed_meshing_frequency")
 
 
 class TransmissionError(Section):
-    """Static transmission error of a mesh: harmonics of the meshing frequency.
+    """Static transmission error of a mesh: harmonics of the mesh frequency.
 
-    e = sum of a_n sin(2 pi n x + p_n) over n = 1, 2, ..., x the mesh cycles since a pair was at
-    the pitch point. A mesh is squeezed by |d - e| - B/2, d the DTE: positive e is material that is
-    missing on the drive flanks, and in excess on the coast flanks: the play stays the same.
+    e = sum of a_n sin(2 pi n x + p_n) over n = 1, 2, ..., with x the mesh cycles since a pair was
+    at the pitch point. The mesh deflection is |d - e| - B/2, with d the DTE: positive e is missing
+    material on the drive flanks, and excess material on the coast flanks; the backlash does not
+    change.
     """
 
     amplitudes: tuple[float, ...] = quantity(
@@ -58,7 +59,7 @@ class TransmissionError(Section):
         max_length=4,
     )
     phases: tuple[float, ...] = quantity(
-        "rad", "phases of the same; none: all zero", (), max_length=4
+        "rad", "phases of these harmonics; none: all zero", (), max_length=4
     )
 
     @model_validator(mode="after")
@@ -77,12 +78,13 @@ class TransmissionError(Section):
 
 
 class Runout(Section):
-    """Eccentricity of the gears on their bearings, which returns with every turn.
+    """Eccentricity of the gears, which repeats with every turn.
 
-    Each adds its size times a sine of the gear's turn to the error of form e, with the sign of
-    `sun_planet_error` and `planet_ring_error`. The sine leans by the pressure angle phi, on the
-    coast flanks the other way: the play changes by up to 2 sin(phi) times the size. A scene is
-    refused in which that presses both flanks of a tooth, under the static load or half of it.
+    Each adds the eccentricity times the sine of the gear's angle to the error e, with the sign of
+    `sun_planet_error` and `planet_ring_error`. The phase of the sine is shifted by the pressure
+    angle phi, with opposite signs on drive and coast flanks: the backlash changes by up to
+    2 sin(phi) times the eccentricity. A scene is refused if both flanks of a tooth would touch
+    under half of the static load.
     """
 
     sun: float = quantity("m", "eccentricity of the sun", 0.0, ge=0.0, le=1e-2)
@@ -91,40 +93,40 @@ class Runout(Section):
 
 
 class ToothCompliance(Section):
-    """How the stiffness of a pair of teeth is computed from their geometry.
+    """Computation of the stiffness of a tooth pair from its geometry.
 
-    Contact "weber_banaschek": local approach at the load of the scene's operating point.
-    "yang_sun": the constant of much of the literature, which leaves most of that out.
+    Contact "weber_banaschek": contact deformation at the load of the operating point.
+    "yang_sun": the constant compliance of much of the literature, which neglects most of it.
     """
 
     contact: Literal["weber_banaschek", "yang_sun"] = Field(
-        "weber_banaschek", description="law of the contact's own compliance"
+        "weber_banaschek", description="law of the contact compliance"
     )
     hub: float = quantity(
-        "", "radius at which sun and planets are held, over their root radius", 0.5, ge=0.1, le=0.95
+        "", "radius at which sun and planets are clamped/root radius", 0.5, ge=0.1, le=0.95
     )
     rim: float = quantity(
-        "", "radius at which the ring is held, over its root radius", 1.2, ge=1.02, le=5.0
+        "", "radius at which the ring is clamped/root radius", 1.2, ge=1.02, le=5.0
     )
 
 
 class Mesh(Section):
     """Stiffness, damping, backlash and errors along the line of action.
 
-    Stiffness "given": by the numbers below. With `double_pair_ratio` 1 it is constant, with `ramp`
-    0 it alternates at once. "involute": computed from the teeth for every position of a pair,
-    two pairs standing on one gear body.
+    Stiffness "given": by the fields below; constant with `double_pair_ratio` 1, a step function
+    with `ramp` 0. "involute": computed from the tooth geometry for every position of a pair; two
+    pairs share one gear body.
 
-    Backlash "dead_zone": F = k (DTE - B/2), B the backlash. "regulatory_factor": F = k DTE
-    beyond B and none within, the printed form of Salagianni et al. 2017, (2)-(5), which jumps.
+    Backlash "dead_zone": F = k (DTE - B/2), with B the backlash. "regulatory_factor": F = k DTE
+    for |DTE| > B, else 0; the discontinuous printed form of Salagianni et al. 2017, (2)-(5).
 
-    Motion "line_of_action": stiffness and backlash refer to the DTE along it. "pitch_arc": to
-    that along the pitch circles, as their (2) and (3) print it, so the mesh is 1/cos(phi) stiffer.
-    Results are along the line of action in any case.
+    Motion "line_of_action": stiffness and backlash refer to the DTE along the line of action.
+    "pitch_arc": they refer to the DTE along the pitch circles, as in (2) and (3) of Salagianni et
+    al., so the mesh is stiffer by 1/cos(phi). Results are along the line of action in both cases.
     """
 
     stiffness: Literal["given", "involute"] = Field(
-        "given", description="given: by numbers; involute: computed from the teeth"
+        "given", description="given: by fields; involute: computed from the tooth geometry"
     )
     sun_planet_stiffness: float | None = quantity(
         "N/m", "stiffness of a single tooth pair; for stiffness: given", None, ge=1e3, le=1e13
@@ -133,24 +135,26 @@ class Mesh(Section):
         "N/m", "stiffness of a single tooth pair; for stiffness: given", None, ge=1e3, le=1e13
     )
     double_pair_ratio: float = quantity(
-        "", "stiffness of two pairs over that of one", 1.75, ge=1.0, le=2.0
+        "", "stiffness of two pairs/stiffness of one pair", 1.75, ge=1.0, le=2.0
     )
     ramp: float = quantity(
-        "", "base pitches over which a pair takes up its load; 0: at once", 0.03, ge=0.0, le=0.2
+        "", "base pitches over which a pair takes up its load; 0: a step", 0.03, ge=0.0, le=0.2
     )
     backlash: Literal["dead_zone", "regulatory_factor"] = Field(
-        "dead_zone", description="law of the force near the play"
+        "dead_zone", description="backlash law"
     )
     motion: Literal["line_of_action", "pitch_arc"] = Field(
-        "line_of_action", description="what stiffness and backlash refer to"
+        "line_of_action", description="direction to which stiffness and backlash refer"
     )
-    tooth: ToothCompliance = Field(ToothCompliance(), description="for stiffness: involute")
+    tooth: ToothCompliance = Field(
+        ToothCompliance(), description="tooth compliance, for stiffness: involute"
+    )
     damping: MeshDamping = Field(MeshDamping(), description="damping of a mesh")
     sun_planet_error: TransmissionError = Field(
-        TransmissionError(), description="error of form of every sun-planet mesh"
+        TransmissionError(), description="static transmission error of every sun-planet mesh"
     )
     planet_ring_error: TransmissionError = Field(
-        TransmissionError(), description="error of form of every planet-ring mesh"
+        TransmissionError(), description="static transmission error of every planet-ring mesh"
     )
     runout: Runout = Field(Runout(), description="eccentricities of the gears")
 
@@ -159,7 +163,7 @@ class Mesh(Section):
         if self.stiffness == "given":
             for name in ("sun_planet_stiffness", "planet_ring_stiffness"):
                 if getattr(self, name) is None:
-                    raise ValueError(f"{name}: missing; or choose stiffness: involute")
+                    raise ValueError(f"{name}: missing; give it, or set stiffness: involute")
         return self
 
     def flanks(self, backlash: float, pressure_angle: float) -> tuple[float, float]:

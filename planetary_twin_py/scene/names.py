@@ -1,30 +1,30 @@
-"""Names that a mistyped one may be meant for."""
+"""Suggestions for mistyped names."""
 
 from __future__ import annotations
 
 from collections.abc import Iterable
 from difflib import get_close_matches
 
-NEAR = 0.7  # likeness by difflib, below which names share little more than some letters
+NEAR = 0.7  # similarity by difflib below which a name is not suggested
 _MOST = 3
 
 
 def no_such_field(name: str, known: Iterable[str]) -> str:
-    """The refusal of `name`, which is none of the `known`."""
+    """Error message for `name`, which is not one of the `known` names."""
     return f"{name}: no such field{did_you_mean(name, known)}"
 
 
 def did_you_mean(name: str, known: Iterable[str]) -> str:
-    """The `known` names near to `name`, as the end of a refusal; empty where none is near."""
+    """Suggestion of similar `known` names, to append to an error message; empty if none."""
     near = nearest(name, known)
     return f"; did you mean {' or '.join(near)}?" if near else ""
 
 
 def nearest(name: str, known: Iterable[str]) -> list[str]:
-    """The `known` names near to `name`.
+    """The `known` names similar to `name`.
 
-    Names are compared without the sections they are in, which all fields of a section share:
-    viscosity is near to lubrication.viscosity, mesh.colour to no other field of a mesh.
+    Names are compared without their sections, which all fields of a section share: viscosity is
+    similar to lubrication.viscosity, but mesh.colour is not similar to other fields of mesh.
     """
     places: dict[str, list[str]] = {}
     for path in known:

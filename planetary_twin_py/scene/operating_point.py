@@ -1,4 +1,4 @@
-"""What may change while the twin runs."""
+"""The operating point: quantities that may change while the twin runs."""
 
 from __future__ import annotations
 
@@ -9,27 +9,25 @@ from .quantity import Section, bounds, quantity, unit_of, within
 
 
 class OperatingPoint(Section):
-    """Set-points and state of wear; every field can be changed at any simulated instant.
+    """Set-points and wear; every field can be changed at any simulated time.
 
-    A scene's drive narrows the ranges of speeds and torques: see `Scene.tunables`.
+    The drive of a scene limits speeds and torques further: see `Scene.tunables`.
     """
 
-    backlash: float = quantity(
-        "m", "total play between the flanks, along the line of action", ge=0.0, le=1e-3
-    )
+    backlash: float = quantity("m", "total backlash along the line of action", ge=0.0, le=1e-3)
     lambda_ratio: float = quantity(
         "",
-        "specific film thickness (film/composite roughness); in use where the scene prescribes it",
+        "specific film thickness (film/composite roughness), if the scene prescribes it",
         1.0,
         ge=0.0,
         le=10.0,
     )
     oil_temperature: float = quantity(
-        "K", "temperature of the oil, on which its viscosity depends", 343.15, ge=233.15, le=433.15
+        "K", "oil temperature, which determines the viscosity", 343.15, ge=233.15, le=433.15
     )
     input_speed: float = quantity(
         "rad/s",
-        "speed set-point of the motor, reached at the drive's slew rate",
+        "speed set-point of the motor, approached at the slew rate of the drive",
         ge=-1e5,
         le=1e5,
     )
@@ -44,7 +42,7 @@ class OperatingPoint(Section):
         "N m", "mean torque of the motor in steady running", ge=-1e9, le=1e9
     )
     torque_ripple: float = quantity(
-        "N m", "amplitude of the motor's torque fluctuation", 0.0, ge=0.0, le=1e9
+        "N m", "amplitude of the motor's torque ripple", 0.0, ge=0.0, le=1e9
     )
 
 
@@ -59,11 +57,11 @@ class Tunable(NamedTuple):
 
     @property
     def range(self) -> str:
-        """The range in words."""
+        """Description of the range."""
         return within(self.minimum, self.maximum, self.unit)
 
     def within(self, limit: float) -> Tunable:
-        """The same with no larger magnitudes than `limit`."""
+        """The same, limited to magnitudes of at most `limit`."""
         return self._replace(minimum=max(self.minimum, -limit), maximum=min(self.maximum, limit))
 
 

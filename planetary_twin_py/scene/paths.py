@@ -1,4 +1,4 @@
-"""Dotted paths into a scene: through sections, through lists by number, into optional sections."""
+"""Dotted paths into a scene: through sections, list entries and optional sections."""
 
 from __future__ import annotations
 
@@ -9,28 +9,28 @@ from .quantity import Section, sections_in
 
 
 class NoSuchPath(LookupError):
-    """A path that leads nowhere; its message is empty where a name is not that of a field."""
+    """A path that does not exist; the message is empty if a name is not that of a field."""
 
 
 def put(
     data: Any, kinds: Sequence[type[Section]], path: Sequence[str], value: Any, above: str = ""
 ) -> Any:
-    """A copy of plain data with another value at `path`.
+    """Copy plain data with another value at `path`.
 
-    An optional section that is not given begins empty, so that several changes can make it whole.
+    An optional section that is missing is created empty, so that several changes can fill it.
 
     Args:
-        data: what the path begins at: the mapping of a section, or a list.
-        kinds: sections that may stand there, or in the list.
-        path: names of fields, and numbers of entries, counted from 0.
-        value: what to put there.
-        above: dotted path of `data` itself, for the message of an error.
+        data: mapping of a section, or a list, where the path starts.
+        kinds: sections that `data`, or the entries of the list, may be.
+        path: names of fields, and indices of entries, counted from 0.
+        value: new value.
+        above: dotted path of `data`, for error messages.
 
     Returns:
         The changed copy.
 
     Raises:
-        NoSuchPath: a field of this name, or an entry of this number, does not exist.
+        NoSuchPath: a field or an entry does not exist.
     """
     name, *rest = path
     inside = f"{above}.{name}".removeprefix(".")
@@ -58,14 +58,14 @@ def _entry(data: Sequence[Any], name: str, above: str) -> int:
 
 
 def paths(data: Any) -> Iterator[str]:
-    """Dotted names of all fields and entries below plain data, those above before those below."""
+    """Dotted names of all fields and entries of plain data, parents first."""
     for name, inner in _entries(data):
         yield name
         yield from (f"{name}.{path}" for path in paths(inner))
 
 
 def leaves(data: Any) -> Iterator[tuple[str, Any]]:
-    """Dotted names and values below plain data that have nothing below them."""
+    """Dotted names and values of plain data that are neither mappings nor lists."""
     for name, inner in _entries(data):
         if isinstance(inner, (dict, list, tuple)):
             yield from ((f"{name}.{path}", value) for path, value in leaves(inner))

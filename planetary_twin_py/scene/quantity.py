@@ -1,4 +1,4 @@
-"""Scene fields with a unit, a meaning and a range."""
+"""Scene fields with unit, description and range."""
 
 from __future__ import annotations
 
@@ -12,20 +12,20 @@ from pydantic.fields import FieldInfo
 from ..printable import one_line
 from ..units import UnitError, to_si
 
-_MOST_LINES = 30  # of a message, and characters of a line
-_LONGEST_LINE = 400
+_MOST_LINES = 30  # of a message
+_LONGEST_LINE = 400  # characters
 
 
 class SceneError(ValueError):
-    """A scene that cannot be.
+    """An invalid scene.
 
-    A line names the field, the value and the allowed range. Several errors are a heading and such a
-    line each.
+    The message is a line with the field, the value and the allowed range, or, for several errors,
+    a heading and a line each.
     """
 
 
 def listed(errors: Sequence[str]) -> str:
-    """Message of one or more errors, each a line; of very many, the first."""
+    """Message of one or more errors, a line each; very long lists are truncated."""
     if len(errors) == 1:
         return one_line(errors[0], _LONGEST_LINE)
     lines = [one_line(error, _LONGEST_LINE) for error in errors[:_MOST_LINES]]
@@ -35,7 +35,7 @@ def listed(errors: Sequence[str]) -> str:
 
 
 class Section(BaseModel):
-    """Part of a scene: immutable, strict about names it does not know, SI inside."""
+    """Part of a scene: immutable, in SI, rejects unknown names."""
 
     model_config = ConfigDict(frozen=True, extra="forbid", allow_inf_nan=False)
 
@@ -44,7 +44,7 @@ class Section(BaseModel):
     def _units_at_the_edge(cls, value: object, info: ValidationInfo) -> object:
         field = cls.model_fields[info.field_name or ""]
         if isinstance(value, bool) and field.annotation is not bool:
-            raise ValueError("must not be true or false")  # which Python takes for 1 and 0
+            raise ValueError("must not be true or false")  # Python would convert them to 1 and 0
         unit = unit_of(field)
         if unit is None:
             return value
@@ -56,7 +56,17 @@ class Section(BaseModel):
 
 
 def quantity(unit: str, description: str, default: Any = ..., **limits: Any) -> Any:
-    """Field in `unit` with pydantic limits (ge, gt, le, lt)."""
+    """Make a field of a section.
+
+    Args:
+        unit: SI unit; empty for a dimensionless number.
+        description: of the quantity.
+        default: in SI; `...` for a required field.
+        limits: ge, gt, le and lt of pydantic, in SI.
+
+    Returns:
+        A pydantic field.
+    """
     return Field(default, description=description, json_schema_extra={"unit": unit}, **limits)
 
 
@@ -71,14 +81,14 @@ def _is_list(field: FieldInfo) -> bool:
 
 
 def sections_in(kind: Any) -> list[type[Section]]:
-    """Sections that a field of this type may hold."""
+    """Sections that a field of this type may contain."""
     if isinstance(kind, type) and issubclass(kind, Section):
         return [kind]
     return [section for part in get_args(kind) for section in sections_in(part)]
 
 
 def bounds(field: FieldInfo) -> tuple[float, float]:
-    """Smallest and largest value a field admits."""
+    """Smallest and largest allowed value of a field."""
     low, high = -math.inf, math.inf
     for item in field.metadata:
         low = max(low, getattr(item, "ge", -math.inf), getattr(item, "gt", -math.inf))
@@ -87,5 +97,5 @@ def bounds(field: FieldInfo) -> tuple[float, float]:
 
 
 def within(low: float, high: float, unit: str) -> str:
-    """A range in words."""
+    """Description of a range."""
     return f"must be a number within {low:g} and {high:g} {unit}".rstrip()

@@ -1,4 +1,4 @@
-"""A scene: everything a run needs, from a packaged name or a YAML file."""
+"""A scene: everything that a run needs, packaged or from a YAML file."""
 
 from __future__ import annotations
 
@@ -25,8 +25,8 @@ from .quantity import SceneError, Section, listed
 from .supports import Supports
 from .yaml_text import LONGEST, read_yaml
 
-SPECIFIC_STIFFNESS = 2e10  # [Pa], of a mesh along the face (ISO 6336-1, 20 N/(mm um))
-_LIMITS = {  # fields of the drive that bound a quantity
+SPECIFIC_STIFFNESS = 2e10  # [Pa], of a mesh per face width (ISO 6336-1, 20 N/(mm um))
+_LIMITS = {  # fields of the drive that limit a quantity
     "input_speed": "speed_limit",
     "second_input_speed": "speed_limit",
     "input_torque": "torque_limit",
@@ -35,23 +35,25 @@ _LIMITS = {  # fields of the drive that bound a quantity
 
 
 class Scene(Section):
-    """A gearset, its laws, its drive and the point it runs at."""
+    """A gearset with its laws, its drive and its operating point."""
 
-    name: str = Field(description="what recordings and pictures call it")
-    description: str = Field("", description="what it is, in words")
+    name: str = Field(description="name in recordings and pictures")
+    description: str = Field("", description="description in words")
     dynamics: Literal["torsional", "quasi_static"] = Field(
         "torsional",
-        description="torsional: all bodies are free to vibrate; quasi_static: the train turns "
-        "rigidly and its loads are in static equilibrium at every instant",
+        description="torsional: all bodies vibrate; quasi_static: the train turns rigidly and its "
+        "loads are in static equilibrium at every time",
     )
-    gearset: Gearset = Field(description="what the gears are")
-    mesh: Mesh = Field(description="how the teeth touch")
-    lubrication: Lubrication = Field(description="oil, surfaces and laws of friction")
-    drive: Drive = Field(description="what drives, and what is driven")
-    operating_point: OperatingPoint = Field(description="what may change while the twin runs")
+    gearset: Gearset = Field(description="teeth, dimensions and inertia of the gears")
+    mesh: Mesh = Field(description="stiffness, damping and backlash of the meshes")
+    lubrication: Lubrication = Field(description="oil, surfaces and friction laws")
+    drive: Drive = Field(description="motors, load and speed control")
+    operating_point: OperatingPoint = Field(
+        description="quantities that may change while the twin runs"
+    )
     losses: Losses = Field(Losses(), description="losses outside the tooth contacts")
     supports: Supports | None = Field(
-        None, description="masses and bearings, for natural modes in which axes move"
+        None, description="masses and bearings, for planar and spatial natural modes"
     )
     faults: tuple[Fault, ...] = Field((), max_length=MOST_FAULTS, description="faulty teeth")
 
@@ -62,21 +64,21 @@ class Scene(Section):
         return self
 
     def _machines(self) -> Iterator[str]:
-        """Errors of the drive: the held member is free of machines, a differential has two."""
+        """Errors of the drive: a machine on the fixed member, or a wrong number of inputs."""
         held = self.gearset.held
         for side in ("input", "second_input", "output"):
             machine = getattr(self.drive, side)
             if machine is not None and machine.member == held:
-                yield f"drive.{side}.member = {machine.member!r}: the gearset holds it"
+                yield f"drive.{side}.member = {machine.member!r}: is fixed by gearset.held"
         if (self.drive.second_input is None) != (held != "none"):
-            needed = "needs" if held == "none" else "has no place for"
-            yield f"gearset.held = {held!r}: {needed} a drive.second_input"
+            needed = "requires" if held == "none" else "does not allow"
+            yield f"gearset.held = {held!r}: {needed} drive.second_input"
         if self.drive.second_input is None and self.operating_point.second_input_speed != 0.0:
             speed = self.operating_point.second_input_speed
-            yield f"second_input_speed = {speed!r}: must be 0, there is no second input"
+            yield f"second_input_speed = {speed!r}: must be 0 without a second input"
 
     def _limits(self) -> Iterator[str]:
-        """Errors of the operating point: it lies within the limits of the drive."""
+        """Errors of the operating point: values outside the limits of the drive."""
         for tunable in self.tunables.values():
             value = getattr(self.operating_point, tunable.name)
             if not tunable.minimum <= value <= tunable.maximum:
@@ -84,7 +86,7 @@ class Scene(Section):
                 yield f"{tunable.name} = {value!r}: {tunable.range}{why}"
 
     def _faulty_teeth(self) -> Iterator[str]:
-        """Errors of the faults: their teeth exist, and have a shape if that is needed."""
+        """Errors of the faults: missing teeth or planets, or a crack depth without geometry."""
         for n, fault in enumerate(self.faults):
             teeth = getattr(self.gearset.teeth, fault.gear)
             for name, last in (("tooth", teeth - 1), ("planet", self.gearset.planets)):
@@ -92,7 +94,10 @@ class Scene(Section):
                     value = getattr(fault, name)
                     yield f"faults.{n}.{name} = {value}: must be at most {last}"
             if isinstance(fault, Crack) and fault.depth and self.mesh.stiffness != "involute":
-                yield f"faults.{n}.depth: needs mesh.stiffness = involute; or give stiffness_loss"
+                yield (
+                    f"faults.{n}.depth: requires mesh.stiffness = involute; "
+                    "otherwise give stiffness_loss"
+                )
 
     def _play(self) -> Iterator[str]:
         """Error of a runout that presses both flanks of a tooth into their neighbours."""
@@ -125,7 +130,7 @@ class Scene(Section):
 
     @property
     def tunables(self) -> dict[str, Tunable]:
-        """What may change while this scene runs, each with its range."""
+        """Quantities that may change while this scene runs, with their ranges."""
         return {
             name: tunable.within(getattr(self.drive, _LIMITS[name])) if name in _LIMITS else tunable
             for name, tunable in TUNABLES.items()
@@ -133,22 +138,22 @@ class Scene(Section):
 
     @property
     def field_names(self) -> Iterator[str]:
-        """All fields there are, as `replace` takes them."""
+        """Names of all fields, as `replace` accepts them."""
         return (path.removeprefix("operating_point.") for path in paths(self.model_dump()))
 
     def replace(self, **changes: Any) -> Scene:
         """A copy with other values.
 
         Args:
-            changes: values by name. Names are those of the operating point (``backlash=3e-7``) or
-                dotted paths into the scene (``**{"mesh.ramp": 0.0, "faults.0.tooth": 3}``), also
-                into optional sections; texts with a unit are converted.
+            changes: values in SI, or texts with a unit, by name. Names are fields of the operating
+                point (``backlash=3e-7``) or dotted paths into the scene, including optional
+                sections (``**{"mesh.ramp": 0.0, "faults.0.tooth": 3}``).
 
         Returns:
             The changed scene.
 
         Raises:
-            SceneError: a name is unknown, or a value is out of its range.
+            SceneError: a name is unknown, or a value is out of range.
         """
         data, errors = self.model_dump(), []
         given: dict[tuple[str, ...], str] = {}
@@ -178,16 +183,22 @@ def _validated(data: Any) -> Scene:
 
 
 def packaged_scenes() -> tuple[str, ...]:
-    """Names of the scenes that come with the package."""
+    """Names of the scenes in the package, sorted."""
     folder = resources.files(__package__) / "packaged"
     return tuple(sorted(Path(f.name).stem for f in folder.iterdir() if f.name.endswith(".yaml")))
 
 
 def load_scene(name_or_path: str | Path) -> Scene:
-    """Load a packaged scene by its name, or a YAML file by its path.
+    """Load a scene.
+
+    Args:
+        name_or_path: name of a packaged scene, or path of a YAML file.
+
+    Returns:
+        The scene.
 
     Raises:
-        SceneError: there is no such scene, or a field in it is wrong.
+        SceneError: the scene does not exist, or a field is invalid.
     """
     if str(name_or_path) in packaged_scenes():
         text = (resources.files(__package__) / "packaged" / f"{name_or_path}.yaml").read_text()
@@ -197,12 +208,12 @@ def load_scene(name_or_path: str | Path) -> Scene:
 
 
 def _read(path: Path) -> str:
-    """The text of a file: no more of it than a scene may have, and nothing of a pipe."""
+    """Text of a regular file, up to the longest scene."""
     try:
         if path.exists() and not path.is_file():
             raise SceneError(f"scene = {str(path)!r}: must be a file")
         with path.open("rb") as stream:
-            return stream.read(4 * LONGEST + 1).decode()  # bytes of a character, at most
+            return stream.read(4 * LONGEST + 1).decode()  # a character has at most 4 bytes
     except UnicodeDecodeError as error:
         raise SceneError(
             f"scene = {str(path)!r}: must be in UTF-8, byte {error.start + 1} is not"
@@ -219,12 +230,17 @@ def _read(path: Path) -> str:
 
 
 def parse_scene(text: str) -> Scene:
-    """Read a scene from YAML text.
+    """Parse a scene.
 
-    A scene with a ``base``, the name of a packaged scene, says only where it differs from that.
+    Args:
+        text: YAML. With the key ``base``, the name of a packaged scene, it contains only the
+            differences from that scene.
+
+    Returns:
+        The scene.
 
     Raises:
-        SceneError: the text is no YAML mapping, gives a key twice, or a field in it is wrong.
+        SceneError: the text is not a YAML mapping, a key occurs twice, or a field is invalid.
     """
     data = read_yaml(text)
     if not isinstance(data, dict):
@@ -242,7 +258,7 @@ def parse_scene(text: str) -> Scene:
 
 
 def _overlaid(base: Any, changes: Any) -> Any:
-    """Mappings are merged, everything else is replaced."""
+    """`base` with `changes`: mappings are merged, other values are replaced."""
     if not isinstance(base, dict) or not isinstance(changes, dict):
         return changes
     return base | {name: _overlaid(base.get(name), value) for name, value in changes.items()}

@@ -1,4 +1,4 @@
-"""A scene in a few words, in the units that engineers use: a wrong unit shows here first."""
+"""Summary of a scene in customary units, in which a wrong unit is easy to notice."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from .scene import Scene
 
 
 def gears(scene: Scene) -> Iterator[str]:
-    """What the gears of a scene are, thing by thing, each with its unit."""
+    """Main dimensions of the gears, each with its unit."""
     gearset = scene.gearset
     teeth = gearset.teeth
     yield f"{teeth.sun}/{teeth.planet}/{teeth.ring} teeth"
@@ -20,11 +20,11 @@ def gears(scene: Scene) -> Iterator[str]:
         yield f"helix angle {customary(gearset.helix_angle, 'rad')}"
     for number, angle in enumerate(gearset.planet_angles, 1):
         yield f"planet {number} at {customary(angle, 'rad')}"
-    yield f"{gearset.held} held"
+    yield "differential" if gearset.held == "none" else f"{gearset.held} fixed"
 
 
 def operating_point(scene: Scene) -> Iterator[str]:
-    """What a scene runs at, thing by thing, each with its unit."""
+    """Set-points of a scene, each with its unit."""
     point = scene.operating_point
     yield f"input speed {customary(point.input_speed, 'rad/s')}"
     if scene.drive.second_input is not None:

@@ -1,4 +1,4 @@
-"""Fields that a scene has but does not use."""
+"""Fields that have no effect in a scene."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ from collections.abc import Iterable, Iterator
 
 from .scene import Scene
 
-_SCHLENK_LEAVES_OUT = (
+_UNUSED_BY_SCHLENK = (
     "lubrication.boundary",
     "lubrication.boundary_coefficient",
     "lubrication.limiting_stress",
@@ -15,25 +15,33 @@ _SCHLENK_LEAVES_OUT = (
 
 
 def not_in_use(scene: Scene, name: str) -> str | None:
-    """Why the field `name` has no effect in `scene`, and what gives it one; None if it has."""
+    """Why a field has no effect.
+
+    Args:
+        scene: the scene.
+        name: dotted name of the field.
+
+    Returns:
+        The reason and the setting that gives the field an effect; None if the field has one.
+    """
     plain = name.removeprefix("operating_point.")
     if plain == "lambda_ratio" and scene.lubrication.lambda_ratio != "prescribed":
         return (
             "the scene computes it (lubrication.lambda_ratio = computed); "
-            "set lubrication.lambda_ratio = prescribed to give it"
+            "set lubrication.lambda_ratio = prescribed to prescribe it"
         )
-    if scene.lubrication.traction == "schlenk" and plain in _SCHLENK_LEAVES_OUT:
-        return "lubrication.traction = schlenk has boundary friction in it, whatever the film"
+    if scene.lubrication.traction == "schlenk" and plain in _UNUSED_BY_SCHLENK:
+        return "lubrication.traction = schlenk includes boundary friction"
     if plain == "second_input_speed" and scene.drive.second_input is None:
         return "the scene has no second input"
     held = scene.gearset.held
     if plain.startswith((f"losses.{held}_bearing", f"losses.{held}_drag")):
-        return f"the gearset holds it (gearset.held = {held})"
+        return f"this member is fixed (gearset.held = {held})"
     return None
 
 
 def without_effect(scene: Scene, names: Iterable[str]) -> Iterator[str]:
-    """A line for each of `names` that is given but not in use."""
+    """A warning for each of the fields `names` that has no effect in `scene`."""
     for name in names:
         if reason := not_in_use(scene, name):
             yield f"{name}: has no effect: {reason}"

@@ -1,7 +1,7 @@
-"""YAML text as plain data, within limits that no scene needs to pass.
+"""Parses YAML text within limits that no scene exceeds.
 
-A key that stands twice is refused: YAML would take the last. So are aliases that make a small text
-large, and nesting without end.
+Duplicate keys, of which YAML would use the last, are rejected, and so are aliases that expand a
+small text to a large one, and deep nesting.
 """
 
 from __future__ import annotations
@@ -16,22 +16,22 @@ from .quantity import SceneError, listed
 # That of libyaml, which every wheel of PyYAML holds, is ten times as fast.
 _Loader: Any = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
 LONGEST = 100_000  # characters of a text
-_MOST_VALUES = 5_000  # with each alias as what it stands for
-_DEEPEST = 50  # mappings and lists within one another
+_MOST_VALUES = 5_000  # with aliases expanded
+_DEEPEST = 50  # nested mappings and lists
 
 
 def read_yaml(text: str, what: str = "scene") -> Any:
-    """Plain data of a YAML text.
+    """Parse a YAML text.
 
     Args:
         text: YAML.
-        what: the text is of, for the message of an error.
+        what: name of the text in error messages.
 
     Returns:
         Mappings, lists and scalars.
 
     Raises:
-        SceneError: the text is not YAML, is too large, or gives a key of a mapping twice.
+        SceneError: the text is not YAML, is too large, or has a duplicate key.
     """
     if len(text) > LONGEST:
         raise SceneError(f"{what} has {len(text)} characters: must be at most {LONGEST}")
@@ -46,12 +46,13 @@ def read_yaml(text: str, what: str = "scene") -> Any:
         raise SceneError(f"{what} is not YAML: {' '.join(str(error).split())}") from None
     except SceneError:
         raise
-    except Exception as error:  # of any kind, where a tag like !!int is given what is none
-        raise SceneError(f"{what} holds what is not of its tag: {listed([str(error)])}") from None
+    except Exception as error:  # of many kinds, if a value does not match a tag such as !!int
+        reason = listed([str(error)])
+        raise SceneError(f"{what} has a value that does not match its tag: {reason}") from None
 
 
 def _check_size(text: str, what: str) -> None:
-    """Raise `SceneError` where a text is deeper than a scene, or larger with its aliases."""
+    """Raise `SceneError` if a text is nested too deeply, or too large with aliases expanded."""
     values, sizes = 0, dict[str | None, int]()
     opened: list[tuple[str | None, int]] = []  # anchor of each collection, and values before it
     for event in yaml.parse(text, Loader=_Loader):
@@ -64,19 +65,19 @@ def _check_size(text: str, what: str) -> None:
         elif isinstance(event, yaml.ScalarEvent):
             values += 1
             sizes[event.anchor] = 1
-            event.value.encode()  # no half of a pair of UTF-16, which nothing can print
+            event.value.encode()  # raises for lone surrogates, which cannot be printed
         elif isinstance(event, yaml.AliasEvent):
             if event.anchor in [anchor for anchor, _ in opened]:
-                raise SceneError(f"{what} holds itself: *{event.anchor} stands in &{event.anchor}")
+                raise SceneError(f"{what} contains itself: *{event.anchor} is in &{event.anchor}")
             values += sizes.get(event.anchor, 1)
         if values > _MOST_VALUES:
-            raise SceneError(f"{what} has more than {_MOST_VALUES} values, the most that are read")
+            raise SceneError(f"{what} has too many values: must be at most {_MOST_VALUES}")
         if len(opened) > _DEEPEST:
-            raise SceneError(f"{what} is nested deeper than {_DEEPEST} levels")
+            raise SceneError(f"{what} is nested too deeply: must be at most {_DEEPEST} levels")
 
 
 def _repeated(node: yaml.Node | None, path: str, seen: set[int]) -> Iterator[str]:
-    """A line for each key that stands twice below `node`; an alias counts once."""
+    """A line for each duplicate key below `node`; an alias counts once."""
     if node is None or id(node) in seen:
         return
     seen.add(id(node))

@@ -1,6 +1,7 @@
-"""Many runs of one gearbox: which points to run, what to keep of each, where to run them.
+"""Parameter studies: many runs of one gearbox.
 
-axes (a field and its values, from text), plan (the points), measures (a run in a row of figures),
-local and cluster (who runs them), journal (what is done survives a kill), table (what comes out).
-fit: parameters from a recording.
+axes: fields and their values, parsed from text. plan: the points of a study. measures: the results
+of one run as a table row. local, cluster: execution in threads or by Dask. journal: results on
+disk, so that an interrupted study can be resumed. table: the result table. fit: parameter
+estimation from a recording.
 """

@@ -1,4 +1,4 @@
-"""Points on the workers of a Dask cluster, which may come, go and die while it runs."""
+"""Execution by a Dask cluster, whose workers may join, leave or fail during the study."""
 
 from __future__ import annotations
 
@@ -10,26 +10,29 @@ from .._compile import cache_folder
 from .plan import Point
 from .work import Failure, Found
 
-AHEAD = 4  # points for each thread of the cluster that are under way or wait for their turn
-_PATIENCE = 30.0  # [s] for a scheduler to answer, and for its first worker
+AHEAD = 4  # points per thread of the cluster that run or are queued
+_TIMEOUT = 30.0  # [s] for the scheduler to answer, and for its first worker
 
 
 class Cluster:
-    """The workers of the scheduler at `address`, e.g. "tcp://10.0.0.1:8786".
+    """The workers of a Dask scheduler.
 
-    A point whose worker dies is run again by another; one that takes several workers with it
-    fails. All workers must have this version of the package, so that all compute the same.
+    If a worker dies, another worker repeats its point; a point that kills several workers fails.
+    All workers must have this version of the package, so that their results are identical.
+
+    Args:
+        address: of the scheduler, e.g. "tcp://10.0.0.1:8786".
 
     Raises:
-        ValueError: there is no scheduler, it has no worker, or one of other kernels.
+        ValueError: there is no scheduler, it has no workers, or a worker has other kernels.
     """
 
     def __init__(self, address: str) -> None:
         from distributed import Client
 
         try:
-            self._client = Client(address, timeout=_PATIENCE)
-            self._client.wait_for_workers(1, timeout=_PATIENCE)
+            self._client = Client(address, timeout=_TIMEOUT)
+            self._client.wait_for_workers(1, timeout=_TIMEOUT)
         except (OSError, TimeoutError, ValueError) as reason:
             raise ValueError(f"scheduler = {address!r}: {reason}") from None
         here = kernels()
@@ -43,7 +46,7 @@ class Cluster:
     def do(
         self, work: Callable[[Point], Found], points: Iterable[Point]
     ) -> Iterator[tuple[Point, Found]]:
-        """Every point with what was found there, as they are done."""
+        """Yield every point with its result, in order of completion."""
         from distributed import as_completed
 
         waiting = iter(points)
@@ -63,7 +66,7 @@ class Cluster:
             ask(max(AHEAD * self._threads() - len(asked), 1))
 
     def close(self) -> None:
-        """Leave the cluster as it is."""
+        """Disconnect; the cluster keeps running."""
         self._client.close()
 
     def _threads(self) -> int:
@@ -71,12 +74,12 @@ class Cluster:
 
 
 def kernels() -> str:
-    """Digest of the kernels that compute here."""
+    """Digest of the installed kernels."""
     return cache_folder().name
 
 
 def _found(future: Any) -> Found:
-    """What a point gave; a worker killed by it several times over is its failure, not ours."""
+    """Result of a point; a point that killed several workers is a failure."""
     from distributed.scheduler import KilledWorker
 
     try:

@@ -1,4 +1,4 @@
-"""What is done stays done: a line for each finished point, beside the table to be."""
+"""File with a line per completed point, from which an interrupted study resumes."""
 
 from __future__ import annotations
 
@@ -10,12 +10,15 @@ from .work import Failure, Found
 
 
 class Journal:
-    """Found figures by the key of their point, in a file that survives a kill at any moment.
+    """Results by the key of their point, in a file that stays valid if the process is killed.
 
-    Failures are not kept: what made them may have been mended.
+    Failures are not stored, so that they are tried again.
+
+    Args:
+        path: of the file; it is created if it does not exist.
 
     Raises:
-        OSError: `path` can be neither read nor written.
+        OSError: `path` cannot be read or written.
     """
 
     def __init__(self, path: Path) -> None:
@@ -26,20 +29,20 @@ class Journal:
         self._stream: IO[str] = path.open("a", encoding="utf-8")
 
     def add(self, key: str, found: Found) -> None:
-        """Keep what was found at a point."""
+        """Store the result of the point with this key."""
         if isinstance(found, Failure):
             return
         self.done[key] = found
-        # JSON writes floats so that they are read back to the last bit.
+        # JSON round-trips floats exactly.
         self._stream.write(json.dumps({"key": key, "figures": found}) + "\n")
         self._stream.flush()
 
     def close(self) -> None:
-        """Keep the file for another time."""
+        """Close the file."""
         self._stream.close()
 
     def _read(self) -> None:
-        """Take complete lines, and cut off what a kill left of the last one."""
+        """Read complete lines, and remove an incomplete last line."""
         text = self.path.read_bytes()
         whole = text[: text.rfind(b"\n") + 1]
         for line in whole.splitlines():

@@ -1,4 +1,4 @@
-"""Points on this machine: the kernels release the interpreter lock, so threads use all cores."""
+"""Execution in threads of this process; the kernels release the global interpreter lock."""
 
 from __future__ import annotations
 
@@ -10,11 +10,14 @@ from typing import TypeVar
 
 Task = TypeVar("Task")
 Answer = TypeVar("Answer")
-AHEAD = 2  # points for each worker that are under way or wait for their turn
+AHEAD = 2  # points per thread that run or are queued
 
 
 class Threads:
-    """Workers of this process; as many as it has cores unless `count` is given.
+    """A pool of threads.
+
+    Args:
+        count: number of threads; None is the number of available cores.
 
     Raises:
         ValueError: `count` is below 1.
@@ -28,7 +31,7 @@ class Threads:
     def do(
         self, work: Callable[[Task], Answer], points: Iterable[Task]
     ) -> Iterator[tuple[Task, Answer]]:
-        """Every point with what was found there, as they are done."""
+        """Yield every point with its result, in order of completion."""
         waiting = iter(points)
         pool = ThreadPoolExecutor(self.count, "point")
         under_way: dict[Future[Answer], Task] = {}

@@ -1,4 +1,4 @@
-"""A run in a row of figures: what a study keeps of each of its points."""
+"""Results of one run as a table row: the quantities that a study stores for each point."""
 
 from __future__ import annotations
 
@@ -18,29 +18,29 @@ Row = dict[str, float]
 
 
 class Measure(NamedTuple):
-    """A figure over the measured part of a run."""
+    """A quantity evaluated over the measured part of a run."""
 
     unit: str
     description: str
 
 
 class MeshMeasure(NamedTuple):
-    """A statistic of each mesh, and how one figure is made of those of alike meshes."""
+    """A statistic of each mesh, and how it is combined over the meshes of one kind."""
 
     unit: str
     description: str
     over_meshes: Callable[[np.ndarray], np.float64]
 
 
-# Of the whole train, by the names of a window's properties.
+# Of the whole train, by property of `Window`.
 TRAIN = {
-    "efficiency": Measure("", "1 - power loss over the power of the machines that drive"),
+    "efficiency": Measure("", "1 - power loss/power of the driving machines"),
     "power_loss": Measure("W", "tooth friction, bearings and churning, mean"),
     "input_power": Measure("W", "from the motors into the train, mean"),
     "output_power": Measure("W", "from the train into the load, mean"),
     "mesh_frequency": Measure("Hz", "rate at which teeth pass a mesh"),
 }
-# Of the sun meshes and of the ring meshes, by the names of a window's statistics.
+# Of the sun meshes and of the ring meshes, by statistic of `Window.mesh`.
 MESH = {
     "dte_mean": MeshMeasure("m", "DTE, mean", np.mean),
     "dte_rms": MeshMeasure("m", "DTE, rms of the deviation from the mean, largest", np.max),
@@ -70,36 +70,43 @@ MEASURES: dict[str, Measure] = TRAIN | {
 MEASURES |= {
     f"{side}_{CLIPPED}": Measure(
         "",
-        f"{side.replace('_', '-')} meshes: share of the time in contact in which viscous friction "
-        "is clipped to zero, as the pressure is too low for its law",
+        f"{side.replace('_', '-')} meshes: fraction of the time in contact in which viscous "
+        "friction is clipped to zero because the pressure is too low for its law",
     )
     for side in SIDES
 }
 MEASURES |= {
     EXCESS: Measure(
         "",
-        "residual of the energy ledger over what is allowed; above 1, losses are uncertain",
+        "residual of the energy ledger/allowed residual; above 1, losses are uncertain",
     )
 }
 COURSE = {
-    "unsettled": Measure("s", "time that is missing until creeping gears forget the start"),
+    "unsettled": Measure("s", "time until creeping gears have forgotten their initial state"),
     "reversals": Measure("", "steps in which vibration stops gears, or nearly so"),
     "both_flanks": Measure("", "steps in which both flanks of a tooth touch"),
     "unrepeated_flank_events": Measure(
-        "", "flanks that meet or part in a motion that does not come to repeat itself"
+        "", "engagements and separations of flanks in a motion that does not become periodic"
     ),
 }
-"""What the accuracy of a point is judged by, by the names of `accuracy.Course`."""
+"""Counters of `accuracy.Course`, from which the accuracy of a point is estimated."""
 MEASURES |= COURSE
-"""Every figure of a row, in its order."""
+"""Every quantity of a row, in order."""
 
 
 def measure(scene: Scene, settings: Settings) -> Row:
-    """Run `scene` and measure it over the last `settings.duration`.
+    """Simulate `scene` and evaluate the last `settings.duration` seconds.
+
+    Args:
+        scene: the gearbox.
+        settings: of the run.
+
+    Returns:
+        Values in SI by the names of `MEASURES`.
 
     Raises:
-        ValueError: the scene cannot be run.
-        ArithmeticError: its integration does not succeed.
+        ValueError: the scene is invalid.
+        ArithmeticError: the integration failed.
     """
     twin = Twin(scene, settings.sample_rate, settings.tolerance)
     if settings.settling:
@@ -108,7 +115,7 @@ def measure(scene: Scene, settings: Settings) -> Row:
 
 
 class Glance(NamedTuple):
-    """A whole run in a few figures: over its time, and over all its meshes."""
+    """Summary of a run over its duration and over all meshes."""
 
     power_loss: float  # tooth friction, bearings and churning, mean [W]
     dte_mean: float  # mean over the meshes of each one's mean [m]
@@ -119,7 +126,7 @@ class Glance(NamedTuple):
 
 
 def glance(result: Result) -> Glance:
-    """The figures of a whole run."""
+    """Summary of a run over its duration and over all meshes."""
     mesh = result.mesh
     means = {name: float(mesh[name].mean()) for name in ("dte_mean", "dte_rms", "mesh_force_mean")}
     peaks = {name: float(mesh[name].max()) for name in ("dte_peak", "mesh_force_peak")}
@@ -127,7 +134,7 @@ def glance(result: Result) -> Glance:
 
 
 def row(scene: Scene, window: Window) -> Row:
-    """The figures of a window of a run of `scene`."""
+    """Values of `MEASURES` over a window of a run of `scene`, in SI."""
     figures = {name: float(getattr(window, name)) for name in TRAIN}
     for side, values in mesh_rows(window.mesh).items():
         figures |= {f"{side}_{name}": value for name, value in values.items()}
@@ -138,11 +145,17 @@ def row(scene: Scene, window: Window) -> Row:
 
 
 def clipped_friction(scene: Scene, run: Result | Window) -> dict[str, float]:
-    """Share of the time in contact in which viscous friction is clipped to zero, by `SIDES`.
+    """Fraction of the time in contact in which viscous friction is clipped to zero.
 
-    Then no tooth pair of a mesh has any though they carry load. That friction fades out at the
-    pitch point does not count: `viscous_friction` is that of the plateau there, too. 0 of a scene
-    without friction or with a law that does not clip it, or a run without contact.
+    A mesh is clipped while no loaded tooth pair has viscous friction. The sign change at the pitch
+    point does not count, because `viscous_friction` is the value of the plateau there.
+
+    Args:
+        scene: the gearbox.
+        run: result or window of a run.
+
+    Returns:
+        Fraction by `SIDES`; 0 without friction, with a law that does not clip, or without contact.
     """
     oil, planets, mesh, shares = scene.lubrication, len(run.meshes) // 2, run.mesh, []
     clips = oil.friction and oil.traction == "evans_johnson"
@@ -154,7 +167,7 @@ def clipped_friction(scene: Scene, run: Result | Window) -> dict[str, float]:
 
 
 def mesh_rows(mesh: dict[str, np.ndarray]) -> dict[str, Row]:
-    """The figures of `MESH` for both `SIDES`, from statistics of the meshes, (meshes,) each."""
+    """Values of `MESH` for both `SIDES`, from statistics of the meshes, shape (meshes,) each."""
     planets = len(mesh["dte_mean"]) // 2
     return {
         side: {

@@ -1,4 +1,4 @@
-"""Which points of the space between the axes are run."""
+"""The points of a study: grid or Latin hypercube."""
 
 from __future__ import annotations
 
@@ -22,19 +22,19 @@ MOST_POINTS = 1_000_000
 
 @dataclass(frozen=True)
 class Settings:
-    """How each point is run: simulated time, what of its begin is not measured, and how exactly."""
+    """Settings of the run at each point."""
 
     duration: float = 0.2
-    """Measured time [s]."""
+    """Evaluated time [s]."""
     settling: float = 0.05
-    """Simulated before [s]."""
+    """Simulated time before [s]."""
     sample_rate: float = 50_000.0
     """[Hz]"""
     tolerance: float = 1e-4
-    """Relative local error of a step."""
+    """Relative local error tolerance of the integrator."""
 
     def check(self) -> None:
-        """Raise the `ValueError` of a setting that is out of range."""
+        """Raise `ValueError` if a setting is out of range."""
         if not 0.0 < self.duration <= LONGEST_WINDOW:
             raise ValueError(
                 f"duration = {self.duration!r} s: must be above 0 and at most {LONGEST_WINDOW:g}"
@@ -48,7 +48,7 @@ class Settings:
 
 @dataclass(frozen=True)
 class Point:
-    """One run of a study: its place in the table and where it differs from the scene."""
+    """One run of a study: its index in the table, and its changes to the scene."""
 
     place: int
     changes: Mapping[str, Any]
@@ -56,7 +56,7 @@ class Point:
 
 @dataclass(frozen=True)
 class Study:
-    """A scene, the fields that vary, the points to run, and how."""
+    """A scene, the fields that vary, the points, and the settings of a run."""
 
     scene: Scene
     fields: tuple[str, ...]
@@ -64,7 +64,15 @@ class Study:
     settings: Settings = Settings()
 
     def key(self, point: Point, makers: str) -> str:
-        """Digest of all that the figures of `point` follow from; `makers`: what computes them."""
+        """Digest of everything that determines the results of a point.
+
+        Args:
+            point: of this study.
+            makers: identifies the kernels and the measures.
+
+        Returns:
+            32 hexadecimal digits.
+        """
         content = {
             "scene": self.scene.model_dump(mode="json", exclude={"name", "description"}),
             "changes": dict(point.changes),
@@ -75,16 +83,25 @@ class Study:
 
 
 def grid(scene: Scene, axes: Sequence[Axis | Span], settings: Settings = Settings()) -> Study:
-    """Every combination of the axes' values; the last axis varies quickest.
+    """All combinations of the values of the axes; the last axis varies fastest.
+
+    Args:
+        scene: the gearbox.
+        axes: fields and their values.
+        settings: of each run.
+
+    Returns:
+        The study.
 
     Raises:
-        ValueError: an axis is a range without values, stands twice, or the points are too many.
+        ValueError: an axis is a range without values or occurs twice, or there are too many
+            points.
     """
     for axis in axes:
         if isinstance(axis, Span):
             raise ValueError(
-                f"{axis.field}: a range without a count; {axis.low:g}:{axis.high:g}:5 gives five "
-                "values, a number of samples draws from it"
+                f"{axis.field}: a range without a count; write {axis.low:g}:{axis.high:g}:5 for "
+                "five values, or give a number of samples"
             )
     listed = [axis for axis in axes if isinstance(axis, Axis)]
     count = math.prod(len(axis.values) for axis in listed)
@@ -100,13 +117,23 @@ def latin_hypercube(
     seed: int = 0,
     settings: Settings = Settings(),
 ) -> Study:
-    """`samples` points, of which each falls in a stratum of its own along every axis.
+    """Latin hypercube sample: one point in each of `samples` strata of every axis.
 
-    Ranges are drawn from; of listed values each comes equally often, up to one. (McKay, Beckman
-    and Conover 1979.)
+    McKay, Beckman and Conover 1979, Technometrics 21, 239-245. Listed values occur equally often,
+    within one.
+
+    Args:
+        scene: the gearbox.
+        axes: fields with their ranges or values.
+        samples: number of points.
+        seed: of the random generator.
+        settings: of each run.
+
+    Returns:
+        The study.
 
     Raises:
-        ValueError: an axis stands twice, or the number of samples is out of range.
+        ValueError: an axis occurs twice, or the number of samples is out of range.
     """
     if not 1 <= samples <= MOST_POINTS:
         raise ValueError(f"samples = {samples!r}: must be within 1 and {MOST_POINTS}")
@@ -137,8 +164,8 @@ def _study(scene: Scene, axes: Sequence[Axis | Span], rows: Any, settings: Setti
     return Study(scene, fields, points, settings)
 
 
-def told(changes: Mapping[str, Any]) -> str:
-    """Changes in words."""
+def describe(changes: Mapping[str, Any]) -> str:
+    """Changes as text: "backlash = 1e-07, mesh.ramp = 0"."""
     return ", ".join(
         f"{name} = {value:.6g}" if isinstance(value, float) else f"{name} = {value}"
         for name, value in changes.items()

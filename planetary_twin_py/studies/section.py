@@ -1,7 +1,7 @@
-"""Poincare section: a running train looked at each time the sun has turned by one tooth.
+"""Poincare section: samples of a running train each time the sun has turned by one tooth.
 
-The section is a place, not a clock: it asks nothing of the drive's speed being steady, and motion
-that repeats with the meshing is one point of it.
+The section is defined by angle, not by time, so that it does not require a constant speed. A motion
+with the period of the mesh cycle is one point of the section.
 """
 
 from __future__ import annotations
@@ -17,31 +17,34 @@ from ..integrators.interpolant import Samples
 from ..run import start
 from ..scene import Scene
 
-GUARD = 0.05  # mesh cycles before the section to which the mean speed leads; the sun swings less
-SHORT = 0.98  # of what is left then, by the speed there: a section behind cannot be reached
-EXACT = 1e-6  # mesh cycles before it that count as there
-MISSED = 1e-4  # mesh cycles beyond it that do not
+GUARD = 0.05  # mesh cycles before the section at which the approach by the mean speed ends
+SHORT = 0.98  # fraction of the remaining distance per step, to avoid overshooting the section
+EXACT = 1e-6  # mesh cycles before the section that count as reached
+MISSED = 1e-4  # mesh cycles beyond the section that count as missed
 
 
 class Section:
-    """A run of `scene`, held at one speed after the other, that shows its meshes at one phase.
+    """A run at a sequence of speeds, sampled at one phase of the mesh cycle.
 
-    The mesh phase is that of the sun against the carrier: at 0 a tooth pair of the first mesh
-    stands at the pitch point.
+    The mesh phase is that of the sun relative to the carrier: at 0 a tooth pair of the first mesh
+    is at the pitch point.
+
+    Args:
+        scene: the gearbox.
+        tolerance: relative local error tolerance of the integrator.
+        phase: in [0, 1).
 
     Raises:
-        ValueError: the scene has no vibrations, or it or the tolerance cannot be.
+        ValueError: the scene is quasi-static, or an argument is out of range.
     """
 
     def __init__(self, scene: Scene, tolerance: float, phase: float = 0.0) -> None:
         if scene.dynamics != "torsional":
-            raise ValueError(
-                f"dynamics = {scene.dynamics!r}: must be torsional, without it nothing vibrates"
-            )
+            raise ValueError(f"dynamics = {scene.dynamics!r}: must be torsional for vibration")
         self._scene, self._point, self._tolerance = scene, scene.operating_point, tolerance
         self._run = start(scene, tolerance)
         names, self._meshes = body_names(scene), mesh_names(scene).place
-        # Sun and carrier: where they are among the bodies, and what they turn per turn of a motor.
+        # Sun and carrier: their indices among the bodies, and their turns per turn of each motor.
         self._places = names.place[[names.names.index("sun"), names.names.index("carrier")]]
         self._ratio = self._run.train.ratio[self._places]
         self._teeth, self._phase = scene.gearset.teeth.sun, phase
@@ -54,7 +57,7 @@ class Section:
         return float(self._time)
 
     def hold(self, speed: float, duration: float) -> None:
-        """Change the set-point of the first motor to `speed` [rad/s] and run on [s]."""
+        """Set the speed of the first motor to `speed` [rad/s] and simulate `duration` [s]."""
         self._point = self._scene.replace(
             **{**self._point.model_dump(), "input_speed": speed}
         ).operating_point
@@ -66,7 +69,7 @@ class Section:
         """DTE at the next passage of the section [m], shape (meshes,).
 
         Raises:
-            ArithmeticError: the sun swings by so much of a tooth that the passage is missed.
+            ArithmeticError: the sun oscillates so strongly that the passage is missed.
         """
         samples = self._run.sample(self._time)
         cycle, rate = self._passed(samples)
@@ -77,19 +80,19 @@ class Section:
             cycle, rate = self._passed(samples)
         if left < -MISSED:
             raise ArithmeticError(
-                f"t = {self.time:.6g} s: the sun swings past the mesh phase that is looked at"
+                f"t = {self.time:.6g} s: the sun oscillates across the sampled mesh phase"
             )
         return np.array(samples.mesh[0, DTE, self._meshes])
 
     def _pace(self) -> None:
-        """Rate at which teeth pass a mesh at the speed that is set [Hz], and which way is ahead."""
+        """Set the mesh frequency [Hz] at the speed set-point, and its sign."""
         speeds = np.array([self._point.input_speed, self._point.second_input_speed])
         sun, carrier = self._ratio @ speeds[: self._ratio.shape[1]]
         rate = self._teeth * (sun - carrier) / (2.0 * math.pi)
         self._frequency, self._ahead = float(abs(rate)), math.copysign(1.0, rate)
 
     def _passed(self, samples: Samples) -> tuple[float, float]:
-        """Mesh cycles passed since phase 0, and their rate [Hz], both positive ahead."""
+        """Mesh cycles since phase 0, and their rate [Hz], positive in the direction of running."""
         turned = self._ratio @ samples.turns[0] + self._of(samples.angle) / (2.0 * math.pi)
         cycles, rate = (
             self._ahead * self._teeth * (sun - carrier)
@@ -98,7 +101,7 @@ class Section:
         return float(cycles - self._ahead * self._phase), float(rate)
 
     def _of(self, bodies: np.ndarray) -> np.ndarray:
-        """Sun and carrier of samples (1, bodies); a held member stands at zero."""
+        """Sun and carrier of samples (1, bodies); 0 for a held member."""
         return np.append(bodies[0], 0.0)[self._places]
 
     def _go(self, duration: float) -> Samples:

@@ -1,6 +1,6 @@
 """Stribeck curve of a gearbox: one mesh cycle at each of many speeds, lambda ratio computed.
 
-Without vibration: what is looked for is the friction of a load that stays as it is.
+The model is quasi-static, so that the load is the same at all speeds.
 """
 
 from __future__ import annotations
@@ -14,62 +14,71 @@ from ..twin import LOWEST_SAMPLE_RATE, Twin
 from ..window import Window
 from .axes import Axis, Span
 from .measures import row
-from .plan import Point, grid, told
-from .sweep import Hearer
-from .work import Crew, Failure, Found
+from .plan import Point, describe, grid
+from .sweep import Report
+from .work import Executor, Failure, Found
 
 if TYPE_CHECKING:
     import pyarrow as pa
 
 LAWS = {"dynamics": "quasi_static", "lubrication.lambda_ratio": "computed"}
-"""In which the study's scene differs from the one that is given."""
+"""Changes to the given scene."""
 
 
 @dataclass(frozen=True)
-class Cycle:
-    """What is done at each point; travels to other processes and machines."""
+class CycleEvaluation:
+    """Evaluates one mesh cycle at a point; it is pickled for other processes."""
 
     scene: Scene
     samples: int = 256
-    """In the mesh cycle; more where it is slower than a second for each."""
+    """Samples per mesh cycle; more if the cycle takes longer than a second for each."""
     tolerance: float = 1e-4
 
     def __call__(self, point: Point) -> Found:
-        """The figures of one mesh cycle, or why there are none."""
+        """Results of one mesh cycle, or the failure."""
         try:
             scene = self.scene.replace(**point.changes)
             return row(scene, self._run(scene))
         except (ValueError, ArithmeticError) as reason:
-            return Failure(f"{told(point.changes)}: {reason}")
+            return Failure(f"{describe(point.changes)}: {reason}")
 
     def _run(self, scene: Scene) -> Window:
-        frequency = Twin(scene, tolerance=self.tolerance).advance(_GLANCE).mesh_frequency
+        frequency = Twin(scene, tolerance=self.tolerance).advance(_SHORT).mesh_frequency
         if not frequency > 0.0:
-            raise ValueError("the teeth do not move: must be a speed other than 0")
+            raise ValueError("the mesh frequency is 0: give a speed other than 0")
         rate = max(self.samples * frequency, LOWEST_SAMPLE_RATE)
         return Twin(scene, rate, self.tolerance).advance(1.0 / frequency)
 
 
-_GLANCE = 1e-6  # [s] in which a twin says how fast teeth pass
+_SHORT = 1e-6  # [s], a run from which to read the mesh frequency
 
 
 def stribeck(
-    scene: Scene, axis: Axis | Span, crew: Crew, hear: Hearer = lambda done, failure: None
+    scene: Scene, axis: Axis | Span, executor: Executor, report: Report = lambda done, failure: None
 ) -> pa.Table:
-    """The table of a sweep over `axis`, mostly the input speed, with `scene` under LAWS.
+    """Sweep over `axis`, usually the input speed, with the scene changed by `LAWS`.
+
+    Args:
+        scene: the gearbox.
+        axis: field and its values.
+        executor: runs the points.
+        report: called with the number of points completed since the last call, and the failure.
+
+    Returns:
+        A row per point, as from `sweep`.
 
     Raises:
-        ValueError: the axis or the scene cannot be.
+        ValueError: the axis or the scene is invalid.
     """
     from .table import tabulate
 
     study = grid(scene.replace(**LAWS), [axis])
-    cycle = Cycle(study.scene)
+    evaluation = CycleEvaluation(study.scene)
     found: dict[int, Found] = {}
-    for point, outcome in crew.do(cycle, study.points):
-        found[point.place] = outcome
-        hear(1, outcome if isinstance(outcome, Failure) else None)
-    settings = asdict(cycle)
+    for point, result in executor.do(evaluation, study.points):
+        found[point.place] = result
+        report(1, result if isinstance(result, Failure) else None)
+    settings = asdict(evaluation)
     del settings["scene"]
     table = tabulate(study, found)
     return table.replace_schema_metadata(

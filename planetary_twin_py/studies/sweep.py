@@ -1,4 +1,4 @@
-"""A study from its plan to its table."""
+"""Executes a study and returns its table."""
 
 from __future__ import annotations
 
@@ -10,47 +10,50 @@ from .._compile import cache_folder
 from .journal import Journal
 from .measures import MEASURES
 from .plan import Study
-from .work import Crew, Failure, Found, Work
+from .work import Evaluation, Executor, Failure, Found
 
 if TYPE_CHECKING:
     import pyarrow as pa
 
-Hearer = Callable[[int, Failure | None], None]
+Report = Callable[[int, Failure | None], None]
 
 
 def sweep(
     study: Study,
-    crew: Crew,
+    executor: Executor,
     journal: Path | None = None,
-    hear: Hearer = lambda done, failure: None,
+    report: Report = lambda done, failure: None,
 ) -> pa.Table:
-    """Run the points of `study` that are not yet in `journal` and tabulate all of them.
+    """Run the points of `study` that are not yet in `journal`, and tabulate all points.
 
     Args:
-        study: what to run, see `grid` and `latin_hypercube`.
-        crew: who runs it.
-        journal: file of what is done; removed by whoever has put the table away. None: a kill
-            loses what was done.
-        hear: is told how many more points are done, and of one that failed, why.
+        study: from `grid` or `latin_hypercube`.
+        executor: runs the points.
+        journal: file of completed points, from which an interrupted study resumes; the caller
+            deletes it. None stores nothing.
+        report: called with the number of points completed since the last call, and the failure.
+
+    Returns:
+        A row per point.
 
     Raises:
         OSError: the journal cannot be written.
     """
     from .table import tabulate
 
-    makers = "/".join((cache_folder().name, *MEASURES))  # a journal of other figures is of no use
+    makers = "/".join((cache_folder().name, *MEASURES))  # other kernels or measures: new results
     keys = {point.place: study.key(point, makers) for point in study.points}
     book = Journal(journal) if journal else None
     known = book.done if book else {}
     found: dict[int, Found] = {place: known[key] for place, key in keys.items() if key in known}
-    hear(len(found), None)
+    report(len(found), None)
     left = (point for point in study.points if point.place not in found)
     try:
-        for point, outcome in crew.do(Work(study.scene, study.settings), left):
-            found[point.place] = outcome
+        for point, result in executor.do(Evaluation(study.scene, study.settings), left):
+            found[point.place] = result
             if book:
-                book.add(keys[point.place], outcome)
-            hear(1, outcome if isinstance(outcome, Failure) else None)
+                book.add(keys[point.place], result)
+            report(1, result if isinstance(result, Failure) else None)
     finally:
         if book:
             book.close()

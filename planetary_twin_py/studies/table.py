@@ -1,6 +1,6 @@
-"""The outcome of a study as a tidy table: a row for each point, a column for each quantity.
+"""Results of a study as a tidy table: a row per point, a column per quantity.
 
-Every column carries its unit and its meaning, and the table all that it follows from.
+The metadata of a column have its unit and description, those of the table its scene and settings.
 """
 
 from __future__ import annotations
@@ -17,19 +17,27 @@ import pyarrow.parquet
 
 from ..scene.quantity import unit_of
 from .axes import look_up
-from .bifurcation import STUDY as BIFURCATION
+from .marks import BIFURCATION
 from .measures import MEASURES
 from .plan import Study
 from .work import Failure, Found
 
 
 def tabulate(study: Study, found: Mapping[int, Found]) -> pa.Table:
-    """The table of `study` from what was found at each place; `failure` says why figures lack."""
+    """Tabulate the results of a study.
+
+    Args:
+        study: the points.
+        found: result or failure by the index of the point.
+
+    Returns:
+        A row per point; the column `failure` has the reason of missing values.
+    """
     rows = [found[point.place] for point in study.points]
     columns: list[tuple[pa.Field, Any]] = [
-        column("point", [point.place for point in study.points], "", "place in the study", "i8")
+        column("point", [point.place for point in study.points], "", "index of the point", "i8")
     ]
-    first = study.scene.replace(**study.points[0].changes)  # may have sections that others lack
+    first = study.scene.replace(**study.points[0].changes)  # has the optional sections
     for field in study.fields:
         info, _ = look_up(first, field)
         values = [point.changes[field] for point in study.points]
@@ -38,7 +46,7 @@ def tabulate(study: Study, found: Mapping[int, Found]) -> pa.Table:
         figures = [None if isinstance(row, Failure) else row[name] for row in rows]
         columns.append(column(name, figures, measure.unit, measure.description, "f8"))
     reasons = [row.reason if isinstance(row, Failure) else None for row in rows]
-    columns.append(column("failure", reasons, "", "why there are no figures", "str"))
+    columns.append(column("failure", reasons, "", "why there are no results", "str"))
     about = {
         "scene": json.dumps(study.scene.model_dump(mode="json")),
         "settings": json.dumps(asdict(study.settings)),
@@ -48,10 +56,14 @@ def tabulate(study: Study, found: Mapping[int, Found]) -> pa.Table:
 
 
 def write(table: pa.Table, path: Path) -> None:
-    """Write it in the format of the suffix of `path`, in which never half a file stands.
+    """Write a table, atomically.
+
+    Args:
+        table: from `tabulate`.
+        path: file ending in .csv or .parquet.
 
     Raises:
-        OSError: it cannot be written.
+        OSError: the file cannot be written.
     """
     part = path.with_name(f".{path.name}.part")
     if path.suffix == ".csv":
@@ -64,11 +76,17 @@ def write(table: pa.Table, path: Path) -> None:
 
 
 def read(path: Path) -> pa.Table:
-    """A table that `write` has written; of .csv without the meanings and what it follows from.
+    """Read a table that `write` has written.
+
+    Args:
+        path: file ending in .csv or .parquet.
+
+    Returns:
+        The table; from .csv without descriptions, scene and settings.
 
     Raises:
-        OSError: it cannot be read.
-        ValueError: it is no such table.
+        OSError: the file cannot be read.
+        ValueError: the file is not the table of a study.
     """
     if path.suffix == ".csv":
         return _read_csv(path)
@@ -79,26 +97,26 @@ def read(path: Path) -> pa.Table:
 
 
 def _read_csv(path: Path) -> pa.Table:
-    # An empty cell is a lack, NaN a number.
+    # An empty cell is null, NaN is a number.
     options = pyarrow.csv.ConvertOptions(null_values=[""], strings_can_be_null=True)
     table = pyarrow.csv.read_csv(path, convert_options=options)
     marks = {"point": {}, "direction": {"study": BIFURCATION}}  # by the first column
     about = marks.get(table.column_names[0])
     if about is None:
-        raise ValueError(f"no table of a study: begins with none of {', '.join(marks)}")
+        raise ValueError(f"not the table of a study: first column must be {' or '.join(marks)}")
     fields = [_field(old) for old in table.schema]
     return table.rename_columns([field.name for field in fields]).cast(pa.schema(fields, about))
 
 
 def _field(old: pa.Field) -> pa.Field:
-    """With what `_heading` has made the name of; whole numbers are real ones without a fraction."""
+    """Field with name and unit from a heading of `_heading`; integers become floats."""
     name, _, unit = old.name.removesuffix("]").partition(" [")
     kind = pa.float64() if pa.types.is_integer(old.type) else old.type
     return pa.field(name, kind, metadata={"unit": unit, "description": ""})
 
 
 def _heading(field: pa.Field) -> str:
-    """Name with the unit, for a format that has no other place for it."""
+    """Name with the unit, for CSV."""
     unit = field.metadata[b"unit"].decode()
     return f"{field.name} [{unit}]" if unit else field.name
 
@@ -109,7 +127,18 @@ _TYPES = {"i8": pa.int64(), "f8": pa.float64(), "str": pa.string()}
 def column(
     name: str, values: Any, unit: str, description: str, kind: str | None = None
 ) -> tuple[pa.Field, pa.Array]:
-    """A column that carries its unit and meaning; `kind`: i8, f8 or str where values may lack."""
+    """Make a column of a table.
+
+    Args:
+        name: of the column.
+        values: (n,); None is null.
+        unit: in SI; empty for a dimensionless number or a text.
+        description: of the quantity.
+        kind: "i8", "f8" or "str"; None infers the type from the values.
+
+    Returns:
+        The field with its metadata, and the array.
+    """
     array = pa.array(values, _TYPES[kind] if kind else None)
     about = {"unit": unit, "description": description}
     return pa.field(name, array.type, metadata=about), array

@@ -1,4 +1,4 @@
-"""One point of a study, run wherever there is room."""
+"""Evaluation of one point of a study, and the interface of executors."""
 
 from __future__ import annotations
 
@@ -8,12 +8,12 @@ from typing import Protocol
 
 from ..scene import Scene
 from .measures import Row, measure
-from .plan import Point, Settings, told
+from .plan import Point, Settings, describe
 
 
 @dataclass(frozen=True)
 class Failure:
-    """Why a point has no figures."""
+    """Why a point has no results."""
 
     reason: str
 
@@ -22,24 +22,29 @@ Found = Row | Failure
 
 
 @dataclass(frozen=True)
-class Work:
-    """What is done at each point; travels to other processes and machines."""
+class Evaluation:
+    """Evaluates the run at a point; it is pickled for other processes."""
 
     scene: Scene
     settings: Settings
 
     def __call__(self, point: Point) -> Found:
-        """The figures of `point`, or why there are none."""
+        """Results of the run at `point`, or the failure."""
         try:
             return measure(self.scene.replace(**point.changes), self.settings)
         except (ValueError, ArithmeticError) as reason:
-            return Failure(f"{told(point.changes)}: {reason}")
+            return Failure(f"{describe(point.changes)}: {reason}")
 
 
-class Crew(Protocol):
-    """Whoever does the work: `local.Threads` or `cluster.Cluster`."""
+class Executor(Protocol):
+    """Runs the points of a study: `local.Threads` or `cluster.Cluster`."""
 
     def do(
         self, work: Callable[[Point], Found], points: Iterable[Point]
     ) -> Iterator[tuple[Point, Found]]:
-        """Every point with what was found there, as they are done."""
+        """Yield every point with its result, in order of completion.
+
+        Args:
+            work: function to evaluate at each point.
+            points: of the study.
+        """

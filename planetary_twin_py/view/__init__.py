@@ -1,8 +1,7 @@
-"""Looking at recordings in Rerun; `show.save` puts together what the other files make.
+"""Recordings and running twins in Rerun; `show.save` combines the other modules.
 
-gears (with motion: solids that turn) and contacts (tooth pairs that carry), plots, waveform and
-events (curves and changes), frames (windows of the DTE) with spectra and phase_portrait, drawn as
-a chart, timeline (simulated and ROS time), layer and overlay
-(several recordings over one another), live (a running twin), blueprint (layout), viewer (the window
-and the page) and screenshot (a picture without a display).
+gears, motion: rotating solids. contacts: loaded tooth pairs. plots, waveform, events: curves and
+parameter changes. frames, spectra, phase_portrait, chart: plots over windows of the DTE. timeline:
+simulated and ROS time. layer, overlay: several recordings together. live: a running twin.
+blueprint: layout. viewer: window and web page. screenshot: pictures without a display.
 """

@@ -1,4 +1,4 @@
-"""Where everything stands on the screen: gears and changes on the left, plots in tabs."""
+"""Layout of the screen: gears and changes on the left, plots in tabs on the right."""
 
 from __future__ import annotations
 
@@ -16,15 +16,14 @@ from .gears import MILLIMETRES
 from .overlay import DIFFERENCE
 from .timeline import SIMULATED_TIME
 
-# At full speed teeth pass too fast for the eye: start slowed down, the viewer's slider is beside.
-PLAYBACK_SPEED = 0.02
+PLAYBACK_SPEED = 0.02  # slow motion, because the eye cannot follow the teeth at full speed
 BACKGROUND = (24, 27, 33)
-CHART = (13, 16, 17)  # as of the viewer's own plots
+CHART = (13, 16, 17)  # background of the viewer's plots
 _ZOOM = 5_000_000  # [ns] of the waveform on either side of the time cursor
 
 
 class Mode(NamedTuple):
-    """What the layout is for."""
+    """Variant of the layout."""
 
     play_state: Literal["paused", "following"]
     menu: Literal["expanded", "hidden"]
@@ -37,9 +36,15 @@ LIVE = Mode("following", "expanded")
 def blueprint(
     gearset: Gearset | None, mode: Mode = FILE, compared: str | None = None
 ) -> rrb.Blueprint:
-    """The layout of recordings; without a gearset there are no gears to show.
+    """Make the layout of a view.
 
-    `compared`: the recording that the others are compared with, where there are several.
+    Args:
+        gearset: of the gears to show; None shows no gears.
+        mode: variant.
+        compared: name of the reference recording, if there are several.
+
+    Returns:
+        The Rerun blueprint.
     """
     changes = rrb.TextLogView(
         origin="changes",
@@ -81,7 +86,7 @@ def _gears(gearset: Gearset) -> rrb.Spatial3DView:
 
 
 def _planet(gearset: Gearset) -> rrb.Spatial3DView:
-    """The first planet between sun and ring, from a place on the carrier in front of it."""
+    """The first planet between sun and ring, seen from the carrier."""
     psi = gearset.planet_angles[0]
     outwards = (math.cos(psi), math.sin(psi))
     x, y = (MILLIMETRES * carrier_radius(gearset) * part for part in outwards)
@@ -163,7 +168,8 @@ def _spectra(gearset: Gearset | None) -> rrb.Vertical:
     )
     order_map = _chart(
         "order_map",
-        "Order map of the DTE, sun_planet_1: cycles per turn of sun against carrier; n×: meshing",
+        "Order map of the DTE, sun_planet_1: cycles per turn of sun relative to carrier; "
+        "n×: mesh harmonics",
         bounds(spectra.WIDTH, spectra.HEIGHT),
     )
     portrait = _chart(
@@ -201,7 +207,7 @@ def _set_point(name: str, several: bool) -> rrb.TimeSeriesView:
 
 
 def _difference(compared: str) -> rrb.Horizontal:
-    less = f" less that of {compared}"
+    less = f" minus that of {compared}"
     views = [show(name, DIFFERENCE, less) for name in WAVEFORM for show in (_zoom, _range)]
     return _page("Difference", views)
 
@@ -213,7 +219,7 @@ def _range(name: str, below: str = "", less: str = "") -> rrb.TimeSeriesView:
 
 
 def _plot(origin: str, title: str, legend: bool) -> rrb.TimeSeriesView:
-    """A plot of everything at `origin`; the legend of a single series would repeat the title."""
+    """A plot of everything at `origin`; a single series needs no legend."""
     corner = rrb.PlotLegend(rrb.Corner2D.RightTop, visible=legend)
     return rrb.TimeSeriesView(origin=origin, name=title, plot_legend=corner)
 

@@ -1,6 +1,6 @@
-"""Charts over something else than time, drawn into a plane: frame, ticks, curves that change.
+"""Charts with an axis other than time, drawn in a plane: frame, ticks and curves.
 
-The viewer's own plots have time as their axis. These are of line strips and labelled points, in
+The plots of Rerun have a time axis. These charts consist of line strips and labelled points, in
 units of about a pixel, x to the right and y upwards from the lower left corner of the frame.
 """
 
@@ -21,12 +21,12 @@ Array = NDArray[np.float64]
 Colour = tuple[int, int, int]
 FRAME, GRID, TEXT = (120, 126, 136), (44, 48, 55), (205, 210, 218)
 _MARGINS = (64.0, 40.0, 64.0, 34.0)  # left, right, below, above
-_LABEL = 12.0  # from the frame to a label, whose text stands that much below its point
+_LABEL = 12.0  # distance from the frame to a label, and from a point to its text below
 
 
 @dataclass(frozen=True)
 class Chart:
-    """A frame at `path` of `width` and `height`, with the values at its edges."""
+    """A chart at entity `path`, with its size and the ranges of both axes."""
 
     path: str
     width: float
@@ -35,7 +35,7 @@ class Chart:
     y: tuple[float, float]
 
     def place(self, x: Array, y: Array) -> NDArray[np.float32]:
-        """Points (n, 2) in the plane, whose second axis runs down, cut off at the frame's edges."""
+        """Points (n, 2) in the plane, whose second axis points down, clipped to the frame."""
         across = np.clip((x - self.x[0]) / (self.x[1] - self.x[0]), 0.0, 1.0)
         up = np.clip((y - self.y[0]) / (self.y[1] - self.y[0]), 0.0, 1.0)
         return np.column_stack((self.width * across, -self.height * up)).astype(np.float32)
@@ -51,14 +51,14 @@ class Chart:
 
 @dataclass(frozen=True)
 class Ticks:
-    """Where an axis is marked, and with what."""
+    """Positions and labels of ticks on an axis."""
 
     values: Sequence[float] | Array
     texts: Sequence[str]
 
 
 def bounds(width: float, height: float) -> rrb.VisualBounds2D:
-    """What a view of a chart shows: the frame and the labels around it."""
+    """Visible region of a chart: the frame and the labels around it."""
     left, right, below, above = _MARGINS
     return rrb.VisualBounds2D(
         x_range=rr.encodings.Range1D((-left, width + right)),
@@ -67,21 +67,21 @@ def bounds(width: float, height: float) -> rrb.VisualBounds2D:
 
 
 def grid(chart: Chart, x: Ticks, y: Ticks) -> list[NDArray[np.float32]]:
-    """The lines of the grid, and the frame last."""
+    """Grid lines, then the frame."""
     box = np.array([(0, 0), (1, 0), (1, -1), (0, -1), (0, 0)]) * (chart.width, chart.height)
     lines = [chart.upright(value) for value in x.values]
     return [*lines, *(chart.level(value) for value in y.values), box.astype(np.float32)]
 
 
 def labels(chart: Chart, x: Ticks, y: Ticks) -> tuple[NDArray[np.float32], list[str]]:
-    """Places (n, 2) and texts of the marks on both axes."""
+    """Positions (n, 2) and texts of the tick labels on both axes."""
     below = [(chart.upright(value)[0, 0], 0.4 * _LABEL) for value in x.values]
     beside = [(-2.3 * _LABEL, chart.level(value)[0, 1] - _LABEL) for value in y.values]
     return np.array([*below, *beside], dtype=np.float32), [*x.texts, *y.texts]
 
 
 def log_frame(layer: Layer, chart: Chart, x: Ticks, y: Ticks, name: str) -> None:
-    """Log frame, grid and marks for good, and the x axis' `name` below."""
+    """Log frame, grid and tick labels as static data, with the `name` of the x axis."""
     lines = grid(chart, x, y)
     colours = [GRID] * (len(lines) - 1) + [FRAME]
     frame = rr.LineStrips2D(lines, colors=colours, radii=0.5, draw_order=-10.0)
@@ -92,7 +92,7 @@ def log_frame(layer: Layer, chart: Chart, x: Ticks, y: Ticks, name: str) -> None
 
 
 def texts_at(places: NDArray[np.float32], texts: Sequence[str]) -> rr.Points2D:
-    """Texts at places (n, 2) in the plane."""
+    """Texts at positions (n, 2) in the plane."""
     return rr.Points2D(places, labels=list(texts), colors=TEXT, radii=0.0, show_labels=True)
 
 
@@ -103,7 +103,15 @@ def send_strips(
     rows: Sequence[Sequence[NDArray[np.float32]]],
     style: dict[str, Any],
 ) -> None:
-    """Send line strips, those of each row at its instant; `style` as of `rr.LineStrips2D`."""
+    """Send line strips over time.
+
+    Args:
+        layer: recording to draw into.
+        path: of the entity.
+        index: time columns, n rows.
+        rows: n lists of strips (points, 2).
+        style: arguments of `rr.LineStrips2D`.
+    """
     layer.log(path, rr.LineStrips2D.from_fields(**style), static=True)
     strips = [strip for row in rows for strip in row]
     columns = rr.LineStrips2D.columns(strips=strips).partition([len(row) for row in rows])
@@ -116,7 +124,7 @@ def send_labels(
     index: list[rr.TimeColumn],
     rows: Sequence[tuple[NDArray[np.float32], Sequence[str]]],
 ) -> None:
-    """Send labels, those of each row (places (n, 2), texts) at its instant."""
+    """Send labels over time: for each row of `index`, positions (m, 2) and m texts."""
     layer.log(
         path,
         rr.Points2D.from_fields(colors=[TEXT], radii=[0.0], show_labels=True),

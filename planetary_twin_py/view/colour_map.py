@@ -1,7 +1,6 @@
-"""A colour map whose steps look equal: lightness rises evenly from violet to pale yellow.
+"""A perceptually uniform colour map: lightness increases evenly from violet to pale yellow.
 
-Made in Oklab, a space in which equal distances look equal (Ottosson 2020, A perceptual color space
-for image processing).
+It is defined in Oklab (Ottosson 2020, A perceptual color space for image processing).
 """
 
 from __future__ import annotations
@@ -11,7 +10,7 @@ from numpy.typing import NDArray
 
 _LIGHTNESS = (0.32, 0.97)
 _HUE = (-70.0, 105.0)  # [deg] violet through red to yellow
-_CHROMA = 0.17  # reduced where the screen has no such colour
+_CHROMA = 0.17  # reduced for colours outside sRGB
 _LEVELS = 256
 
 # Oklab to the cube roots of cone responses, and these cubed to linear sRGB (Ottosson 2020).
@@ -32,13 +31,13 @@ _TO_LINEAR = np.array(
 
 
 def shade(level: NDArray[np.float64]) -> NDArray[np.uint8]:
-    """Colours (..., 3) of levels (...) from 0, dark, to 1, bright; beyond, that of the end."""
+    """Colours (..., 3) of levels (...) from 0, dark, to 1, bright; clipped outside."""
     place = np.rint((_LEVELS - 1) * np.clip(level, 0.0, 1.0)).astype(np.intp)
     return _TABLE[place]
 
 
 def _colour(share: float) -> NDArray[np.uint8]:
-    """The colour at a share of the map, as strong as the screen can show it."""
+    """The colour at a fraction of the map, with the largest chroma within sRGB."""
     lightness = np.full(100, _LIGHTNESS[0] + share * (_LIGHTNESS[1] - _LIGHTNESS[0]))
     hue = np.radians(_HUE[0] + share * (_HUE[1] - _HUE[0]))
     chroma = np.linspace(_CHROMA, 0.0, len(lightness))

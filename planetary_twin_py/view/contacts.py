@@ -1,9 +1,9 @@
-"""Tooth pairs in contact: a line across the tooth width where two flanks touch.
+"""Tooth pairs in contact: a line across the face width where two flanks touch.
 
-Brighter and thicker as the pair carries more; its front end is bent the way the first gear pushes
-the second, by a length in proportion to the load. The flank is that which carries (drive or coast);
-a mesh that is open has no line. /gears/carrier/contact/MESH moves with the carrier, in which the
-contact runs along a line that stands still.
+The line is brighter and thicker for a larger load. Its front end is bent in the direction of the
+force of the first gear on the second, in proportion to the load. The loaded flank (drive or coast)
+is drawn; an open mesh has no line. /gears/carrier/contact/MESH moves with the carrier, in which the
+line of action is fixed.
 """
 
 from __future__ import annotations
@@ -29,18 +29,19 @@ from .motion import Motion
 from .round_numbers import one_digit
 
 Array = NDArray[np.float64]
-_FULL = 0.99  # share of the contacts whose load the scale spans; rare impacts go beyond
-_OVERHANG = 0.06  # of the face width, so that the end shows before the face of the gears
+_FULL = 0.99  # quantile of the loads at the end of the scale; rare impacts exceed it
+_OVERHANG = 0.06  # of the face width, so that the end is visible in front of the gears
 _THICKEST, _LONGEST = 0.24, 3.0  # radius and bend at the full load [modules]
 _BARS = 48  # steps of the drawn scale
-_NEAR = 2e-4  # [s] within which a sample counts as that of an instant
+_NEAR = 2e-4  # [s], largest time difference between a sample and its use
 
 
 @dataclass(frozen=True)
 class Contacts:
-    """Tooth pairs of one mesh at n instants, p at most: all (n, p), or (n, p, 2).
+    """Tooth pairs of one mesh at n times, at most p pairs each.
 
-    `point` [m] seen from the carrier; unit `push`; `load` [N], 0 where no pair touches.
+    `point` (n, p, 2) is the position in the carrier [m], `push` (n, p, 2) the unit vector of the
+    force, `load` (n, p) the load [N], 0 without contact.
     """
 
     point: Array
@@ -49,7 +50,7 @@ class Contacts:
 
 
 def log_contacts(layer: Layer, scene: Scene, recording: Recording, motion: Motion) -> None:
-    """Log the tooth pairs in contact at the instants of `motion`, and the scale of their loads."""
+    """Log the tooth pairs in contact at the times of `motion`, and the scale of their loads."""
     force = forces(recording, motion.time)
     found = [
         contacts(scene, mesh, motion.angle, force[:, mesh]) for mesh in range(len(recording.meshes))
@@ -68,7 +69,7 @@ def log_contacts(layer: Layer, scene: Scene, recording: Recording, motion: Motio
 def forces(recording: Recording, time: Array) -> Array:
     """Forces of the meshes [N] at `time` [s] (n,), shape (n, meshes).
 
-    The sample at that instant; where the waveform has none, the mean of the interval.
+    They are samples of the waveform, or means of the interval where there is no sample.
     """
     state = recording.state
     row = np.minimum(np.searchsorted(state.time, time), len(state) - 1)
@@ -84,16 +85,16 @@ def forces(recording: Recording, time: Array) -> Array:
 
 
 def contacts(scene: Scene, mesh: int, angle: Mapping[str, Array], force: Array) -> Contacts:
-    """Tooth pairs that carry the force of a mesh, by the model's law of stiffness and its faults.
+    """Tooth pairs that carry the force of a mesh, by the stiffness and the faults of the model.
 
     Args:
         scene: gears, stiffness and faults.
-        mesh: number of the mesh in the order of a recording.
+        mesh: index of the mesh in a recording.
         angle: angles of the members [rad] (n,), see `pair_loads`.
         force: force of the mesh [N] (n,), negative on the coast flanks.
 
     Returns:
-        Where the pairs touch, in which direction they push, and their loads.
+        Positions, directions and loads.
     """
     gearset = scene.gearset
     ring, planet = divmod(mesh, gearset.planets)
@@ -113,7 +114,7 @@ def contacts(scene: Scene, mesh: int, angle: Mapping[str, Array], force: Array) 
 
 
 def _strips(gearset: Gearset, mesh: Contacts, full: float) -> rr.ComponentColumnList:
-    """One row per instant, with a strip for each pair that carries a load."""
+    """One row per time, with a strip for each loaded pair."""
     carries = mesh.load > 0.0
     level = np.minimum(mesh.load[carries] / full, 1.0)
     half = 0.5 * gearset.face_width
@@ -131,7 +132,7 @@ def _strips(gearset: Gearset, mesh: Contacts, full: float) -> rr.ComponentColumn
 
 
 def newtons(force: float) -> str:
-    """A force as people write it: 900 N, 20 kN, 3 MN."""
+    """A force with an SI prefix: 900 N, 20 kN, 3 MN."""
     for size, unit in ((1e6, "MN"), (1e3, "kN")):
         if force >= size:
             return f"{force / size:g} {unit}"
@@ -139,7 +140,7 @@ def newtons(force: float) -> str:
 
 
 def _log_scale(layer: Layer, gearset: Gearset, full: float) -> None:
-    """A bar of colours below the gears, with its loads."""
+    """Colour bar of the loads, below the gears."""
     module = MILLIMETRES * gearset.module
     reach = 0.5 * gearset.teeth.ring * module
     left, width, y = -1.12 * reach, 0.5 * reach, -1.02 * reach

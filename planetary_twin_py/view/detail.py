@@ -1,8 +1,8 @@
-"""Where a long recording is shown in every detail, and how the rest of it is summed up.
+"""Selects the parts of a long recording that are shown in detail, and aggregates the rest.
 
-The whole run is always there as an overview of a few thousand rows, more than a screen has pixels.
-Single samples and single intervals are spent where something happens: from the start on and after
-every change of the operating point; or in the stretch that is asked for.
+An overview of a few thousand rows, more than a screen has pixels, covers the whole run. Single
+samples and intervals are shown after the start and after every change of the operating point, or
+in the time span that the user gives.
 """
 
 from __future__ import annotations
@@ -15,33 +15,33 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..recording.runs.reader import Recording, Series
-from ..recording.runs.waveform import Stretch
+from ..recording.runs.waveform import TimeSpan
 
-MOST_SAMPLES = 750_000  # 15 s at 50 kHz: some 55 MB of a file, which the viewer opens in a second
-MOST_ROWS = 4_000  # of the overview, besides those in detail
-_BEFORE = 0.1  # share of a stretch before the change
-_SHORTEST = 0.1  # [s] of a stretch: some hundred mesh cycles
-# How intervals are summed up, by the end of a field's name: peaks are to stay, and what holds at
-# the end of an interval holds at the end of several; all else is a mean.
+MOST_SAMPLES = 750_000  # 15 s at 50 kHz: 55 MB, which the viewer opens in a second
+MOST_ROWS = 4_000  # of the overview, without those in detail
+_BEFORE = 0.1  # fraction of a span before the change
+_SHORTEST = 0.1  # [s] of a span: about a hundred mesh cycles
+# Aggregation of intervals by the suffix of a field: sum, maximum, rms or last value; all other
+# fields are means.
 _SUM = ("interval",)
 _LARGEST = ("_peak",)
 _SQUARE = ("_rms",)
 _LAST = ("_angle", "_time", "sequence", "planets")
 
 
-def stretches(recording: Recording) -> list[Stretch]:
-    """Where `recording` is shown sample by sample: all of it, if `MOST_SAMPLES` reach for that."""
+def detailed_spans(recording: Recording) -> list[TimeSpan]:
+    """Time spans shown sample by sample: all of `recording`, if it has at most `MOST_SAMPLES`."""
     begin, end = recording.state.time.min(), recording.state.time.max()
     begin = max(begin - recording.state["interval"][0], 0.0)
     ranges = recording.ranges
     room = math.inf if ranges is None else MOST_SAMPLES * ranges.period.min()
     if end - begin <= room:
         return [(begin, end)]
-    happened = np.unique(np.append(begin, recording.operating_point.time))
-    happened = happened[: math.floor(room / _SHORTEST)]
-    length = room / len(happened)
-    found: list[Stretch] = []
-    for instant in happened:
+    changes = np.unique(np.append(begin, recording.operating_point.time))
+    changes = changes[: math.floor(room / _SHORTEST)]
+    length = room / len(changes)
+    found: list[TimeSpan] = []
+    for instant in changes:
         first, last = max(instant - _BEFORE * length, begin), min(instant + length, end)
         if found and first <= found[-1][1]:
             first, _ = found.pop()
@@ -49,19 +49,19 @@ def stretches(recording: Recording) -> list[Stretch]:
     return found
 
 
-def overview(recording: Recording, detail: list[Stretch]) -> Recording:
-    """The same with fewer states: intervals outside of `detail` are summed up."""
+def overview(recording: Recording, detail: list[TimeSpan]) -> Recording:
+    """The same with fewer states: intervals outside `detail` are aggregated."""
     begins = first_rows(recording.state.time, detail)
     return replace(recording, state=_summed_up(recording.state, begins))
 
 
-def first_rows(time: NDArray[np.float64], detail: list[Stretch]) -> NDArray[np.intp]:
-    """First row of each group that makes one row of the overview; in `detail` each is its own."""
+def first_rows(time: NDArray[np.float64], detail: list[TimeSpan]) -> NDArray[np.intp]:
+    """First row of each group that is aggregated to one row; in `detail` a group is one row."""
     step = math.ceil(len(time) / MOST_ROWS)
     single = np.zeros(len(time) + 1, dtype=bool)
     for begin, end in detail:
         single[:-1] |= (begin <= time) & (time <= end)
-    single[1:] |= single[:-1]  # the row behind begins a group, too
+    single[1:] |= single[:-1]  # the row after it starts a group, too
     return np.flatnonzero(single[:-1] | (np.arange(len(time)) % step == 0))
 
 
@@ -86,7 +86,7 @@ def _column(
 
 
 def _mean(values: NDArray[Any], begins: NDArray[np.intp]) -> NDArray[Any]:
-    """Of what is a number in each group; NaN where nothing is."""
+    """Mean of the finite values of each group; NaN if there are none."""
     known = np.isfinite(values)
     total = np.add.reduceat(np.where(known, values, 0.0), begins, axis=0)
     count = np.add.reduceat(known.astype(np.int64), begins, axis=0)

@@ -1,4 +1,4 @@
-"""Changes of the operating point: as lines of a log, and as steps."""
+"""Changes of the operating point, as log lines and as step curves."""
 
 from __future__ import annotations
 
@@ -14,9 +14,12 @@ _COLOUR = (120, 196, 140)
 
 
 def log_events(layer: Layer, recording: Recording, known: int = 0) -> None:
-    """Log each change at /changes, and every set-point as steps at /operating_point/NAME.
+    """Log each change at /changes, and every set-point as a step curve at /operating_point/NAME.
 
-    The first `known` operating points have been logged before.
+    Args:
+        layer: recording to draw into.
+        recording: has the operating points.
+        known: number of operating points that are already logged.
     """
     point = recording.operating_point
     if not len(point):
@@ -25,7 +28,7 @@ def log_events(layer: Layer, recording: Recording, known: int = 0) -> None:
     index = timeline.columns(point.time[known:], point.stamp[known:])
     level = ["INFO"] * len(text)
     layer.send_columns("changes", index, rr.TextLog.columns(text=text, level=level))
-    # The last values hold to the end of the recording.
+    # The last values apply until the end of the recording.
     last = len(recording.state) - 1
     index = timeline.columns(
         np.append(point.time[known:], recording.state.time[last]),
@@ -39,11 +42,11 @@ def log_events(layer: Layer, recording: Recording, known: int = 0) -> None:
 
 
 def sentence(recording: Recording, row: int) -> str:
-    """What changed, with old and new value; the first message tells all values."""
+    """Changed set-points with new and old values; all values for the first message."""
     point = recording.operating_point
     changed = [name for name in str(point["changed"][row]).split(",") if name in OPERATING_POINT]
     if row == 0 or not changed:
-        return "in force: " + ", ".join(_value(recording, name, row) for name in OPERATING_POINT)
+        return "initial: " + ", ".join(_value(recording, name, row) for name in OPERATING_POINT)
     return "; ".join(
         f"{_value(recording, name, row)}, was {_number(recording, name, row - 1)}"
         for name in changed

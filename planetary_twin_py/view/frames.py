@@ -1,4 +1,4 @@
-"""Windows of the DTE of one mesh along a recording, for what is seen of a stretch of time."""
+"""Windows of the DTE of one mesh along a recording, for spectra and phase portraits."""
 
 from __future__ import annotations
 
@@ -14,13 +14,13 @@ from . import timeline
 
 Array = NDArray[np.float64]
 MESH = 0  # sun_planet_1
-STEP = 0.1  # [s] between two windows
-MOST = 300  # windows; of more than half a minute they lie further apart
+STEP = 0.1  # [s] between windows
+MOST = 300  # windows; in recordings longer than 30 s their distance is larger
 
 
 @dataclass(frozen=True)
 class Frames:
-    """`time` [s] and `stamp` [ns] (n,) of the instants; the even `stretches` of the samples."""
+    """Centres of the windows, `time` [s] and `stamp` [ns] (n,), and the gap-free `stretches`."""
 
     recording: Recording
     time: Array
@@ -29,19 +29,24 @@ class Frames:
 
     @property
     def index(self) -> list[rr.TimeColumn]:
-        """For `rr.send_columns`."""
+        """Time columns for `rr.send_columns`."""
         return timeline.columns(self.time, self.stamp)
 
     @property
     def remark(self) -> str | None:
-        """Where samples are thinned, if anywhere."""
+        """Warning if samples are decimated somewhere."""
         wave = self.recording.waveform
         return None if wave is None else thinned(wave.time, self.stretches)
 
     def lasting(self, seconds: float, cycles: float) -> float:
-        """A duration [s] of so many `seconds`, or mesh cycles at the usual speed if that is longer.
+        """Duration of a window [s].
 
-        Not longer than the longest stretch of samples.
+        Args:
+            seconds: minimum duration [s].
+            cycles: minimum number of mesh cycles at the median speed.
+
+        Returns:
+            The larger of both, limited to the longest gap-free stretch of samples.
         """
         wave, mesh = self.recording.waveform, self.recording.state["mesh_frequency"]
         assert wave is not None
@@ -53,15 +58,20 @@ class Frames:
         return min(max(seconds, cycles / usual if usual > 0.0 else 0.0), max(seconds, longest))
 
     def state(self, name: str) -> Array:
-        """A field of GearboxState at the instants (n,): of the interval each lies in."""
+        """A field of GearboxState at the centres of the windows (n,)."""
         state = self.recording.state
         row = np.minimum(np.searchsorted(state.time, self.time), len(state) - 1)
         return np.asarray(state[name][row], dtype=np.float64)
 
     def window(self, number: int, duration: float) -> tuple[Array, Array] | None:
-        """Time [s] and DTE [m] of `duration` [s] around an instant, without a gap in it.
+        """Time [s] and DTE [m] of a gap-free window.
 
-        Near a gap or an end the window is moved to where it fits; None where it does not.
+        Args:
+            number: index of the window.
+            duration: of the window [s].
+
+        Returns:
+            The samples, near a gap or an end from a shifted window; None if no window fits.
         """
         wave, now = self.recording.waveform, self.time[number]
         assert wave is not None
@@ -76,7 +86,7 @@ class Frames:
 
 
 def frames(recording: Recording) -> Frames | None:
-    """Instants from the first sample to the last; None without samples."""
+    """Windows from the first sample to the last; None without samples."""
     wave = recording.waveform
     if wave is None or len(wave.time) < 2:
         return None

@@ -1,8 +1,8 @@
-"""The gears as solids that turn: a scene graph of static meshes and rotations by columns.
+"""The gears as rotating solids: a scene graph of static meshes and rotations over time.
 
-/gears/sun, /gears/ring, /gears/carrier turn about the gearbox's axis; /gears/carrier/pin_i stands
-on the carrier circle and carries /gears/carrier/pin_i/planet_i, which turns about its pin. Lengths
-are drawn in millimetres: the viewer's camera and grid suit sizes of some tens, not of hundredths.
+/gears/sun, /gears/ring and /gears/carrier rotate about the axis of the gearbox;
+/gears/carrier/pin_i is fixed to the carrier, and /gears/carrier/pin_i/planet_i rotates about its
+pin. Lengths are in millimetres, because the camera of the viewer suits numbers of that size.
 """
 
 from __future__ import annotations
@@ -54,7 +54,7 @@ def log_gears(layer: Layer, gearset: Gearset) -> None:
 
 
 def log_motion(layer: Layer, gearset: Gearset, motion: Motion) -> None:
-    """Log how the solids turn."""
+    """Log the rotation of the solids."""
     stand = mount(gearset.tooth_numbers, gearset.planet_angles)
     carrier = motion.angle["carrier"]
     _turn(layer, "gears/sun", motion, stand.sun + motion.angle["sun"])
@@ -79,7 +79,7 @@ def _solid(
     colour: tuple[int, int, int],
     gear: SpurGear | None = None,
 ) -> None:
-    """Log a mesh once; of a gear, tooth 0 (around angle zero) is marked."""
+    """Log a static mesh; tooth 0 of a gear, at angle zero, is marked."""
     colours = np.tile(np.array(colour, dtype=np.uint8), (len(solid.vertices), 1))
     if gear is not None:
         colours[_of_tooth_zero(solid, gear)] = MARK
@@ -93,7 +93,7 @@ def _solid(
 
 
 def _of_tooth_zero(solid: TriangleMesh, gear: SpurGear) -> NDArray[np.bool_]:
-    """Which vertices belong to faces (four vertices each) that lie wholly in tooth 0."""
+    """Whether each vertex belongs to a face (four vertices) that is entirely in tooth 0."""
     x, y, _ = solid.vertices.astype(np.float64).T
     foot = gear.half_thickness(np.array(gear.root_radius))
     depth = (np.hypot(x, y) - gear.root_radius) * (-1.0 if gear.internal else 1.0)
@@ -102,7 +102,7 @@ def _of_tooth_zero(solid: TriangleMesh, gear: SpurGear) -> NDArray[np.bool_]:
 
 
 def _turn(layer: Layer, path: str, motion: Motion, angle: NDArray[np.float64]) -> None:
-    """Rotations about z by columns; of a member that stands still, the first holds."""
+    """Log rotations about z; for a member at rest, only the first."""
     rows = slice(0, 1 if np.ptp(angle) == 0.0 else len(angle))
     quaternions = np.zeros((len(angle[rows]), 4), dtype=np.float32)
     quaternions[:, 2], quaternions[:, 3] = np.sin(0.5 * angle[rows]), np.cos(0.5 * angle[rows])

@@ -1,7 +1,7 @@
-"""One recording among those shown together: where its curves stand, and how they look.
+"""One of several recordings shown together: its entity paths and its line style.
 
-Entities of a further recording stand below those of the first, /mesh/dte_mean/NAME below
-/mesh/dte_mean: so every plot shows them all, and a layout made for one recording fits several.
+Entities of further recordings are below those of the first, for example /mesh/dte_mean/NAME below
+/mesh/dte_mean, so that the layout of one recording shows them all.
 """
 
 from __future__ import annotations
@@ -13,47 +13,47 @@ import rerun as rr
 from rerun._baseclasses import ComponentColumn
 
 Colour = tuple[int, int, int]
-_FADE = 0.45  # of its colour that a curve keeps from one recording to the next, the rest is white
+_FADE = 0.45  # fraction of the colour kept from one recording to the next, the rest is white
 _WIDTH = 1.5  # of a line of the first recording
 
 
 @dataclass(frozen=True)
 class Layer:
-    """Draws one recording into `stream`: the first (`order` 0) in strong lines, others beneath
-    in pale and wide ones, which stay seen where they are the same."""
+    """Draws one recording into `stream`: the first (`order` 0) in strong lines, others behind it
+    in pale, wide lines, which remain visible where curves coincide."""
 
     stream: rr.RecordingStream
     name: str = ""
     order: int = 0
     below: str = ""
-    """What its entities stand below, e.g. "difference"."""
-    _told: set[tuple[str, type]] = field(default_factory=set)
+    """Parent of its entities, e.g. "difference"."""
+    _logged: set[tuple[str, type]] = field(default_factory=set)
 
     def log(self, path: str, what: rr.AsComponents, static: bool = False) -> None:
-        """Log at `path`; what is static once, however often it is given."""
+        """Log `what` at `path`; static data only once."""
         place = self._place(path)
-        told = (place, type(what))  # a solid may stand where a place is told
-        if static and told in self._told:
+        key = (place, type(what))  # a path may have a transform and a mesh
+        if static and key in self._logged:
             return
         if static:
-            self._told.add(told)
+            self._logged.add(key)
         self.stream.log(place, what, static=static)
 
     def send_columns(
         self, path: str, index: list[rr.TimeColumn], columns: Iterable[ComponentColumn]
     ) -> None:
-        """Log columns at `path`, if they have rows: the viewer fails on a time without any."""
+        """Send columns at `path` unless they are empty, on which the viewer fails."""
         if len(index[0].as_arrow_array()):
             self.stream.send_columns(self._place(path), index, columns)
 
     def label(self, text: str) -> str:
-        """`text` after the recording's name, where there are several."""
+        """`text`, with the name of the recording if there are several."""
         return f"{self.name}: {text}" if self.name else text
 
     def lines(
         self, names: Sequence[str], colours: Sequence[Colour], steps: bool = False
     ) -> rr.SeriesLines:
-        """The look of one line per name."""
+        """Style of one line per name."""
         return rr.SeriesLines(
             names=[self.label(name) for name in names],
             colors=[self.shade(colour) for colour in colours[: len(names)]],
@@ -62,7 +62,7 @@ class Layer:
         )
 
     def shade(self, colour: Colour) -> Colour:
-        """What becomes of a colour."""
+        """A colour as drawn in this layer."""
         kept = _FADE**self.order
         red, green, blue = (round(255 - kept * (255 - channel)) for channel in colour)
         return red, green, blue

@@ -1,4 +1,4 @@
-"""A running twin, drawn batch after batch by what draws a recording."""
+"""A running twin, drawn in batches by the functions that draw a recording."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from ..recording.ros2.layout import Layouts
 from ..recording.ros2.topics import ORIGIN, POINT, STATE, WAVEFORM
 from ..recording.runs.origin import read_origin
 from ..recording.runs.reader import TOPICS, Recording, assemble
-from ..recording.runs.waveform import Held, waveform_of
+from ..recording.runs.waveform import InMemory, waveform_of
 from ..scene import Scene
 from .blueprint import LIVE
 from .events import log_events
@@ -26,14 +26,17 @@ from .show import check_scene, send_layout
 from .waveform import log_waveform
 
 _TIME = {STATE: "simulated_time", WAVEFORM: "start_time", POINT: "simulated_time"}
-Messages = dict[str, list[NDArray[Any]]]  # of one row each
+Messages = dict[str, list[NDArray[Any]]]  # arrays of one row
 
 
 class LiveView:
-    """Draws what a twin publishes, each run (from one reset to the next) into a stream of its own.
+    """Draws the messages of a twin; each run, from one reset to the next, has its own stream.
 
-    `begin` opens the stream of a run; `scene` is drawn in place of the one that the twin tells,
-    before which nothing is drawn.
+    Args:
+        namespace: of the twin.
+        begin: opens the stream of a run.
+        scene: to draw in place of the published one; without it, drawing starts when the twin has
+            published its scene.
     """
 
     def __init__(
@@ -42,32 +45,35 @@ class LiveView:
         self._namespace = namespace
         self._begin = begin
         self._chosen = scene
-        self._told: Scene | None = None
+        self._published: Scene | None = None
         self._topics = Topics("the running twin", lambda topic: True)
         self._layouts: dict[str, Layouts] = {}
         self._waiting: Messages = {name: [] for name in TOPICS}
-        self._run: _Run | None = None
+        self._run: _DrawnRun | None = None
 
     def take(self, records: Iterable[Any]) -> None:
-        """Draw what MCAP records tell: schemas and channels, then messages in their order.
+        """Draw MCAP records.
+
+        Args:
+            records: schemas and channels, then messages in order.
 
         Raises:
-            RecordingError: the scene is of another gearbox, or cannot be read.
+            RecordingError: the scene does not match the messages, or cannot be read.
         """
         for record in records:
             if found := self._topics.of(record):
                 name = found.topic.rpartition("/")[2]
                 (message,) = self._layout(found).arrays([record.data])
                 if name == ORIGIN:
-                    self._told = read_origin(message["data"][0].decode()).scene
+                    self._published = read_origin(message["data"][0].decode()).scene
                 elif name in self._waiting:
                     self._waiting[name].append(message)
-        scene = self._chosen or self._told
+        scene = self._chosen or self._published
         while scene is not None and self._draw(scene):
             self.close()
 
     def close(self) -> None:
-        """Send what is left."""
+        """Flush and close the stream."""
         if self._run is not None:
             self._run.end()
             self._run = None
@@ -78,11 +84,11 @@ class LiveView:
         return self._layouts[of.topic]
 
     def _draw(self, scene: Scene) -> bool:
-        """Draw what belongs to one run; returns whether another has begun."""
+        """Draw the messages of one run; return whether another run has started."""
         if self._run is None:
             if not self._waiting[STATE]:
                 return False
-            self._run = _Run(self._namespace, self._begin(), scene)
+            self._run = _DrawnRun(self._namespace, self._begin(), scene)
         now: Messages = {}
         for name, messages in self._waiting.items():
             cut = _cut(messages, _TIME[name], self._run.reached[name])
@@ -92,8 +98,8 @@ class LiveView:
         return bool(self._waiting[STATE])
 
 
-class _Run:
-    """One run of a twin on the screen."""
+class _DrawnRun:
+    """Draws one run of a twin."""
 
     def __init__(self, namespace: str, stream: rr.RecordingStream, scene: Scene) -> None:
         self.reached = dict.fromkeys(TOPICS, 0.0)
@@ -105,7 +111,7 @@ class _Run:
         log_gears(self._layer, scene.gearset)
 
     def draw(self, new: Messages) -> None:
-        """Draw messages that follow those before."""
+        """Draw further messages of the run."""
         known = len(self._last[POINT])
         points, states = (self._last[name] + new[name] for name in (POINT, STATE))
         shown = self._recording({**new, POINT: points, STATE: states})
@@ -123,17 +129,17 @@ class _Run:
             self._last[name] = (before + new[name])[-1:]
 
     def end(self) -> None:
-        """Send what is left."""
+        """Flush and close the stream."""
         self._layer.stream.flush()
         self._layer.stream.disconnect()
 
     def _recording(self, messages: Messages) -> Recording:
-        samples = Held(waveform_of(messages[WAVEFORM]))
+        samples = InMemory(waveform_of(messages[WAVEFORM]))
         return assemble(messages, samples, Path(self._namespace), self._namespace)
 
 
 def _cut(messages: list[NDArray[Any]], time: str, reached: float) -> int:
-    """How many messages come before simulated time goes back."""
+    """Number of messages before the simulated time decreases."""
     for count, message in enumerate(messages):
         if message[time][0] < reached:
             return count

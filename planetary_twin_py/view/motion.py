@@ -1,8 +1,8 @@
-"""Angles of the members on a grid fine enough that the eye can follow the teeth.
+"""Angles of the members on a time grid fine enough for the eye to follow the teeth.
 
-A recording holds angles a hundred times a second, modulo one turn: between two of them a fast gear
-passes several teeth. The recorded mean speed tells how many whole turns went by, and the angle runs
-linearly in between; at the recorded instants it is exactly the recorded one.
+A recording has angles modulo one turn, a hundred times a second; between two of them a fast gear
+passes several teeth. The recorded mean speed determines the number of whole turns; the angle is
+interpolated linearly between the recorded times.
 """
 
 from __future__ import annotations
@@ -16,7 +16,7 @@ from ..recording.runs.reader import Recording, Series
 from ..recording.runs.unwrapping import unwrap
 
 Column = NDArray[np.float64]
-STEPS_PER_PITCH = 6  # the eye then sees a tooth move on rather than the wheel run backwards
+STEPS_PER_PITCH = 6  # avoids that the wheel appears to turn backwards
 MOST_ROWS = 40_000  # of motion: about 2 MB per member
 
 
@@ -50,7 +50,7 @@ def _members(state: Series, planets: int) -> dict[str, tuple[Column, Column]]:
 
 
 def _rows_per_interval(state: Series) -> NDArray[np.int64]:
-    """How many rows each interval between two recorded states is drawn in."""
+    """Number of rows for each interval between two recorded states."""
     pitches = np.abs(state["mesh_frequency"][1:]) * np.abs(np.diff(state.time))
     wanted = np.nan_to_num(STEPS_PER_PITCH * pitches)
     room = MOST_ROWS / max(float(wanted.sum()), MOST_ROWS)

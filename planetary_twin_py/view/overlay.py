@@ -1,4 +1,4 @@
-"""Several recordings on one time axis: what they are called, and by how much they differ."""
+"""Several recordings on one time axis: their names and differences."""
 
 from __future__ import annotations
 
@@ -10,18 +10,21 @@ import numpy as np
 
 from ..recording.container.records import RecordingError
 from ..recording.runs.reader import Recording
-from ..recording.runs.waveform import Held, Waveform
+from ..recording.runs.waveform import InMemory, Waveform
 
 DIFFERENCE = "difference"
-"""What the differences stand below."""
-_COINCIDE = 1e-9  # [s] at most between samples of one instant: the time axis counts nanoseconds
+"""Parent of the entities of differences."""
+_COINCIDE = 1e-9  # [s], largest difference of coinciding samples; the time axis has nanoseconds
 
 
 def names_of(recordings: Sequence[Recording]) -> list[str]:
-    """A name for each, "" for one alone: that of its file, or its path where files share a name.
+    """A name for each recording: of its file, or its path if several files have the same name.
+
+    Args:
+        recordings: at least one; the name of a single recording is "".
 
     Raises:
-        RecordingError: one of them is there twice.
+        RecordingError: a recording occurs twice.
     """
     if len(recordings) == 1:
         return [""]
@@ -31,30 +34,30 @@ def names_of(recordings: Sequence[Recording]) -> list[str]:
         for recording in recordings
     ]
     if len(set(names)) < len(names):
-        raise RecordingError(f"{Counter(names).most_common(1)[0][0]}: is to be shown twice")
+        raise RecordingError(f"{Counter(names).most_common(1)[0][0]}: given twice")
     return names
 
 
 def difference(first: Recording, other: Recording) -> Recording:
-    """`other` with the waveform less that of `first`, where both have a sample of one instant.
+    """`other` with its waveform minus that of `first`, at the times of samples of both.
 
     Raises:
-        RecordingError: there is no such instant, or the meshes are not the same.
+        RecordingError: no sample times coincide, or the meshes differ.
     """
     if first.meshes != other.meshes:
         raise RecordingError(
-            f"{other.path}: has {other.planets} planets, {first.path} {first.planets}, "
+            f"{other.path}: has {other.planets} planets, but {first.path} has {first.planets}, "
             "so no difference is drawn"
         )
     if first.waveform is None or other.waveform is None:
-        raise RecordingError(f"{other.path}: no difference is drawn without both waveforms")
+        raise RecordingError(f"{other.path}: a waveform is missing, so no difference is drawn")
     less = _less(first.waveform, other.waveform)
     if not len(less.time):
         raise RecordingError(
-            f"{other.path}: no sample is of the same instant as one of {first.path}, "
+            f"{other.path}: no sample has the same time as one of {first.path}, "
             "so no difference is drawn"
         )
-    return replace(other, blocks=Held(less))
+    return replace(other, blocks=InMemory(less))
 
 
 def _less(first: Waveform, other: Waveform) -> Waveform:

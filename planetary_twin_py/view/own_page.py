@@ -1,8 +1,8 @@
-"""The viewer's page without what it would load from other hosts.
+"""The web page of the viewer, without requests to other hosts.
 
-Rerun's own page fetches a font from Google, and its program a list of examples and a host for its
-statistics. Here the page passes through a server on this machine that takes the references to other
-hosts out of it, and whose Content-Security-Policy forbids the browser to ask other hosts later.
+The page of Rerun loads a font from Google, and its program a list of examples and sends usage
+statistics. A proxy on this machine removes the references to other hosts from the page, and its
+Content-Security-Policy forbids the browser to contact other hosts.
 """
 
 from __future__ import annotations
@@ -15,7 +15,7 @@ from http.client import HTTPConnection, HTTPException
 from http.server import BaseHTTPRequestHandler, ThreadingHTTPServer
 
 _HOST = "127.0.0.1"
-_PATIENCE = 20.0  # [s] for the viewer to answer
+_TIMEOUT = 20.0  # [s] for the viewer to answer
 _LOADING = re.compile(r"<link\b[^>]*\bhref=[\"']?(?:https?:)?//[^>]*>", re.IGNORECASE)
 
 
@@ -27,8 +27,7 @@ def without_other_hosts(page: str) -> str:
 def policy(data: int) -> str:
     """The Content-Security-Policy of the page: this server, and the viewer's data on port `data`.
 
-    The page's scripts are written into it and compile WebAssembly; pictures and workers may be made
-    by these themselves.
+    Inline scripts of the page compile WebAssembly, and create images and workers.
     """
     return "; ".join(
         (
@@ -44,15 +43,15 @@ def policy(data: int) -> str:
 
 @contextmanager
 def served(port: int, origin: int, data: int) -> Iterator[None]:
-    """Serve on this machine what the viewer serves, for as long as the context lasts.
+    """Context in which a proxy serves the page of the viewer on this machine.
 
     Args:
-        port: of the page.
-        origin: port on which the viewer serves its own page.
+        port: of the proxy.
+        origin: port of the viewer's page.
         data: port of the viewer's data.
 
     Raises:
-        OSError: the port is taken.
+        OSError: the port is in use.
     """
     with ThreadingHTTPServer((_HOST, port), _handler(origin, policy(data))) as server:
         thread = threading.Thread(target=server.serve_forever, daemon=True)
@@ -77,7 +76,7 @@ def _handler(origin: int, allowed: str) -> type[BaseHTTPRequestHandler]:
             self.send_header("Content-Length", str(len(body)))
             self.send_header("Content-Security-Policy", allowed)
             self.end_headers()
-            with suppress(ConnectionError):  # a browser that was closed meanwhile
+            with suppress(ConnectionError):  # the browser was closed
                 self.wfile.write(body)
 
         def log_message(self, format: str, *args: object) -> None:
@@ -88,7 +87,7 @@ def _handler(origin: int, allowed: str) -> type[BaseHTTPRequestHandler]:
 
 def _fetched(origin: int, path: str) -> tuple[int, str, bytes]:
     """Status, type and content that the viewer serves at `path`."""
-    connection = HTTPConnection(_HOST, origin, timeout=_PATIENCE)
+    connection = HTTPConnection(_HOST, origin, timeout=_TIMEOUT)
     try:
         connection.request("GET", path)
         answer = connection.getresponse()

@@ -1,7 +1,7 @@
 """Phase portrait of a mesh around the time cursor: DTE against its rate.
 
-Steady running is a loop that closes on itself; teeth that separate travel through the backlash,
-between the marks, at nearly constant rate.
+Steady running is a closed loop; teeth that separate cross the backlash, between the marks, at a
+nearly constant rate.
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ from .round_numbers import ticks
 Array = NDArray[np.float64]
 WIDTH, HEIGHT = 420.0, 215.0
 WINDOW, CYCLES = 0.04, 4  # [s], or mesh cycles if slower
-FINER = 3  # points of the curve per sample, so that its turns are round
+FINER = 3  # points of the curve per sample, for a smooth curve
 MOST_POINTS = 6000
 _FLANK = (236, 176, 64)
 _MARGIN = 0.06  # of the range, around the curve
@@ -37,7 +37,7 @@ class _Portrait(NamedTuple):
 
 
 def log_phase_portrait(layer: Layer, frames: Frames) -> None:
-    """Log /phase_portrait, with axes that follow its size."""
+    """Log /phase_portrait, with axes scaled to its size."""
     point = frames.recording.operating_point
     rows = np.searchsorted(point.time, frames.time, side="right") - 1
     half = [0.5 * float(point["backlash"][row]) if row >= 0 else math.nan for row in rows]

@@ -1,4 +1,4 @@
-"""The curves: what GearboxState holds, per mesh and for the whole train."""
+"""Curves of the fields of GearboxState, per mesh and for the whole train."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from ..recording.runs.reader import Recording
 from . import timeline
 from .layer import Colour, Layer
 
-_SUN_PLANET_HUE, _PLANET_RING_HUE = 0.58, 0.09  # blue and orange, told apart by most eyes
+_SUN_PLANET_HUE, _PLANET_RING_HUE = 0.58, 0.09  # blue and orange
 TRAIN_COLOURS = ((236, 176, 64), (150, 158, 170), (205, 104, 86))
 
 
@@ -45,7 +45,7 @@ def log_series(
 
 
 def mesh_colours(planets: int) -> list[Colour]:
-    """Tints of blue for the sun's meshes, of orange for the ring's, in the meshes' order."""
+    """Shades of blue for the sun meshes, then of orange for the ring meshes."""
     shades = np.linspace(0.78, 0.3, planets)
     tints = [
         colorsys.hsv_to_rgb(hue, shade, 0.95)

@@ -1,4 +1,4 @@
-"""Numbers that read well on a scale."""
+"""Round numbers for scales."""
 
 from __future__ import annotations
 
@@ -11,13 +11,13 @@ _STEPS = (1.0, 2.0, 5.0, 10.0)
 
 
 def round_up(value: float) -> float:
-    """The smallest of 1, 2, 5, 10, ... that is not below `value` > 0."""
+    """The smallest of ..., 1, 2, 5, 10, ... that is at least `value` > 0."""
     power = 10.0 ** math.floor(math.log10(value))
     return next(step * power for step in (*_STEPS, 20.0) if step * power >= value * (1.0 - 1e-9))
 
 
 def one_digit(value: float) -> float:
-    """The smallest number of one significant digit that is not below `value` > 0."""
+    """The smallest number with one significant digit that is at least `value` > 0."""
     power = 10.0 ** math.floor(math.log10(value))
     return power * math.ceil(value / power * (1.0 - 1e-9))
 

@@ -1,6 +1,6 @@
-"""A picture of a recording, made by the viewer itself with neither display nor graphics card.
+"""A picture of a recording, rendered by the viewer without display or graphics card.
 
-The viewer runs without a window and listens on this machine only, for as long as the picture takes.
+The viewer runs without a window, and accepts connections from this machine only.
 """
 
 from __future__ import annotations
@@ -16,11 +16,11 @@ from typing import IO
 from rerun.experimental import ViewerClient
 
 from .timeline import SIMULATED_TIME
-from .viewer import ViewerError, free_port, last_words, start_viewer, stop_viewer
+from .viewer import ViewerError, free_port, last_line, start_viewer, stop_viewer
 
 _START_LIMIT = 30.0  # [s] a cold start with a software renderer takes 2 to 5 s
-_NOTICES = 4.0  # [s] the viewer's notices about its start stay in the picture for 2 to 3 s
-_SETTLE_LIMIT = 30.0  # [s] curves and solids are loaded as they are needed, seen in 1 to 3 s
+_NOTICES = 4.0  # [s] until start-up notifications, shown for 2 to 3 s, have disappeared
+_SETTLE_LIMIT = 30.0  # [s] until all curves and solids are loaded, which takes 1 to 3 s
 
 
 class ScreenshotError(ViewerError):
@@ -30,10 +30,16 @@ class ScreenshotError(ViewerError):
 def save_screenshot(
     rrd: Path, png: Path, at: float | None = None, size: tuple[int, int] = (1920, 1080)
 ) -> None:
-    """Save a picture of `rrd` to `png` with the time cursor at `at` [s] of simulated time.
+    """Save a picture of a Rerun file.
+
+    Args:
+        rrd: Rerun file.
+        png: file to write.
+        at: position of the time cursor [s of simulated time]; None is the default of the viewer.
+        size: width and height in pixels.
 
     Raises:
-        ScreenshotError: the viewer does not start, for example for want of a Vulkan driver.
+        ScreenshotError: the viewer does not start, for example without a Vulkan driver.
     """
     with _headless_viewer(size) as client:
         client.open(str(rrd.resolve()))
@@ -72,12 +78,12 @@ def _connect(viewer: subprocess.Popen[bytes], port: int, output: IO[bytes]) -> V
 
 
 def _settled_picture(client: ViewerClient) -> bytes:
-    """The picture once it no longer changes, which is when everything in it has been loaded."""
+    """The picture when it no longer changes, because everything is loaded."""
     deadline = time.monotonic() + _SETTLE_LIMIT
     before, picture = b"", client.take_screenshot()
     while picture != before:
         if time.monotonic() > deadline:
-            raise ScreenshotError(f"the picture still changes after {_SETTLE_LIMIT:.0f} s")
+            raise ScreenshotError(f"the picture keeps changing after {_SETTLE_LIMIT:.0f} s")
         time.sleep(0.3)
         before, picture = picture, client.take_screenshot()
     return picture
@@ -89,7 +95,7 @@ def _reason(output: IO[bytes]) -> str:
     printed = output.read().decode(errors="replace")
     if "adapter" in printed or "Vulkan" in printed:
         return (
-            "no Vulkan driver is installed: a software one suffices, "
+            "no Vulkan driver is installed; a software driver is sufficient, "
             "on Debian and Ubuntu the package mesa-vulkan-drivers"
         )
-    return f"the viewer ended at once: {last_words(output)}"
+    return f"the viewer exited at once: {last_line(output)}"

@@ -1,4 +1,4 @@
-"""Recordings as one Rerun stream: gears, curves and changes, with the layout that shows them."""
+"""Recordings as one Rerun stream: gears, curves, parameter changes and layout."""
 
 from __future__ import annotations
 
@@ -10,11 +10,11 @@ import rerun as rr
 
 from ..recording.container.records import RecordingError
 from ..recording.runs.reader import Recording
-from ..recording.runs.waveform import Stretch
+from ..recording.runs.waveform import TimeSpan
 from ..scene import Scene, SceneError, parse_scene
 from .blueprint import FILE, Mode, blueprint
 from .contacts import log_contacts
-from .detail import overview, stretches
+from .detail import detailed_spans, overview
 from .events import log_events
 from .frames import frames
 from .gears import log_gears, log_motion
@@ -30,9 +30,9 @@ APPLICATION = "planetary_twin"
 
 
 def scene_of(recording: Recording) -> tuple[Scene | None, str | None]:
-    """The scene that `recording` carries; None and a remark where there is none to be read."""
+    """The scene in `recording`, or None and a warning if there is none or it is invalid."""
     if recording.scene_yaml is None:
-        return None, f"{recording.path}: carries no scene, so no gears are drawn; --scene gives one"
+        return None, f"{recording.path}: has no scene, so no gears are drawn; use --scene"
     try:
         return parse_scene(recording.scene_yaml), None
     except SceneError as error:
@@ -45,13 +45,23 @@ def save(
     rrd: Path,
     others: Sequence[Recording] = (),
     mode: Mode = FILE,
-    detail: Stretch | None = None,
+    detail: TimeSpan | None = None,
 ) -> list[str]:
-    """Save `recording` as Rerun file `rrd`; returns remarks on what is left out, line by line.
+    """Save recordings as a Rerun file.
 
-    Curves of the `others` lie over it, and what their waveforms are more than its own is drawn,
-    too; gears and spectra are those of `recording` alone. `detail`: the stretch of simulated time
-    that is shown sample by sample, instead of where something happens.
+    Args:
+        recording: the first recording, of which gears and spectra are drawn.
+        scene: of the gears; None draws no gears.
+        rrd: file to write.
+        others: recordings to overlay; differences of their waveforms from the first are drawn, too.
+        mode: variant of the layout.
+        detail: time span [s] shown sample by sample; None selects the start and the changes.
+
+    Returns:
+        Warnings about what is not shown.
+
+    Raises:
+        RecordingError: the scene does not match, or the file cannot be written.
     """
     check_scene(scene, recording)
     names = names_of([recording, *others])
@@ -60,7 +70,7 @@ def save(
     compared = names[0] if others else None
     send_layout(stream, scene, mode, compared)
     layers = [Layer(stream, name, order) for order, name in enumerate(names)]
-    in_detail = stretches(recording) if detail is None else [detail]
+    in_detail = detailed_spans(recording) if detail is None else [detail]
     remarks = []
     for layer, shown in zip(layers, (recording, *others), strict=True):
         remarks += log_curves(layer, shown, in_detail)
@@ -79,37 +89,37 @@ def to_file(rrd: Path) -> rr.RecordingStream:
     try:
         stream.save(rrd)
     except RuntimeError as error:
-        raise RecordingError(f"{rrd}: cannot be written: {error}") from None
+        raise RecordingError(f"{rrd}: is not writable: {error}") from None
     return stream
 
 
 def to_viewer(url: str) -> rr.RecordingStream:
-    """A stream to a viewer that runs."""
+    """A stream to the running viewer at `url`."""
     stream = rr.RecordingStream(APPLICATION)
     stream.connect_grpc(url)
     return stream
 
 
 def check_scene(scene: Scene | None, recording: Recording) -> None:
-    """Raise `RecordingError` where `scene` is of another gearbox."""
+    """Raise `RecordingError` if the numbers of planets of `scene` and `recording` differ."""
     if scene is not None and scene.gearset.planets != recording.planets:
         raise RecordingError(
             f"scene = {scene.name}: has {scene.gearset.planets} planets, "
-            f"the recording {recording.planets}"
+            f"but the recording has {recording.planets}"
         )
 
 
 def send_layout(
     stream: rr.RecordingStream, scene: Scene | None, mode: Mode, compared: str | None = None
 ) -> None:
-    """Send the layout that shows what is drawn; `compared` is what others are compared with."""
+    """Send the layout; see `blueprint` for `mode` and `compared`."""
     layout = blueprint(scene.gearset if scene else None, mode, compared)
-    # Active, not only default: a layout that the viewer remembers from before would win otherwise.
+    # Active, because the viewer would otherwise prefer a layout stored earlier.
     stream.send_blueprint(layout, make_active=True, make_default=True)
 
 
-def log_curves(layer: Layer, recording: Recording, detail: list[Stretch]) -> list[str]:
-    """Log all but the gears, samples in `detail`; returns remarks."""
+def log_curves(layer: Layer, recording: Recording, detail: list[TimeSpan]) -> list[str]:
+    """Log curves and changes, with samples in `detail`; return warnings."""
     log_plots(layer, overview(recording, detail))
     log_events(layer, recording)
     remark = log_waveform(layer, recording, detail)
@@ -117,7 +127,7 @@ def log_curves(layer: Layer, recording: Recording, detail: list[Stretch]) -> lis
 
 
 def _log_first(layer: Layer, recording: Recording, scene: Scene | None) -> list[str]:
-    """Log what has room for one recording: gears, tooth contacts, spectra; returns remarks."""
+    """Log what is drawn of the first recording only: gears, contacts, spectra; return warnings."""
     if scene is not None:
         moved = motion(recording)
         log_gears(layer, scene.gearset)
@@ -132,12 +142,12 @@ def _log_first(layer: Layer, recording: Recording, scene: Scene | None) -> list[
 
 
 def _log_difference(
-    layer: Layer, first: Recording, other: Recording, detail: list[Stretch]
+    layer: Layer, first: Recording, other: Recording, detail: list[TimeSpan]
 ) -> list[str]:
     try:
         less = difference(first, other)
     except RecordingError as reason:
         return [str(reason)]
-    # What it says of left out samples has been said of the recording itself.
+    # Its warning about omitted samples repeats that of the recording.
     log_waveform(replace(layer, below=DIFFERENCE, order=layer.order - 1), less, detail)
     return []

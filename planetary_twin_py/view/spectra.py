@@ -1,4 +1,4 @@
-"""Spectrum of the DTE around the time cursor, and its orders over the whole recording."""
+"""Spectrum of the DTE around the time cursor, and order map of the whole recording."""
 
 from __future__ import annotations
 
@@ -24,10 +24,10 @@ from .round_numbers import ticks
 
 Array = NDArray[np.float64]
 WIDTH, HEIGHT = 940.0, 215.0
-WINDOW, CYCLES = 0.2, 64  # [s], which resolves 5 Hz, or mesh cycles if slower
-HARMONICS = 8  # of the meshing that are shown
-MARKS = 24  # of its harmonics in a spectrum at most
-DECADES = 4  # of amplitudes that are shown
+WINDOW, CYCLES = 0.2, 64  # [s], with a resolution of 5 Hz, or mesh cycles if slower
+HARMONICS = 8  # mesh harmonics shown
+MARKS = 24  # mesh harmonics marked in a spectrum at most
+DECADES = 4  # of amplitudes shown
 _MICRO = 1e6
 _FEWEST_TURNS = 2.0  # of the sun in a window of the order map
 _MESH_MARK = (104, 82, 40)
@@ -38,9 +38,15 @@ _SUPERSCRIPT = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 
 
 def log_spectra(layer: Layer, frames: Frames, scene: Scene | None) -> str | None:
-    """Log /spectrum, and with a scene to tell the orders /order_map.
+    """Log /spectrum and, with a scene, /order_map.
 
-    Returns a remark where the samples do not carry the signal.
+    Args:
+        layer: recording to draw into.
+        frames: windows of the DTE.
+        scene: gives the tooth numbers for orders.
+
+    Returns:
+        A warning if the sample rate is too low for the signal, else None.
     """
     found = [_spectrum(frames, number) for number in range(len(frames.time))]
     highest = max((a[1:].max() for _, a in found if len(a) > 1), default=0.0)
@@ -56,7 +62,7 @@ def log_spectra(layer: Layer, frames: Frames, scene: Scene | None) -> str | None
 def _alias_remark(
     frames: Frames, found: list[tuple[Array, Array]], scene: Scene | None
 ) -> str | None:
-    """Of the instant at which what folds back is highest beside the rest."""
+    """Warning about the window with the largest aliasing, or None."""
     shares = np.array([alias_share(*each) if len(each[0]) else 0.0 for each in found])
     worst = int(np.argmax(shares))
     if shares[worst] <= CARRIED:
@@ -69,7 +75,7 @@ def _alias_remark(
 
 
 def _spectrum(frames: Frames, number: int) -> tuple[Array, Array]:
-    """Frequencies [Hz] and amplitudes [um] around an instant, none where samples are missing."""
+    """Frequencies [Hz] and amplitudes [um] of a window; empty if samples are missing."""
     window = frames.window(number, frames.lasting(WINDOW, CYCLES))
     if window is None:
         return np.empty(0), np.empty(0)
@@ -111,7 +117,7 @@ def _log_spectrum(layer: Layer, frames: Frames, found: list[tuple[Array, Array]]
 
 
 def _harmonics(chart: Chart, mesh: float) -> list[tuple[float, str]]:
-    """Frequencies [Hz] of the meshing's harmonics that are shown; some with a text, for room."""
+    """Frequencies [Hz] of the mesh harmonics shown; only some have a text, to avoid overlap."""
     if not mesh > 0.0:
         return []
     apart = chart.width * mesh / chart.x[1]
@@ -121,7 +127,7 @@ def _harmonics(chart: Chart, mesh: float) -> list[tuple[float, str]]:
 
 
 def _log_order_map(layer: Layer, frames: Frames, teeth: int, top: int) -> None:
-    """An image with a column for every instant; beside it the scale of its colours."""
+    """Log an image with a column per window, and its colour bar."""
     reach = (HARMONICS + 0.5) * teeth
     chart = Chart("order_map", WIDTH, HEIGHT, (frames.time[0], frames.time[-1]), (0.0, reach))
     levels = np.column_stack([_orders(frames, number, reach) for number in range(len(frames.time))])
@@ -142,7 +148,7 @@ def _log_order_map(layer: Layer, frames: Frames, teeth: int, top: int) -> None:
 
 
 def _log_scale(layer: Layer, chart: Chart, top: int) -> None:
-    """A bar of colours above the map, with the amplitudes of its ends."""
+    """Colour bar above the map, with the amplitudes of its ends."""
     left, right, y = chart.width - 240.0, chart.width - 90.0, -chart.height - 14.0
     edges = np.linspace(left, right, _BARS + 1)
     bars = [np.array([(a, y), (b, y)], np.float32) for a, b in pairwise(edges)]
@@ -155,7 +161,7 @@ def _log_scale(layer: Layer, chart: Chart, top: int) -> None:
 
 
 def _orders(frames: Frames, number: int, reach: float) -> Array:
-    """Largest amplitude [um] in each row of the image; NaN where the samples tell none."""
+    """Largest amplitude [um] in each row of the image; NaN where it is unknown."""
     rows = int(HEIGHT)
     window = frames.window(number, frames.lasting(WINDOW, CYCLES))
     if window is None:

@@ -1,4 +1,4 @@
-"""The two timelines every view shares: simulated time, and the ROS time of the same instant."""
+"""The two timelines of all views: simulated time and ROS time."""
 
 from __future__ import annotations
 

@@ -1,7 +1,7 @@
-"""The viewer as a process of our own, which listens on this machine only.
+"""Starts the viewer as a child process that accepts connections from this machine only.
 
-The library's ways to start it listen on every network interface, and its `rerun` command is a
-wrapper that leaves the viewer running when it is stopped: so the viewer itself is started.
+The functions of the library accept connections on every network interface, and the `rerun` command
+is a wrapper that leaves the viewer running when it is stopped, so the binary is started directly.
 """
 
 from __future__ import annotations
@@ -24,17 +24,17 @@ import rerun_cli
 
 from .own_page import served
 
-_PORTS = (9090, 9091)  # of the page and of its data, for those who forward them
+_PORTS = (9090, 9091)  # of the page and of its data; constant, so that they can be forwarded
 _ENDING = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
-_PATIENCE = 20.0  # [s] longest wait for the page and the data to be served
+_TIMEOUT = 20.0  # [s] until the page and the data are served
 
 
 class ViewerError(RuntimeError):
-    """The viewer does not do what it is for; the message says why in one line."""
+    """The viewer failed; the message gives the reason in one line."""
 
 
 def has_display() -> bool:
-    """Whether there is a screen to open a window on."""
+    """Whether there is a display for a window."""
     if sys.platform != "linux":
         return True
     return bool(os.environ.get("DISPLAY") or os.environ.get("WAYLAND_DISPLAY"))
@@ -42,40 +42,43 @@ def has_display() -> bool:
 
 @dataclass(frozen=True)
 class Viewer:
-    """A viewer that runs: what it takes data from, and the page it shows in a browser if any."""
+    """A running viewer."""
 
     process: subprocess.Popen[bytes]
     data: int
-    """Port to log to."""
+    """Port that receives data."""
     page: int | None = None
-    """Port of the page."""
+    """Port of the web page; None for a window."""
 
     @property
     def url(self) -> str:
-        """Where to log to."""
+        """URL to which data are logged."""
         return f"rerun+http://127.0.0.1:{self.data}/proxy"
 
     @property
     def address(self) -> str:
-        """What to open in a browser."""
+        """Address to open in a browser."""
         return f"http://127.0.0.1:{self.page}/?url={quote(self.url, safe='')}"
 
 
 @contextmanager
 def window(*arguments: str) -> Iterator[Viewer]:
-    """A viewer in a window of its own, ended at the end of the context."""
+    """Context with a viewer in a window; `arguments` are those of the binary."""
     with _started(Viewer(start_viewer(port := free_port(), arguments), port)) as viewer:
         yield viewer
 
 
 @contextmanager
 def page(*arguments: str) -> Iterator[Viewer]:
-    """A viewer in a browser, on ports that stay the same as long as they are free.
+    """Context with a viewer for a browser, on constant ports if they are free.
 
-    The page asks nothing of other hosts.
+    The page sends no requests to other hosts.
+
+    Args:
+        arguments: of the binary.
 
     Raises:
-        ViewerError: what the viewer says where it cannot be.
+        ViewerError: the page cannot be served.
     """
     shown, data = (free_port() if _answers(port) else port for port in _PORTS)
     origin = free_port()
@@ -85,10 +88,10 @@ def page(*arguments: str) -> Iterator[Viewer]:
         _started(Viewer(start_viewer(data, options, output), data, shown)) as viewer,
         served(shown, origin, data),
     ):
-        deadline = time.monotonic() + _PATIENCE
+        deadline = time.monotonic() + _TIMEOUT
         while not (_answers(origin) and _answers(data)):
             if time.monotonic() > deadline or viewer.process.poll() is not None:
-                raise ViewerError(f"the page cannot be served: {last_words(output)}")
+                raise ViewerError(f"the page cannot be served: {last_line(output)}")
             time.sleep(0.1)
         yield viewer
 
@@ -103,7 +106,7 @@ def _started(viewer: Viewer) -> Iterator[Viewer]:
 
 @contextmanager
 def until_interrupted() -> Iterator[None]:
-    """Leave the context at Ctrl-C, SIGTERM or SIGHUP, as if it had come to its end."""
+    """Leave the context normally on Ctrl-C, SIGTERM or SIGHUP."""
     before = {number: signal.signal(number, signal.default_int_handler) for number in _ENDING}
     try:
         with suppress(KeyboardInterrupt):
@@ -116,19 +119,28 @@ def until_interrupted() -> Iterator[None]:
 def start_viewer(
     port: int, arguments: Sequence[str], output: IO[bytes] | None = None
 ) -> subprocess.Popen[bytes]:
-    """Start the viewer, listening on `port` of the loopback interface."""
+    """Start the viewer.
+
+    Args:
+        port: of the loopback interface that receives data.
+        arguments: of the binary.
+        output: file for its output; None inherits that of this process.
+
+    Returns:
+        The process.
+    """
     binary = Path(rerun_cli.__file__).parent / "rerun"
     command = [str(binary), "--bind", "127.0.0.1", "--port", str(port), *arguments]
-    # A viewer only, without a first-time greeting, and without a line for each thing it does.
+    # Without the first-time welcome and without informational log lines.
     environment = {"RUST_LOG": "error", **os.environ, "RERUN_APP_ONLY": "true"}
-    # In a session of its own: Ctrl-C reaches only who started it, who ends it in order.
+    # In a separate session: Ctrl-C reaches only this process, which then stops the viewer.
     return subprocess.Popen(
         command, stdout=output, stderr=output, env=environment, start_new_session=True
     )
 
 
 def stop_viewer(viewer: subprocess.Popen[bytes]) -> None:
-    """End the viewer if it still runs."""
+    """Stop the viewer if it is running."""
     viewer.terminate()
     try:
         viewer.wait(5.0)
@@ -138,20 +150,20 @@ def stop_viewer(viewer: subprocess.Popen[bytes]) -> None:
 
 
 def free_port() -> int:
-    """A TCP port of the loopback interface that nothing listens on."""
+    """A free TCP port of the loopback interface."""
     with socket.socket() as probe:
         probe.bind(("127.0.0.1", 0))
         return int(probe.getsockname()[1])
 
 
-def last_words(output: IO[bytes]) -> str:
-    """The last line that the viewer printed."""
+def last_line(output: IO[bytes]) -> str:
+    """The last non-empty line of `output`."""
     output.seek(0)
     lines = [line for line in output.read().decode(errors="replace").splitlines() if line.strip()]
     return lines[-1] if lines else "it printed nothing"
 
 
 def _answers(port: int) -> bool:
-    """Whether something listens on a port of the loopback interface."""
+    """Whether a port of the loopback interface accepts connections."""
     with socket.socket() as probe:
         return probe.connect_ex(("127.0.0.1", port)) == 0

@@ -1,8 +1,8 @@
-"""The vibration: its range for the overview, and the samples of two meshes to zoom.
+"""The vibration: ranges of all meshes for an overview, and samples of two meshes.
 
-The range (smallest and largest value in each recorded block) of all meshes shows the whole run at a
-hundredth of the samples. One mesh of each kind is shown sample by sample: all of them would make
-the file three times as large, and they repeat the same curve at another phase.
+Ranges (smallest and largest value in each recorded block) show the whole run with a hundredth of
+the data. One mesh of each kind is shown sample by sample; the others repeat the same curve with a
+phase shift, and would make the file three times as large.
 """
 
 from __future__ import annotations
@@ -14,38 +14,44 @@ from numpy.typing import NDArray
 
 from ..quantities import WAVEFORM
 from ..recording.runs.reader import Recording
-from ..recording.runs.waveform import Ranges, Stretch, Waveform
+from ..recording.runs.waveform import Ranges, TimeSpan, Waveform
 from . import timeline
 from .detail import first_rows
 from .layer import Layer
 from .plots import log_series, mesh_colours
 
-_CHUNK = 50_000  # samples sent at once, so that the viewer loads only the part it shows
+_CHUNK = 50_000  # samples per chunk; the viewer loads only visible chunks
 
 
-def log_waveform(layer: Layer, recording: Recording, detail: list[Stretch]) -> str | None:
-    """Log ranges at /range/NAME and samples of `detail` at /waveform/NAME.
+def log_waveform(layer: Layer, recording: Recording, detail: list[TimeSpan]) -> str | None:
+    """Log ranges at /range/NAME and samples at /waveform/NAME.
 
-    Returns a remark if samples are left out.
+    Args:
+        layer: recording to draw into.
+        recording: has the waveform.
+        detail: time spans [s] of the samples.
+
+    Returns:
+        A warning if samples are not shown, else None.
     """
     ranges = recording.ranges
     if ranges is None:
-        return f"{recording.path}: no mesh_waveform message in it, so no samples are shown"
+        return f"{recording.path}: has no mesh_waveform messages, so no samples are shown"
     _log_ranges(layer, recording, ranges, detail)
     for begin, end in detail:
-        _log_stretch(layer, recording, np.arange(begin, end, _CHUNK * ranges.period.min()), end)
+        _log_span(layer, recording, np.arange(begin, end, _CHUNK * ranges.period.min()), end)
     begin, end = detail[0]
     if begin <= ranges.time[0] and end >= recording.state.time[-1]:
         return None
     shown = f"{begin:g} to {end:g} s" if len(detail) == 1 else "the start and the changes"
     return (
-        f"single samples are shown of {shown} ({sum(b - a for a, b in detail):.1f} s of "
-        f"{recording.state.time[-1]:.1f} s), their range of the whole; "
-        "--during chooses another stretch"
+        f"single samples are shown for {shown} ({sum(b - a for a, b in detail):.1f} s of "
+        f"{recording.state.time[-1]:.1f} s), and their range for the whole recording; use --during "
+        "to select another interval"
     )
 
 
-def _log_ranges(layer: Layer, recording: Recording, ranges: Ranges, detail: list[Stretch]) -> None:
+def _log_ranges(layer: Layer, recording: Recording, ranges: Ranges, detail: list[TimeSpan]) -> None:
     begins = first_rows(ranges.time, detail)
     index = timeline.columns(ranges.time[begins], ranges.stamp[begins])
     names = [f"{mesh}_{end}" for mesh in recording.meshes for end in ("min", "max")]
@@ -59,10 +65,8 @@ def _log_ranges(layer: Layer, recording: Recording, ranges: Ranges, detail: list
         log_series(layer, f"range/{name}", index, values, names, colours)
 
 
-def _log_stretch(
-    layer: Layer, recording: Recording, begins: NDArray[np.float64], end: float
-) -> None:
-    """Log the samples up to `end` [s], from one of `begins` to the next at a time."""
+def _log_span(layer: Layer, recording: Recording, begins: NDArray[np.float64], end: float) -> None:
+    """Log the samples in chunks that start at `begins` [s], up to `end` [s]."""
     for first, last in pairwise([*begins, np.nextafter(end, np.inf)]):
         waveform = recording.samples(first, last)
         if waveform is not None:

@@ -8,7 +8,11 @@ import pytest
 from command_line import run
 
 from planetary_twin_py import packaged_scenes
-from planetary_twin_py.cli._arguments import complete_recording, complete_scene
+from planetary_twin_py.cli._arguments import (
+    complete_parameter,
+    complete_recording,
+    complete_scene,
+)
 
 HEAVY = ("numba", "numpy", "pint", "rclpy", "rich", "scipy")
 
@@ -81,3 +85,17 @@ def test_bash_completes_with_the_script_that_is_shown():
         text=True,
     )
     assert done.returncode == 0 and done.stdout.startswith("complete "), done.stderr
+
+
+def test_fields_of_a_scene_complete_settings_and_the_options_of_a_sweep():
+    assert offered("simulate", "--set", "backl") == ["backlash="]
+    assert offered("sweep", "paper", "--inp") == ["--input-speed", "--input-torque"]
+    assert offered("sweep", "paper", "--mesh.damping.lo") == [
+        "--mesh.damping.loss_factor",
+        "--mesh.damping.lowest_frequency",
+    ]
+    assert "--samples" in offered("sweep", "paper", "--sa")
+
+
+def test_parameters_of_a_running_twin_complete():
+    assert complete_parameter("input_") == ["input_speed", "input_torque"]

@@ -24,13 +24,26 @@ def test_figures_and_a_warning_of_what_is_not_told_with_exit_code_0(bag, tmp_pat
     free = "backlash=4e-7,input-torque=50"
     done = run(bag, "--free", free, "--from", 0.02, "--to", 0.09, "--json", out)
     assert done.exit_code == 0, done.output
-    assert "warning: backlash: not told by this stretch: teeth never part" in done.output
+    warning = "warning: backlash: not identifiable from this excerpt: teeth never separate"
+    assert warning in done.output
     figures = json.loads(out.read_text())
     torque, backlash = (figures["parameters"][name] for name in ("input_torque", "backlash"))
-    assert torque["told"] and torque["low"] < torque["estimate"] < torque["high"]
+    assert (
+        torque["identifiable"]
+        and torque["told"]
+        and torque["low"] < torque["estimate"] < torque["high"]
+    )
     assert torque["estimate"] == pytest.approx(63.0, rel=0.01) and torque["unit"] == "N m"
-    assert not backlash["told"] and backlash["estimate"] is None and backlash["low"] == 0.0
-    assert figures["untold"] == [["backlash"]] and len(figures["remarks"]) == 1
+    assert (
+        not backlash["identifiable"]
+        and not backlash["told"]
+        and backlash["estimate"] is None
+        and backlash["low"] == 0.0
+    )
+    assert (
+        figures["not_identifiable"] == figures["untold"] == [["backlash"]]
+        and len(figures["remarks"]) == 1
+    )
     assert (figures["from_s"], figures["to_s"]) == (0.02, 0.09)
     assert figures["simulations"] > 5 and figures["confidence"] == 0.95
 
@@ -43,7 +56,7 @@ def test_figures_and_a_warning_of_what_is_not_told_with_exit_code_0(bag, tmp_pat
         (["--free", "backlash", "--observe", "odd"], "observe = odd: must be one of"),
         (["--free", "backlash", "--noise", "dte_rms=x"], "--noise dte_rms = 'x'"),
         (["--free", "backlash=1 kg"], "backlash"),
-        (["--free", ","], "nothing is free"),
+        (["--free", ","], "no free parameter"),
     ],
 )
 def test_what_cannot_be_ends_in_one_line(bag, arguments, told):
@@ -55,5 +68,5 @@ def test_what_cannot_be_ends_in_one_line(bag, arguments, told):
 def test_a_recording_without_its_scene_is_refused(tmp_path):
     file = write_recording(tmp_path / "one.mcap", 0.1)
     done = run(file, "--free", "backlash")
-    assert done.exit_code == 2 and "holds no run from its start" in done.output
+    assert done.exit_code == 2 and "has no run with its start" in done.output
     assert run(tmp_path / "missing", "--free", "backlash").exit_code == 2

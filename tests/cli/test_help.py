@@ -47,7 +47,7 @@ def test_an_example_is_shown_as_it_is_typed_and_is_understood(words):
 
 
 @pytest.mark.parametrize(
-    ("command", "unit"), [("replay", "[s]"), ("run", "[s]"), ("resimulate", "[s]")]
+    ("command", "unit"), [("replay", "[s]"), ("view", "[s]"), ("import", "[kW]")]
 )
 def test_units_in_brackets_are_seen(command, unit):
     assert unit in shown(command)

@@ -32,13 +32,13 @@ def test_figures_are_those_of_the_library(scene, model):
 def test_table_lists_modes_and_resonant_speeds():
     shown = invoke("paper").output
     assert "5500.36" in shown and "planet" in shown
-    assert "harmonic 2 of the meshing meets mode 2" in shown
+    assert "harmonic 2 of the mesh frequency excites mode 2" in shown
 
 
 def test_speeds_are_told_up_to_the_limit_of_the_drive_and_modes_of_one_frequency_once():
     shown = " ".join(invoke("paper").output.split())
     assert "speeds up to 10504 rpm (drive.speed_limit)" in shown  # 1100 rad/s
-    assert shown.count("harmonic 5 of the meshing meets modes 3, 4 at") == 1
+    assert shown.count("harmonic 5 of the mesh frequency excites modes 3, 4 at") == 1
     slow = " ".join(invoke("paper", "--set", "drive.speed_limit=1200rpm").output.split())
     assert "speeds up to 1200 rpm (drive.speed_limit): none" in slow
 

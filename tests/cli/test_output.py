@@ -43,7 +43,7 @@ def test_a_folder_that_does_not_exist_is_refused_at_once(command, tmp_path):
 
 @pytest.mark.parametrize(
     ("out", "reason"),
-    [("taken", "exists; choose a free name"), ("plain/run", "plain is not a folder")],
+    [("taken", "already exists; choose another name"), ("plain/run", "plain is not a folder")],
 )
 def test_a_recording_that_cannot_be_made_is_refused_at_once(out, reason, tmp_path):
     (tmp_path / "taken").mkdir()

@@ -34,7 +34,7 @@ def test_a_table_becomes_a_picture_and_what_is_left_out_is_told(study, tmp_path,
     picture = tmp_path / name
     done = run("plot", study, "--y", "efficiency,power_loss", "--out", picture)
     assert done.exit_code == 0, done.output
-    assert "2 of 6 points failed and are left out" in done.stderr
+    assert "2 of 6 points failed and are omitted" in done.stderr
     assert picture.read_bytes().startswith(begin)
 
 
@@ -92,7 +92,7 @@ def test_a_table_in_csv_is_drawn_as_the_same_table_in_parquet_is(study, tmp_path
         (["plot", "STUDY", "--out", "/nowhere/a.png"], "/nowhere/a.png"),
         (["plot", "STUDY", "--y", "eficiency", "--out", "a.png"], "y = 'eficiency'"),
         (["plot", "nosuch.parquet", "--out", "a.png"], "nosuch.parquet"),
-        (["plot", "other.csv", "--out", "a.png"], "other.csv: no table of a study"),
+        (["plot", "other.csv", "--out", "a.png"], "other.csv: not the table of a study"),
         (["plot", "empty.csv", "--out", "a.png"], "empty.csv: "),
         (["plot", __file__, "--out", "a.png"], "test_plot_command.py"),
         (["stribeck", "paper", "--input-speed", "1:2", "--out", "a.png"], "without a count"),

@@ -135,7 +135,7 @@ def test_samples_are_written_whole(tmp_path):
         (("paper", "--set", "mesh.rump=1"), "mesh.rump: no such field"),
         (("paper", "--set", "lambda_ratio=11"), "within 0 and 10"),
         (("paper", "--set", "input_torque=40,5 N m"), "input_torque = '40,5 N m': write a decimal"),
-        (("paper", "--set", "input_torque=40 kN"), "[kN] is no unit that goes into N m"),
+        (("paper", "--set", "input_torque=40 kN"), "[kN] cannot be converted to N m"),
         (("paper", "--duration", "-1"), "duration"),
         (("paper", "--out", "run.txt"), "run.txt"),
     ],

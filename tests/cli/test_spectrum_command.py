@@ -44,7 +44,7 @@ def test_lines_are_named_as_harmonics_of_the_meshing(file, options, axis):
     for line in figures["lines"]:
         assert line["harmonic"] == round(line[axis] / first)
         assert line[axis] == pytest.approx(line["harmonic"] * first, rel=2e-3)
-    assert "harmonic 1 of the meshing" in done.stderr
+    assert "mesh harmonic 1" in done.stderr
 
 
 def test_without_a_span_the_longest_time_at_one_operating_point_is_analysed(tmp_path):

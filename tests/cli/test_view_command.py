@@ -41,7 +41,7 @@ def test_users_errors_are_one_line_each(file, tmp_path):
     for arguments, reason in [
         (["view", tmp_path / "missing"], "no such file"),
         (["view", __file__], "not an MCAP file"),
-        (["view", file, file, "--scene", "paper", "--save", tmp_path / "a.rrd"], "shown twice"),
+        (["view", file, file, "--scene", "paper", "--save", tmp_path / "a.rrd"], "given twice"),
         (["view", file, "--scene", "papyrus"], "papyrus"),
         (["view", file, "--screenshot", tmp_path / "a.jpg"], "a.jpg': must end in .png"),
         (["view", file, "--save", tmp_path / "a.txt"], "a.txt': must end in .rrd"),

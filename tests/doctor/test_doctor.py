@@ -30,8 +30,8 @@ def test_packages_that_lack_are_named_with_the_extra_that_brings_them(monkeypatc
     monkeypatch.setattr(packages, "version", version)
     found = by_part(packages.check())
     for extra, package in (("view", "rerun-sdk"), ("analysis", "pyarrow"), ("studies", "pyarrow")):
-        assert found[extra].state == "absent" and package in found[extra].told
-        assert f"[{extra}]" in found[extra].mend
+        assert found[extra].state == "absent" and package in found[extra].details
+        assert f"[{extra}]" in found[extra].fix
     assert found["recording"].state == found["plots"].state == "sound"
 
 
@@ -50,25 +50,25 @@ def test_kernels_not_yet_compiled_and_a_cache_that_cannot_be_written_are_told(
     home = tmp_path / "cache"
     monkeypatch.setattr(cache, "cache_folder", lambda: home / "planetary_twin" / "0123")
     (found,) = cache.check()
-    assert found.state == "absent" and "simulate" in found.mend
+    assert found.state == "absent" and "simulate" in found.fix
     (home / "planetary_twin" / "0123").mkdir(parents=True)
     (home / "planetary_twin" / "0123" / "kernel.nbc").write_bytes(b"code")
     (found,) = cache.check()
     assert found.state == "sound"
     monkeypatch.setattr(cache.os, "access", lambda *_: False)
     (found,) = cache.check()
-    assert found.state == "broken" and "XDG_CACHE_HOME" in found.mend
+    assert found.state == "broken" and "XDG_CACHE_HOME" in found.fix
 
 
 def test_a_folder_without_room_or_rights_is_broken(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     (found,) = disk.check()
-    assert found.state == "sound" and str(tmp_path) in found.told
+    assert found.state == "sound" and str(tmp_path) in found.details
     monkeypatch.setattr(disk, "_ENOUGH", 1e12)
     assert [f.state for f in disk.check()] == ["broken"]
     monkeypatch.setattr(disk.os, "access", lambda *_: False)
     (found,) = disk.check()
-    assert found.state == "broken" and "cannot be written" in found.told
+    assert found.state == "broken" and "is not writable" in found.details
 
 
 def test_a_viewer_that_does_not_start_is_broken(tmp_path, monkeypatch):
@@ -97,7 +97,7 @@ def test_a_middleware_that_ends_its_process_does_not_end_the_doctor(monkeypatch)
     monkeypatch.setenv("RMW_IMPLEMENTATION", "rmw_of_no_one")
     (found,) = apart.check()
     assert (found.part, found.state) == ("ros", "broken")
-    assert "rmw_of_no_one" in found.told and "RMW_IMPLEMENTATION" in found.mend
+    assert "rmw_of_no_one" in found.details and "RMW_IMPLEMENTATION" in found.fix
 
 
 def test_another_distribution_that_is_sourced_is_told(monkeypatch):
@@ -105,7 +105,7 @@ def test_another_distribution_that_is_sourced_is_told(monkeypatch):
     assert [*environment.check()] == []
     monkeypatch.setenv("ROS_DISTRO", "humble")
     (found,) = environment.check()
-    assert found.state == "broken" and "humble" in found.told
+    assert found.state == "broken" and "humble" in found.details
 
 
 def test_a_command_that_cannot_be_loaded_takes_no_other_with_it(monkeypatch):
@@ -118,5 +118,5 @@ def test_a_command_that_cannot_be_loaded_takes_no_other_with_it(monkeypatch):
     done = CliRunner().invoke(build_app(), ["run"])
     assert done.exit_code == 2
     assert "librcl.so" in done.output
-    assert done.output.strip().endswith("planetary-twin doctor tells more")
+    assert done.output.strip().endswith("run `planetary-twin doctor` for details")
     assert CliRunner().invoke(build_app(), ["modal", "--help"]).exit_code == 0

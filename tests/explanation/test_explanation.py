@@ -41,7 +41,7 @@ def test_a_quasi_static_scene_says_that_dynamics_is_left_out():
     assert {"torsional dynamics", "mesh damping"} == set(names(pt.load_scene("paper"))) - set(
         names(still)
     )
-    assert limits(still)[0].name == "dynamics"
+    assert limits(still)[0].name == "vibration"
     assert limits(pt.load_scene("paper")) == limits(still)[1:]
 
 
@@ -118,7 +118,7 @@ def test_the_command_prints_terms_and_limits_and_figures_for_machines():
     runner = CliRunner()
     shown = runner.invoke(build_app(), ["explain", "paper", "--duration", "0.005"])
     assert shown.exit_code == 0
-    assert "backlash" in shown.output and "Left out" in shown.output
+    assert "backlash" in shown.output and "Limits of the model" in shown.output
     figures = runner.invoke(build_app(), ["explain", "paper", "--duration", "0.005", "--json", "-"])
     data = json.loads(figures.stdout)
     assert data["scene"]["power_loss"] > 0.0
@@ -129,7 +129,7 @@ def test_the_command_prints_terms_and_limits_and_figures_for_machines():
 
 def test_meshes_are_shown_before_the_terms_with_units():
     done = CliRunner().invoke(build_app(), ["explain", "paper", "--duration", "0.005"])
-    before, _, after = done.output.partition("Modelled, and")
+    before, _, after = done.output.partition("Modelled terms")
     rows = dict(
         (cell.strip() for cell in line.strip("│").split("│", 1))
         for line in before.splitlines()
@@ -145,7 +145,7 @@ def test_meshes_are_shown_before_the_terms_with_units():
     captions = [line.strip() for line in before.splitlines()]
     for caption in ("mesh frequency f_m 500 Hz", "input speed 1000 rpm", "input torque 63 N m"):
         assert caption in captions
-    assert "by how many per cent" in after
+    assert "the change of results without each" in after
 
 
 def test_a_scene_without_a_description_is_told_by_its_name_alone(tmp_path):

@@ -7,7 +7,7 @@ import pytest
 import planetary_twin_py as pt
 from planetary_twin_py.plots.style import save
 from planetary_twin_py.studies.axes import Axis
-from planetary_twin_py.studies.bifurcation import Holding, bifurcation
+from planetary_twin_py.studies.bifurcation import Dwell, bifurcation
 from planetary_twin_py.studies.local import Threads
 from planetary_twin_py.studies.stribeck import stribeck
 
@@ -22,7 +22,7 @@ def curve():
 
 @pytest.fixture(scope="module")
 def diagram():
-    return bifurcation(PAPER, [300.0, 310.0, 320.0], Holding(0.02, cycles=3))
+    return bifurcation(PAPER, [300.0, 310.0, 320.0], Dwell(0.02, cycles=3))
 
 
 def test_parts_of_friction_add_up_and_the_film_takes_over_from_the_asperities(curve):

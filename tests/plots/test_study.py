@@ -79,7 +79,7 @@ def test_two_fields_of_many_values_are_a_map_with_a_hole_where_a_point_failed():
     low, high = filled.get_clim()
     values = [100.0 * efficiency(s, t) for s, t in itertools.product(*fields.values())]
     assert low <= min(values) and max(values) <= high
-    assert figure.get_supxlabel() == "1 of 56 points failed and are left out"
+    assert figure.get_supxlabel() == "1 of 56 points failed and are omitted"
 
     def is_filled(speed, torque):
         place = 30.0 / np.pi * MANY[speed], fields["input_torque"][torque]
@@ -166,7 +166,7 @@ def test_nothing_is_hollow_where_nothing_is_clipped():
         ({"x": "input_sped"}, "x = 'input_sped': .*input_speed"),
         ({"by": "nothing"}, "by = 'nothing'"),
         ({"kind": "pie"}, "kind = 'pie': must be one of curves, map, stribeck"),
-        ({"kind": "map"}, "a map needs two fields"),
+        ({"kind": "map"}, "a map needs two numerical fields"),
         ({"kind": "stribeck"}, "sun_planet_lambda_ratio"),
     ],
 )
@@ -179,5 +179,5 @@ def test_what_cannot_be_drawn_is_refused_in_one_line(given, told):
 
 def test_a_table_of_failures_is_refused():
     table = study({"input_speed": SPEEDS}, {"efficiency": efficiency}, failed=(0, 1, 2))
-    with pytest.raises(ValueError, match="no point that did not fail"):
+    with pytest.raises(ValueError, match="all points of the table failed"):
         pt.plot_study(table)

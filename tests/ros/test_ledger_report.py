@@ -24,6 +24,6 @@ def test_a_ledger_that_does_not_close_is_a_warning_until_the_next_report() -> No
         report.add(replace(window, residual_power=0.05 * window.power_loss))
     bad = report.status()
     assert bad.level == DiagnosticStatus.WARN
-    assert bad.message.startswith("the energy ledger does not close: ")
+    assert bad.message.startswith("the energy ledger does not balance: ")
     assert bad.message.endswith("tighten the tolerance from 0.001 to 0.0001")
     assert report.status().level == DiagnosticStatus.OK

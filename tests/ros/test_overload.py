@@ -14,7 +14,7 @@ import pytest
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
 from planetary_twin_msgs.msg import GearboxState, MeshWaveform, OperatingPoint
 
-from planetary_twin_py.affordable import HALVINGS
+from planetary_twin_py.quality_control import HALVINGS
 from planetary_twin_py.tolerance import LADDER
 
 from .conftest import Start

@@ -11,13 +11,13 @@ from planetary_twin.live import Progress, State
 from planetary_twin.real_time import RealTimeReport
 
 import planetary_twin_py as pt
-from planetary_twin_py.affordable import Affordable, Setting, settings_of
+from planetary_twin_py.quality_control import QualityControl, Setting, settings_of
 
 from .told import figures
 
 PERIOD, FULL = 0.01, 50e3
 POINT = pt.load_scene("paper").operating_point
-AFFORDABLE = Affordable(settings_of((1e-3,), FULL), 0.4, PERIOD, Setting(1e-3, FULL))
+AFFORDABLE = QualityControl(settings_of((1e-3,), FULL), 0.4, PERIOD, Setting(1e-3, FULL))
 
 
 class Reports:

@@ -218,7 +218,7 @@ def test_a_torn_file_is_played_up_to_the_tear(
     _tear(bag / "bag_0.mcap", torn, f"{TWIN}/gearbox_state")
     states = peer.listen(GearboxState, f"{TWIN}/gearbox_state", 1000)
     output, _ = _end(play(torn), peer)
-    assert "ends torn" in output
+    assert "is truncated" in output
     expected = _whole(torn, f"{TWIN}/gearbox_state")
     assert expected
     peer.until(lambda: len(states) == len(expected))
@@ -263,8 +263,8 @@ def test_what_cannot_be_played_ends_in_one_line(play: Play, bag: Path, tmp_path:
     (tmp_path / "text").write_text("no recording")
     (tmp_path / "empty").mkdir()
     _refused(play("nowhere"), "nowhere: no such file")
-    _refused(play("text"), "text: no recording")
-    _refused(play("empty"), "empty: no recording")
+    _refused(play("text"), "text: not a recording")
+    _refused(play("empty"), "empty: not a recording")
     _refused(play(bag, "--start", "99"), "start = 99", "s long")
 
 

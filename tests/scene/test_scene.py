@@ -59,7 +59,7 @@ CRACK = {"kind": "crack", "gear": "sun", "tooth": 0, "stiffness_loss": 0.2}
         ({"mesh__stifness": 1.0}, ["mesh.stifness", "no such field"]),
         (
             {"operating_point__backlash": "0.2 kg"},
-            ["backlash", "0.2 kg", "[kg] is no unit that goes into m"],
+            ["backlash", "0.2 kg", "[kg] cannot be converted to m"],
         ),
         ({"operating_point__backlash": "0,3 um"}, ["backlash = '0,3 um': write a decimal point"]),
         (
@@ -82,7 +82,10 @@ CRACK = {"kind": "crack", "gear": "sun", "tooth": 0, "stiffness_loss": 0.2}
             ["input_speed", "within -1100 and 1100 rad/s, drive.speed_limit"],
         ),
         ({"operating_point__input_torque": -1e4}, ["input_torque", "within -1000 and 1000 N m"]),
-        ({"operating_point__second_input_speed": 1.0}, ["second_input_speed", "no second input"]),
+        (
+            {"operating_point__second_input_speed": 1.0},
+            ["second_input_speed", "without a second input"],
+        ),
         ({"mesh__sun_planet_stiffness": None}, ["mesh", "sun_planet_stiffness", "missing"]),
         ({"faults": [CRACK | {"tooth": 30}]}, ["faults.0.tooth", "30", "at most 29"]),
         ({"faults": [CRACK | {"stiffness_loss": 2.0}]}, ["faults.0", "stiffness_loss", "2.0"]),
@@ -139,7 +142,7 @@ def test_all_errors_of_a_scene_are_listed_at_once_a_line_each():
             "mesh.ramp = 0.5: must be a number within 0 and 0.2",
             "mesh.backlash = 'gap': must be 'dead_zone' or 'regulatory_factor'",
             "gearset.modul: no such field; did you mean module?",
-            "input_speed = '3 m': [m] is no unit that goes into rad/s",
+            "input_speed = '3 m': [m] cannot be converted to rad/s",
             "faults.0.kind = 'hole': must be one of 'crack', 'spall', 'wear'",
             "faults.1.stiffness_loss = 2.0: must be a number within 0 and 0.9",
             "drive.output: missing",
@@ -152,7 +155,7 @@ def test_what_contradicts_other_fields_is_listed_at_once_too():
         PAPER.replace(input_speed=2e3, second_input_speed=1.0, faults=[CRACK | {"tooth": 30}])
     assert str(refusal.value) == (
         "the scene has 3 errors:\n"
-        "  second_input_speed = 1.0: must be 0, there is no second input\n"
+        "  second_input_speed = 1.0: must be 0 without a second input\n"
         "  input_speed = 2000.0: must be a number within -1100 and 1100 rad/s, drive.speed_limit\n"
         "  faults.0.tooth = 30: must be at most 29"
     )

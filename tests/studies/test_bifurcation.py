@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 import planetary_twin_py as pt
-from planetary_twin_py.studies.bifurcation import DOWN, UP, Holding, bifurcation
+from planetary_twin_py.studies.bifurcation import DOWN, UP, Dwell, bifurcation
 from planetary_twin_py.studies.section import Section
 
 PAPER = pt.load_scene("paper")
@@ -38,7 +38,7 @@ def seen(table, direction, speed):
 def test_where_one_motion_is_possible_both_ways_find_it():
     speeds = [pt.rpm(speed) for speed in (4000, 4050, 4100)]
     heard = []
-    table = bifurcation(PAPER, speeds, Holding(0.3, cycles=10), heard.append)
+    table = bifurcation(PAPER, speeds, Dwell(0.3, cycles=10), heard.append)
     assert heard == [None] * 6 and len(table) == 6 * 10
     swing = np.ptp(pt.simulate(PAPER.replace(input_speed=speeds[1]), 0.05).dte[:, 0])
     for speed in speeds:
@@ -63,7 +63,7 @@ def independent(start_speed, settling):
 def test_where_two_motions_are_possible_each_way_keeps_its_own():
     """Both repeat with the meshing; their sections lie 1.2 um apart."""
     speeds = [pt.rpm(speed) for speed in (10_000, 10_070, 10_140, 10_210, 10_280, 10_380, 10_480)]
-    table = bifurcation(LOOSE, speeds, Holding(0.2, cycles=60))
+    table = bifurcation(LOOSE, speeds, Dwell(0.2, cycles=60))
     together, parting = seen(table, UP, TWICE), seen(table, DOWN, TWICE)
     assert together.mean() - parting.mean() > 1e-6
     smeared = 5e-8  # by shafts that still ring
@@ -73,7 +73,7 @@ def test_where_two_motions_are_possible_each_way_keeps_its_own():
 
 
 def test_the_table_says_units_and_what_it_follows_from():
-    table = bifurcation(PAPER, pt.rpm(3000) * np.array([1.0, 1.1]), Holding(0.01, cycles=2))
+    table = bifurcation(PAPER, pt.rpm(3000) * np.array([1.0, 1.1]), Dwell(0.01, cycles=2))
     assert table.schema.field(DTE).metadata[b"unit"] == b"m"
     assert table.schema.metadata[b"study"] == b"bifurcation"
     assert json.loads(table.schema.metadata[b"settings"])["cycles"] == 2
@@ -89,28 +89,28 @@ def test_a_way_that_fails_ends_there_and_says_why(monkeypatch):
         real(self, speed, duration)
 
     monkeypatch.setattr(Section, "hold", hold)
-    told = []
-    table = bifurcation(PAPER, [300.0, 310.0, 330.0], Holding(0.01, cycles=2), told.append)
+    message = []
+    table = bifurcation(PAPER, [300.0, 310.0, 330.0], Dwell(0.01, cycles=2), message.append)
     failed = [row for row in table.to_pylist() if row["failure"]]
     where = [(row["direction"], row["input_speed"]) for row in failed]
     assert where == [(UP, 330.0), (DOWN, 330.0)]
     assert all(row[DTE] is None for row in failed) and len(table) == 4 + 2
-    assert "input_speed = 330: broken" in told
+    assert "input_speed = 330: broken" in message
 
 
 @pytest.mark.parametrize(
-    ("scene", "speeds", "holding", "told"),
+    ("scene", "speeds", "dwell", "message"),
     [
-        (PAPER, [100.0], Holding(), "input_speed = 100 rad/s: must be at least two"),
-        (PAPER, [-100.0, 100.0], Holding(), "all above or all below 0"),
-        (PAPER, [100.0, 2000.0], Holding(), "input_speed = 2000.0: must be a number within"),
-        (PAPER, [100.0, 200.0], Holding(settling=0.0), "settling = 0.0 s"),
-        (PAPER, [100.0, 200.0], Holding(cycles=0), "cycles = 0"),
-        (PAPER, [100.0, 200.0], Holding(phase=1.0), "phase = 1.0"),
-        (PAPER, [100.0, 200.0], Holding(tolerance=1.0), "tolerance = 1.0"),
+        (PAPER, [100.0], Dwell(), "input_speed = 100 rad/s: must be at least two"),
+        (PAPER, [-100.0, 100.0], Dwell(), "all above or all below 0"),
+        (PAPER, [100.0, 2000.0], Dwell(), "input_speed = 2000.0: must be a number within"),
+        (PAPER, [100.0, 200.0], Dwell(settling=0.0), "settling = 0.0 s"),
+        (PAPER, [100.0, 200.0], Dwell(cycles=0), "cycles = 0"),
+        (PAPER, [100.0, 200.0], Dwell(phase=1.0), "phase = 1.0"),
+        (PAPER, [100.0, 200.0], Dwell(tolerance=1.0), "tolerance = 1.0"),
     ],
 )
-def test_what_cannot_be_is_refused_in_one_line(scene, speeds, holding, told):
-    with pytest.raises(ValueError, match=told) as refusal:
-        bifurcation(scene, speeds, holding)
+def test_what_cannot_be_is_refused_in_one_line(scene, speeds, dwell, message):
+    with pytest.raises(ValueError, match=message) as refusal:
+        bifurcation(scene, speeds, dwell)
     assert "\n" not in str(refusal.value)

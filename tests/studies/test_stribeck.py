@@ -32,5 +32,9 @@ def test_the_command_says_where_asperities_have_no_boundary_regime(boundary, lin
     out = ["--input-speed", "10rpm,100rpm", "--out", str(tmp_path / "curve.csv")]
     done = CliRunner().invoke(build_app(), [*arguments, *out])
     assert done.exit_code == 0, done.output
-    warnings = [line for line in done.stderr.splitlines() if "has a boundary regime" in line]
+    warnings = [
+        line
+        for line in done.stderr.splitlines()
+        if "use load_sharing for a boundary regime" in line
+    ]
     assert len(warnings) == lines

@@ -16,7 +16,7 @@ def recording(tmp_path_factory):
 
 
 def test_a_short_recording_is_shown_whole(recording):
-    assert detail.stretches(recording) == [(0.0, 1.0)]
+    assert detail.detailed_spans(recording) == [(0.0, 1.0)]
     assert len(detail.overview(recording, [(0.0, 1.0)]).state) == 100
 
 
@@ -24,17 +24,17 @@ def test_samples_are_spent_on_the_start_and_on_changes_and_are_not_more_than_all
     recording, monkeypatch
 ):
     monkeypatch.setattr(detail, "MOST_SAMPLES", 20_000)
-    found = detail.stretches(recording)
+    found = detail.detailed_spans(recording)
     assert [begin <= time < end for (begin, end), (time, *_) in zip(found, TOUR, strict=True)]
     assert found[1] == pytest.approx((0.24, 0.35))
     assert sum(end - begin for begin, end in found) <= 1.1 * 20_000 * SAMPLE_PERIOD
     monkeypatch.setattr(detail, "MOST_SAMPLES", 12_500)  # of 0.1 s there is room for two
-    assert [begin for begin, _ in detail.stretches(recording)] == pytest.approx([0.0, 0.2375])
+    assert [begin for begin, _ in detail.detailed_spans(recording)] == pytest.approx([0.0, 0.2375])
 
 
 def test_stretches_that_meet_are_one(recording, monkeypatch):
     monkeypatch.setattr(detail, "MOST_SAMPLES", 48_000)
-    found = detail.stretches(recording)
+    found = detail.detailed_spans(recording)
     assert all(before[1] < after[0] for before, after in pairwise(found))
     assert found[0][0] == 0.0 and found[-1][1] <= 1.0
 

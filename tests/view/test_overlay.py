@@ -65,7 +65,7 @@ def test_samples_of_other_instants_are_left_out_of_the_difference(first):
     assert np.array_equal(less.time, other.waveform.time[len(other.waveform.time) // 2 :])
     assert less.block[0] == 0
     other.waveform.time[:] += 3e-6
-    with pytest.raises(RecordingError, match="no sample is of the same instant"):
+    with pytest.raises(RecordingError, match="no sample has the same time"):
         difference(first, other)
 
 
@@ -74,7 +74,7 @@ def test_recordings_are_called_by_what_tells_them_apart(first):
     assert names_of([first, altered(first, "b/other.mcap")]) == ["first", "other"]
     same = altered(first, "b/first.mcap")
     assert names_of([first, same]) == [str(first.path), "b/first.mcap"]
-    with pytest.raises(RecordingError, match="to be shown twice"):
+    with pytest.raises(RecordingError, match="given twice"):
         names_of([first, first])
 
 

@@ -62,7 +62,7 @@ def test_without_a_scene_curves_are_shown_and_the_missing_gears_are_told(tmp_pat
     recording = read_recording(write_recording(tmp_path / "a.mcap", 0.05))
     scene, remark = scene_of(recording)
     assert scene is None
-    assert "carries no scene" in remark
+    assert "has no scene" in remark
     save(recording, scene, tmp_path / "a.rrd")
     printed = rerun("print", tmp_path / "a.rrd").stdout
     assert "/mesh/dte_mean" in printed
@@ -72,12 +72,12 @@ def test_without_a_scene_curves_are_shown_and_the_missing_gears_are_told(tmp_pat
 def test_a_scene_of_another_gearbox_is_refused(recording, tmp_path):
     angles = tuple(2 * np.pi * k / 5 for k in range(5))
     other = load_scene("paper").replace(**{"gearset.planet_angles": angles})
-    with pytest.raises(RecordingError, match="has 5 planets, the recording 3"):
+    with pytest.raises(RecordingError, match="has 5 planets, but the recording has 3"):
         save(recording, other, tmp_path / "a.rrd")
 
 
 def test_changes_are_told_with_old_and_new_value(recording):
-    assert sentence(recording, 0).startswith("in force: backlash = 0.2 µm, lambda_ratio = 1.5")
+    assert sentence(recording, 0).startswith("initial: backlash = 0.2 µm, lambda_ratio = 1.5")
     assert sentence(recording, 2) == "backlash = 0.35 µm, was 0.2"
     assert sentence(recording, 3) == "lambda_ratio = 2, was 1; input_speed = 2000 rpm, was 1000"
 
@@ -86,7 +86,7 @@ def test_of_a_long_recording_detail_is_shown_where_something_happens(tmp_path, m
     monkeypatch.setattr("planetary_twin_py.view.detail.MOST_SAMPLES", 20_000)  # 0.4 s
     recording = read_recording(write_recording(tmp_path / "a.mcap", 1.0))
     (remark,) = save(recording, None, tmp_path / "a.rrd")
-    assert remark.startswith("single samples are shown of the start and the changes (0.4 s of 1.0")
+    assert remark.startswith("single samples are shown for the start and the changes (0.4 s of 1.0")
     remark, aliases = save(recording, None, tmp_path / "b.rrd", detail=(0.3, 0.5))
     assert "do not carry this signal" in aliases
-    assert remark.startswith("single samples are shown of 0.3 to 0.5 s (0.2 s of 1.0 s)")
+    assert remark.startswith("single samples are shown for 0.3 to 0.5 s (0.2 s of 1.0 s)")

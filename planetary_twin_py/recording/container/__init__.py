@@ -1,1 +1,1 @@
-"""MCAP files: their records, chunks and indexes, also where a file is torn or damaged."""
+"""MCAP files: records, chunks and indexes, also of truncated or damaged files."""

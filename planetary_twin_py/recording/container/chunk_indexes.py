@@ -1,4 +1,4 @@
-"""Chunk indexes of an MCAP file in the making."""
+"""Chunk indexes of an MCAP file that is being written."""
 
 from __future__ import annotations
 
@@ -16,10 +16,10 @@ _INDEXES = "_Writer__chunk_indices"  # mcap 1.x has no public name for them
 
 class ChunkIndexes:
     """
-    Takes the place of the list in which mcap's `Writer` keeps them until it writes the summary.
+    Replaces the list in which mcap's `Writer` collects chunk indexes until it writes the summary.
 
-    They wait as bytes in an unnamed file in `folder`: the list grows by 7 MB an hour where two
-    chunks are closed each second.
+    They are stored in an unnamed file in `folder`, because the list grows by 7 MB per hour with
+    two chunks per second.
     """
 
     def __init__(self, folder: Path) -> None:
@@ -27,7 +27,7 @@ class ChunkIndexes:
 
     @classmethod
     def replace(cls, writer: Writer, folder: Path) -> ChunkIndexes:
-        """Have `writer` keep its chunk indexes so."""
+        """Replace the list of `writer`."""
         if getattr(writer, _INDEXES) != []:
             raise TypeError("mcap.writer.Writer: no empty list of chunk indexes")
         indexes = cls(folder)
@@ -35,20 +35,20 @@ class ChunkIndexes:
         return indexes
 
     def append(self, index: ChunkIndex) -> None:
-        """Keep one; raises `OSError` where the disk is full."""
+        """Store one; raises `OSError` if the disk is full."""
         builder = RecordBuilder()
         index.write(builder)
         self._file.write(builder.end())  # type: ignore[no-untyped-call]
 
     def __iter__(self) -> Iterator[Any]:
-        """Yield all of them as one, which is written as each of a list would be."""
+        """Yield this object, whose `write` writes all indexes at once."""
         yield self
 
     def write(self, summary: RecordBuilder) -> None:
-        """Append all of them to the summary of a file."""
+        """Append all indexes to the summary of a file."""
         self._file.seek(0)
         summary.write(self._file.read())
 
     def close(self) -> None:
-        """Let the file go."""
+        """Delete the file."""
         self._file.close()

@@ -1,4 +1,4 @@
-"""What is missing of a damaged file, in lines: bytes, stretch of time, chunks and messages."""
+"""Warnings about damaged files: missing bytes, time intervals, chunks and messages."""
 
 from __future__ import annotations
 
@@ -16,38 +16,38 @@ from .walk import Lost, Sound
 
 
 @dataclass
-class _Stretch:
-    """Losses without a message between them; log times [ns] of the messages on either side."""
+class _Gap:
+    """Losses without a message between them, and the log times [ns] of the messages around them."""
 
     before: int | None
     losses: list[Lost] = field(default_factory=list)
     indexed: int = 0
-    """Messages that were in the lost chunks, by the indexes behind these."""
+    """Messages in the lost chunks, according to their message indexes."""
     after: int | None = None
 
 
 class Damages:
-    """Follows what is read of a file, and what is lost."""
+    """Collects the damage of a file while it is read."""
 
     def __init__(self, file: Path) -> None:
         self._file = file
         self._size = file.stat().st_size
         self._first: int | None = None  # log time [ns] of the first message
         self._newest: Sequence[Any] = ()  # records of the last section with messages
-        self._stretches: list[_Stretch] = []
-        self._open: _Stretch | None = None
+        self._gaps: list[_Gap] = []
+        self._open: _Gap | None = None
         self.reached = 0
-        """End of the last sound record."""
+        """End of the last intact record."""
 
     def lose(self, lost: Lost) -> None:
-        """Take what cannot be read; it comes after all that was seen."""
+        """Add an unreadable part, which follows the parts added before."""
         if self._open is None:
-            self._open = _Stretch(max(_log_times(self._newest), default=None))
-            self._stretches.append(self._open)
+            self._open = _Gap(max(_log_times(self._newest), default=None))
+            self._gaps.append(self._open)
         self._open.losses.append(lost)
 
     def see(self, sound: Sound) -> None:
-        """Take what was read."""
+        """Add an intact record."""
         self.reached = sound.piece.end
         if self._open and sound.piece.opcode == Opcode.MESSAGE_INDEX:
             self._open.indexed += indexed_messages(sound.piece)
@@ -61,62 +61,62 @@ class Damages:
 
     @property
     def unsupported(self) -> Exception | None:
-        """Why nothing could be read, where that is a compression that is not known here."""
-        reasons = [lost.reason for stretch in self._stretches for lost in stretch.losses]
+        """The error, if nothing could be read because the compression is unknown."""
+        reasons = [lost.reason for gap in self._gaps for lost in gap.losses]
         unknown = [why for why in reasons if isinstance(why, UnsupportedCompressionError)]
         return unknown[0] if unknown and self._first is None else None
 
     def remarks(self) -> list[str]:
-        """A line for each stretch, and for an end that is missing."""
-        return [self._line(stretch) for stretch in self._stretches]
+        """A line for each gap, and for a missing end."""
+        return [self._line(gap) for gap in self._gaps]
 
-    def _line(self, stretch: _Stretch) -> str:
-        last = stretch.losses[-1]
+    def _line(self, gap: _Gap) -> str:
+        last = gap.losses[-1]
         if last.end == self._size and last.opcode == 0:
-            return self._torn(stretch)
-        begin = stretch.losses[0].place
-        size = sum(lost.end - lost.place for lost in stretch.losses)
+            return self._truncated(gap)
+        begin = gap.losses[0].place
+        size = sum(lost.end - lost.place for lost in gap.losses)
         return (
-            f"{self._file.name}: damaged{self._span(stretch)}: {size} bytes from byte {begin} on "
-            f"are left out ({_contents(stretch)}; {type(stretch.losses[0].reason).__name__})"
+            f"{self._file.name}: damaged{self._span(gap)}: {size} bytes from byte {begin} "
+            f"are skipped ({_contents(gap)}; {type(gap.losses[0].reason).__name__})"
         )
 
-    def _torn(self, stretch: _Stretch) -> str:
-        begin = stretch.losses[0].place
-        before = "everything before is sound" if len(self._stretches) == 1 else ""
+    def _truncated(self, gap: _Gap) -> str:
+        begin = gap.losses[0].place
+        before = "everything before is intact" if len(self._gaps) == 1 else ""
         if begin == self._size:
-            found = "has no end record, the recorder was stopped before it could finish"
+            found = "has no end record, the recorder was killed"
         else:
             found = (
-                f"ends torn, the last {self._size - begin} of {self._size} bytes are not readable "
-                f"({type(stretch.losses[0].reason).__name__})"
+                f"is truncated, the last {self._size - begin} of {self._size} bytes are unreadable "
+                f"({type(gap.losses[0].reason).__name__})"
             )
         return f"{self._file.name}: {'; '.join(filter(None, (found, before)))}"
 
-    def _span(self, stretch: _Stretch) -> str:
-        """The stretch of time after the first message of the file."""
+    def _span(self, gap: _Gap) -> str:
+        """Time interval of a gap, relative to the first message of the file."""
         if self._first is None:
             return ""
         begin, end = (
             None if time is None else f"{(time - self._first) * 1e-9:.3f}"
-            for time in (stretch.before, stretch.after)
+            for time in (gap.before, gap.after)
         )
         if begin is None:
             return " before its first message"
-        return f" from {begin} to {end} s" if end else f" from {begin} s on"
+        return f" from {begin} to {end} s" if end else f" from {begin} s"
 
 
-def _contents(stretch: _Stretch) -> str:
-    """What is lost, as far as that is known."""
-    kinds = [lost.opcode for lost in stretch.losses]
+def _contents(gap: _Gap) -> str:
+    """Description of the lost records, as far as it is known."""
+    kinds = [lost.opcode for lost in gap.losses]
     if 0 in kinds:
         return "an unknown number of chunks"
     chunks = kinds.count(Opcode.CHUNK)
     parts = [f"{chunks} chunk{'s' * (chunks > 1)}"] if chunks else []
     names = {int(kind): kind.name.lower().replace("_", " ") for kind in Opcode}
     parts += [names.get(kind, "record") for kind in kinds if kind != Opcode.CHUNK]
-    if stretch.indexed:
-        parts.append(f"{stretch.indexed} messages by the index")
+    if gap.indexed:
+        parts.append(f"{gap.indexed} messages by the index")
     return ", ".join(parts)
 
 

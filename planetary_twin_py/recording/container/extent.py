@@ -1,4 +1,4 @@
-"""The stretch of time that messages cover."""
+"""The time interval that messages cover."""
 
 from __future__ import annotations
 
@@ -13,6 +13,6 @@ class Extent:
     end: int = 0
 
     def include(self, time: int) -> None:
-        """Widen to hold `time`."""
+        """Extend the interval to `time`."""
         self.start = min(self.start, time) if self.start else time
         self.end = max(self.end, time)

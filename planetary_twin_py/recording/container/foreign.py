@@ -1,25 +1,26 @@
-"""Bags of rosbag2 that are stored in another way than this package reads, and what to do."""
+"""Bags of rosbag2 in storage formats that this package does not read, and their conversion."""
 
 from __future__ import annotations
 
 import re
 from pathlib import Path
 
-CONVERT = "rosbags-convert --src BAG --dst NEW --dst-storage mcap makes one that is read"
+CONVERT = "to convert it: rosbags-convert --src BAG --dst NEW --dst-storage mcap"
 _SQLITE = b"SQLite format 3\0"
 _ZSTD = b"\x28\xb5\x2f\xfd"
 _MODE = re.compile(r"^\s*compression_mode:\s*[\"']?file\b", re.IGNORECASE | re.MULTILINE)
-_LONGEST = 4_000_000  # characters of metadata.yaml that are looked at
+_LONGEST = 4_000_000  # characters of metadata.yaml that are searched
 
 
 def how_stored(path: Path) -> str | None:
-    """How a bag is stored that cannot be read, and how it is converted; None of another.
+    """Detect a storage format that cannot be read.
 
     Args:
         path: of the folder of a bag, or of one of its files.
 
     Returns:
-        The end of a message; `BAG` and `NEW` are replaced by folders.
+        The format and the command that converts the bag, as the end of an error message; None for
+        other bags.
     """
     folder = path if path.is_dir() else path.parent
     found = _folder(path) if path.is_dir() else _file(path)

@@ -1,7 +1,7 @@
-"""The records of an MCAP file as they stand in it: where each ends, what it holds, if it is sound.
+"""The records of an MCAP file: their boundaries, contents and integrity.
 
-A record of MCAP 0 is sound where its fields end where it ends, and its checksum, if it has one, is
-that of its bytes.
+A record of MCAP 0 is intact if its fields end where the record ends, and its checksum, if it has
+one, is correct.
 """
 
 from __future__ import annotations
@@ -37,8 +37,8 @@ from mcap.records import (
 )
 from mcap.stream_reader import CRCValidationError
 
-# The longest record a sound recording holds is a chunk of a few MiB: a torn length field may
-# claim any size, and nothing near memory's size must be allocated for it.
+# The longest record of an intact recording is a chunk of a few MiB. A damaged length field may have
+# any value, so the size of allocations must be limited.
 _LONGEST_RECORD = 256 * 2**20
 _HEAD = struct.Struct("<BQ")  # opcode and length of a record
 _MESSAGE = struct.Struct("<HIQQ")  # channel, sequence, log time and publish time of a message
@@ -66,15 +66,15 @@ _CHUNK = re.compile(
 )
 
 
-# What a record cut in the middle raises: at its end, in its fields, in its compressed data.
-TORN: tuple[type[Exception], ...] = (
+# Exceptions of a damaged record: at its end, in its fields, in its compressed data.
+DAMAGED: tuple[type[Exception], ...] = (
     *(McapError, struct.error, ValueError, EOFError, zstandard.ZstdError),
-    *(MemoryError, OverflowError),  # of a length that cannot be
+    *(MemoryError, OverflowError),  # of an impossible length
 )
 
 
 class Piece(NamedTuple):
-    """A record as it stands in the file."""
+    """A record with its position in the file."""
 
     place: int
     opcode: int
@@ -83,12 +83,12 @@ class Piece(NamedTuple):
 
     @property
     def end(self) -> int:
-        """The byte after its last."""
+        """Position after its last byte."""
         return self.place + _HEAD.size + len(self.content)
 
 
 class _Fields(ReadDataStream):
-    """The fields of a record. A field that is cut is none."""
+    """The fields of a record; raises `EndOfFile` for a truncated field."""
 
     def __init__(self, content: bytes) -> None:
         super().__init__(BytesIO(content))
@@ -101,7 +101,7 @@ class _Fields(ReadDataStream):
 
 
 def piece_at(stream: BinaryIO) -> Piece:
-    """The record that begins where `stream` stands; raises one of `TORN` where there is none."""
+    """The record at the position of `stream`; raises one of `DAMAGED` if there is none."""
     place = stream.tell()
     head = stream.read(_HEAD.size)
     if len(head) < _HEAD.size:
@@ -116,10 +116,10 @@ def piece_at(stream: BinaryIO) -> Piece:
 
 
 def opened(piece: Piece) -> list[Any]:
-    """What a record of a file holds: the records of a chunk, or itself, or nothing.
+    """Contents of a record: the records of a chunk, the record itself, or none for an index.
 
     Raises:
-        one of `TORN`: it is not sound.
+        one of `DAMAGED`: the record is damaged.
     """
     opcode, content = piece.opcode, piece.content
     if opcode == Opcode.CHUNK:
@@ -138,7 +138,7 @@ def opened(piece: Piece) -> list[Any]:
 
 
 def indexed_messages(piece: Piece) -> int:
-    """How many messages of the chunk before it a message index lists."""
+    """Number of messages that a message index lists."""
     _, size = _INDEX.unpack_from(piece.content)
     if len(piece.content) != _INDEX.size + size or size % _ENTRY:
         raise McapError("no message index")
@@ -146,7 +146,7 @@ def indexed_messages(piece: Piece) -> int:
 
 
 def unpacked_size(piece: Piece) -> int:
-    """Bytes that a chunk says it holds, at most those that are unpacked; 0 of another record."""
+    """Uncompressed size of a chunk according to its header, limited; 0 for other records."""
     if piece.opcode != Opcode.CHUNK or len(piece.content) < _TIMES_AND_SIZE.size:
         return 0
     *_, size = _TIMES_AND_SIZE.unpack_from(piece.content)
@@ -154,20 +154,20 @@ def unpacked_size(piece: Piece) -> int:
 
 
 def next_chunk(stream: BinaryIO, begin: int) -> int | None:
-    """Place of the first sound chunk from `begin` on that holds something; None without one."""
+    """Position of the first intact, non-empty chunk after `begin`; None if there is none."""
     with mmap.mmap(stream.fileno(), 0, access=mmap.ACCESS_READ) as data:
         for found in _CHUNK.finditer(data, begin):
             stream.seek(found.start())
             try:
                 if opened(piece_at(stream)):
                     return found.start()
-            except TORN:
+            except DAMAGED:
                 continue
     return None
 
 
 def _exact(kind: Any, content: bytes) -> Any:
-    """A record whose fields are all of `content`."""
+    """A record whose fields fill `content` exactly."""
     fields = _Fields(content)
     record = kind.read(fields)
     if fields.count != len(content):
@@ -181,7 +181,7 @@ def _exact(kind: Any, content: bytes) -> Any:
 
 
 def _unpacked(chunk: Chunk) -> list[Any]:
-    """The records that a chunk holds."""
+    """The records of a chunk."""
     data = _decompressed(chunk)
     size = len(data)
     if chunk.uncompressed_crc not in (0, found := zlib.crc32(data)):
@@ -206,14 +206,14 @@ def _unpacked(chunk: Chunk) -> list[Any]:
 
 
 def _decompressed(chunk: Chunk) -> bytes:
-    """The data of a chunk, of which no more is unpacked than it says there is."""
+    """The uncompressed data of a chunk, limited to the size in its header."""
     size = chunk.uncompressed_size
     if size > _LONGEST_RECORD:
         raise RecordLengthLimitExceeded(Opcode.CHUNK, size, _LONGEST_RECORD)
     data = chunk.data
     if chunk.compression == "zstd":
         if zstandard.frame_content_size(data) > size:
-            raise McapError("a chunk longer than it says")
+            raise McapError("a chunk is longer than its header states")
         data = zstandard.ZstdDecompressor().decompress(data, max_output_size=size)
     elif chunk.compression == "lz4":
         try:

@@ -1,4 +1,4 @@
-"""Whether a finished file is as it was written, by the checksums of its bytes."""
+"""Integrity of a finished file, by its checksums."""
 
 from __future__ import annotations
 
@@ -16,9 +16,9 @@ _FOOTER = struct.Struct("<BQQQI")  # opcode, length, start of summary, of its of
 
 
 def damaged_summary(file: Path) -> bool:
-    """Whether the summary fails its checksum (MCAP 0, section Footer), or the file is torn.
+    """Whether the summary fails its checksum (MCAP 0, section Footer), or the file is truncated.
 
-    A writer that computes none says so with the checksum zero.
+    The checksum zero means that the writer computed none.
     """
     with file.open("rb") as stream:
         begin = stream.seek(0, 2) - _FOOTER.size - len(MAGIC)
@@ -35,9 +35,9 @@ def damaged_summary(file: Path) -> bool:
 
 
 def damaged_data(file: Path) -> bool:
-    """Whether what stands before the summary fails its checksum (MCAP 0, section Data End).
+    """Whether the data before the summary fail their checksum (MCAP 0, section Data End).
 
-    Much quicker than to unpack it. A writer that computes none says so with the checksum zero.
+    This is much faster than decompressing. The checksum zero means that the writer computed none.
     """
     with file.open("rb") as stream:
         stream.seek(-_FOOTER.size - len(MAGIC), 2)
@@ -57,9 +57,9 @@ def damaged_data(file: Path) -> bool:
 
 
 def end_of_data(file: Path) -> int | None:
-    """Place of the record that ends the data, where a sound summary follows it; else None.
+    """Position of the Data End record if an intact summary follows it; else None.
 
-    The footer tells it; in a file that has lost bytes, the summary's checksum does.
+    It follows from the footer or, in a file that has lost bytes, from the summary's checksum.
     """
     with file.open("rb") as stream, mmap.mmap(stream.fileno(), 0, access=mmap.ACCESS_READ) as data:
         footer = len(data) - _FOOTER.size - len(MAGIC)

@@ -1,6 +1,6 @@
-"""Where messages stand in a finished file, by its own index: one of them is found without the rest.
+"""Random access to the messages of a finished file, by its index.
 
-It is trusted where the whole file is as it was written.
+The index is used only if the checksums of the whole file are correct.
 """
 
 from __future__ import annotations
@@ -17,34 +17,34 @@ from mcap.reader import make_reader
 from mcap.records import Channel, ChunkIndex, Message, Metadata, Schema
 from numpy.typing import NDArray
 
-from .framing import TORN
+from .framing import DAMAGED
 from .integrity import damaged_data, damaged_summary
 from .records import MOST_TOPICS, section_at
 
 _HEAD = struct.Struct("<BQHI")  # opcode, length, channel, bytes of entries (MCAP 0, Message Index)
 _ENTRY = np.dtype([("log_time", "<u8"), ("offset", "<u8")])
-UNSOUND: tuple[type[Exception], ...] = (*TORN, KeyError)
+UNSOUND: tuple[type[Exception], ...] = (*DAMAGED, KeyError)
 _KEPT = 8  # sections, so that neighbours are not unpacked again
 
 
 class Index:
-    """Of a finished file: its channels, and `times[channel]` of their messages [ns]."""
+    """Index of a finished file: its channels, and `times[channel]` of their messages [ns]."""
 
     def __init__(self, file: Path) -> None:
         """Read the index of `file`.
 
         Raises:
-            one of `UNSOUND`: there is none, or none that agrees with itself.
+            one of `UNSOUND`: there is no index, or it is inconsistent.
         """
         if damaged_summary(file) or damaged_data(file):
-            raise ValueError("not as it was written")
+            raise ValueError("checksum error")
         with file.open("rb") as stream:
             reader = make_reader(stream)
             summary = reader.get_summary()
             if summary is None or summary.statistics is None:
                 raise ValueError("no summary")
             if len(summary.channels) > MOST_TOPICS:
-                raise ValueError("more topics than are read")
+                raise ValueError("too many topics")
             self.schemas: dict[int, Schema] = summary.schemas
             self.channels: dict[int, Channel] = summary.channels
             self.metadata: list[Metadata] = list(reader.iter_metadata())
@@ -56,29 +56,29 @@ class Index:
             self._places = {c: _joined([[p] * len(e) for p, e in f]) for c, f in found.items()}
             counts = summary.statistics.channel_message_counts
             if any(counts.get(c, 0) != len(times) for c, times in self.times.items()):
-                raise ValueError("not every message is in the index")
+                raise ValueError("messages are missing in the index")
         self._section = lru_cache(_KEPT)(lambda place: section_at(file, place))
 
     def message(self, channel: int, number: int) -> Message:
         """Message `number` of a channel, counted from 0 in file order.
 
         Raises:
-            one of `UNSOUND`: it cannot be read.
+            one of `UNSOUND`: the message cannot be read.
         """
         places = self._places[channel]
         first = int(np.searchsorted(places, places[number]))
-        alike = [
+        own = [
             record
             for record in self._section(int(places[number]))
             if isinstance(record, Message) and record.channel_id == channel
         ]
-        if len(alike) <= number - first:
-            raise ValueError("the index tells of a message that is not there")
-        return alike[number - first]
+        if len(own) <= number - first:
+            raise ValueError("the index lists a message that does not exist")
+        return own[number - first]
 
 
 def _entries(stream: BinaryIO, chunk: ChunkIndex) -> Iterator[tuple[int, NDArray[Any]]]:
-    """What the index says of a chunk: channels, and where their messages are."""
+    """Index entries of a chunk, by channel."""
     stream.seek(chunk.chunk_start_offset + chunk.chunk_length)
     data = stream.read(chunk.message_index_length)
     place = 0
@@ -89,7 +89,7 @@ def _entries(stream: BinaryIO, chunk: ChunkIndex) -> Iterator[tuple[int, NDArray
         entries = np.frombuffer(data, _ENTRY, size // _ENTRY.itemsize, place + _HEAD.size)
         times = entries["log_time"]
         if ((times < chunk.message_start_time) | (times > chunk.message_end_time)).any():
-            raise ValueError("times that the chunk does not span")
+            raise ValueError("a time outside the range of the chunk")
         yield channel, entries
         place += _HEAD.size + size
 

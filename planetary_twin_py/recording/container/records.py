@@ -1,8 +1,8 @@
 """The records of a recording, in file order; needs no ROS.
 
-A recording is an MCAP file, or the bag folder that holds one or several. What is sound of a damaged
-file, or of one torn by a killed logger, is read; a remark says what is not. Checksums are always
-looked at.
+A recording is an MCAP file, or a bag folder with one or several. The intact parts of a file that is
+damaged, or truncated by a killed logger, are read, with a warning about the rest. Checksums are
+always verified.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ from mcap.stream_reader import CRCValidationError
 from ...printable import one_line
 from .damage import Damages
 from .foreign import how_stored
-from .framing import TORN, opened, piece_at
+from .framing import DAMAGED, opened, piece_at
 from .integrity import MAGIC, damaged_summary, end_of_data
 from .walk import Lost, Sound, Walk
 
@@ -28,9 +28,9 @@ _LONGEST_MESSAGE = 900  # characters
 
 
 class RecordingError(ValueError):
-    """The path is no recording, or not one of this gearbox; the message says why in one line.
+    """The path is not a recording of a gearbox; the message gives the reason in one line.
 
-    What a file has put into `text`, such as the name of a topic, cannot break that line.
+    Text from the file, such as the name of a topic, cannot break that line.
     """
 
     def __init__(self, text: str) -> None:
@@ -38,14 +38,18 @@ class RecordingError(ValueError):
 
 
 class Section(NamedTuple):
-    """The records of one chunk, or a single one outside; `place` is where in the file."""
+    """The records of one chunk, or a single record outside; `place` is the position in the file."""
 
     place: int
     records: list[Any]
 
 
 def files_of(path: Path) -> list[Path]:
-    """The MCAP files of the recording at `path`, in order; raises `RecordingError` without any."""
+    """The MCAP files of the recording at `path`, in order.
+
+    Raises:
+        RecordingError: there is no MCAP file.
+    """
     if not path.exists():
         raise RecordingError(f"{path}: no such file or folder")
     if not (path.is_dir() or path.is_file()):
@@ -57,22 +61,22 @@ def files_of(path: Path) -> list[Path]:
     found = (file for file in path.glob("*.mcap") if file.is_file())
     files = sorted(found, key=lambda file: (len(file.name), file.name))
     if not files:
-        raise RecordingError(f"{path}: no recording: the folder holds no .mcap file")
+        raise RecordingError(f"{path}: not a recording: the folder has no .mcap file")
     return files
 
 
 def records_of(file: Path, remarks: list[str]) -> Iterator[Any]:
-    """Every sound schema, channel, message, attachment and metadata.
+    """All intact schemas, channels, messages, attachments and metadata.
 
     Args:
         file: MCAP file.
-        remarks: takes a line for each stretch that is damaged.
+        remarks: a line is appended for each damaged part.
 
     Yields:
         Records of `mcap`, in file order.
 
     Raises:
-        RecordingError: nothing of it can be read.
+        RecordingError: nothing can be read.
     """
     for section in sections_of(file, remarks):
         yield from section.records
@@ -94,7 +98,7 @@ def sections_of(file: Path, remarks: list[str]) -> Iterator[Section]:
                 damages.lose(step)
                 place, found = step.place, known.summarised()
             else:
-                behind = _torn(file, damages.reached, step)
+                behind = _truncated(file, damages.reached, step)
                 break
             if found:
                 yield Section(place, found)
@@ -104,12 +108,12 @@ def sections_of(file: Path, remarks: list[str]) -> Iterator[Section]:
     remarks += damages.remarks() or filter(None, [behind])
     if known.strays:
         remarks.append(
-            f"{file.name}: {known.strays} messages are of topics whose description is lost"
+            f"{file.name}: {known.strays} messages are skipped because their channels are lost"
         )
 
 
 class _Known:
-    """The topics described so far; counts messages of others in `strays`."""
+    """Schemas and channels read so far; `strays` counts messages of unknown channels."""
 
     def __init__(self, file: Path) -> None:
         self._file = file
@@ -118,11 +122,11 @@ class _Known:
         self.strays = 0
 
     def described(self, records: list[Any]) -> list[Any]:
-        """`records` but channels without a schema, and messages without a channel."""
+        """`records` without channels that lack a schema, and messages that lack a channel."""
         return [record for record in records if self._is_described(record)]
 
     def summarised(self) -> list[Any]:
-        """Schemas and channels that only a sound summary still describes."""
+        """Schemas and channels that occur only in the summary, if it is intact."""
         found = _summary(self._file)
         schemas = [s for s in found if isinstance(s, Schema) and s.id not in self._schemas]
         channels = [c for c in found if isinstance(c, Channel) and c.id not in self._channels]
@@ -141,14 +145,13 @@ class _Known:
             self._channels.add(record.id)
             if len(self._channels) > MOST_TOPICS:
                 raise RecordingError(
-                    f"{self._file}: holds more than {MOST_TOPICS} topics, which is the most that "
-                    "are read"
+                    f"{self._file}: has too many topics: must be at most {MOST_TOPICS}"
                 )
         return True
 
 
 def _summary(file: Path) -> list[Any]:
-    """The schemas and channels of a sound summary."""
+    """The schemas and channels of an intact summary."""
     found: list[Any] = []
     end = end_of_data(file)
     if end is None:
@@ -158,18 +161,18 @@ def _summary(file: Path) -> list[Any]:
         try:
             while (piece := piece_at(stream)).opcode != Opcode.FOOTER:
                 found += opened(piece)
-        except TORN:
-            pass  # what the summary's own writer got wrong; no checksum says how much
+        except DAMAGED:
+            pass  # the writer of the summary made an error that its checksum does not show
     return found
 
 
 def _begin(file: Path, stream: BinaryIO) -> list[str]:
-    """What is wrong with the first bytes of an MCAP file, as its header or its end shows it to be.
+    """Warnings about the first bytes of an MCAP file, which its header or its end identifies.
 
-    A writer that is killed may leave a file of which not even these are there.
+    A killed writer may leave a file without these bytes.
 
     Raises:
-        RecordingError: it is none.
+        RecordingError: it is not an MCAP file.
     """
     first = stream.read(len(MAGIC))
     if first == MAGIC:
@@ -178,40 +181,40 @@ def _begin(file: Path, stream: BinaryIO) -> list[str]:
         return [f"{file.name}: ends after {len(first)} bytes, before any message"]
     try:
         is_mcap = opened(header := piece_at(stream)) == [] and header.opcode == Opcode.HEADER
-    except TORN:
+    except DAMAGED:
         is_mcap = stream.seek(0, 2) > len(MAGIC) and end_of_data(file) is not None
     if not is_mcap:
-        raise RecordingError(f"{file}: no recording: not an MCAP file")
+        raise RecordingError(f"{file}: not a recording: not an MCAP file")
     return [f"{file.name}: its first {len(MAGIC)} bytes are damaged"]
 
 
 def _at_the_end(file: Path, ended: bool) -> str:
-    """What is not sound of a file that is there to its end."""
+    """Warning about the end of a file that is not truncated; empty if there is none."""
     if not ended:
-        return f"{file.name}: the end of its data is not marked; some may be missing"
+        return f"{file.name}: has no Data End record; data may be missing"
     return f"{file.name}: its summary is damaged" if damaged_summary(file) else ""
 
 
-def _torn(file: Path, sound: int, reason: Exception) -> str:
-    """What is wrong behind the data."""
+def _truncated(file: Path, sound: int, reason: Exception) -> str:
+    """Warning about damage after the data, or a wrong checksum of the data."""
     if isinstance(reason, CRCValidationError) and isinstance(reason.record, DataEnd):
-        return f"{file.name}: its data fail their checksum: what was read may be wrong or lacking"
+        return f"{file.name}: its data fail their checksum: they may be wrong or incomplete"
     size = file.stat().st_size
     return (
-        f"{file.name}: ends torn, the last {size - sound} of {size} bytes "
-        f"are not readable ({type(reason).__name__}); everything before is sound"
+        f"{file.name}: is truncated, the last {size - sound} of {size} bytes "
+        f"are unreadable ({type(reason).__name__}); everything before is intact"
     )
 
 
 def section_at(file: Path, place: int) -> list[Any]:
-    """The records of the section that `sections_of` has found at `place`."""
+    """The records of the section at position `place`, from `sections_of`."""
     with file.open("rb") as stream:
         stream.seek(place)
         return opened(piece_at(stream))
 
 
 def chunk_at(file: Path, place: int) -> list[Any]:
-    """The records of the chunk that an index tells of; raises one of `TORN` where there is none."""
+    """The records of the chunk at position `place`; raises one of `DAMAGED` if there is none."""
     with file.open("rb") as stream:
         stream.seek(place)
         piece = piece_at(stream)

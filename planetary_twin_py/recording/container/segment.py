@@ -1,4 +1,4 @@
-"""One MCAP file of a recording, read from any instant: by its chunk index, or in order without."""
+"""One MCAP file of a recording, read from any time: by its chunk index, or sequentially."""
 
 from __future__ import annotations
 
@@ -13,21 +13,18 @@ from mcap.records import Channel, ChunkIndex, Message, Schema
 from mcap.summary import Summary
 
 from .extent import Extent
-from .framing import TORN
+from .framing import DAMAGED
 from .integrity import damaged_summary
 from .records import MOST_TOPICS, chunk_at, records_of
 
-# Messages stand in a file in the order a recorder got to them: far less than this apart.
+# Messages are in the order in which the recorder wrote them, out of order by far less than this.
 DISORDER = 1_000_000_000  # [ns]
 
-Tell = Callable[[str], None]
+Warn = Callable[[str], None]
 
 
 class Contents(NamedTuple):
-    """What a file holds: each channel with its schema, messages by topic, first and last log time.
-
-    A channel whose schema is missing has none.
-    """
+    """Contents of a file: channels with their schemas (None if missing), counts, and times."""
 
     channels: dict[int, tuple[Channel, Schema | None]]
     counts: Counter[str]
@@ -40,28 +37,28 @@ class Segment(Protocol):
     contents: Contents
 
     def messages(self, begin: int) -> Iterator[tuple[str, Message]]:
-        """Messages from `begin` on with their topics, in file order."""
+        """Messages at or after log time `begin` [ns] with their topics, in file order."""
 
     def newest(self, kept: Mapping[str, int], before: int) -> dict[str, list[Message]]:
-        """By topic the last so many messages before an instant, oldest first."""
+        """The last `kept[topic]` messages before log time `before` [ns], oldest first."""
 
 
-def open_segment(file: Path, tell: Tell) -> Segment:
-    """The file to read; `tell` hears in lines of what cannot be read, now and later."""
+def open_segment(file: Path, warn: Warn) -> Segment:
+    """Open a file; `warn` is called with a line for each unreadable part, now and later."""
     summary = _summary(file)
     if summary is None or summary.statistics is None or len(summary.channels) > MOST_TOPICS:
-        return _InOrder(file, tell)
+        return _InOrder(file, warn)
     if summary.statistics.message_count and not summary.chunk_indexes:
-        return _InOrder(file, tell)
-    return _Indexed(file, summary, tell)
+        return _InOrder(file, warn)
+    return _Indexed(file, summary, warn)
 
 
 class _Indexed:
-    """A finished file: its summary tells which chunks there are to look at."""
+    """A finished file, whose summary has an index of the chunks."""
 
-    def __init__(self, file: Path, summary: Summary, tell: Tell) -> None:
+    def __init__(self, file: Path, summary: Summary, warn: Warn) -> None:
         self._file = file
-        self._tell = tell
+        self._warn = warn
         self._chunks = sorted(summary.chunk_indexes, key=lambda index: index.chunk_start_offset)
         self._topics = {number: channel.topic for number, channel in summary.channels.items()}
         self.contents = _contents(summary)
@@ -90,15 +87,15 @@ class _Indexed:
         return found[-count:]
 
     def _read(self, index: ChunkIndex) -> Iterator[tuple[str, Message]]:
-        """Messages of a chunk; a damaged one is told of and left out."""
+        """Messages of a chunk; a damaged chunk is skipped with a warning."""
         try:
             records = chunk_at(self._file, index.chunk_start_offset)
-        except TORN as reason:
+        except DAMAGED as reason:
             begin = self.contents.extent.start
             first, last = index.message_start_time - begin, index.message_end_time - begin
-            self._tell(
+            self._warn(
                 f"{self._file.name}: damaged from {first * 1e-9:.3f} to {last * 1e-9:.3f} s "
-                f"({type(reason).__name__}), which is left out"
+                f"({type(reason).__name__}); this part is skipped"
             )
             return
         for record in records:
@@ -107,11 +104,11 @@ class _Indexed:
 
 
 class _InOrder:
-    """A file without an index, torn or written without chunks: every record is looked at."""
+    """A file without an index, truncated or written without chunks; it is read sequentially."""
 
-    def __init__(self, file: Path, tell: Tell) -> None:
+    def __init__(self, file: Path, warn: Warn) -> None:
         self._file = file
-        self._tell = tell
+        self._warn = warn
         self.contents = Contents({}, Counter(), Extent())
         schemas: dict[int, Schema] = {}
         for record in self._records():
@@ -143,19 +140,17 @@ class _InOrder:
         remarks: list[str] = []
         yield from records_of(self._file, remarks)
         for remark in remarks:
-            self._tell(remark)
+            self._warn(remark)
 
 
 def _summary(file: Path) -> Summary | None:
-    """What a finished file says of itself; nothing where it was torn before it could, or where
-    that is damaged, which whoever reads the records then tells.
-    """
+    """The summary; None if the file is truncated or the summary fails its checksum."""
     if damaged_summary(file):
         return None
     with file.open("rb") as stream:
         try:
             return make_reader(stream).get_summary()
-        except TORN:
+        except DAMAGED:
             return None
 
 

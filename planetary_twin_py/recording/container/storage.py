@@ -1,4 +1,4 @@
-"""How a recording is laid out on disk."""
+"""Storage options of a recording."""
 
 from __future__ import annotations
 
@@ -11,24 +11,25 @@ COMPRESSIONS = {
     "lz4": CompressionType.LZ4,
     "none": CompressionType.NONE,
 }
-CHUNK_SIZES = (0.001, 64.0)  # [MB]; readers must hold a chunk in memory
+CHUNK_SIZES = (0.001, 64.0)  # [MB]; readers keep a chunk in memory
 _MEGABYTE = 1_000_000
 
 
 @dataclass(frozen=True)
 class Storage:
-    """Compression of chunks, their size, and when the next file of a bag begins.
+    """Compression and size of chunks, and limits at which a bag is split.
 
-    Raises `ValueError` naming the field where a value is none that can be.
+    Raises:
+        ValueError: a value is out of range; the message names the field.
     """
 
     compression: str = "zstd"
     chunk_size: float = 1.0
     """[MB] before compression; a flush ends a chunk early."""
     split_duration: float = 0.0
-    """[s] of log time in a file; 0: no limit."""
+    """Log time per file [s]; 0: no limit."""
     split_size: float = 0.0
-    """[MB] on disk, which the chunk in progress may exceed; 0: no limit."""
+    """Size of a file [MB], which the last chunk may exceed; 0: no limit."""
 
     def __post_init__(self) -> None:
         if self.compression not in COMPRESSIONS:
@@ -48,10 +49,10 @@ class Storage:
 
     @property
     def longest(self) -> float:
-        """Log time that a file spans at most [ns]."""
+        """Largest log time of a file [ns]."""
         return self.split_duration * 1e9 or float("inf")
 
     @property
     def largest(self) -> float:
-        """Bytes after which the next file begins."""
+        """Size after which the next file starts [bytes]."""
         return self.split_size * _MEGABYTE or float("inf")

@@ -1,7 +1,7 @@
-"""All sound records of a file in their order, and what lies between them where it is damaged.
+"""All intact records of a file in order, and the damaged parts between them.
 
-Where a record is not sound but another follows it, that one alone is lost. Where none follows, as
-after a wrong length or a missing byte, the next sound chunk is searched for.
+If an intact record follows a damaged one, only the damaged one is lost. If none follows, e.g.
+after a wrong length or a missing byte, the next intact chunk is searched.
 """
 
 from __future__ import annotations
@@ -20,11 +20,11 @@ from mcap.opcode import Opcode
 from mcap.records import DataEnd
 from mcap.stream_reader import CRCValidationError
 
-from .framing import TORN, Piece, next_chunk, opened, piece_at, unpacked_size
+from .framing import DAMAGED, Piece, next_chunk, opened, piece_at, unpacked_size
 from .integrity import MAGIC, end_of_data
 
-_AHEAD = 16 * (os.cpu_count() or 1)  # records; with a chunk come as many as there are topics
-_BYTES_AHEAD = 2**25  # of chunks that are unpacked ahead
+_AHEAD = 16 * (os.cpu_count() or 1)  # records; each chunk is followed by an index per topic
+_BYTES_AHEAD = 2**25  # of chunks that are decompressed in advance
 _OF_SUMMARY = (
     *(Opcode.STATISTICS, Opcode.CHUNK_INDEX, Opcode.ATTACHMENT_INDEX),
     *(Opcode.METADATA_INDEX, Opcode.SUMMARY_OFFSET),
@@ -32,14 +32,14 @@ _OF_SUMMARY = (
 
 
 class Sound(NamedTuple):
-    """A record of the file, and those that it holds."""
+    """An intact record, and its contents."""
 
     piece: Piece
     records: list[Any]
 
 
 class Lost(NamedTuple):
-    """Bytes of the file that cannot be read; `opcode` where they are one record, else 0."""
+    """Unreadable bytes; `opcode` if they are one record, else 0."""
 
     place: int
     end: int
@@ -48,24 +48,24 @@ class Lost(NamedTuple):
 
 
 class Walk:
-    """Goes through a file once; chunks are unpacked ahead on the other cores."""
+    """Reads a file once; chunks are decompressed in advance on the other cores."""
 
     def __init__(self, file: Path, stream: BinaryIO) -> None:
         self._file, self._stream = file, stream
         self._reached = len(MAGIC)
-        """Up to here all was yielded."""
+        """Position up to which everything was yielded."""
         self._vouched = len(MAGIC)
-        """Up to here nothing else can be: the end of the last sound chunk."""
+        """End of the last intact chunk."""
         self._ended = False
 
     def __iter__(self) -> Iterator[Sound | Lost | Exception]:
-        """All there is; last comes what is wrong behind the data, or with their checksum."""
+        """Records and damaged parts; last an error after the data, or of their checksum."""
         with ThreadPoolExecutor(os.cpu_count()) as threads:
             while True:
                 try:
                     yield from self._in_frames(threads)
                     return
-                except TORN as reason:
+                except DAMAGED as reason:
                     if self._ended:
                         yield reason
                         return
@@ -84,7 +84,7 @@ class Walk:
         return found
 
     def _in_frames(self, threads: ThreadPoolExecutor) -> Iterator[Sound | Lost]:
-        """Record after record; raises one of `TORN` where a damaged one is followed by none."""
+        """Records in order; raises one of `DAMAGED` if no intact record follows a damaged one."""
         failed: Lost | None = None
         pieces = _pieces(self._stream, self._reached)
         for piece, open_it in _in_order(pieces, threads):
@@ -92,7 +92,7 @@ class Walk:
                 if piece.opcode in _OF_SUMMARY and not self._ended:
                     raise McapError("a summary before the end of the data")
                 records = open_it()
-            except TORN as reason:
+            except DAMAGED as reason:
                 if failed:
                     raise
                 failed = Lost(piece.place, piece.end, piece.opcode, reason)
@@ -110,7 +110,7 @@ class Walk:
 def _in_order(
     pieces: Iterator[Piece | Exception], threads: ThreadPoolExecutor
 ) -> Iterator[tuple[Piece, Callable[[], list[Any]]]]:
-    """Each record with what opens it, which the threads have begun to do for those that come."""
+    """Each record with a function that opens it; threads open the next chunks in advance."""
     waiting: deque[tuple[Piece, Callable[[], list[Any]]]] = deque()
     ahead = 0
     for piece in pieces:
@@ -128,9 +128,9 @@ def _in_order(
 
 
 def _pieces(stream: BinaryIO, begin: int) -> Iterator[Piece | Exception]:
-    """Every record from `begin` to the footer; last is the exception where the file is torn.
+    """Every record from `begin` to the footer; last the exception if the file is truncated.
 
-    The checksum of the data is that of all of them, so it is compared where all were read.
+    The checksum of the data covers all records, so it is verified if all were read.
     """
     stream.seek(begin)
     checksum = zlib.crc32(MAGIC)
@@ -145,14 +145,14 @@ def _pieces(stream: BinaryIO, begin: int) -> Iterator[Piece | Exception]:
             checksum = zlib.crc32(piece.content, zlib.crc32(piece.head, checksum))
         if (magic := stream.read(len(MAGIC))) != MAGIC:
             raise InvalidMagic(magic)
-    except TORN as reason:
+    except DAMAGED as reason:
         yield reason
 
 
 def _check(piece: Piece, checksum: int) -> None:
-    """Raise `CRCValidationError` of a data end whose checksum is another."""
+    """Raise `CRCValidationError` if the checksum of a Data End record is wrong."""
     if len(piece.content) != 4:
-        return  # not sound, which who opens it finds
+        return  # damaged, which is detected when it is opened
     expected = int.from_bytes(piece.content, "little")
     if expected not in (0, checksum):
         raise CRCValidationError(expected, checksum, DataEnd(expected))

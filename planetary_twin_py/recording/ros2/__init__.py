@@ -1,1 +1,1 @@
-"""Bags and messages as ROS 2 and rosbag2 define them, written and read without ROS."""
+"""Bags and messages of ROS 2 and rosbag2, written and read without ROS."""

@@ -1,4 +1,4 @@
-"""What was received and what was lost, from the numbers publishers give their messages."""
+"""Received and lost messages, from the sequence numbers of the publishers."""
 
 from __future__ import annotations
 
@@ -8,18 +8,19 @@ from dataclasses import dataclass, field
 
 @dataclass
 class TopicAccount:
-    """Counts one topic. Each publisher numbers its messages 1, 2, 3, ...
+    """Counts the messages of one topic. Each publisher numbers its messages 1, 2, 3, ...
 
-    A message does not say who sent it, so with several publishers a number that continues no
-    sequence exactly is taken as the nearest one's, unless a publisher is still unheard.
+    A message does not identify its publisher. With several publishers, a number that continues no
+    sequence exactly is assigned to the nearest one, unless no message of some publisher has been
+    received yet.
     """
 
-    latched: bool = False  # a late subscriber gets only the newest: what came before is not lost
+    latched: bool = False  # late subscribers receive only the newest: earlier ones are not lost
     recorded: int = 0
     missed: int = 0  # numbers skipped between two received messages
     before: int = 0  # published before the first received message
-    reported: int = 0  # losses the middleware itself told of; most are among `missed` too
-    _last: list[int] = field(default_factory=list)  # newest number of each publisher heard
+    reported: int = 0  # losses reported by the middleware; most are among `missed`, too
+    _last: list[int] = field(default_factory=list)  # newest number of each publisher
 
     @property
     def lost(self) -> int:
@@ -27,9 +28,11 @@ class TopicAccount:
         return self.missed + (0 if self.latched else self.before)
 
     def receive(self, number: int, publishers: Callable[[], int] = lambda: 1) -> None:
-        """Count a message with its publisher's `number`.
+        """Count a received message.
 
-        `publishers` tells how many are matched now; it is asked only where that decides.
+        Args:
+            number: sequence number from its publisher.
+            publishers: returns the number of matched publishers; it is called only if needed.
         """
         self.recorded += 1
         last = self._last
@@ -45,7 +48,7 @@ class TopicAccount:
             self._last[stream] = number
 
     def _stream(self, number: int, publishers: Callable[[], int]) -> int | None:
-        """Index of the sequence `number` continues, None where it begins a new one."""
+        """Index of the sequence that `number` continues; None for a new sequence."""
         if number - 1 in self._last:
             return self._last.index(number - 1)
         earlier = [i for i, last in enumerate(self._last) if last < number]

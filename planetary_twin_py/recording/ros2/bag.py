@@ -1,4 +1,4 @@
-"""Writes a recording: a bag folder with one or several MCAP files, as rosbag2 lays it out."""
+"""Writes a recording: a bag folder with one or several MCAP files, in the layout of rosbag2."""
 
 from __future__ import annotations
 
@@ -19,19 +19,25 @@ from .metadata import FileEntry, Topic, bag_metadata, metadata_record, metadata_
 ACCOUNT_RECORD = "planetary_twin_account"
 CLOCKS_RECORD = "planetary_twin_clocks"
 _CLOCKS_PERIOD = 60.0  # [s]
-_LONGEST_NAME = 200  # bytes; file systems take 255, of which the file's own ending needs some
+_LONGEST_NAME = 200  # bytes; file systems allow 255, including the suffix of a file
 Clocks = Callable[[], Mapping[str, str]]
 
 
 class BagWriter:
-    """One recording, from an empty folder to its last finished file.
+    """Writes one recording, from an empty folder to its last finished file.
 
-    Each file is enough for itself: it repeats what is attached, what is described, and the messages
-    of latched topics that hold when it begins. What `clocks` says is noted at both ends of each
-    file and once a minute.
+    Each file is self-contained: it repeats attachments, metadata, and the latched messages that
+    are valid at its start. Data written before the last `flush` survive a kill and a power failure.
 
-    What `flush` has returned for survives a kill and a power cut; what came later may not.
-    Raises `FileExistsError` where `folder` exists, and `OSError` where it cannot be written.
+    Args:
+        folder: to create.
+        storage: compression, chunk size and limits of a file.
+        clocks: returns clock readings, which are written at both ends of each file and once a
+            minute.
+
+    Raises:
+        FileExistsError: `folder` exists.
+        OSError: it cannot be written.
     """
 
     def __init__(
@@ -43,7 +49,7 @@ class BagWriter:
         self._clocks = clocks
         self._topics: list[Topic] = []  # of channels 1, 2, 3, ...
         self._accounts: dict[str, TopicAccount] = {}
-        self._told: Counter[tuple[str, str]] = Counter()  # of the accounts, in finished files
+        self._counted: Counter[tuple[str, str]] = Counter()  # account totals in finished files
         self._attached: dict[str, tuple[bytes, str]] = {}
         self._described: dict[str, Mapping[str, str]] = {}
         self._latched = Latched()
@@ -52,38 +58,43 @@ class BagWriter:
 
     @property
     def file(self) -> Path:
-        """The file being written, or the last one."""
+        """The current file, or the last one."""
         return self._file.path
 
     @property
     def closed(self) -> bool:
-        """Whether the recording is finished, or given up."""
+        """Whether the recording is finished or abandoned."""
         return self._file.closed
 
     @property
     def size(self) -> int:
-        """Bytes of the file so far; the chunk in progress comes on top."""
+        """Size of the file [bytes], without the current chunk."""
         return self._file.size
 
     def attach(self, name: str, data: bytes, media_type: str) -> None:
-        """Add a file beside the messages, e.g. the scene; the same one only once."""
+        """Add an attachment, e.g. the scene; repeated calls with the same data have no effect."""
         if self._attached.get(name) != (data, media_type):
             self._attached[name] = data, media_type
             self._file.attach(name, data, media_type)
 
     def describe(self, name: str, values: Mapping[str, str]) -> None:
-        """Add a metadata record that holds for the whole recording."""
+        """Add a metadata record to this file and all following files."""
         self._described[name] = values
         self._file.note(name, values)
 
     def note(self, name: str, values: Mapping[str, str]) -> None:
-        """Add a metadata record."""
+        """Add a metadata record to this file."""
         self._file.note(name, values)
 
     def add_topic(self, topic: Topic, account: TopicAccount | None = None) -> int:
-        """Open a channel; the number returned is the one `write` takes.
+        """Open a channel.
 
-        What `account` has counted meanwhile stands at the end of each file.
+        Args:
+            topic: of the channel.
+            account: of lost messages; its counts are written at the end of each file.
+
+        Returns:
+            Number of the channel, for `write`.
         """
         channel = self._file.add_topic(topic)
         self._topics.append(topic)
@@ -95,7 +106,7 @@ class BagWriter:
     def write(
         self, channel: int, data: bytes, log_time: int, publish_time: int, sequence: int
     ) -> None:
-        """Append one serialised message, received at `log_time` and sent at `publish_time` [ns]."""
+        """Append a serialised message, received at `log_time` and sent at `publish_time` [ns]."""
         if self._file.full(log_time):
             self.split()
         self._file.write(channel, data, log_time, publish_time, sequence)
@@ -103,18 +114,18 @@ class BagWriter:
             self._latched.keep(Serialised(channel, data, log_time, publish_time, sequence))
 
     def flush(self) -> None:
-        """Bring everything written so far onto the disk."""
+        """Write all buffered data to the disk (fsync)."""
         if time.monotonic() - self._clocks_noted >= _CLOCKS_PERIOD:
             self._note_clocks()
         self._file.flush()
 
     def split(self) -> None:
-        """Finish the file and go on in the next."""
+        """Finish the file and continue in the next one."""
         self._finish_file()
         end = self._file.extent.end
         self._file = self._next_file()
         for message in self._latched:
-            # At the end of the file before, so that the files' spans do not overlap.
+            # Stamped with the end of the previous file, so that time spans do not overlap.
             self._file.write(*message._replace(log_time=max(message.log_time, end)))
 
     def close(self) -> None:
@@ -129,7 +140,7 @@ class BagWriter:
             os.fsync(stream.fileno())
 
     def abandon(self) -> None:
-        """Let go of a file that cannot be written any more, e.g. on a full disk."""
+        """Close a file that is no longer writable, e.g. on a full disk."""
         self._file.abandon()
 
     def _next_file(self) -> McapFile:
@@ -147,10 +158,10 @@ class BagWriter:
         return file
 
     def _finish_file(self) -> None:
-        """Write what a reader of this file alone wants to know, and close it."""
+        """Write metadata and close the file."""
         file = self._file
         for name, account in self._accounts.items():
-            file.note(ACCOUNT_RECORD, {"topic": name, **self._untold(name, account)})
+            file.note(ACCOUNT_RECORD, {"topic": name, **self._new_counts(name, account)})
         self._note_clocks()
         topics = [
             (topic, file.counts[number]) for number, topic in enumerate(self._topics, start=1)
@@ -159,14 +170,14 @@ class BagWriter:
         file.finish()
         self._finished.append(file)
 
-    def _untold(self, name: str, account: TopicAccount) -> dict[str, str]:
-        """What an account has counted since the file before."""
-        untold = {}
+    def _new_counts(self, name: str, account: TopicAccount) -> dict[str, str]:
+        """Counts of an account since the previous file."""
+        counts = {}
         for figure in ("recorded", "lost", "missed", "before", "reported"):
             total = getattr(account, figure)
-            untold[figure] = str(total - self._told[name, figure])
-            self._told[name, figure] = total
-        return untold
+            counts[figure] = str(total - self._counted[name, figure])
+            self._counted[name, figure] = total
+        return counts
 
     def _note_clocks(self) -> None:
         self._clocks_noted = time.monotonic()
@@ -175,7 +186,14 @@ class BagWriter:
 
 
 def write_as(out: Path, write: Callable[[Path], Path]) -> Path:
-    """Have `write` make a bag folder `out`, or one file where that ends in .mcap; returns the file.
+    """Write a bag folder, or a single file.
+
+    Args:
+        out: folder, or a file that ends in .mcap.
+        write: writes a bag into the given folder and returns its file.
+
+    Returns:
+        The file.
 
     Raises:
         FileExistsError: `out` exists.
@@ -183,7 +201,7 @@ def write_as(out: Path, write: Callable[[Path], Path]) -> Path:
     if out.suffix != ".mcap":
         return write(out)
     if out.exists():
-        raise FileExistsError(17, "exists", str(out))
+        raise FileExistsError(17, "already exists", str(out))
     with tempfile.TemporaryDirectory(dir=out.parent, prefix=".") as folder:
         return write(Path(folder) / out.stem).rename(out)
 
@@ -191,19 +209,20 @@ def write_as(out: Path, write: Callable[[Path], Path]) -> Path:
 def named_folder(directory: Path, name: str) -> Path:
     """The folder `name` in `directory`.
 
-    Raises `ValueError` where it would be elsewhere, or is no name that a file system takes.
+    Raises:
+        ValueError: `name` is a path, or not a valid file name.
     """
     plain = name.isprintable() and name not in ("", ".", "..") and Path(name).name == name
     if not plain or len(name.encode()) > _LONGEST_NAME:
         raise ValueError(
             f"{reprlib.repr(name)}: must be a plain name of at most {_LONGEST_NAME} bytes; "
-            f"it lands in {directory}/"
+            f"the folder is {directory}/"
         )
     return directory / name
 
 
 def free_folder(directory: Path, stem: str) -> Path:
-    """A folder in `directory` that does not exist yet: `stem` and the time of day."""
+    """A folder in `directory` that does not exist yet: `stem` with date and time."""
     base = directory / f"{stem}_{time.strftime('%Y%m%d_%H%M%S')}"
     folder, attempt = base, 1
     while folder.exists():
@@ -217,7 +236,7 @@ def _entry(file: McapFile) -> FileEntry:
 
 
 def _sync_folder(folder: Path) -> None:
-    """Let the name of a new file survive a power cut, too."""
+    """Write the directory entry of a new file to the disk."""
     descriptor = os.open(folder, os.O_RDONLY)
     try:
         os.fsync(descriptor)

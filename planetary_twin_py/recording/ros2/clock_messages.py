@@ -1,4 +1,4 @@
-"""The time that a recording's messages are stamped with, as messages of /clock among them."""
+"""Adds /clock messages to a recording, from the time stamps of its messages."""
 
 from __future__ import annotations
 
@@ -17,11 +17,17 @@ _CLOCK = struct.Struct("<4siI")
 
 
 def with_clock(tape: Tape, begin: int, end: int, frequency: float) -> Iterator[Cue]:
-    """The tape's cues, and between them /clock, `frequency` [Hz] times per recorded second.
+    """Messages of a recording, with /clock messages between them.
 
-    It tells the newest stamp in the headers that came before, plus the recorded time since, and
-    never goes back: a recorder's own time is another one where the twin ran faster or slower than
-    real time. Without stamps in the recording it tells the recorder's time.
+    The clock is the newest stamp of the previous headers plus the recorded time since, and never
+    decreases. It differs from the recorder's clock if the twin ran faster or slower than real time.
+    Without stamps it is the recorder's clock.
+
+    Args:
+        tape: the recording.
+        begin: start [ns after the first message].
+        end: end [ns after the first message].
+        frequency: of /clock per recorded second [Hz].
     """
     ticks = _Ticks(tape, begin, frequency)
     for cue in tape.cues(begin, end):
@@ -38,19 +44,19 @@ class _Ticks:
         self._begin = begin
         self._period = 1e9 / frequency
         self._count = 0
-        self._told = 0
+        self._newest = 0
 
     def until(self, instant: int) -> Iterator[Cue]:
-        """What is to be told before `instant` [ns]."""
+        """Clock messages before `instant` [ns]."""
         while (time := self._begin + round(self._count * self._period)) < instant:
             self._count += 1
             if self._anchor is not None:
                 stamp, since = self._anchor
-                self._told = max(self._told, stamp + time - since)
-                yield Cue(time, CLOCK.name, _serialized(self._told))
+                self._newest = max(self._newest, stamp + time - since)
+                yield Cue(time, CLOCK.name, _serialized(self._newest))
 
     def see(self, cue: Cue) -> None:
-        """Go by the stamp of `cue`, where it is the newest."""
+        """Use the stamp of `cue` if it is the newest."""
         if cue.topic in self._stamped:
             seconds, nanoseconds = _STAMP[cue.data[1] & 1].unpack_from(cue.data)
             stamp = seconds * 1_000_000_000 + nanoseconds
@@ -59,7 +65,7 @@ class _Ticks:
 
 
 def _stamped(tape: Tape) -> set[str]:
-    """Topics with a header that come about as often as any: rare ones are stamped by others."""
+    """Topics with a header, of at least half the highest rate; rare ones have other clocks."""
     counts = {name: tape.counts[name] for name, topic in tape.topics.items() if _has_header(topic)}
     return {name for name, count in counts.items() if 2 * count > max(counts.values())}
 

@@ -1,4 +1,4 @@
-"""Turns records of a file into messages, by the definitions that the file itself carries."""
+"""Decodes records of a file to messages, by the definitions in the file."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ _LONGEST_REASON = 200  # characters
 
 
 class Described(NamedTuple):
-    """A topic, its type, and the types that its definition tells."""
+    """A topic, its type, and the types in its definition."""
 
     topic: str
     kind: str
@@ -26,7 +26,7 @@ class Described(NamedTuple):
 
 
 class MessageError(RecordingError):
-    """A message of `topic` is not what its definition says."""
+    """A message of `topic` does not match its definition."""
 
     def __init__(self, topic: str, text: str) -> None:
         super().__init__(text)
@@ -34,9 +34,9 @@ class MessageError(RecordingError):
 
 
 class Topics:
-    """The topics of one source that are `wanted`, given its records in order.
+    """The `wanted` topics of one source, given its records in order.
 
-    A topic whose name is one of the twin's, but not its type, is another one and left out.
+    A topic with a name of the twin but another type is ignored.
     """
 
     def __init__(self, source: object, wanted: Callable[[str], bool]) -> None:
@@ -46,10 +46,10 @@ class Topics:
         self._channels: dict[int, Described] = {}
 
     def of(self, record: Any) -> Described | None:
-        """The topic, where the record is a message of a wanted topic.
+        """The topic if the record is a message of a wanted topic, else None.
 
         Raises:
-            RecordingError: a wanted topic is encoded in a way that cannot be read.
+            RecordingError: the encoding of a wanted topic is not supported.
         """
         if isinstance(record, Schema):
             self._schemas[record.id] = record
@@ -70,7 +70,7 @@ class Topics:
         if schema.encoding != "ros2msg" or channel.message_encoding != "cdr":
             raise RecordingError(
                 f"{self._source}: {channel.topic}: encoded as {schema.encoding}/"
-                f"{channel.message_encoding}, only ros2msg/cdr can be read"
+                f"{channel.message_encoding}, must be ros2msg/cdr"
             )
         try:
             return types_of(schema.data, schema.name)
@@ -80,7 +80,7 @@ class Topics:
 
 
 class Decoder:
-    """Decodes the topics of one source that are `wanted`, given its records in order."""
+    """Decodes the `wanted` topics of one source, given its records in order."""
 
     def __init__(self, source: object, wanted: Callable[[str], bool]) -> None:
         self._source = source
@@ -91,30 +91,30 @@ class Decoder:
         return channel in self._topics
 
     def read(self, record: Any) -> tuple[str, Any] | None:
-        """Topic and message, where the record is a message of a wanted topic.
+        """Topic and message if the record is a message of a wanted topic, else None.
 
         Raises:
-            RecordingError: a wanted topic is encoded in a way that cannot be read.
-            MessageError: a message is not what its definition says.
+            RecordingError: the encoding of a wanted topic is not supported.
+            MessageError: a message does not match its definition.
         """
         found = self._topics.of(record)
         if found is None:
             return None
         try:
             return found.topic, found.types.deserialize_cdr(record.data, found.kind)
-        except Exception as reason:  # of many kinds: rosbags runs code that it has made
+        except Exception as reason:  # of many kinds: rosbags runs generated code
             why = one_line(_why(found, record.data, reason), _LONGEST_REASON)
             text = f"{self._source}: {found.topic}: a message {why}"
             raise MessageError(found.topic, text) from None
 
 
 def _why(found: Described, data: bytes, reason: Exception) -> str:
-    """What is wrong with a message, and in which field, as far as that can be found."""
+    """The error of a message, with the field if it can be determined."""
     try:
         Layout(found.types.fielddefs, found.kind, data)
     except LayoutError as error:
         return str(error)
-    return f"is not as the file describes it: {reason or type(reason).__name__}"
+    return f"does not match its definition: {reason or type(reason).__name__}"
 
 
 def _is_of_twin(topic: str, kind: str) -> bool:

@@ -1,4 +1,4 @@
-"""The topics of a twin as its nodes offer them, told without ROS."""
+"""The topics of a twin as its nodes publish them, without ROS."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ _NEVER = {"sec": 9_223_372_036, "nsec": 854_775_807}
 
 
 def topics_of(namespace: str) -> list[Topic]:
-    """What a twin in `namespace` publishes and can be told from its windows alone."""
+    """Topics of a twin in `namespace` whose messages follow from its windows."""
     return [_topic(f"{namespace}/{name}", kind, name in _LATCHED) for name, kind in KINDS.items()]
 
 
@@ -42,18 +42,18 @@ def definition_of(kind: str) -> str:
 
 
 def _text(kind: str) -> str:
-    """Text of one .msg file: ours are part of the package, the others stand in rosbags."""
+    """Text of one .msg file, from this package or from rosbags."""
     package, _, name = kind.split("/")
     if package == "planetary_twin_msgs":
         own = Path(__file__).parent / "msg" / f"{name}.msg"
-        # Installed as a ROS package, the model has none of its own and those of the interfaces.
+        # If installed as a ROS package, the files belong to planetary_twin_msgs.
         return own.read_text(encoding="utf-8") if own.is_file() else installed_definition(kind)
     text, _ = get_typestore(Stores.ROS2_JAZZY).generate_msgdef(kind, ros_version=2)
     return text.partition("=" * 80)[0]
 
 
 def _offer(latched: bool) -> dict[str, Any]:
-    """Quality of service as the nodes offer it, in rosbag2's words."""
+    """Quality of service of the nodes, in the format of rosbag2."""
     return {
         "history": "keep_last",
         "depth": 1 if latched else 10,

@@ -1,4 +1,4 @@
-"""Which quantity of a window stands in which field of the twin's messages."""
+"""Fields of the twin's messages, from the quantities of a window."""
 
 from __future__ import annotations
 
@@ -24,12 +24,12 @@ POWER_FLOW = (
     "efficiency",
 )
 WAVES = ("dte", "mesh_force", "friction")
-ROOM = 7  # planets that a message has room for
+ROOM = 7  # largest number of planets in a message
 TURN = 2.0 * np.pi  # [rad]
 
 
 def mesh_field(name: str, planets: int) -> tuple[str, int] | None:
-    """Statistic of the meshes that a field of GearboxState shows, and its first mesh; or None."""
+    """Statistic and first mesh of a per-mesh field of GearboxState; None for other fields."""
     for kind, first in (("sun_planet_", 0), ("planet_ring_", planets)):
         if name.startswith(kind):
             return name.removeprefix(kind), first
@@ -37,7 +37,7 @@ def mesh_field(name: str, planets: int) -> tuple[str, int] | None:
 
 
 def state_fields(window: Window, names: list[str]) -> dict[str, Any]:
-    """What a GearboxState shows of `window`: those of the fields `names` that are simulated."""
+    """Fields of GearboxState: the general ones, and the per-mesh fields among `names`."""
     planets = len(window.meshes) // 2
     found: dict[str, Any] = {
         "planets": planets,
@@ -60,7 +60,7 @@ def state_fields(window: Window, names: list[str]) -> dict[str, Any]:
 
 
 def waveform_fields(window: Window) -> dict[str, Any]:
-    """What a MeshWaveform shows of `window`, whose waveform is not empty."""
+    """Fields of MeshWaveform of a `window` whose waveform is not empty."""
     wave = window.waveform
     return {
         "start_time": float(wave.time[0]),
@@ -72,18 +72,18 @@ def waveform_fields(window: Window) -> dict[str, Any]:
 
 
 def joint_fields(window: Window) -> dict[str, Any]:
-    """What a JointState shows of `window`."""
+    """Fields of JointState."""
     return {"position": window.angle, "velocity": window.mean_speed}
 
 
 def joint_fields_like(window: Window, recorded: np.ndarray) -> dict[str, Any]:
     """
-    What a JointState shows of `window` where it counts whole turns as the `recorded` one does.
+    Fields of JointState with the whole turns of a recorded message.
 
-    Parameters:
+    Args:
         window: an interval.
         recorded: positions of a recorded message [rad], shape (bodies,). Their whole turns depend
-            on where the run began, so they are taken from here, and the rest from `window`.
+            on the start of the run, so they are used here, with the remainder from `window`.
     """
     found = joint_fields(window)
     if recorded.shape == window.angle.shape:

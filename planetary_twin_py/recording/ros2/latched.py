@@ -1,4 +1,4 @@
-"""The messages a late subscriber would still get: the newest ones of latched topics."""
+"""The messages that a late subscriber receives: the newest ones of latched topics."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ class Serialised(NamedTuple):
 
 
 class Latched:
-    """Keeps as many of each latched topic as its publishers do."""
+    """Keeps as many messages of each latched topic as its publishers."""
 
     def __init__(self) -> None:
         self._kept: dict[int, deque[Serialised]] = {}
@@ -37,7 +37,7 @@ class Latched:
             self._kept[channel] = deque(maxlen=topic.kept)
 
     def keep(self, message: Serialised) -> None:
-        """Keep `message`, of a latched topic, for the oldest one of it."""
+        """Keep `message` of a latched topic, in place of the oldest one."""
         self._kept[message.channel].append(message)
 
     def _all(self) -> Iterator[Serialised]:

@@ -1,8 +1,7 @@
-"""Where the fields of a serialised message lie (CDR), so that many are read as one array.
+"""Byte layout of serialised messages (CDR), so that many messages are read as one array.
 
-What a message holds follows its definition without gaps, but for alignment; only the lengths of
-strings and sequences decide where what comes after them lies. So messages with the same lengths
-are rows of one structured array, whose fields are the message's.
+The positions of fields depend only on the definition and on the lengths of strings and sequences.
+Messages with equal lengths are therefore rows of one structured array.
 """
 
 from __future__ import annotations
@@ -18,10 +17,10 @@ from rosbags.interfaces import Nodetype
 Fields = Iterable[tuple[str, Any]]
 Definitions = Mapping[str, tuple[Any, Fields]]
 """Constants and fields by the name of a type, as rosbags parses a definition."""
-_Field = tuple[str, Any, int]  # name, format, place
-_ENCAPSULATION = 4  # bytes before the body, from whose begin alignment counts
-_PADDING = 3  # bytes after the last field that a writer may fill up to whole words with
-_MOST_FIELDS = 20_000  # of a message, with each element of an array of texts or messages
+_Field = tuple[str, Any, int]  # name, format, position
+_ENCAPSULATION = 4  # bytes before the body, to whose start alignment refers
+_PADDING = 3  # bytes after the last field that pad a message to whole words
+_MOST_FIELDS = 20_000  # of a message, including each element of an array of texts or messages
 _ZSTD = b"\x28\xb5\x2f\xfd"
 _NUMBERS = {"bool": "?", "byte": "u1", "char": "u1", "float32": "f4", "float64": "f8"} | {
     f"{name}{8 * size}": f"{letter}{size}"
@@ -31,21 +30,21 @@ _NUMBERS = {"bool": "?", "byte": "u1", "char": "u1", "float32": "f4", "float64":
 
 
 class LayoutError(ValueError):
-    """Bytes are no message of their type."""
+    """Bytes are not a message of their type."""
 
 
 class Layout:
-    """Of all messages that have the lengths of the one it is made from.
+    """Layout of all messages with the same lengths as a given one.
 
-    `dtype`: text is bytes; a message within is a structure, and an array of text or messages a
+    `dtype`: text is bytes; a nested message is a structure, and an array of texts or messages is a
     structure with fields "0", "1", ...
     """
 
     def __init__(self, definitions: Definitions, kind: str, message: bytes) -> None:
-        """Follow the definition of type `kind` through `message`.
+        """Determine the layout of `message` of type `kind`.
 
         Raises:
-            LayoutError: it ends before its last field, goes on behind it, or is no plain CDR.
+            LayoutError: the message is too short or too long, or not plain CDR.
         """
         walk = _Walk(definitions, message)
         self.dtype = walk.whole(kind)
@@ -53,25 +52,25 @@ class Layout:
         self._decisive = np.frombuffer(message, np.uint8)[self._places]
 
     def fits(self, raw: NDArray[np.uint8]) -> NDArray[np.bool_]:
-        """Which rows of `raw` (messages, bytes) lie like this; each must be as long."""
+        """Which rows of `raw` (messages, bytes), of this length, have this layout."""
         return np.asarray((raw[:, self._places] == self._decisive).all(axis=1))
 
 
 class Layouts:
-    """The layouts met among messages of one type."""
+    """The layouts of messages of one type."""
 
     def __init__(self, definitions: Definitions, kind: str) -> None:
         self._definitions, self._kind = definitions, kind
         self._known: dict[int, list[Layout]] = {}
 
     def arrays(self, messages: Sequence[bytes]) -> Iterator[NDArray[Any]]:
-        """All messages in their order: a structured array for those in a row that lie alike.
+        """All messages in order: a structured array for each sequence with the same layout.
 
         Raises:
-            LayoutError: one is no message of this type.
+            LayoutError: one is not a message of this type.
         """
-        for size, alike in groupby(messages, len):
-            raw = np.frombuffer(b"".join(alike), np.uint8).reshape(-1, size)
+        for size, group in groupby(messages, len):
+            raw = np.frombuffer(b"".join(group), np.uint8).reshape(-1, size)
             while len(raw):
                 layout = self._layout(raw[:1])
                 fits = layout.fits(raw)
@@ -89,20 +88,18 @@ class Layouts:
 
 
 class _Walk:
-    """Goes through one message; `decisive` are the bytes on which depends where the others lie."""
+    """Walks through one message; `decisive` are the bytes that determine the layout."""
 
     def __init__(self, definitions: Definitions, message: bytes) -> None:
         if message[:4] == _ZSTD:
-            raise LayoutError("is compressed by itself, and cannot be unpacked")
+            raise LayoutError("is compressed individually, and cannot be decompressed")
         if message[:2] not in (b"\0\0", b"\0\1"):
-            raise LayoutError(
-                f"begins with {message[:2].hex() or 'nothing'}, only plain CDR is read"
-            )
+            raise LayoutError(f"starts with {message[:2].hex() or 'no bytes'}, must be plain CDR")
         self._definitions, self._message = definitions, message
         self._order = "<" if message[1] else ">"
         self._place = _ENCAPSULATION
         self.decisive = [0, 1]
-        self._path: list[str] = []  # names of the field that is looked at, and of those above it
+        self._path: list[str] = []  # names of the current field and of its parents
         self._count_of_fields = 0
 
     def whole(self, kind: str) -> np.dtype[Any]:
@@ -110,7 +107,7 @@ class _Walk:
         fields = self._fields(kind)
         behind = len(self._message) - self._place
         if behind > _PADDING:
-            raise LayoutError(f"{behind} bytes go on behind the last field of {kind}")
+            raise LayoutError(f"has {behind} bytes after the last field of {kind}")
         return self._structure(fields, 0, len(self._message))
 
     def _fields(self, kind: str) -> list[_Field]:
@@ -122,7 +119,7 @@ class _Walk:
         return found
 
     def _field(self, description: Any) -> tuple[Any, int]:
-        """Format of a field, and its place."""
+        """Format and position of a field."""
         self._count_of_fields += 1
         if self._count_of_fields > _MOST_FIELDS:
             raise LayoutError(f"has more than {_MOST_FIELDS} fields{self._here()}")
@@ -146,10 +143,10 @@ class _Walk:
 
     def _numbers(self, name: str, shape: tuple[int, ...]) -> tuple[Any, int]:
         if name not in _NUMBERS:
-            raise LayoutError(f"has a field of the type {name}, which is not read{self._here()}")
+            raise LayoutError(f"has a field of the unsupported type {name}{self._here()}")
         form = np.dtype(self._order + _NUMBERS[name])
         count = int(np.prod(shape, dtype=int))
-        if count:  # of nothing, not even the alignment is written
+        if count:  # an empty sequence has no alignment
             self._skip(-(self._place - _ENCAPSULATION) % form.itemsize)
         return (form, shape), self._skip(count * form.itemsize)
 
@@ -159,7 +156,7 @@ class _Walk:
         return int(np.frombuffer(self._message, form, 1, place)[0])
 
     def _skip(self, size: int) -> int:
-        """Go on; returns the place before."""
+        """Advance by `size` bytes; return the position before."""
         place = self._place
         self._place += size
         if self._place > len(self._message):

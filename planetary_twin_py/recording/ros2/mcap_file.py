@@ -1,4 +1,4 @@
-"""One MCAP file in the making, as rosbag2 reads it."""
+"""Writes one MCAP file for rosbag2."""
 
 from __future__ import annotations
 
@@ -21,9 +21,10 @@ _LIBRARY = "planetary_twin"
 
 
 class McapFile:
-    """What `flush` has returned for survives a kill and a power cut; what came later may not.
+    """An MCAP file that is being written.
 
-    Every method raises `OSError` where the file cannot be written any more.
+    Data written before the last `flush` survive a kill and a power failure. Every method raises
+    `OSError` if the file is no longer writable.
     """
 
     def __init__(self, path: Path, storage: Storage) -> None:
@@ -44,23 +45,23 @@ class McapFile:
 
     @property
     def closed(self) -> bool:
-        """Whether the file is finished, or given up."""
+        """Whether the file is finished or abandoned."""
         return self._stream.closed
 
     @property
     def size(self) -> int:
-        """Bytes of the file so far; the chunk in progress comes on top."""
+        """Size of the file [bytes], without the current chunk."""
         return self._stream.tell()
 
     def full(self, log_time: int) -> bool:
-        """Whether a message received at `log_time` [ns] belongs into the next file."""
-        begun = self.extent.start
-        return bool(begun) and (
-            log_time - begun >= self._storage.longest or self.size >= self._storage.largest
+        """Whether a message received at `log_time` [ns] belongs in the next file."""
+        start = self.extent.start
+        return bool(start) and (
+            log_time - start >= self._storage.longest or self.size >= self._storage.largest
         )
 
     def attach(self, name: str, data: bytes, media_type: str) -> None:
-        """Add a file beside the messages."""
+        """Add an attachment."""
         now = time.time_ns()
         self._writer.add_attachment(now, now, name, media_type, data)
 
@@ -69,7 +70,7 @@ class McapFile:
         self._writer.add_metadata(name, dict(values))
 
     def add_topic(self, topic: Topic) -> int:
-        """Open a channel; numbers count from 1 in the order of the calls."""
+        """Open a channel; return its number, which counts from 1."""
         schema = self._writer.register_schema(topic.type, "ros2msg", topic.definition.encode())
         return self._writer.register_channel(
             topic.name,
@@ -82,13 +83,13 @@ class McapFile:
         self, channel: int, data: bytes, log_time: int, publish_time: int, sequence: int
     ) -> None:
         """Append a message."""
-        # MCAP keeps 32 bits of the sequence number.
+        # MCAP stores 32 bits of the sequence number.
         self._writer.add_message(channel, log_time, data, publish_time, sequence & 0xFFFFFFFF)
         self.counts[channel] += 1
         self.extent.include(log_time)
 
     def flush(self) -> None:
-        """Bring everything written so far onto the disk."""
+        """Write all buffered data to the disk (fsync)."""
         self._writer.flush()  # type: ignore[no-untyped-call]
         self._check_place()
         os.fsync(self._stream.fileno())
@@ -103,14 +104,14 @@ class McapFile:
         self._indexes.close()
 
     def abandon(self) -> None:
-        """Let go of a file that cannot be written any more, e.g. on a full disk."""
-        # Closing the buffered stream would try to write once more; the descriptor must not leak.
+        """Close a file that is no longer writable, e.g. on a full disk."""
+        # Closing the buffered stream would write again; the descriptor must not leak.
         self._stream.raw.close()
         with contextlib.suppress(OSError):
             self._indexes.close()
 
     def _check_place(self) -> None:
-        """A file that was deleted or moved away can be written, and found by nobody."""
+        """Raise `FileNotFoundError` if the file was deleted or moved, but is still writable."""
         try:
             here = os.path.samestat(os.stat(self.path), os.fstat(self._stream.fileno()))
         except FileNotFoundError:

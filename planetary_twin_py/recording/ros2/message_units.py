@@ -1,4 +1,4 @@
-"""Units of a message's fields, as the definition that travels in the file tells them."""
+"""Units of message fields, from comments in the definition in the file."""
 
 from __future__ import annotations
 
@@ -9,8 +9,12 @@ _NEXT_TYPE = "=" * 80
 
 
 def units_of(definition: str) -> dict[str, str]:
-    """Unit by name of those fields that tell one; "-" is that of pure numbers.
+    """Units of the fields that state one.
 
-    `definition` is the text of a .msg file, with or without the types it refers to.
+    Args:
+        definition: text of a .msg file, with or without referenced types.
+
+    Returns:
+        Unit by field name; "-" for dimensionless numbers.
     """
     return dict(_FIELD.findall(definition.partition(_NEXT_TYPE)[0]))

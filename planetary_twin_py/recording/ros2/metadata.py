@@ -1,4 +1,4 @@
-"""The description rosbag2 keeps of a bag: `metadata.yaml`, version 9, and MCAP's copy of it."""
+"""Metadata of a bag for rosbag2: `metadata.yaml`, version 9, and its copy in the MCAP file."""
 
 from __future__ import annotations
 
@@ -20,10 +20,10 @@ _TRANSIENT_LOCAL = ("transient_local", 1)  # the number in bags before version 9
 
 @dataclass(frozen=True)
 class Topic:
-    """A topic as the bag describes it.
+    """A topic of a bag.
 
-    `type_hash` is the RIHS01 text, `offered_qos` one mapping per publisher in rosbag2's words,
-    `definition` the `ros2msg` schema text.
+    `type_hash` is the RIHS01 text, `offered_qos` one mapping per publisher in the format of
+    rosbag2, `definition` the `ros2msg` schema text.
     """
 
     name: str
@@ -34,14 +34,14 @@ class Topic:
 
     @property
     def qos_yaml(self) -> str:
-        """The offered profiles as MCAP's channel metadata holds them."""
+        """The offered profiles as YAML, for the channel metadata of MCAP."""
         return yaml.safe_dump([dict(qos) for qos in self.offered_qos], sort_keys=False)
 
     @property
     def kept(self) -> int:
-        """How many messages a late subscriber still gets; 0 unless the topic is latched.
+        """Number of messages that a late subscriber receives; 0 unless the topic is latched.
 
-        A publisher whose depth the recorder could not learn is taken to keep its newest one.
+        A publisher of unknown depth is assumed to keep its newest message.
         """
         return sum(
             max(int(qos.get("depth", 0)), 1)
@@ -51,10 +51,10 @@ class Topic:
 
 
 def read_offered_qos(text: str) -> Sequence[Mapping[str, Any]]:
-    """The profiles that `Topic.qos_yaml` has written, or rosbag2.
+    """Parse the profiles that `Topic.qos_yaml` or rosbag2 has written.
 
     Raises:
-        ValueError: the text is something else.
+        ValueError: the text is not a list of profiles.
     """
     found = _profiles(text)
     if isinstance(found, ValueError):
@@ -62,7 +62,7 @@ def read_offered_qos(text: str) -> Sequence[Mapping[str, Any]]:
     return found
 
 
-@lru_cache(maxsize=1024)  # most topics of a bag offer the same; a refusal is kept, too
+@lru_cache(maxsize=1024)  # most topics of a bag have the same profiles; errors are cached, too
 def _profiles(text: str) -> Sequence[Mapping[str, Any]] | ValueError:
     try:
         return _parsed(text)
@@ -81,12 +81,12 @@ def _parsed(text: str) -> Sequence[Mapping[str, Any]]:
 
 
 def is_latched(offered_qos: Sequence[Mapping[str, Any]]) -> bool:
-    """Whether a publisher hands its newest messages to late subscribers."""
+    """Whether a publisher sends its newest messages to late subscribers (transient local)."""
     return any(qos.get("durability") in _TRANSIENT_LOCAL for qos in offered_qos)
 
 
 class FileEntry(NamedTuple):
-    """A file of the bag: its name in the folder, and what it holds."""
+    """A file of the bag: name, time interval and number of messages."""
 
     name: str
     extent: Extent
@@ -94,7 +94,7 @@ class FileEntry(NamedTuple):
 
 
 def bag_metadata(files: Sequence[FileEntry], topics: Sequence[tuple[Topic, int]]) -> dict[str, Any]:
-    """What rosbag2 notes of a bag, from its topics' message counts."""
+    """Metadata of a bag from its files, and its topics with their message counts."""
     whole = Extent()
     for file in files:
         if file.messages:
@@ -115,12 +115,12 @@ def bag_metadata(files: Sequence[FileEntry], topics: Sequence[tuple[Topic, int]]
 
 
 def metadata_yaml(metadata: Mapping[str, Any]) -> str:
-    """Text of `metadata.yaml`, which has the metadata below a name of its own."""
+    """Text of `metadata.yaml`, which has the metadata below a top-level key."""
     return yaml.safe_dump({"rosbag2_bagfile_information": metadata}, sort_keys=False)
 
 
 def metadata_record(metadata: Mapping[str, Any]) -> dict[str, str]:
-    """The same in an MCAP file, where rosbag2 looks for it before anything else, without a name."""
+    """Metadata record of an MCAP file, where rosbag2 looks first; without the top-level key."""
     return {"serialized_metadata": yaml.safe_dump(metadata, sort_keys=False)}
 
 

@@ -1,4 +1,4 @@
-"""Which gearbox of a recording is meant."""
+"""Selects one of several gearboxes in a recording."""
 
 from __future__ import annotations
 
@@ -10,21 +10,29 @@ from .topics import STATE
 
 
 def choose_namespace(topics: Iterable[str], wanted: str | None, path: str | Path) -> str:
-    """The namespace `wanted` among those of `topics`; without one, the only one there is.
+    """Select the namespace of a gearbox.
+
+    Args:
+        topics: names of all topics.
+        wanted: namespace; None selects the only one.
+        path: of the recording, for error messages.
+
+    Returns:
+        The namespace.
 
     Raises:
-        RecordingError: there is none, another, or more than one.
+        RecordingError: there is no gearbox, not the wanted one, or more than one.
     """
     found = sorted(topic[: -len(STATE) - 1] for topic in topics if topic.endswith("/" + STATE))
     if not found:
-        raise RecordingError(f"{path}: no {STATE} message in it, so there is nothing to show")
+        raise RecordingError(f"{path}: has no {STATE} messages, so it is not of a gearbox")
     if wanted is None:
         if len(found) > 1:
             raise RecordingError(
-                f"{path}: holds several gearboxes, choose --namespace from {', '.join(found)}"
+                f"{path}: has several gearboxes, choose --namespace from {', '.join(found)}"
             )
         return found[0]
     wanted = "/" + wanted.strip("/") if wanted.strip("/") else ""
     if wanted not in found:
-        raise RecordingError(f"namespace = {wanted}: {path} holds {', '.join(found)}")
+        raise RecordingError(f"namespace = {wanted}: {path} has {', '.join(found)}")
     return wanted

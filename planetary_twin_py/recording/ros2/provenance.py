@@ -1,7 +1,7 @@
-"""What this host's clocks say at one moment, and on what software: so that a file tells it later.
+"""Clock readings and software versions of this host, for the metadata of a recording.
 
-With readings of the system clock and the steady clock from a recording's beginning, way and end it
-is seen whether the system clock was set meanwhile, and times of other hosts can be compared.
+Readings of the system clock and the steady clock at the start, during and at the end of a recording
+show whether the system clock was set meanwhile, and allow times of other hosts to be compared.
 """
 
 from __future__ import annotations
@@ -15,7 +15,8 @@ SOFTWARE_RECORD = "planetary_twin_software"
 
 
 def host_clocks() -> dict[str, str]:
-    """Readings of this host's clocks [ns], the steady one taken between two of the system's."""
+    """Readings of the clocks of this host [ns]; the steady clock is read between two readings of
+    the system clock."""
     before, steady, after = time.time_ns(), time.monotonic_ns(), time.time_ns()
     return {
         "system": str((before + after) // 2),
@@ -25,7 +26,7 @@ def host_clocks() -> dict[str, str]:
 
 
 def software(packages: Iterable[str]) -> dict[str, str]:
-    """Versions of what runs here: Python, the operating system, and `packages` as installed."""
+    """Versions of Python, the operating system and the installed `packages`."""
     found = {"python": platform.python_version(), "system": platform.platform()}
     for package in packages:
         try:

@@ -1,4 +1,4 @@
-"""Makes a whole recording of what can still be read of a torn or damaged one."""
+"""Copies the readable parts of a truncated or damaged recording to a valid one."""
 
 from __future__ import annotations
 
@@ -12,11 +12,11 @@ from .bag import BagWriter
 from .repeats import Repeats, unrepeated
 from .tape import Tape
 
-_OF_THE_FILE = "rosbag2"  # metadata that the new file has its own of
+_OF_THE_FILE = "rosbag2"  # metadata that is generated for the new file
 
 
 class Recovered(NamedTuple):
-    """What was saved: messages by topic, and in lines what could not be."""
+    """Messages saved by topic, and warnings about missing parts."""
 
     file: Path
     messages: dict[str, int]
@@ -24,19 +24,19 @@ class Recovered(NamedTuple):
 
 
 def recover(path: Path, folder: Path) -> Recovered:
-    """Write what is sound at `path` into a new `folder`.
+    """Copy the intact parts of a recording.
 
     Args:
         path: of an MCAP file, or of a folder of them.
-        folder: of the recording to make.
+        folder: of the new recording.
 
     Returns:
-        What was saved, and what is missing.
+        Saved messages and warnings.
 
     Raises:
-        RecordingError: there is nothing to save.
+        RecordingError: nothing can be read.
         FileExistsError: `folder` exists.
-        OSError: it cannot be written.
+        OSError: `folder` cannot be written.
     """
     tape = Tape(path)
     bag = BagWriter(folder)

@@ -1,4 +1,4 @@
-"""Moves what was recorded below one namespace below another."""
+"""Moves topics from one namespace to another."""
 
 from __future__ import annotations
 
@@ -7,14 +7,21 @@ from posixpath import commonpath, dirname
 
 
 def moved(topics: Collection[str], namespace: str) -> dict[str, str]:
-    """New names by recorded ones: below `namespace` instead of below the recorded namespace.
+    """New topic names by recorded ones.
 
-    That is the innermost that holds all topics but those at the root, as /tf, which stay. Topics
-    are fully qualified. Raises `ValueError` where none is below a namespace.
+    The recorded namespace is the innermost one that contains all topics except those at the root,
+    such as /tf, which keep their names.
+
+    Args:
+        topics: fully qualified names.
+        namespace: new namespace.
+
+    Raises:
+        ValueError: no topic is in a namespace.
     """
     below = [topic for topic in topics if dirname(topic) != "/"]
     if not below:
-        raise ValueError(f"namespace = {namespace}: nothing is recorded below a namespace")
+        raise ValueError(f"namespace = {namespace}: no recorded topic is in a namespace")
     recorded = commonpath([dirname(topic) for topic in below]).rstrip("/")
     root = "/" + namespace.strip("/") if namespace.strip("/") else ""
     return {topic: root + topic[len(recorded) :] if topic in below else topic for topic in topics}

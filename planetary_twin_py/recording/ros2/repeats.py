@@ -1,6 +1,6 @@
-"""A split bag repeats latched messages at the start of each file; whoever reads it whole wants one.
+"""Removes the latched messages that a split bag repeats at the start of each file.
 
-Publisher's time, number and content tell a repeated message; it is received again, but sent once.
+A repeated message has the same publish time, sequence number and content, but another log time.
 """
 
 from __future__ import annotations
@@ -16,18 +16,18 @@ from .metadata import is_latched, read_offered_qos
 
 
 class Repeats:
-    """Knows the latched messages of a bag, whose files it is shown one after another."""
+    """Detects repeated latched messages of a bag, given its files in order."""
 
     def __init__(self) -> None:
         self._seen: set[tuple[str, int, int, int]] = set()
         self._latched: dict[int, str] = {}
 
     def next_file(self) -> None:
-        """Numbers of channels are those of another file from now on."""
+        """Start the next file, whose channel numbers are independent."""
         self._latched = {}
 
     def repeated(self, record: Any) -> bool:
-        """Whether a record is a message that has been shown before."""
+        """Whether a record is a message that has occurred before."""
         if isinstance(record, Channel):
             if _latched(record):
                 self._latched[record.id] = record.topic
@@ -36,11 +36,11 @@ class Repeats:
         return False
 
     def is_latched(self, channel: int) -> bool:
-        """Whether a channel of the present file, which was shown, is latched."""
+        """Whether a channel of the current file is latched."""
         return channel in self._latched
 
     def known(self, topic: str, message: Message) -> bool:
-        """Whether a message of a latched topic has been shown before."""
+        """Whether a message of a latched topic has occurred before."""
         mark = topic, message.publish_time, message.sequence, hash(message.data)
         if mark in self._seen:
             return True
@@ -49,7 +49,7 @@ class Repeats:
 
 
 def unrepeated(file: Path, remarks: list[str], repeats: Repeats) -> Iterator[Any]:
-    """The records of the next file of a bag but messages that those before had, too."""
+    """The records of the next file of a bag, without messages of previous files."""
     repeats.next_file()
     for record in records_of(file, remarks):
         if not repeats.repeated(record):
@@ -59,5 +59,5 @@ def unrepeated(file: Path, remarks: list[str], repeats: Repeats) -> Iterator[Any
 def _latched(channel: Channel) -> bool:
     try:
         return is_latched(read_offered_qos(channel.metadata.get("offered_qos_profiles", "")))
-    except ValueError:  # no profiles as rosbag2 writes them
+    except ValueError:  # not profiles of rosbag2
         return False

@@ -1,4 +1,4 @@
-"""Keeps the last seconds of what is heard in memory, until somebody wants them on disk."""
+"""Ring buffer of the messages of the last seconds, for snapshots."""
 
 from __future__ import annotations
 
@@ -13,9 +13,9 @@ from .metadata import Topic
 
 
 class Ring:
-    """Takes messages as a `BagWriter` does, and forgets those older than `duration` [s].
+    """Buffer with the interface of `BagWriter` that drops messages older than `duration` [s].
 
-    Messages of latched topics that still hold are kept however old they are.
+    The newest messages of latched topics are kept regardless of their age.
     """
 
     def __init__(self, duration: float) -> None:
@@ -25,16 +25,16 @@ class Ring:
         self._topics: list[Topic] = []  # of channels 1, 2, 3, ...
         self._attached: dict[str, tuple[bytes, str]] = {}
         self._messages: deque[Serialised] = deque()
-        self._latched = Latched()  # of what has been forgotten
+        self._latched = Latched()  # of dropped messages
 
     def attach(self, name: str, data: bytes, media_type: str) -> None:
-        """Keep a file that goes with the messages."""
+        """Keep an attachment."""
         self._attached[name] = data, media_type
 
     def add_topic(self, topic: Topic, account: TopicAccount) -> int:
-        """Open a channel; the number returned is the one `write` takes.
+        """Open a channel; return its number, for `write`.
 
-        A snapshot counts for itself, so `account` is not told in it.
+        A snapshot has its own counts, so `account` is not written.
         """
         self._topics.append(topic)
         channel = len(self._topics)
@@ -44,7 +44,7 @@ class Ring:
     def write(
         self, channel: int, data: bytes, log_time: int, publish_time: int, sequence: int
     ) -> None:
-        """Keep one serialised message, and forget what is too old."""
+        """Keep a serialised message, and drop those that are too old."""
         messages = self._messages
         messages.append(Serialised(channel, data, log_time, publish_time, sequence))
         self.size += len(data)
@@ -55,13 +55,13 @@ class Ring:
                 self._latched.keep(old)
 
     def flush(self) -> None:
-        """Nothing is on its way to a disk."""
+        """Do nothing: messages are in memory only."""
 
     def pour(self, bag: BagWriter) -> None:
-        """Write what is kept into `bag`."""
+        """Write the buffered messages to `bag`."""
         for name, content in self._attached.items():
             bag.attach(name, *content)
-        # What came before the window is not lost to it.
+        # Messages before the window do not count as lost.
         accounts = [TopicAccount(latched=True) for _ in self._topics]
         channels = [bag.add_topic(*pair) for pair in zip(self._topics, accounts, strict=True)]
         for message in self._window():
@@ -71,7 +71,7 @@ class Ring:
             accounts[place].receive(message.sequence, senders)
 
     def _window(self) -> Iterator[Serialised]:
-        """Latched messages that hold when the window begins, then the window."""
+        """Latched messages that are valid at the start of the window, then the window."""
         begin = self._messages[0].log_time if self._messages else 0
         for message in self._latched:
             yield message._replace(log_time=max(message.log_time, begin))

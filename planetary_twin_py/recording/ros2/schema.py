@@ -1,4 +1,4 @@
-"""Message definitions as MCAP's `ros2msg` encoding wants them: with everything they refer to."""
+"""Message definitions in the `ros2msg` encoding of MCAP, including all referenced types."""
 
 from __future__ import annotations
 
@@ -12,15 +12,19 @@ _PRIMITIVES = {"bool", "byte", "char", "float32", "float64", "string", "wstring"
     f"{sign}int{bits}" for sign in ("", "u") for bits in (8, 16, 32, 64)
 }
 _SEPARATOR = "=" * 80
-# "pkg/Type[<=3] name" -> "pkg/Type"; bounds of strings and arrays are no part of the type
+# "pkg/Type[<=3] name" -> "pkg/Type", without bounds of strings and arrays
 _FIELD_TYPE = re.compile(r"^\s*([A-Za-z]\w*(?:/\w+)*)")
 
 
 def message_definition(type_name: str, read: Callable[[str], str] | None = None) -> str:
-    """Text of `pkg/msg/Name`, then of each type it refers to, separated as rosbag2 does.
+    """Definition of a type and of all types that it references, in the format of rosbag2.
 
-    `read` gives the text of one `pkg/msg/Name`; by default that of the installed .msg file.
-    Raises `FileNotFoundError` where a definition is not installed.
+    Args:
+        type_name: `pkg/msg/Name`.
+        read: returns the text of one type; by default that of the installed .msg file.
+
+    Raises:
+        FileNotFoundError: a definition is not installed.
     """
     read = read or installed_definition
     parts = [read(type_name)]
@@ -41,7 +45,7 @@ def message_definition(type_name: str, read: Callable[[str], str] | None = None)
 def installed_definition(type_name: str) -> str:
     """Text of the installed .msg file of `pkg/msg/Name`."""
     package, kind, name = type_name.split("/")
-    # A sourced ROS names its prefixes; ROS from wheels lives in the prefix of the interpreter.
+    # A sourced ROS lists its prefixes; ROS from wheels is in the prefix of the interpreter.
     prefixes = [p for p in os.environ.get("AMENT_PREFIX_PATH", "").split(os.pathsep) if p]
     for prefix in [*prefixes, sys.prefix]:
         file = Path(prefix, "share", package, kind, f"{name}.msg")
@@ -53,7 +57,7 @@ def installed_definition(type_name: str) -> str:
 
 
 def _references(text: str, owner: str) -> list[str]:
-    """Full names of the message types the fields of `text` have."""
+    """Full names of the message types of the fields in `text`."""
     package = owner.split("/")[0]
     names = []
     for line in text.splitlines():

@@ -1,4 +1,4 @@
-"""A recording as it is played again: serialised messages at their instants; needs no ROS."""
+"""A recording for replay: serialised messages in order of time; needs no ROS."""
 
 from __future__ import annotations
 
@@ -26,13 +26,21 @@ class Cue(NamedTuple):
 
 
 class Tape:
-    """What there is to play at `path`: an .mcap file, also a torn one, or a folder of them.
+    """The messages of a recording, which may be truncated or damaged.
 
-    `chosen` are the topics to play, by default all. `topics` has them by name, `counts` their
-    messages; `start` [ns] is the log time of the first message of any topic, `length` [ns] the time
-    from it to the last; `remarks` says in lines what could not be read, and grows while a damaged
-    file is played.
-    Raises `RecordingError` where there is nothing to play.
+    Attributes:
+        topics: topics by name.
+        counts: number of messages by topic.
+        start: log time of the first message of any topic [ns].
+        length: time from the first to the last message [ns].
+        remarks: warnings about unreadable parts; it grows while a damaged file is read.
+
+    Args:
+        path: of an .mcap file, or a folder of them.
+        chosen: topics to play; all if empty.
+
+    Raises:
+        RecordingError: there is nothing to play.
     """
 
     def __init__(self, path: Path, chosen: Collection[str] = ()) -> None:
@@ -44,7 +52,7 @@ class Tape:
         held = {c.topic for s in self._segments for c, _ in s.contents.channels.values()}
         for name in chosen:
             if name not in held:
-                raise RecordingError(f"topics: {name}: {path} holds {', '.join(sorted(held))}")
+                raise RecordingError(f"topics: {name}: {path} has {', '.join(sorted(held))}")
         for segment in self._segments:
             for channel, schema in segment.contents.channels.values():
                 if not chosen or channel.topic in chosen:
@@ -54,15 +62,15 @@ class Tape:
                 extent.include(segment.contents.extent.start)
                 extent.include(segment.contents.extent.end)
         if not extent.start:
-            raise RecordingError(f"{path}: holds no message")
+            raise RecordingError(f"{path}: has no messages")
         self.start = extent.start
         self.length = extent.end - extent.start
 
     def cues(self, begin: int = 0, end: int | None = None) -> Iterator[Cue]:
-        """Messages from `begin` to `end` [ns after the first message] in the order of log time.
+        """Messages from `begin` to `end` [ns after the first message] in order of log time.
 
-        Before them, at `begin`, come the messages a subscriber joining then would still get:
-        the newest ones of latched topics.
+        The newest messages of latched topics before `begin`, which a late subscriber receives, are
+        first.
         """
         repeats = Repeats()
         for topic, message in self._latched(self.start + begin):
@@ -74,7 +82,7 @@ class Tape:
             yield cue
 
     def _read(self, begin: int, repeats: Repeats) -> Iterator[Cue]:
-        """Messages from `begin` on, in file order, but those that `repeats` knows."""
+        """Messages from `begin`, in file order, without those that `repeats` knows."""
         for segment in self._segments:
             if segment.contents.extent.end >= self.start + begin:
                 for topic, message in segment.messages(self.start + begin):
@@ -85,7 +93,7 @@ class Tape:
                     yield Cue(message.log_time - self.start, topic, message.data)
 
     def _latched(self, before: int) -> list[tuple[str, Message]]:
-        """What is in force before a log time [ns], oldest first."""
+        """Latched messages that are valid at a log time [ns], oldest first."""
         missing = {name: topic.kept for name, topic in self.topics.items() if topic.kept}
         found: list[tuple[str, Message]] = []
         for segment in reversed(self._segments):
@@ -100,13 +108,13 @@ class Tape:
     def _add(self, channel: Channel, schema: Schema | None, path: Path) -> None:
         if schema is None or channel.message_encoding != "cdr":
             raise RecordingError(
-                f"{path}: {channel.topic} is encoded as {channel.message_encoding or 'nothing'}, "
-                "only ROS 2 messages (cdr) can be played"
+                f"{path}: {channel.topic}: its encoding {channel.message_encoding!r} must be that "
+                "of ROS 2 messages, 'cdr', with a schema"
             )
         known = self.topics.setdefault(channel.topic, self._topic(channel, schema, path))
         if known.type != schema.name:
             raise RecordingError(
-                f"{path}: {channel.topic} holds both {known.type} and {schema.name}"
+                f"{path}: {channel.topic}: has two types, {known.type} and {schema.name}"
             )
 
     def _topic(self, channel: Channel, schema: Schema, path: Path) -> Topic:
@@ -121,7 +129,7 @@ class Tape:
             offered_qos = read_offered_qos(channel.metadata.get("offered_qos_profiles", ""))
         except ValueError as reason:
             offered_qos = []
-            self._tell(f"{path}: {channel.topic}: taken as volatile: {reason}")
+            self._tell(f"{path}: {channel.topic}: assumed to be volatile: {reason}")
         return Topic(
             name=channel.topic,
             type=schema.name,
@@ -136,7 +144,7 @@ class Tape:
 
 
 def _in_order(cues: Iterable[Cue]) -> Iterator[Cue]:
-    """The same sorted by time, equal times in their given order; holds a second of them."""
+    """Sort messages by time, stably, with a buffer of one second."""
     waiting: list[tuple[int, int, Cue]] = []
     newest = 0
     for number, cue in enumerate(cues):

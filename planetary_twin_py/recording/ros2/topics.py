@@ -1,4 +1,4 @@
-"""Names of the twin's topics, as they stand in a recording behind a namespace."""
+"""Names of the twin's topics, without namespace."""
 
 STATE = "gearbox_state"
 WAVEFORM = "mesh_waveform"
@@ -11,15 +11,15 @@ REAL_TIME = "simulation: real time"  # a report in /diagnostics
 
 def status_name(report: str, namespace: str) -> str:
     """
-    Return the name of a status in /diagnostics, which viewers and aggregators tell apart by name.
+    Return the name of a status in /diagnostics, unique for each twin.
 
-    Parameters:
-        report: what it reports, such as `REAL_TIME`.
+    Args:
+        report: kind of report, such as `REAL_TIME`.
         namespace: of the twin, such as `/left`.
     """
     return "/".join(filter(None, (namespace.strip("/"), report)))
 
 
 def is_status(name: str, report: str) -> bool:
-    """Whether a status called `name` is the `report` of a twin, in whichever namespace."""
+    """Whether `name` is that of a status of kind `report`, in any namespace."""
     return name == report or name.endswith(f"/{report}")

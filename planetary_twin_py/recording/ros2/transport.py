@@ -1,19 +1,19 @@
-"""Where a tape stands while time passes: playing at a rate, held, moved; needs no ROS."""
+"""Playback position over time: playing at a rate, paused or moved; needs no ROS."""
 
 from __future__ import annotations
 
 import math
 
 AS_FAST_AS_IT_GOES = 0.0
-"""A rate factor at which every instant is due at once."""
+"""Rate factor for playback as fast as possible."""
 
 
 class Transport:
-    """A position [ns] on a tape that runs with the steady clock, `rate_factor` times as fast.
+    """Playback position [ns] that advances with the steady clock, `rate_factor` times as fast.
 
-    `now` is that clock's reading [s]. `limit` [ns] is the next instant to be played: as long as it
-    is not, the tape has come no further, however late it is. So nothing jumps where the rate
-    changes or the tape is held.
+    In all methods `now` is the reading of that clock [s], and `limit` [ns] the time of the next
+    message: the position does not exceed it, even if playback is late, so that a pause or a change
+    of rate causes no jump.
     """
 
     def __init__(self, position: int, rate_factor: float = 1.0) -> None:
@@ -24,11 +24,11 @@ class Transport:
 
     @property
     def paced(self) -> bool:
-        """Whether time limits how fast the tape runs, not the machine alone."""
+        """Whether the clock limits the playback rate, not only the machine."""
         return self._rate_factor != AS_FAST_AS_IT_GOES
 
     def position(self, now: float, limit: int) -> int:
-        """Where the tape stands [ns]."""
+        """Present position [ns]."""
         if self.held:
             return self._position
         if not self.paced:
@@ -37,7 +37,7 @@ class Transport:
         return min(self._position + passed, limit)
 
     def remaining(self, instant: int, now: float) -> float:
-        """Time until `instant` [s], negative if it is over; infinite while the tape is held."""
+        """Time until `instant` [s], negative if it is late; infinite while paused."""
         if self.held:
             return math.inf
         if not self.paced:
@@ -46,26 +46,26 @@ class Transport:
         return due - (now - self._since)
 
     def hold(self, now: float, limit: int) -> None:
-        """Stand still from now on."""
+        """Pause."""
         self._position = self.position(now, limit)
         self.held = True
 
     def go(self, now: float) -> None:
-        """Run from now on."""
+        """Resume."""
         if self.held:
             self._since = now
             self.held = False
 
     def place(self, position: int, now: float) -> None:
-        """Stand at `position` now, running or held as before."""
+        """Move to `position`; playing or paused as before."""
         self._position = position
         self._since = now
 
     def shift(self, by: int) -> None:
-        """Count positions from elsewhere: what is due stays due, so that no error adds up."""
+        """Shift the origin of positions; due times stay the same, so errors do not add up."""
         self._position += by
 
     def set_rate(self, rate_factor: float, now: float, limit: int) -> None:
-        """Run at another rate from where the tape stands now."""
+        """Change the rate at the present position."""
         self.place(self.position(now, limit), now)
         self._rate_factor = rate_factor

@@ -1,4 +1,4 @@
-"""The types that a message definition in a file describes, checked before code is made of them."""
+"""The types of a message definition in a file, checked before code is generated from them."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from rosbags.typesys.store import Typestore
 from .definitions import KINDS, definition_of
 
 _LONGEST = 100_000  # bytes of a definition
-_MOST_FIELDS = 10_000  # of a message with all those below it, and with each element of an array
+_MOST_FIELDS = 10_000  # of a message, including nested messages and array elements
 _BOUNDED = (Nodetype.ARRAY, Nodetype.SEQUENCE)
 _IN_TIME = ("header", "sequence", "simulated_time", "interval", "planets", "planet_angle")
 _SAMPLES = ("start_time", "sample_period", "samples", "dte", "mesh_force", "friction")
@@ -24,12 +24,12 @@ _NEEDED = frozenset((*_IN_TIME, *_SAMPLES, "data", "name", "position"))
 
 
 class DefinitionError(ValueError):
-    """A definition that none can read, or that is not of the type it is named."""
+    """A definition that is invalid, or of another type."""
 
 
-@lru_cache(maxsize=32)  # takes 20 ms, and the files of a recording have the same definitions
+@lru_cache(maxsize=32)  # takes 20 ms; the files of a recording have the same definitions
 def types_of(definition: bytes, kind: str) -> Typestore:
-    """The type `kind` and those below it.
+    """Parse a definition: the type `kind` and its nested types.
 
     Args:
         definition: text in MCAP's encoding `ros2msg`.
@@ -39,9 +39,10 @@ def types_of(definition: bytes, kind: str) -> Typestore:
         A store that decodes messages of this type.
 
     Raises:
-        DefinitionError: the text is no definition of `kind`, has no end, or has other fields than
-            the twin's type of this name. Further fields, and fields that are missing, are taken:
-            another version has recorded them. A message has `absent` values for those missing.
+        DefinitionError: the text is not a definition of `kind`, is recursive, or a field has
+            another type than in the twin's definition. Additional and missing fields are accepted,
+            because other versions record them; a message has the values of `absent` for those
+            that are missing.
     """
     if len(definition) > _LONGEST:
         raise DefinitionError(f"has {len(definition)} bytes: must be at most {_LONGEST}")
@@ -49,16 +50,16 @@ def types_of(definition: bytes, kind: str) -> Typestore:
         found = get_types_from_msg(definition.decode(), kind)
     except UnicodeDecodeError as reason:
         raise DefinitionError(f"must be in UTF-8, byte {reason.start + 1} is not") from None
-    except Exception as reason:  # of many kinds, of a text that is no definition
-        raise DefinitionError(f"is none: {str(reason) or type(reason).__name__}") from None
+    except Exception as reason:  # of many kinds, if the text is not a definition
+        raise DefinitionError(f"is invalid: {str(reason) or type(reason).__name__}") from None
     _fields(found, kind, ())
     if kind in KINDS.values():
         _compare(found, kind)
     types = get_typestore(Stores.EMPTY)
     try:
         types.register(found)
-    except Exception as reason:  # of names that Python does not take
-        raise DefinitionError(f"is none: {str(reason) or type(reason).__name__}") from None
+    except Exception as reason:  # of names that are not valid in Python
+        raise DefinitionError(f"is invalid: {str(reason) or type(reason).__name__}") from None
     for name, value in absent(kind, dict(found[kind][1])).items():
         setattr(types.types[kind], name, value)
     return types
@@ -94,11 +95,11 @@ def _empty(sort: Nodetype, of: Any) -> Any:
 
 
 def _fields(types: Any, kind: str, above: tuple[str, ...]) -> int:
-    """How many fields a message of a type has, with those below it."""
+    """Number of fields of a message of a type, including nested messages."""
     if kind not in types:
         raise DefinitionError(f"does not describe {kind}")
     if kind in above:
-        raise DefinitionError(f"has no end: {kind} holds itself")
+        raise DefinitionError(f"is recursive: {kind} contains itself")
     count, known = 0, dict[str, int]()
     for _, (sort, of) in types[kind][1]:
         times = 1
@@ -117,7 +118,7 @@ def _fields(types: Any, kind: str, above: tuple[str, ...]) -> int:
 
 
 def _compare(types: Any, kind: str) -> None:
-    """Raise `DefinitionError` where a field of the twin's is another, or needed and missing."""
+    """Raise `DefinitionError` if a field has another type, or is required and missing."""
     for name, (_, fields) in _own(kind).items():
         if name not in types:
             raise DefinitionError(f"does not describe {name}")
@@ -125,8 +126,8 @@ def _compare(types: Any, kind: str) -> None:
         for field, description in fields:
             lacking = name == kind and field not in there and field not in _NEEDED
             if not lacking and there.get(field) != description:
-                wrong = "is another" if field in there else "is missing"
-                raise DefinitionError(f"is not that of this version: {name}.{field} {wrong}")
+                wrong = "has another type" if field in there else "is missing"
+                raise DefinitionError(f"does not match this version: {name}.{field} {wrong}")
 
 
 @lru_cache(maxsize=len(KINDS))

@@ -1,1 +1,1 @@
-"""The runs in a recording: their scenes, their changes, and the same run simulated again."""
+"""The runs in a recording: scenes, parameter changes, and resimulation."""

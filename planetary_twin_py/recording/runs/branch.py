@@ -1,4 +1,4 @@
-"""How a run is to differ from a recorded one, and the run that follows from it."""
+"""A what-if branch: changes to a recorded run, and the resulting run."""
 
 from __future__ import annotations
 
@@ -10,33 +10,40 @@ from typing import Any
 from ...scene import TUNABLES, Scene, SceneError
 from ...twin import TICKS
 from .origin import Origin, makers_here
-from .schedule import Change, Interval, Run, nanoseconds
+from .schedule import Change, Interval, RecordedRun, nanoseconds
 
-LONGEST = 3600.0  # [s] of a run that goes on beyond what is recorded
+LONGEST = 3600.0  # [s] of a run that is longer than the recording
 
 
 @dataclass(frozen=True)
 class Branch:
-    """How a run is to differ from the recorded one.
+    """Changes to a recorded run.
 
-    `settings` hold from `start` [s] on, whatever the recorded changes after it say of the same
-    names; those of other names happen as recorded. Names are those of `Scene.replace`; what is not
-    of the operating point can only hold from 0 on. A run is as long as the recorded one unless it
-    has a `duration` [s]; beyond the recorded end nothing changes any more.
+    `settings` apply from `start` [s] to the end and override recorded changes of the same names;
+    changes of other names apply as recorded. Names are those of `Scene.replace`; names outside the
+    operating point require a start of 0. The run has the length of the recorded one unless it has a
+    `duration` [s]; after the recorded end nothing changes.
     """
 
     settings: Mapping[str, Any]
     start: float = 0.0
     duration: float | None = None
     run: int | None = None
-    """Which of the runs in the file, from 1; the last unless given."""
+    """Number of the run in the file, from 1; None is the last."""
 
 
-def branched(run: Run, branch: Branch) -> tuple[float, Run]:
-    """The instant [s] of the branch, and the run that follows from it.
+def branched(run: RecordedRun, branch: Branch) -> tuple[float, RecordedRun]:
+    """Apply a branch to a recorded run.
+
+    Args:
+        run: the recorded run.
+        branch: the changes.
+
+    Returns:
+        Time of the branch [s], at which an interval starts, and the new run.
 
     Raises:
-        ValueError: a setting, the start or the duration cannot be.
+        ValueError: a setting, the start or the duration is out of range.
     """
     intervals = _stretched(run.intervals, branch.duration)
     last = intervals[-1].begin / TICKS
@@ -54,25 +61,25 @@ def branched(run: Run, branch: Branch) -> tuple[float, Run]:
     for change in after:
         scene.replace(**change.values)
     origin = Origin(scene, run.origin.begins, makers_here())
-    return begins, Run(origin, intervals, before + after)
+    return begins, RecordedRun(origin, intervals, before + after)
 
 
 def _values(scene: Scene, branch: Branch) -> tuple[dict[str, float], Scene]:
-    """Values of the operating point that hold from the branch on, and the scene of the run."""
+    """Values of the operating point after the branch, and the scene of the run."""
     changed = scene.replace(**branch.settings)
     tuned = [name for name in branch.settings if name in TUNABLES]
     others = [name for name in branch.settings if name not in TUNABLES]
     if others and branch.start > 0.0:
         raise SceneError(
-            f"{others[0]}: makes another model, which runs from = 0 only; from then on can change "
-            f"{', '.join(TUNABLES)}"
+            f"{others[0]}: changes the model, which requires from = 0; a later change is possible "
+            f"for {', '.join(TUNABLES)}"
         )
     values = {name: getattr(changed.operating_point, name) for name in tuned}
     return values, changed if branch.start == 0.0 else scene
 
 
 def _stretched(intervals: list[Interval], duration: float | None) -> list[Interval]:
-    """The intervals that make `duration` [s]: cut off, or with more like the longest at the end."""
+    """Intervals of total length `duration` [s]: truncated, or extended by the longest interval."""
     if duration is None:
         return intervals
     longest = max(LONGEST, intervals[-1].end / TICKS)
@@ -91,7 +98,7 @@ def _stretched(intervals: list[Interval], duration: float | None) -> list[Interv
     return kept
 
 
-def _stamp_at(run: Run, intervals: list[Interval], time: float) -> int:
-    """ROS time [ns] of the instant at which an interval begins."""
+def _stamp_at(run: RecordedRun, intervals: list[Interval], time: float) -> int:
+    """ROS time [ns] of the start of an interval at `time` [s]."""
     ends = [interval.stamp for interval in intervals if interval.end / TICKS <= time]
     return ends[-1] if ends else run.origin.begins

@@ -1,4 +1,4 @@
-"""Writes what a twin shows into a bag, in the messages the nodes publish; needs no ROS."""
+"""Writes windows of a twin to a bag, as the messages that the nodes publish; needs no ROS."""
 
 from __future__ import annotations
 
@@ -23,13 +23,13 @@ Row = dict[str, Any]
 
 
 class Composer:
-    """Turns windows and operating points into messages of those topics a bag is to hold.
+    """Writes windows and operating points as messages.
 
     Args:
-        bag: where they go.
-        topics: as the bag describes them; those that are not the twin's are left alone.
+        bag: where to write.
+        topics: to write; topics that are not of the twin are ignored.
         namespace: of the twin.
-        frame: of the gearbox's base.
+        frame: name of the base frame of the gearbox.
     """
 
     def __init__(
@@ -48,24 +48,24 @@ class Composer:
         self._last: OperatingPoint | None = None
 
     def begin(self, origin: Origin) -> None:
-        """Tell what the run that begins now follows from, and what its gearbox looks like."""
+        """Write the origin and the robot description at the start of a run."""
         self.write(ORIGIN, {"data": origin.text()}, origin.begins, origin.begins)
         if DESCRIPTION in self._kinds:
             text = robot_description(origin.scene.gearset, self._frame)
             self.write(DESCRIPTION, {"data": text}, origin.begins, origin.begins)
 
     def point(self, point: OperatingPoint, time: float, stamp: int) -> None:
-        """Tell the operating point in force from `time` [s], whose ROS time is `stamp` [ns]."""
+        """Write an operating point that applies from `time` [s], ROS time `stamp` [ns]."""
         last, self._last = self._last, point
         changed = [n for n in TUNABLES if last is None or getattr(point, n) != getattr(last, n)]
         row = {"simulated_time": time, "changed": ",".join(changed), **point.model_dump()}
         self.write(POINT, row, stamp, stamp)
 
     def window(self, window: Window, stamp: int, first: int) -> None:
-        """Tell of a window.
+        """Write the messages of a window.
 
         Args:
-            window: what to tell of.
+            window: of the twin.
             stamp: ROS time of its end [ns].
             first: ROS time of its first sample [ns].
         """
@@ -77,7 +77,14 @@ class Composer:
             self.write(WAVEFORM, waveform_fields(window), first, stamp)
 
     def write(self, topic: str, row: Row, stamp: int, sent: int) -> None:
-        """Write the next message of a topic, if the bag is to hold it; both times in [ns]."""
+        """Write the next message of a topic, if it is one of the topics to write.
+
+        Args:
+            topic: name without namespace.
+            row: fields.
+            stamp: time in the header [ns].
+            sent: publish time [ns].
+        """
         if topic not in self._kinds:
             return
         self._counts[topic] += 1
@@ -96,13 +103,13 @@ class Composer:
         types = self._types.types
         if "header" in self._fields(topic):
             time = types["builtin_interfaces/msg/Time"](*divmod(stamp, 1_000_000_000))
-            # Joints stand in no frame.
+            # JointState has no frame.
             frame = "" if topic == JOINTS else self._frame
             row = {"header": types["std_msgs/msg/Header"](time, frame), **row}
         unknown = [name for name in self._fields(topic) if name not in row]
         if unknown:
             kind = self._kinds[topic]
-            raise RecordingError(f"{kind}.{unknown[0]}: a field that the model does not know")
+            raise RecordingError(f"{kind}.{unknown[0]}: unknown field")
         return types[self._kinds[topic]](**{name: row[name] for name in self._fields(topic)})
 
     def _fields(self, topic: str) -> list[str]:

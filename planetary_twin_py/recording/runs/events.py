@@ -1,4 +1,4 @@
-"""What happened in the runs of a recording, interval by interval."""
+"""Events in the runs of a recording."""
 
 from __future__ import annotations
 
@@ -13,19 +13,24 @@ from .schedule import messages_of
 
 
 class Event(NamedTuple):
-    """What is so from a simulated instant [s] on, or from somewhere in the interval after it."""
+    """An event in the interval that starts at simulated time `time` [s]."""
 
     time: float
     run: int
-    """Counted from 1: each reset begins another; 0 before the first start that is recorded."""
+    """Number of the run, from 1, incremented at each reset; 0 before the first recorded start."""
     text: str
 
 
 def read_events(path: Path, namespace: str, remarks: list[str]) -> Iterator[Event]:
-    """Starts, resets, missing messages, other settings, and contact that is lost and kept again.
+    """Read starts, resets, missing messages, changed settings, and loss of contact.
+
+    Args:
+        path: of the recording.
+        namespace: of the gearbox.
+        remarks: warnings are appended.
 
     Raises:
-        RecordingError: there is no recording.
+        RecordingError: `path` is not a recording.
     """
     run, before = 0, None
     for _, state in messages_of(path, namespace, (STATE,), remarks):
@@ -36,28 +41,28 @@ def read_events(path: Path, namespace: str, remarks: list[str]) -> Iterator[Even
         if missing > 0:
             yield Event(begin, run, f"{missing} messages of {STATE} are missing before")
         if started:
-            yield Event(begin, run, "starts" if run == 1 else "starts again, after a reset")
+            yield Event(begin, run, "start" if run == 1 else "start after a reset")
         for text in _news(None if started else before, state):
             yield Event(begin, run, text)
         before = state
 
 
 def _news(before: Any, state: Any) -> Iterator[str]:
-    """In what an interval differs from the one before in its run."""
+    """Differences of an interval from the previous one of its run."""
     for name, text in (("tolerance", "tolerance = {:g}"), ("sample_rate", "waveform at {:g} Hz")):
         now = getattr(state, name)
-        measured = math.isnan(now)  # and not simulated, so that it has none
+        measured = math.isnan(now)  # only simulated intervals have these settings
         if not measured and (before is None or now != getattr(before, name)):
             yield text.format(now)
     lost, already = _parted(state), [] if before is None else _parted(before)
     if lost and not already:
-        yield f"contact is lost for a time at {', '.join(lost)}"
+        yield f"teeth separate in {', '.join(lost)}"
     if already and not lost:
-        yield "contact is kept at every mesh"
+        yield "teeth remain in contact in every mesh"
 
 
 def _parted(state: Any) -> list[str]:
-    """Meshes whose teeth were apart for some of an interval."""
+    """Meshes whose teeth were separated in part of an interval."""
     return [
         f"{kind}_{n + 1}"
         for kind in ("sun_planet", "planet_ring")

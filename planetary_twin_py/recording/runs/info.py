@@ -1,4 +1,4 @@
-"""What a recording holds: topics with their rates and losses, and what was changed when."""
+"""Contents of a recording: topics with rates and losses, and parameter changes."""
 
 from __future__ import annotations
 
@@ -37,11 +37,11 @@ class TopicInfo:
     lost: int | None = None
     """Messages published but not received, by the recorder's account; None without one."""
     before: int = 0
-    """Of these, published before the recording heard the first one."""
+    """Of these, published before the first received message."""
     first: int = 0
     last: int = 0
     longest_gap: int = 0
-    """Between two messages [ns]."""
+    """Longest time between two messages [ns]."""
 
     @property
     def rate(self) -> float:
@@ -50,7 +50,7 @@ class TopicInfo:
         return (self.recorded - 1) / (span * 1e-9) if span > 0 else math.nan
 
     def take(self, times: Sequence[int] | NDArray[np.int64]) -> None:
-        """Count messages by their log times, which come after those taken before."""
+        """Count messages by their log times, which follow those of previous calls."""
         if not len(times):
             return
         if not self.recorded:
@@ -62,7 +62,7 @@ class TopicInfo:
 
 
 class Changed(NamedTuple):
-    """Values of an operating point that are new, and the simulated instant [s]."""
+    """Changed values of an operating point, and their simulated time [s]."""
 
     time: float
     namespace: str
@@ -71,19 +71,19 @@ class Changed(NamedTuple):
 
 @dataclass
 class Info:
-    """What `read_info` has found; `remarks` says in lines what could not be read."""
+    """Result of `read_info`; `remarks` are warnings about unreadable parts."""
 
     files: list[Path]
     topics: dict[str, TopicInfo] = field(default_factory=dict)
     changes: list[Changed] = field(default_factory=list)
     simulated: float = 0.0
-    """Simulated time that all gearbox states together cover [s]."""
+    """Total simulated time of all gearbox states [s]."""
     report: dict[str, str] = field(default_factory=dict)
-    """Figures of the simulation's last report in /diagnostics."""
+    """Values of the last report of the simulation in /diagnostics."""
     remarks: list[str] = field(default_factory=list)
 
     def figures(self) -> dict[str, Any]:
-        """For machines, as those of a run."""
+        """Results for `--json`."""
         topics = {
             name: {
                 "type": topic.type,
@@ -108,26 +108,28 @@ class Info:
 
 
 def read_info(*paths: Path) -> Info:
-    """Read the recording at a path, an .mcap file or a folder of them; several one after another.
+    """Read the contents of recordings; of a finished file only the index and a few messages.
 
-    A finished file is asked for its index, and no more of it is read than must be.
+    Args:
+        paths: .mcap files or folders, in order.
+
     Raises:
-        RecordingError: there is none.
+        RecordingError: a path is not a recording.
     """
-    told = _Told(Info([file for path in paths for file in files_of(path)]))
-    for file in told.info.files:
-        more = deepcopy(told)
+    collected = _Collector(Info([file for path in paths for file in files_of(path)]))
+    for file in collected.info.files:
+        more = deepcopy(collected)
         try:
             more.look_up(file, Index(file))
-        except UNSOUND:  # torn before it had an index, or damaged
-            told.read(file)
+        except UNSOUND:  # truncated without an index, or damaged
+            collected.read(file)
         else:
-            told = more
-    return told.info
+            collected = more
+    return collected.info
 
 
-class _Told:
-    """What the files so far have told."""
+class _Collector:
+    """Collects the contents of files in order."""
 
     def __init__(self, info: Info) -> None:
         self.info = info
@@ -135,8 +137,8 @@ class _Told:
         self._repeats = Repeats()
 
     def read(self, file: Path) -> None:
-        """Learn from every record of a file."""
-        decoder = Decoder(file, _tells)
+        """Read every record of a file."""
+        decoder = Decoder(file, _is_decoded)
         schemas: dict[int, Schema] = {}
         names: dict[int, str] = {}
         times: dict[str, list[int]] = {}
@@ -159,8 +161,8 @@ class _Told:
         self._settle(accounts)
 
     def look_up(self, file: Path, index: Index) -> None:
-        """Learn the same from the index of a file, and from the few messages that are needed."""
-        decoder = Decoder(file, _tells)
+        """The same from the index of a file, and the few messages that are needed."""
+        decoder = Decoder(file, _is_decoded)
         self._repeats.next_file()
         for schema in index.schemas.values():
             decoder.read(schema)
@@ -186,7 +188,7 @@ class _Told:
         )
 
     def _new(self, index: Index, channel: int) -> NDArray[np.intp]:
-        """Numbers of a channel's messages that the files before did not have."""
+        """Indices of the messages of a channel that are not in the previous files."""
         count = len(index.times[channel])
         self._repeats.repeated(index.channels[channel])
         if not self._repeats.is_latched(channel):
@@ -195,7 +197,7 @@ class _Told:
         return np.array(fresh, dtype=np.intp)
 
     def _settle(self, accounts: list[Mapping[str, str]]) -> None:
-        """Add the losses of a file; it may tell of a topic that it has no message of."""
+        """Add the losses of a file, which may list topics without messages."""
         for account in accounts:
             try:
                 name, lost, missed = account["topic"], int(account["lost"]), int(account["missed"])
@@ -207,7 +209,7 @@ class _Told:
                 topic.before += lost - missed
 
     def _learn(self, topic: str, message: Any) -> None:
-        """Take what a message tells of the run."""
+        """Add the contents of a message."""
         if topic.endswith(f"/{STATE}"):
             self.info.simulated += message.interval
         elif topic == REPORT:
@@ -223,7 +225,7 @@ class _Told:
 
 
 class _Messages(Sequence[Any]):
-    """The messages of a channel, each decoded when it is asked for."""
+    """The messages of a channel, decoded on access."""
 
     def __init__(self, index: Index, channel: int, decoder: Decoder) -> None:
         self._index, self._channel, self._decoder = index, channel, decoder
@@ -237,14 +239,14 @@ class _Messages(Sequence[Any]):
 
 
 def _simulated(states: Sequence[Any]) -> float:
-    """Simulated time that states cover [s].
+    """Simulated time of states [s].
 
-    Those of one run, of which none is missing, cover what lies between their ends: so only the
-    halves are looked at in which a run ends or a message is missing.
+    States of one run without missing messages cover the time between the first and the last, so
+    bisection finds the ends of runs and missing messages.
     """
 
     def covered(first: int, last: int) -> float:
-        """By the states after `first`."""
+        """Time of the states after `first` [s]."""
         if first == last:
             return 0.0
         begin, end = states[first], states[last]
@@ -259,13 +261,13 @@ def _simulated(states: Sequence[Any]) -> float:
 
 
 def _same_run(begin: Any, end: Any) -> bool:
-    """Whether ROS time and simulated time went on by the same."""
+    """Whether ROS time and simulated time increased by the same amount."""
     simulated = end.simulated_time - begin.simulated_time
     return abs(stamp_of(end) - stamp_of(begin) - simulated * 1e9) < _ROUNDING
 
 
 def _report(reports: Sequence[Any]) -> dict[str, str]:
-    """The newest figures of each name that is asked for, as far back as there are others."""
+    """The newest value of each key of REPORTED, and of other keys that were read on the way."""
     found: dict[str, str] = {}
     for number in reversed(range(len(reports))):
         found = _figures(reports[number]) | found
@@ -275,11 +277,11 @@ def _report(reports: Sequence[Any]) -> dict[str, str]:
 
 
 def _figures(report: Any) -> dict[str, str]:
-    """What the simulation's report of its real time says, if this is one."""
+    """Values of the real-time status of the simulation; empty for other reports."""
     statuses = [status for status in report.status if is_status(status.name, REAL_TIME)]
     return {item.key: item.value for status in statuses for item in status.values}
 
 
-def _tells(topic: str) -> bool:
-    """Whether messages of a topic are read, not only counted."""
+def _is_decoded(topic: str) -> bool:
+    """Whether messages of a topic are decoded, not only counted."""
     return topic == REPORT or topic.endswith((f"/{STATE}", f"/{POINT}"))

@@ -1,4 +1,4 @@
-"""A run without ROS, recorded as the nodes would have published it."""
+"""Records a run without ROS, with the messages that the nodes would publish."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from ..ros2.definitions import topics_of
 from .compose import Composer
 from .origin import Origin, makers_here
 from .reader import SCENE_ATTACHMENT
-from .schedule import Change, Interval, Run, nanoseconds
+from .schedule import Change, Interval, RecordedRun, nanoseconds
 from .written import write_run
 
 NAMESPACE = "/planetary_twin"
@@ -25,7 +25,7 @@ INTERVAL = 0.01  # [s], as the simulation node publishes by default
 
 
 class Plan(NamedTuple):
-    """What to simulate: see `simulate`."""
+    """Arguments of a run: see `simulate`."""
 
     scene: Scene
     duration: float
@@ -34,14 +34,20 @@ class Plan(NamedTuple):
 
 
 def record(plan: Plan, out: Path, progress: Callable[[float], None] = lambda time: None) -> Path:
-    """Simulate `plan` into `out`: a bag folder, or one file if it ends in .mcap; returns the file.
+    """Simulate and record.
 
-    `progress` hears the simulated time reached [s].
+    Args:
+        plan: of the run.
+        out: a bag folder, or a file that ends in .mcap.
+        progress: called with the simulated time [s].
+
+    Returns:
+        The file.
 
     Raises:
-        ValueError: a value of the plan cannot be.
+        ValueError: a value of the plan is out of range.
         FileExistsError: `out` exists.
-        OSError: it cannot be written.
+        OSError: `out` cannot be written.
     """
     return write_as(out, lambda folder: _record(plan, folder, progress))
 
@@ -54,13 +60,13 @@ def _record(plan: Plan, folder: Path, progress: Callable[[float], None]) -> Path
         bag.attach(SCENE_ATTACHMENT, scene.encode(), "application/yaml")
         for reached in write_run(Composer(bag, topics_of(NAMESPACE), NAMESPACE), run):
             progress(reached)
-    finally:  # what is there is true, however far it goes
+    finally:  # an incomplete recording is valid, too
         bag.close()
     return bag.file
 
 
-def _run(plan: Plan) -> Run:
-    """The run from now on, in intervals of which the last may be shorter."""
+def _run(plan: Plan) -> RecordedRun:
+    """The run, starting now, in equal intervals; the last one may be shorter."""
     begins, end, length = time.time_ns(), round(plan.duration * TICKS), round(INTERVAL * TICKS)
     ends = [min((n + 1) * length, end) for n in range(math.ceil(end / length))]
     intervals = [
@@ -69,4 +75,4 @@ def _run(plan: Plan) -> Run:
     ]
     point = plan.scene.operating_point.model_dump()
     change = Change(1, begins, 0.0, point)
-    return Run(Origin(plan.scene, begins, makers_here()), intervals, [change])
+    return RecordedRun(Origin(plan.scene, begins, makers_here()), intervals, [change])

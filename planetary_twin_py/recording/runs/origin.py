@@ -1,7 +1,7 @@
-"""What a run follows from: its scene, and what computed it.
+"""Origin of a run: its scene, and the software and machine that computed it.
 
-With what was changed while it ran, which its messages tell, a run can be simulated again. On the
-same kernels and the same kind of machine it is the same to the last bit.
+With the parameter changes in its messages, a run can be simulated again. With the same kernels on
+the same type of machine the result is identical bit for bit.
 """
 
 from __future__ import annotations
@@ -22,27 +22,27 @@ SOFTWARE = ("planetary_twin_py", "numba", "llvmlite", "numpy", "scipy")
 
 @dataclass(frozen=True)
 class Makers:
-    """What computed a run."""
+    """Software and machine that computed a run."""
 
     kernels: str
     """Digest of the source of the compiled kernels."""
     machine: str
-    """Processor that they are compiled for, and a digest of its features."""
+    """Processor for which they are compiled, and a digest of its features."""
     software: dict[str, str]
-    """Versions of the packages that the numbers come from."""
+    """Versions of the packages that affect the numbers."""
 
 
 @dataclass(frozen=True)
 class Measured:
-    """Stands for the makers of a run that nothing has computed: it was measured."""
+    """In place of `Makers` for a run that was measured, not computed."""
 
     measured: str
-    """Name of the table that it comes from."""
+    """Name of the table with the measurements."""
 
 
 @dataclass(frozen=True)
 class Origin:
-    """A scene, when it began to run, and on what."""
+    """A scene, the start time of its run, and what computed it."""
 
     scene: Scene
     begins: int
@@ -50,14 +50,14 @@ class Origin:
     makers: Makers | Measured
 
     def text(self) -> str:
-        """As it travels in a recording, in YAML."""
+        """YAML text for a recording."""
         scene = self.scene.model_dump(mode="json")
         content = {"begins": self.begins, **asdict(self.makers), "scene": scene}
         return yaml.safe_dump(content, sort_keys=False)
 
 
 def makers_here() -> Makers:
-    """What computes on this machine."""
+    """Software and machine of this process."""
     from llvmlite import binding
 
     from ..._compile import cache_folder
@@ -74,10 +74,10 @@ def makers_here() -> Makers:
 
 
 def read_origin(text: str) -> Origin:
-    """What `Origin.text` has written.
+    """Parse the text of `Origin.text`.
 
     Raises:
-        RecordingError: the text is something else.
+        RecordingError: the text is invalid.
     """
     try:
         content = _mapping(text)
@@ -92,10 +92,10 @@ def read_origin(text: str) -> Origin:
 
 
 def scene_of_origin(text: str) -> str:
-    """YAML of the scene that `Origin.text` holds.
+    """YAML of the scene in the text of `Origin.text`.
 
     Raises:
-        RecordingError: the text is something else.
+        RecordingError: the text is invalid.
     """
     try:
         return _scene(_mapping(text))

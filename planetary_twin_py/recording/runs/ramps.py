@@ -1,4 +1,4 @@
-"""Changes of an operating point that belong together: the steps of a ramp, one per interval."""
+"""Groups the changes of an operating point that are steps of one ramp."""
 
 from __future__ import annotations
 
@@ -14,22 +14,22 @@ _ROUNDING = 1e-6  # [s]
 
 @dataclass
 class Ramp:
-    """Changes of the same fields of one gearbox; a single one is a ramp of one step."""
+    """Changes of the same fields of one gearbox; a single change is a ramp of one step."""
 
     times: list[float]
-    """Of the changes [s]."""
+    """Times of the changes [s]."""
     first: Mapping[str, float]
-    """Values before them of the fields that change, as far as they are known."""
+    """Values of the changed fields before the ramp, as far as they are known."""
     last: Mapping[str, float]
 
     @property
     def duration(self) -> float:
-        """Of all steps [s]; the last one lasts as long as the others."""
+        """Duration of all steps [s]; the last is assumed to last as long as the others."""
         steps = len(self.times)
         return (self.times[-1] - self.times[0]) * steps / max(steps - 1, 1)
 
     def take(self, change: Changed) -> bool:
-        """Whether `change` is the next step, which is then taken."""
+        """Add `change` if it is the next step; return whether it is."""
         same = change.values.keys() == self.last.keys() == self.first.keys()
         if not (same and self._in_time(change.time) and self._onwards(change.values)):
             return False
@@ -38,13 +38,13 @@ class Ramp:
         return True
 
     def _in_time(self, time: float) -> bool:
-        """Whether a change at `time` comes as soon after the last one as that after its own."""
+        """Whether the time to a change at `time` [s] equals that between the last two changes."""
         gap = time - self.times[-1]
         before = self.times[-1] - self.times[-2] if len(self.times) > 1 else gap
         return 0.0 < gap < LONGEST_STEP and math.isclose(gap, before, abs_tol=_ROUNDING)
 
     def _onwards(self, values: Mapping[str, float]) -> bool:
-        """Whether `values` lie beyond the last ones as these do beyond the first."""
+        """Whether `values` continue in the direction of the previous changes."""
         last = self.last
         return all(
             (values[k] - last[k]) * (last[k] - first) > 0.0 for k, first in self.first.items()
@@ -52,7 +52,7 @@ class Ramp:
 
 
 def ramps(changes: Iterable[Changed]) -> list[Ramp]:
-    """What `changes` are, in their order."""
+    """Group `changes`, in order, into ramps."""
     found: list[Ramp] = []
     newest: dict[str, Ramp] = {}
     values: dict[str, dict[str, float]] = {}

@@ -1,4 +1,4 @@
-"""Reads a recording into plain arrays; needs no ROS."""
+"""Reads a recording to plain arrays; needs no ROS."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ from ..ros2.repeats import Repeats
 from ..ros2.topics import ORIGIN, POINT, STATE, WAVEFORM
 from ..ros2.typestore import absent
 from .origin import scene_of_origin
-from .waveform import Blocks, Held, Ranges, Samples, Source, Stretch, Waveform, joined, stamps
+from .waveform import Blocks, InMemory, Ranges, Samples, Source, TimeSpan, Waveform, joined, stamps
 
 SCENE_ATTACHMENT = "scene.yaml"
 TOPICS = (STATE, WAVEFORM, POINT)
@@ -34,7 +34,7 @@ _LONGEST = 300  # characters of a remark
 class Series:
     """Messages of one topic as columns: `series[name]` has one row per message.
 
-    `time` is simulated time [s], `stamp` the ROS time [ns since the epoch] of the same instant.
+    `time` is the simulated time [s], `stamp` the corresponding ROS time [ns since the epoch].
     """
 
     time: NDArray[np.float64]
@@ -50,9 +50,9 @@ class Series:
 
 @dataclass
 class Recording:
-    """What a recording holds of one gearbox; `remarks` says in lines what could not be read.
+    """The messages of one gearbox; `remarks` are warnings about unreadable parts.
 
-    States are held whole; samples stay in the file until they are asked for.
+    States are in memory; samples are read from the file on demand.
     """
 
     path: Path
@@ -71,24 +71,31 @@ class Recording:
 
     @cached_property
     def waveform(self) -> Waveform | None:
-        """Every sample of the whole recording, read when it is first asked for.
+        """Every sample of the recording, read on first access.
 
-        At 50 kHz and six meshes that is 4 MB for each second: of a long recording rather ask for
-        `samples` of a stretch.
+        At 50 kHz and six meshes this takes 4 MB per second; use `samples` for long recordings.
         """
         return self.samples(-math.inf, math.inf)
 
     def samples(self, begin: float, end: float) -> Waveform | None:
-        """Every sample of the blocks that touch a stretch of simulated time [s], read anew.
+        """Read the samples of all blocks that overlap a time span.
 
-        None where there is no such block. Raises `OSError` where the file is gone.
+        Args:
+            begin: start [s of simulated time].
+            end: end [s of simulated time].
+
+        Returns:
+            The samples; None if there is no such block.
+
+        Raises:
+            OSError: the file no longer exists.
         """
         return self.blocks.waveform(begin, end)
 
-    def within(self, stretches: Sequence[Stretch]) -> Recording:
-        """The same with the samples of these stretches alone, held in memory; in their order."""
-        found = [self.samples(begin, end) for begin, end in stretches]
-        return replace(self, blocks=Held(joined([part for part in found if part is not None])))
+    def within(self, spans: Sequence[TimeSpan]) -> Recording:
+        """The same with only the samples of these time spans [s], in memory."""
+        found = [self.samples(begin, end) for begin, end in spans]
+        return replace(self, blocks=InMemory(joined([part for part in found if part is not None])))
 
     @property
     def meshes(self) -> tuple[str, ...]:
@@ -107,10 +114,17 @@ class Recording:
 
 
 def read_recording(path: str | Path, namespace: str | None = None) -> Recording:
-    """Read the recording at `path`: an .mcap file or a folder of them.
+    """Read a recording.
 
-    `namespace` chooses among several gearboxes in one file; without it the file must hold one.
-    Raises `RecordingError` where there is nothing to read.
+    Args:
+        path: of an .mcap file, or a folder of them.
+        namespace: of the gearbox; None if there is only one.
+
+    Returns:
+        The recording.
+
+    Raises:
+        RecordingError: there is nothing to read.
     """
     found = _Found()
     for file in files_of(Path(path)):
@@ -124,7 +138,7 @@ def read_recording(path: str | Path, namespace: str | None = None) -> Recording:
 
 
 def _scene(origins: list[NDArray[Any]], remarks: list[str]) -> str | None:
-    """The scene of the newest run whose origin can be read, in YAML: any recorder's bag has it."""
+    """YAML of the scene of the newest run with a readable origin."""
     for text in reversed([bytes(data) for rows in origins for data in rows["data"]]):
         try:
             return scene_of_origin(text.decode())
@@ -136,8 +150,16 @@ def _scene(origins: list[NDArray[Any]], remarks: list[str]) -> str | None:
 def assemble(
     rows: Mapping[str, list[NDArray[Any]]], blocks: Samples, path: Path, namespace: str
 ) -> Recording:
-    """What structured arrays of messages tell, by the names of their topics; of states, at least
-    one.
+    """Make a recording from messages.
+
+    Args:
+        rows: structured arrays by topic, with at least one state.
+        blocks: of the waveform.
+        path: of the recording, for error messages.
+        namespace: of the gearbox.
+
+    Raises:
+        RecordingError: the number of planets is invalid or changes.
     """
     state = _series(rows[STATE], KINDS[STATE])
     planets = np.unique(state["planets"])
@@ -160,7 +182,7 @@ def assemble(
 
 
 class _Found:
-    """What files hold, by topic: rows of structured arrays, and blocks of the waveform."""
+    """Collects structured arrays and waveform blocks of files, by topic."""
 
     def __init__(self) -> None:
         self.rows: dict[str, list[NDArray[Any]]] = {}
@@ -170,7 +192,7 @@ class _Found:
         self._repeats = Repeats()
 
     def read(self, file: Path) -> None:
-        """Take what a file holds."""
+        """Read a file."""
         topics = Topics(file, lambda topic: topic.rpartition("/")[2] in (*TOPICS, ORIGIN))
         sources: dict[int, Source] = {}
         self._repeats.next_file()
@@ -200,7 +222,7 @@ class _Found:
             self.remarks.append(remark)
 
     def _text(self, file: Path, attached: Attachment) -> str | None:
-        """Of an attachment; None and a remark where it is none."""
+        """Text of an attachment; None and a warning if it is not UTF-8."""
         try:
             return attached.data.decode()
         except UnicodeDecodeError as reason:
@@ -247,6 +269,6 @@ def _column(name: str, parts: list[NDArray[Any]]) -> NDArray[Any]:
         column = np.concatenate(parts)
         if column.dtype.kind == "S":
             return np.asarray(np.char.decode(column, "utf-8"))
-    except ValueError as reason:  # of shapes, or of what is not UTF-8
+    except ValueError as reason:  # different shapes, or not UTF-8
         raise RecordingError(f"field {name} of a message: {reason}") from None
     return column.astype(column.dtype.newbyteorder("="), copy=False)

@@ -1,4 +1,4 @@
-"""Runs that are recorded, simulated again interval by interval."""
+"""Simulates recorded runs again, interval by interval."""
 
 from __future__ import annotations
 
@@ -11,15 +11,15 @@ from typing import Any, NamedTuple
 from ...twin import TICKS, Twin
 from ...window import Window
 from ..ros2.topics import WAVEFORM
-from .schedule import Change, Interval, Run, stamp_of, without_gaps
+from .schedule import Change, Interval, RecordedRun, stamp_of, without_gaps
 
-KEPT = 1000  # intervals that wait for their messages
+KEPT = 1000  # intervals in memory
 
 
-class Again:
-    """Runs simulated again, interval by interval, as far as they are asked for."""
+class Resimulation:
+    """Recorded runs that are simulated again on demand."""
 
-    def __init__(self, runs: list[Run], remarks: list[str]) -> None:
+    def __init__(self, runs: list[RecordedRun], remarks: list[str]) -> None:
         self._stamps = [interval.stamp for run in runs for interval in run.intervals]
         self._begins = [run.origin.begins for run in runs for _ in run.intervals]
         self._windows = _windows(runs, remarks)
@@ -27,13 +27,13 @@ class Again:
         self._count = 0
 
     def interval_of(self, topic: str, message: Any) -> tuple[Interval, Window] | None:
-        """What a message tells of, simulated again; None where that cannot be."""
+        """The interval of a message, simulated again; None if that is not possible."""
         stamp = stamp_of(message)
         place = bisect_left(self._stamps, stamp)
         if place == len(self._stamps) or stamp < self._begins[place]:
             return None
         if topic == WAVEFORM:  # stamped with its first sample
-            for candidate in (place, place + 1):  # where it is rounded down to the end before
+            for candidate in (place, place + 1):  # it may be rounded to the end of the previous one
                 found = self._at(candidate)
                 if found and _holds(found[1], message):
                     return found
@@ -53,21 +53,21 @@ class Again:
 
 
 def _holds(window: Window, block: Any) -> bool:
-    """Whether a block of samples is that of an interval."""
+    """Whether a block of samples belongs to a window."""
     time = window.waveform.time
     return len(time) > 0 and bool(time[0] == block.start_time)
 
 
 class Step(NamedTuple):
-    """An interval simulated again, and the changes from its begin on."""
+    """A simulated interval, with the changes at its start."""
 
     interval: Interval
     changes: list[Change]
     window: Window
 
 
-def steps(run: Run) -> Iterator[Step]:
-    """The intervals of a run, simulated one after another."""
+def steps(run: RecordedRun) -> Iterator[Step]:
+    """Simulate the intervals of a run in order."""
     first = run.intervals[0]
     twin = Twin(run.origin.scene, first.sample_rate, first.tolerance)
     waiting = deque(run.changes)
@@ -82,8 +82,8 @@ def steps(run: Run) -> Iterator[Step]:
         yield Step(interval, changes, window)
 
 
-def _windows(runs: list[Run], remarks: list[str]) -> Iterator[tuple[Interval, Window]]:
-    """Every recorded interval simulated again, run after run."""
+def _windows(runs: list[RecordedRun], remarks: list[str]) -> Iterator[tuple[Interval, Window]]:
+    """Simulate every recorded interval, run by run."""
     for run in runs:
         whole = without_gaps(run, remarks)
         for interval, _, window in steps(replace(run, intervals=whole)):

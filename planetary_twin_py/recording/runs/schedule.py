@@ -1,4 +1,4 @@
-"""What a recording tells of its runs: where they came from, and all that was changed on the way."""
+"""The runs in a recording: origins, intervals and parameter changes."""
 
 from __future__ import annotations
 
@@ -20,14 +20,14 @@ from ..ros2.topics import ORIGIN, POINT, STATE
 from ..ros2.typestore import is_recorded
 from .origin import Origin, read_origin
 
-# With which is simulated what was measured, and so has neither: those of `planetary-twin simulate`.
+# For measured runs, which have no such settings: the defaults of `planetary-twin simulate`.
 TOLERANCE = 1e-4
 SAMPLE_RATE = 50_000.0  # [Hz]
 _LONGEST = 300  # characters of a remark
 
 
 class Interval(NamedTuple):
-    """A published interval, as its GearboxState tells it."""
+    """A published interval, from its GearboxState."""
 
     number: int  # of its message
     stamp: int  # [ns]
@@ -35,11 +35,11 @@ class Interval(NamedTuple):
     end: int
     tolerance: float
     sample_rate: float  # [Hz]
-    recorded: bool = True  # else its message is missing, and known from those around it
+    recorded: bool = True  # False if its message is missing and was inferred
 
 
 class Change(NamedTuple):
-    """An operating point, and the simulated instant [s] from which it holds."""
+    """An operating point, and the simulated time [s] from which it applies."""
 
     number: int  # of its message
     stamp: int  # [ns]
@@ -48,35 +48,44 @@ class Change(NamedTuple):
 
 
 @dataclass
-class Run:
-    """From a start at time zero to the last interval before the next start."""
+class RecordedRun:
+    """A run, from time zero to the last interval before the next start."""
 
     origin: Origin
     intervals: list[Interval] = field(default_factory=list)
     changes: list[Change] = field(default_factory=list)
 
 
-def read_runs(path: Path, namespace: str, remarks: list[str]) -> list[Run]:
-    """The runs of the gearbox in `namespace`; what keeps some from being complete, in `remarks`.
+def read_runs(path: Path, namespace: str, remarks: list[str]) -> list[RecordedRun]:
+    """Read the runs of a gearbox.
+
+    Args:
+        path: of the recording.
+        namespace: of the gearbox.
+        remarks: warnings about incomplete runs are appended.
+
+    Returns:
+        The runs, in order.
 
     Raises:
         RecordingError: no run is recorded from its start.
     """
-    told = _Told(remarks)
+    collected = _Collector(remarks)
     take: dict[str, Callable[[Any], None]] = {
-        ORIGIN: told.origin,
-        POINT: told.change,
-        STATE: told.interval,
+        ORIGIN: collected.origin,
+        POINT: collected.change,
+        STATE: collected.interval,
     }
     for name, message in messages_of(path, namespace, tuple(take), remarks):
         take[name](message)
-    return told.runs(path, remarks)
+    return collected.runs(path, remarks)
 
 
-def without_gaps(run: Run, remarks: list[str]) -> list[Interval]:
-    """Intervals of a run with those between whose messages are missing, as far as they are known.
+def without_gaps(run: RecordedRun, remarks: list[str]) -> list[Interval]:
+    """Intervals of a run, with inferred intervals in place of missing messages.
 
-    These are taken to be like the next: `remarks` says where that cannot be, and the rest is lost.
+    An inferred interval has the length and settings of the next recorded one. Where that is
+    inconsistent, the result ends, with a warning in `remarks`.
     """
     whole: list[Interval] = []
     number, reached, stamp = run.intervals[0].number - 1, 0, run.origin.begins
@@ -84,8 +93,8 @@ def without_gaps(run: Run, remarks: list[str]) -> list[Interval]:
         length, missing = interval.end - interval.begin, interval.number - number - 1
         if missing * length != interval.begin - reached:
             remarks.append(
-                f"{missing} messages of {STATE} are missing before {reached / TICKS:g} s, and what "
-                "they told is not known: what follows cannot be simulated again"
+                f"{missing} messages of {STATE} are missing before {reached / TICKS:g} s, cannot "
+                "be inferred: the rest of the run cannot be simulated again"
             )
             break
         for n in range(1, missing + 1):
@@ -100,7 +109,17 @@ def without_gaps(run: Run, remarks: list[str]) -> list[Interval]:
 def messages_of(
     path: Path, namespace: str, names: tuple[str, ...], remarks: list[str]
 ) -> Iterator[tuple[str, Any]]:
-    """Messages of these topics in file order, each with the name of its topic."""
+    """Read messages of several topics in file order.
+
+    Args:
+        path: of the recording.
+        namespace: of the gearbox.
+        names: of the topics, without namespace.
+        remarks: warnings are appended.
+
+    Yields:
+        Name of the topic, and message.
+    """
     wanted = {f"{namespace}/{name}": name for name in names}
     repeats = Repeats()
     for file in files_of(path):
@@ -111,14 +130,14 @@ def messages_of(
             except MessageError as reason:
                 if not reason.topic.endswith(f"/{ORIGIN}"):
                     raise
-                remarks.append(f"{reason}; it is left out")  # other runs may have theirs
+                remarks.append(f"{reason}; it is skipped")  # other runs may have a valid origin
                 continue
             if found:
                 yield wanted[found[0]], found[1]
 
 
-class _Told:
-    """All that was told, before it is sorted into runs."""
+class _Collector:
+    """Collects messages, and assigns them to runs."""
 
     def __init__(self, remarks: list[str]) -> None:
         self._remarks = remarks
@@ -129,8 +148,8 @@ class _Told:
     def origin(self, message: Any) -> None:
         try:
             origin = read_origin(message.data)
-        except RecordingError as reason:  # other runs may have theirs
-            self._remarks.append(one_line(f"a message of {ORIGIN} is left out: {reason}", _LONGEST))
+        except RecordingError as reason:  # other runs may have a valid origin
+            self._remarks.append(one_line(f"a message of {ORIGIN} is skipped: {reason}", _LONGEST))
             return
         self._origins[origin.begins] = origin
 
@@ -159,7 +178,7 @@ class _Told:
             )
         )
 
-    def runs(self, path: Path, remarks: list[str]) -> list[Run]:
+    def runs(self, path: Path, remarks: list[str]) -> list[RecordedRun]:
         runs, skipped = self._started()
         if skipped:
             remarks.append(f"{skipped} intervals of a run whose start or origin is not recorded")
@@ -167,22 +186,22 @@ class _Told:
         runs = [run for run in runs if run.intervals]
         if not runs:
             raise RecordingError(
-                f"{path}: holds no run from its start with its origin ({ORIGIN}) and its changes, "
-                "so nothing can be simulated again; what begins later, by ~/start or ~/snapshot, "
-                "holds none"
+                f"{path}: has no run with its start, its origin ({ORIGIN}) and its changes, so "
+                "nothing can be simulated again; recordings started later by ~/start or ~/snapshot "
+                "have no start of a run"
             )
         return runs
 
-    def _started(self) -> tuple[list[Run], int]:
-        """Runs that are told from their start, and the number of intervals of others."""
-        runs: list[Run] = []
+    def _started(self) -> tuple[list[RecordedRun], int]:
+        """Runs that are recorded from their start, and the number of intervals of others."""
+        runs: list[RecordedRun] = []
         begins = sorted(self._origins)
         skipped, before, run = 0, 0, None
         for interval in self._intervals:
-            if interval.begin == 0:  # the newest origin since the interval before
+            if interval.begin == 0:  # the newest origin since the previous interval
                 place = bisect_right(begins, interval.stamp)
                 known = place and begins[place - 1] >= before
-                run = Run(self._origins[begins[place - 1]]) if known else None
+                run = RecordedRun(self._origins[begins[place - 1]]) if known else None
                 runs += [run] if run else []
             if run is None:
                 skipped += 1
@@ -191,8 +210,8 @@ class _Told:
             before = interval.stamp
         return runs, skipped
 
-    def _share_changes(self, runs: list[Run], remarks: list[str]) -> None:
-        """Give each run its changes: stamps never go back, so they tell which is whose."""
+    def _share_changes(self, runs: list[RecordedRun], remarks: list[str]) -> None:
+        """Assign the changes to runs by their stamps, which never decrease."""
         begins = [run.origin.begins for run in runs]
         for change in self._changes:
             if place := bisect_right(begins, change.stamp):
@@ -201,7 +220,7 @@ class _Told:
             if after.number != before.number + 1:
                 remarks.append(
                     f"{after.number - before.number - 1} messages of {POINT} are missing: "
-                    f"from {before.time:g} s on, that run cannot be simulated again"
+                    f"after {before.time:g} s, that run cannot be simulated again"
                 )
                 _cut(runs, before, after)
 
@@ -211,7 +230,7 @@ def _or(value: float, default: float) -> float:
 
 
 def nanoseconds(ticks: int) -> int:
-    """A time of the clock's ticks in [ns]."""
+    """Convert ticks of simulated time to [ns]."""
     return round(ticks * 1_000_000_000 / TICKS)
 
 
@@ -220,8 +239,8 @@ def stamp_of(message: Any) -> int:
     return int(message.header.stamp.sec) * 1_000_000_000 + int(message.header.stamp.nanosec)
 
 
-def _cut(runs: list[Run], before: Change, after: Change) -> None:
-    """Forget what may have followed from changes that are missing between two others."""
+def _cut(runs: list[RecordedRun], before: Change, after: Change) -> None:
+    """Remove intervals that may depend on changes missing between two others."""
     for run in runs:
         if run.origin.begins < after.stamp:
             run.intervals = [kept for kept in run.intervals if kept.stamp <= before.stamp]

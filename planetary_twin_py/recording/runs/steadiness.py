@@ -1,4 +1,4 @@
-"""Where a recorded run stays at one operating point and has settled there."""
+"""Parts of a recorded run with a constant operating point, after settling."""
 
 from __future__ import annotations
 
@@ -11,23 +11,28 @@ from ...twin import TICKS
 from ..container.records import RecordingError
 from ..ros2.namespaces import choose_namespace
 from ..ros2.tape import Tape
-from .schedule import Interval, Run, read_runs
+from .schedule import Interval, RecordedRun, read_runs
 
-SETTLING = 4.0  # periods of the speed loop after a change, beside the ramp to a new speed
+SETTLING = 4.0  # periods of the speed loop after a change, in addition to the speed ramp
 
 
 def steady_span(path: Path, namespace: str | None = None) -> tuple[float, float] | None:
-    """From when to when [s] a recording stays longest at one operating point; None: nowhere."""
+    """Start and end [s] of the longest settled part of a recording; None if there is none.
+
+    Args:
+        path: of the recording.
+        namespace: of the gearbox; None if there is only one.
+    """
     try:
         runs = read_runs(path, choose_namespace(Tape(path).topics, namespace, path), [])
-    except RecordingError:  # nothing in it tells from when on an operating point holds
+    except RecordingError:  # the times of its operating points are unknown
         return None
     _, part = longest_steady_part(runs)
     return (part[0].begin / TICKS, part[-1].end / TICKS) if part else None
 
 
-def longest_steady_part(runs: list[Run]) -> tuple[Run, list[Interval]]:
-    """The longest stretch of any run at one operating point, its settling left out, if any."""
+def longest_steady_part(runs: list[RecordedRun]) -> tuple[RecordedRun, list[Interval]]:
+    """The longest settled part of any run at one operating point, with its run; may be empty."""
     return max(
         ((run, part) for run in runs for part in steady_parts(run)),
         key=lambda found: length(found[1]),
@@ -35,29 +40,29 @@ def longest_steady_part(runs: list[Run]) -> tuple[Run, list[Interval]]:
     )
 
 
-def steady_parts(run: Run) -> Iterator[list[Interval]]:
-    """Intervals from each change, settling left out, to the next."""
+def steady_parts(run: RecordedRun) -> Iterator[list[Interval]]:
+    """Intervals from each change, after settling, to the next change."""
     for place, change in enumerate(run.changes):
         later = run.changes[place + 1].time if place + 1 < len(run.changes) else math.inf
         yield between(run, change.time + settling(run, place), later)
 
 
-def settling(run: Run, place: int) -> float:
-    """Time [s] after a change in which the speed loop still moves."""
+def settling(run: RecordedRun, place: int) -> float:
+    """Settling time [s] of the speed loop after a change."""
     control = run.origin.scene.drive.speed_control
     values = run.changes[place].values
     if place:
         before = run.changes[place - 1].values
     elif control.start_speed is None:
-        return 0.0  # a run starts in steady running
+        return 0.0  # a run starts in a steady state
     else:
         before = values | {"input_speed": control.start_speed}
     ramp = max(abs(values[k] - before[k]) for k in ("input_speed", "second_input_speed"))
     return ramp / control.slew_rate + SETTLING / bandwidth(run.origin.scene)
 
 
-def between(run: Run, begin: float, end: float) -> list[Interval]:
-    """Intervals of a run that lie within `begin` and `end` [s]."""
+def between(run: RecordedRun, begin: float, end: float) -> list[Interval]:
+    """Intervals of a run between `begin` and `end` [s]."""
     ticks = round(begin * TICKS), end * TICKS
     return [i for i in run.intervals if ticks[0] <= i.begin and i.end <= ticks[1]]
 

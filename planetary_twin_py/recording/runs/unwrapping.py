@@ -1,4 +1,4 @@
-"""Continuous angles from recorded ones, which are modulo a turn."""
+"""Continuous angles from recorded angles modulo a turn."""
 
 from __future__ import annotations
 
@@ -11,7 +11,16 @@ _TURN = 2.0 * np.pi
 def unwrap(
     time: NDArray[np.float64], angle: NDArray[np.float64], speed: NDArray[np.float64]
 ) -> NDArray[np.float64]:
-    """Continuous angle [rad] from `angle` modulo a turn and mean `speed` [rad/s] before each."""
+    """Unwrap an angle, also if it advances by several turns between samples.
+
+    Args:
+        time: (n,) [s].
+        angle: (n,) modulo a turn [rad].
+        speed: (n,) mean speed before each sample [rad/s].
+
+    Returns:
+        Continuous angle (n,) [rad].
+    """
     expected = speed[1:] * np.diff(time)
     step = np.diff(angle)
     turns = np.rint((expected - step) / _TURN)

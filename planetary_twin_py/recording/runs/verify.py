@@ -1,4 +1,4 @@
-"""Simulates again what is recorded, and compares every value."""
+"""Simulates a recording again and compares every value."""
 
 from __future__ import annotations
 
@@ -17,14 +17,14 @@ from ..container.records import RecordingError
 from ..ros2.fields import joint_fields_like, state_fields, waveform_fields
 from ..ros2.topics import JOINTS, STATE, WAVEFORM
 from .origin import Measured, makers_here
-from .resimulation import Again
-from .schedule import Interval, Run, messages_of, read_runs
+from .resimulation import Resimulation
+from .schedule import Interval, RecordedRun, messages_of, read_runs
 
-BOUND = 10.0  # times the tolerance, by which other machines may differ; each keeps within 3
+BOUND = 10.0  # allowed difference between machines in tolerances; each has errors of up to 3
 
 
 class Difference(NamedTuple):
-    """A value that is not as it was simulated again."""
+    """A recorded value that differs from the simulated one."""
 
     time: float  # simulated [s], of the end of its interval
     topic: str
@@ -35,58 +35,66 @@ class Difference(NamedTuple):
 
 
 @dataclass
-class Verdict:
-    """What a comparison has found; `remarks` says in lines what could not be compared."""
+class Comparison:
+    """Result of a comparison; `remarks` are warnings about parts that were not compared."""
 
     same_makers: bool = True
-    """Whether the recording comes from the same kernels on the same kind of machine."""
+    """Whether the same kernels on the same type of machine made the recording."""
     messages: dict[str, int] = field(default_factory=dict)
-    """How many were compared, by topic."""
+    """Number of compared messages by topic."""
     left_out: int = 0
-    """How many were read and could not be compared."""
+    """Number of messages that could not be compared."""
     not_recorded: int = 0
-    """Intervals on the way that the recording has no state of."""
+    """Number of intervals without a recorded state."""
     values: int = 0
     first_difference: Difference | None = None
     largest: float = 0.0
-    """Largest difference of a value, relative to the largest of its array times the tolerance."""
+    """Largest difference, divided by the largest value of its array and by the tolerance."""
     remarks: list[str] = field(default_factory=list)
     ledger: str | None = None
-    """Where the energy ledger of what was compared does not close: what that means."""
+    """Warning if the energy ledger of the compared intervals does not balance."""
     accuracy: list[str] = field(default_factory=list)
-    """Figures of what was compared that the tolerance does not bound, a line each."""
+    """Warnings about values that are less accurate than the tolerance, a line each."""
 
     @property
     def identical(self) -> bool:
-        """Whether all that is in the file was compared, and not a bit differs."""
+        """Whether everything was compared and is identical bit for bit."""
         return self.first_difference is None and not self.remarks
 
     @property
     def within_bound(self) -> bool:
-        """Whether the differences are no larger than two machines may show."""
+        """Whether the differences are within the bound for different machines."""
         return self.largest <= BOUND and not self.remarks
 
 
 def verify(
     path: Path, namespace: str, progress: Callable[[float], None] = lambda time: None
-) -> Verdict:
-    """Simulate again the runs of the gearbox in `namespace` and compare all that was published.
+) -> Comparison:
+    """Simulate the runs of a gearbox again and compare all published values.
 
-    `progress` hears the simulated time [s] up to which all is compared.
+    Args:
+        path: of the recording.
+        namespace: of the gearbox.
+        progress: called with the simulated time [s] up to which everything is compared.
+
+    Returns:
+        The result.
+
     Raises:
-        RecordingError: nothing in the recording can be simulated again, or it was measured.
+        RecordingError: nothing can be simulated again, or the recording was measured.
     """
-    verdict = Verdict()
-    runs = read_runs(path, namespace, verdict.remarks)
+    result = Comparison()
+    runs = read_runs(path, namespace, result.remarks)
     _refuse_measured(path, runs)
     here = makers_here()
-    verdict.same_makers = all(run.origin.makers == here for run in runs)
-    verdict.not_recorded = sum(_missing(run) for run in runs)
-    again, strays, balance, loosest = Again(runs, verdict.remarks), Counter[str](), Balance(), 0.0
+    result.same_makers = all(run.origin.makers == here for run in runs)
+    result.not_recorded = sum(_missing(run) for run in runs)
+    again = Resimulation(runs, result.remarks)
+    strays, balance, loosest = Counter[str](), Balance(), 0.0
     course = Course()
     for topic, message in messages_of(path, namespace, (STATE, WAVEFORM, JOINTS), []):
         if found := again.interval_of(topic, message):
-            _compare(verdict, topic, message, *found)
+            _compare(result, topic, message, *found)
             if topic == STATE:
                 balance = balance.joined(balance_of_window(found[1]))
                 course = course.joined(found[1].course)
@@ -94,47 +102,47 @@ def verify(
             progress(found[1].end)
         else:
             strays[topic] += 1
-    verdict.ledger = ledger_warning(balance, loosest)
-    verdict.accuracy = list(course_warnings(course))
-    verdict.left_out = strays.total()
-    verdict.remarks += [
+    result.ledger = ledger_warning(balance, loosest)
+    result.accuracy = list(course_warnings(course))
+    result.left_out = strays.total()
+    result.remarks += [
         f"{count} messages of {topic} belong to no interval that is simulated again"
         for topic, count in strays.items()
     ]
-    return verdict
+    return result
 
 
-def _missing(run: Run) -> int:
+def _missing(run: RecordedRun) -> int:
     """Count the intervals between a run's first and last that are not recorded."""
     first, last = run.intervals[0], run.intervals[-1]
     return last.number - first.number + 1 - len(run.intervals)
 
 
-def _refuse_measured(path: Path, runs: list[Run]) -> None:
-    """What no model has computed is not the same again, to the last bit or within a bound."""
+def _refuse_measured(path: Path, runs: list[RecordedRun]) -> None:
+    """Raise `RecordingError` for measured runs, which a simulation cannot reproduce."""
     for run in runs:
         makers = run.origin.makers
         if isinstance(makers, Measured):
             raise RecordingError(
-                f"{path}: was measured (it comes from {makers.measured}) and not simulated, so "
-                "there is nothing to be the same; `fit` compares it with the model"
+                f"{path}: was measured (imported from {makers.measured}), not simulated, so it "
+                "cannot be verified; `fit` compares it with the model"
             )
 
 
 def _compare(
-    verdict: Verdict, topic: str, message: Any, interval: Interval, window: Window
+    result: Comparison, topic: str, message: Any, interval: Interval, window: Window
 ) -> None:
-    """Count a message, and what of it differs."""
-    verdict.messages[topic] = verdict.messages.get(topic, 0) + 1
+    """Compare a message, and add the result."""
+    result.messages[topic] = result.messages.get(topic, 0) + 1
     for name, simulated in _expected(topic, message, window).items():
         recorded = np.atleast_1d(getattr(message, name))
         simulated = np.atleast_1d(simulated).astype(recorded.dtype)
-        verdict.values += recorded.size
+        result.values += recorded.size
         if recorded.tobytes() == simulated.tobytes():
             continue
-        verdict.largest = max(verdict.largest, _distance(recorded, simulated) / interval.tolerance)
-        if verdict.first_difference is None:
-            verdict.first_difference = _first(topic, name, window.end, recorded, simulated)
+        result.largest = max(result.largest, _distance(recorded, simulated) / interval.tolerance)
+        if result.first_difference is None:
+            result.first_difference = _first(topic, name, window.end, recorded, simulated)
 
 
 def _expected(topic: str, message: Any, window: Window) -> Mapping[str, Any]:
@@ -148,7 +156,7 @@ def _expected(topic: str, message: Any, window: Window) -> Mapping[str, Any]:
 
 
 def _distance(recorded: np.ndarray, simulated: np.ndarray) -> float:
-    """Largest difference, relative to the largest value; infinite where only one is a number."""
+    """Largest difference/largest value; infinite if only one of two values is finite."""
     if recorded.shape != simulated.shape:
         return float("inf")
     if not np.array_equal(np.isfinite(recorded), np.isfinite(simulated)):

@@ -1,6 +1,6 @@
-"""Every sample of the vibration: its range at once, the samples of a stretch when they are needed.
+"""Samples of the vibration: ranges in memory, samples read from the file on demand.
 
-A minute holds 18 million samples of each quantity, so a long recording is not held whole.
+A minute has 18 million samples of each quantity, so a long recording does not fit into memory.
 """
 
 from __future__ import annotations
@@ -18,8 +18,8 @@ from ..ros2.layout import LayoutError, Layouts
 
 QUANTITIES = ("dte", "mesh_force", "friction")
 Values = dict[str, NDArray[np.float32]]
-Stretch = tuple[float, float]
-"""Begin and end in simulated time [s]."""
+TimeSpan = tuple[float, float]
+"""Start and end in simulated time [s]."""
 
 
 @dataclass
@@ -39,11 +39,11 @@ class Waveform:
 
 @dataclass
 class Ranges:
-    """Smallest and largest sample of each recorded block.
+    """Smallest and largest sample of each recorded block, without NaN.
 
-    `time` [s] and `stamp` [ns] (blocks,) are those of its first sample, `period` [s] is from one
-    sample to the next; `lowest[name]` and `highest[name]` (blocks, meshes), for "dte" [m],
-    "mesh_force" [N] and "friction" [N]; a sample that is NaN does not count.
+    `time` [s] and `stamp` [ns] (blocks,) are those of the first sample, `period` [s] is the sample
+    period; `lowest[name]` and `highest[name]` have the shape (blocks, meshes), for "dte" [m],
+    "mesh_force" [N] and "friction" [N].
     """
 
     time: NDArray[np.float64]
@@ -54,7 +54,7 @@ class Ranges:
 
 
 class Source(NamedTuple):
-    """A topic's messages in a file, and how they are read."""
+    """The messages of a topic in a file, and their layouts."""
 
     file: Path
     channel: int
@@ -62,10 +62,10 @@ class Source(NamedTuple):
     layouts: Layouts
 
     def arrays(self, messages: list[bytes]) -> Iterator[NDArray[Any]]:
-        """Structured arrays of messages, in their order.
+        """Structured arrays of messages, in order.
 
         Raises:
-            RecordingError: one is not what its definition says.
+            RecordingError: a message does not match its definition.
         """
         try:
             yield from self.layouts.arrays(messages)
@@ -74,7 +74,7 @@ class Source(NamedTuple):
 
 
 class _Batch(NamedTuple):
-    """Of messages in a row in one section: where it is, and what is kept of them."""
+    """Successive messages in one section: its position, and their times and ranges."""
 
     source: Source
     place: int
@@ -88,26 +88,26 @@ class _Batch(NamedTuple):
 
 
 class Samples(Protocol):
-    """The recorded blocks of one gearbox, wherever they are."""
+    """The recorded blocks of one gearbox, in memory or in a file."""
 
     def ranges(self) -> Ranges | None:
-        """Of all blocks; None without any."""
+        """Ranges of all blocks; None if there are none."""
 
     def waveform(self, begin: float, end: float) -> Waveform | None:
-        """The samples of all blocks that touch the stretch of simulated time [s]; None if none."""
+        """Samples of all blocks that overlap the time span [s]; None if there are none."""
 
 
 @dataclass
-class Held:
+class InMemory:
     """Blocks in memory."""
 
-    held: Waveform | None
+    samples: Waveform | None
 
     def ranges(self) -> Ranges | None:
-        """Of all blocks; None without any."""
-        if self.held is None:
+        """Ranges of all blocks; None if there are none."""
+        if self.samples is None:
             return None
-        wave, block = self.held, self.held.block
+        wave, block = self.samples, self.samples.block
         lowest, highest = (
             {name: reduce.reduceat(getattr(wave, name), block, axis=0) for name in QUANTITIES}
             for reduce in (np.fmin, np.fmax)
@@ -117,8 +117,8 @@ class Held:
         return Ranges(wave.time[block], wave.stamp[block], period, lowest, highest)
 
     def waveform(self, begin: float, end: float) -> Waveform | None:
-        """The samples of all blocks that touch the stretch of simulated time [s]; None if none."""
-        wave = self.held
+        """Samples of all blocks that overlap the time span [s]; None if there are none."""
+        wave = self.samples
         if wave is None:
             return None
         counts = np.diff(np.append(wave.block, len(wave.time)))
@@ -139,16 +139,16 @@ class Blocks:
         self._batches: list[_Batch] = []
 
     def take(self, source: Source, place: int, rows: NDArray[Any]) -> None:
-        """Remember messages that the section of a file at `place` holds.
+        """Add messages from the section at position `place` of a file.
 
         Raises:
-            RecordingError: their samples are not as many as they say.
+            RecordingError: samples are missing in a message.
         """
         rows = rows[rows["samples"] > 0]
         if not len(rows):
             return
-        told = 2 * rows["planets"].astype(int) * rows["samples"]
-        if any((told != rows.dtype[name].shape[0]).any() for name in QUANTITIES):
+        expected = 2 * rows["planets"].astype(int) * rows["samples"]
+        if any((expected != rows.dtype[name].shape[0]).any() for name in QUANTITIES):
             raise RecordingError(f"{source.file}: {source.topic}: samples are missing in a message")
         samples = [_samples(rows, name) for name in QUANTITIES]
         last = rows["start_time"] + (rows["samples"] - 1) * rows["sample_period"]
@@ -167,7 +167,7 @@ class Blocks:
         )
 
     def ranges(self) -> Ranges | None:
-        """Of all blocks; None without any."""
+        """Ranges of all blocks; None if there are none."""
         if not self._batches:
             return None
         ends = [
@@ -184,11 +184,11 @@ class Blocks:
         return Ranges(time, stamp, period, *ends)
 
     def waveform(self, begin: float, end: float) -> Waveform | None:
-        """The samples of all blocks that touch the stretch of simulated time [s]; None if none."""
+        """Samples of all blocks that overlap the time span [s]; None if there are none."""
         return waveform_of(list(self._read(begin, end)))
 
     def _read(self, begin: float, end: float) -> Iterator[NDArray[Any]]:
-        """The messages again whose blocks touch the stretch."""
+        """Read the messages whose blocks overlap the time span again."""
         wanted = {
             (batch.source, batch.place): None
             for batch in self._batches
@@ -234,7 +234,7 @@ def waveform_of(messages: Iterable[NDArray[Any]]) -> Waveform | None:
 
 
 def joined(parts: Sequence[Waveform]) -> Waveform | None:
-    """Parts after one another; None if there are none."""
+    """Concatenate parts; None if there are none."""
     if not parts:
         return None
     before = np.cumsum([0, *(len(part.time) for part in parts)])
@@ -251,5 +251,5 @@ def stamps(rows: NDArray[Any]) -> NDArray[np.int64]:
 
 
 def _samples(rows: NDArray[Any], name: str) -> NDArray[np.float32]:
-    """Of messages that lie alike: (messages, meshes, samples)."""
+    """Samples of messages with the same layout, shape (messages, meshes, samples)."""
     return np.asarray(rows[name].reshape(len(rows), 2 * int(rows["planets"][0]), -1))

@@ -1,4 +1,4 @@
-"""What would have been: a recorded run simulated again with other values from an instant on."""
+"""What-if: simulates a recorded run again with other values from a given time."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from .branch import Branch, branched
 from .compose import Composer
 from .origin import Measured
 from .reader import SCENE_ATTACHMENT
-from .schedule import Run, messages_of, read_runs, without_gaps
+from .schedule import RecordedRun, messages_of, read_runs, without_gaps
 from .written import write_run
 
 BRANCH_ATTACHMENT = "branch.yaml"
@@ -25,15 +25,15 @@ BRANCH_ATTACHMENT = "branch.yaml"
 
 @dataclass
 class Made:
-    """What was written; `remarks` says in lines what of the recording could not be used."""
+    """The new recording; `remarks` are warnings about unusable parts of the old one."""
 
     file: Path
     begins: float
-    """Simulated instant from which the settings hold: where an interval began [s]."""
+    """Simulated time from which the settings apply, at the start of an interval [s]."""
     end: float
-    """Of the run [s]."""
+    """End of the run [s]."""
     scene: Scene
-    """Of the new run at its start, where the settings hold from 0."""
+    """Scene at the start of the new run."""
     remarks: list[str] = field(default_factory=list)
 
 
@@ -44,24 +44,33 @@ def resimulate(
     folder: Path,
     progress: Callable[[float, float], None] = lambda time, end: None,
 ) -> Made:
-    """Simulate a run of the gearbox in `namespace` again, and write it into a new `folder`.
+    """Simulate a recorded run again with changes, and record it.
 
-    Up to the branch the messages are as recorded, on the machine that recorded them to the last
-    bit; a run that was measured is simulated there, too. `progress` hears the simulated time
-    reached, and that of the end [s].
+    On the machine that made the recording, the messages before the branch are identical bit for
+    bit. A measured run is simulated there, too.
+
+    Args:
+        path: of the recording.
+        namespace: of the gearbox.
+        branch: the changes.
+        folder: of the new recording.
+        progress: called with the simulated time and the end [s].
+
+    Returns:
+        The new recording.
 
     Raises:
-        RecordingError: nothing in the recording can be simulated again.
-        ValueError: a setting, the start, the duration or the run cannot be.
+        RecordingError: nothing can be simulated again.
+        ValueError: a setting, the start, the duration or the run is out of range.
         FileExistsError: `folder` exists.
-        OSError: it cannot be written.
+        OSError: `folder` cannot be written.
     """
     remarks: list[str] = []
     recorded = _chosen(read_runs(path, namespace, remarks), branch.run, remarks)
     recorded = replace(recorded, intervals=without_gaps(recorded, remarks))
     begins, run = branched(recorded, branch)
     if isinstance(recorded.origin.makers, Measured):
-        remarks.append("was measured: what comes before the branch is simulated, too")
+        remarks.append("was measured: the part before the branch is simulated, too")
     _, state = next(messages_of(path, namespace, (STATE,), []))
     bag = BagWriter(folder)
     end = run.intervals[-1].end / TICKS
@@ -70,15 +79,15 @@ def resimulate(
         composer = Composer(bag, Tape(path).topics.values(), namespace, state.header.frame_id)
         for time in write_run(composer, run):
             progress(time, end)
-    finally:  # what is there is true, however far it goes
+    finally:  # an incomplete recording is valid, too
         bag.close()
     return Made(bag.file, begins, end, run.origin.scene, remarks)
 
 
-def _chosen(runs: list[Run], number: int | None, remarks: list[str]) -> Run:
+def _chosen(runs: list[RecordedRun], number: int | None, remarks: list[str]) -> RecordedRun:
     if number is None:
         if len(runs) > 1:
-            remarks.append(f"holds {len(runs)} runs, and the last is simulated: --run chooses")
+            remarks.append(f"has {len(runs)} runs, the last is simulated; use --run to select")
         return runs[-1]
     if not 1 <= number <= len(runs):
         raise ValueError(f"run = {number}: must be within 1 and {len(runs)}")
@@ -86,8 +95,8 @@ def _chosen(runs: list[Run], number: int | None, remarks: list[str]) -> Run:
 
 
 def _attach(bag: BagWriter, path: Path, scene: Scene, branch: Branch, begins: float) -> None:
-    """Say beside the messages what the gearbox is, and that this is no recording of a live one."""
-    told = {
+    """Attach the scene, and the branch, which marks the recording as simulated."""
+    content_of_branch = {
         "recording": path.name,
         "run": branch.run,
         "from": begins,
@@ -95,7 +104,7 @@ def _attach(bag: BagWriter, path: Path, scene: Scene, branch: Branch, begins: fl
     }
     for name, content in (
         (SCENE_ATTACHMENT, scene.model_dump(mode="json")),
-        (BRANCH_ATTACHMENT, told),
+        (BRANCH_ATTACHMENT, content_of_branch),
     ):
         text = yaml.safe_dump(content, sort_keys=False)
         bag.attach(name, text.encode(), "application/yaml")

@@ -1,4 +1,4 @@
-"""A run that is simulated and written, interval by interval."""
+"""Simulates a run and writes it, interval by interval."""
 
 from __future__ import annotations
 
@@ -9,13 +9,21 @@ from ...scene import OperatingPoint
 from ...twin import TICKS
 from .compose import Composer
 from .resimulation import steps
-from .schedule import Interval, Run, nanoseconds
+from .schedule import Interval, RecordedRun, nanoseconds
 
-_PAUSE = 1_000_000_000  # [ns] by which stamps run ahead of simulated time only where it stood
+_PAUSE = 1_000_000_000  # [ns], larger differences of stamps and simulated time are pauses
 
 
-def write_run(composer: Composer, run: Run) -> Iterator[float]:
-    """Simulate `run` and write all that it shows; yields the time reached [s]."""
+def write_run(composer: Composer, run: RecordedRun) -> Iterator[float]:
+    """Simulate `run` and write its messages.
+
+    Args:
+        composer: writes the messages.
+        run: origin, intervals and changes.
+
+    Yields:
+        Simulated time after each interval [s].
+    """
     composer.begin(run.origin)
     stamp = run.origin.begins
     scene = run.origin.scene.operating_point.model_dump()
@@ -29,9 +37,9 @@ def write_run(composer: Composer, run: Run) -> Iterator[float]:
 
 
 def _stamp_within(interval: Interval, before: int, times: Any) -> int:
-    """ROS time [ns] of the first of the samples at `times` [s], as the nodes tell it.
+    """ROS time [ns] of the first of the samples at `times` [s], as in the nodes.
 
-    `before` is that of the end of the interval before.
+    `before` is the ROS time of the end of the previous interval [ns].
     """
     if not len(times):
         return interval.stamp

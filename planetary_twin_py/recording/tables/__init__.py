@@ -1,1 +1,1 @@
-"""Recordings as tables for other tools, and tables of measurements as recordings."""
+"""Exports recordings as tables, and imports tables of measurements as recordings."""

@@ -1,4 +1,4 @@
-"""A recording as tables for other tools; holds only a batch of it in memory."""
+"""Exports a recording as tables, in batches."""
 
 from __future__ import annotations
 
@@ -17,36 +17,42 @@ Progress = Callable[[int, int], None]
 
 
 class Export(NamedTuple):
-    """What to write.
+    """Options of an export.
 
-    `out` is a folder, for a file per topic; or a file with the ending of a format, for one topic.
+    `out` is a folder, for a file per topic; or a file with the suffix of a format, for one topic.
     """
 
     out: Path
     format: str | None = None
-    """Of `FORMATS`; without it the ending of `out` tells it, or Parquet."""
+    """One of `FORMATS`; None uses the suffix of `out`, or Parquet."""
     topics: Sequence[str] = ()
-    """Of `TABLES`; all that are recorded without any."""
+    """Some of `TABLES`; if empty, all recorded ones."""
     namespace: str | None = None
 
 
 class Exported(NamedTuple):
-    """Files with the number of their rows; `remarks` says in lines what could not be read."""
+    """Files with their numbers of rows; `remarks` are warnings about unreadable parts."""
 
     rows: dict[Path, int]
     remarks: list[str]
 
 
 def export(path: Path, chosen: Export, progress: Progress = lambda done, length: None) -> Exported:
-    """Write the tables of the recording at `path`.
+    """Write the tables of a recording.
 
-    `progress` hears the ROS time that is done, and the whole [ns].
+    Args:
+        path: of the recording.
+        chosen: options.
+        progress: called with the completed and the total ROS time [ns].
+
+    Returns:
+        Files and warnings.
 
     Raises:
         RecordingError: there is nothing to read.
-        ValueError: format or topics cannot be.
-        FileExistsError: a file is there already.
-        OSError: one cannot be written.
+        ValueError: format or topics are unknown.
+        FileExistsError: a file exists.
+        OSError: a file cannot be written.
     """
     kind, single = _format(chosen)
     tape = Tape(path)
@@ -54,12 +60,13 @@ def export(path: Path, chosen: Export, progress: Progress = lambda done, length:
     names = _topics(tape, namespace, chosen.topics)
     if single and len(names) > 1:
         raise ValueError(
-            f"out = {chosen.out}: one file, but topics = {','.join(names)}; choose one, or a folder"
+            f"out = {chosen.out}: a file takes one topic, not {','.join(names)}; use --topics, or "
+            "give a folder"
         )
     files = {name: chosen.out if single else chosen.out / f"{name}.{kind}" for name in names}
     for file in files.values():
         if file.exists():
-            raise FileExistsError(f"{file}: exists; choose a free name")
+            raise FileExistsError(f"{file}: already exists; choose another name")
         file.parent.mkdir(parents=True, exist_ok=True)
     writers = {
         name: _Writer(Table(name, tape.topics[f"{namespace}/{name}"].definition), file, kind)
@@ -72,7 +79,7 @@ def export(path: Path, chosen: Export, progress: Progress = lambda done, length:
             writers[name].add(message)
             first = first or stamp_of(message)
             progress(stamp_of(message) - first, tape.length)
-    finally:  # what is written is true, however far it goes
+    finally:  # incomplete tables are valid, too
         for writer in writers.values():
             writer.close()
     rows = {writer.path: writer.rows for writer in writers.values() if writer.rows}
@@ -80,7 +87,7 @@ def export(path: Path, chosen: Export, progress: Progress = lambda done, length:
 
 
 class _Writer:
-    """A table and its file, which begins with the first rows: they tell the columns."""
+    """A table and its file, which is created with the first rows, because they have the columns."""
 
     def __init__(self, table: Table, path: Path, kind: str) -> None:
         self.path = path
@@ -107,7 +114,7 @@ class _Writer:
 
 
 def _format(chosen: Export) -> tuple[str, bool]:
-    """The format, and whether all goes into one file."""
+    """The format, and whether the output is a single file."""
     ending = chosen.out.suffix.removeprefix(".")
     if not chosen.format and ending and ending not in FORMATS:
         raise ValueError(
@@ -121,9 +128,9 @@ def _format(chosen: Export) -> tuple[str, bool]:
 
 
 def _topics(tape: Tape, namespace: str, wanted: Sequence[str]) -> list[str]:
-    """Topics to write: those `wanted`, or all there are."""
+    """Topics to write: those `wanted`, or all."""
     there = [name for name in TABLES if f"{namespace}/{name}" in tape.topics]
     for name in wanted:
         if name not in there:
-            raise RecordingError(f"topics = {name}: must be of {', '.join(there)}")
+            raise RecordingError(f"topics = {name}: must be one of {', '.join(there)}")
     return list(dict.fromkeys(wanted)) or there

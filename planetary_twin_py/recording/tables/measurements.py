@@ -1,4 +1,4 @@
-"""A table measured on a rig: one row per interval, in evenly spaced steps, its columns in SI."""
+"""Reads a table of measurements: one row per interval, equally spaced, columns in SI."""
 
 from __future__ import annotations
 
@@ -19,32 +19,32 @@ from ...units import column_to_si
 
 Array = NDArray[np.float64]
 
-TIME = ("time", "simulated_time")  # of the end of a row's interval: a rig's word, and a recording's
+TIME = ("time", "simulated_time")  # end of the interval of a row: names in tables and recordings
 LABEL = "operating_point"
 UNREAD = ("stamp", "sequence", "interval", "planets")
-"""Columns of an export that count messages; an import counts its own."""
+"""Columns of an export that an import ignores, because it numbers its own messages."""
 _LONGEST_REASON = 200  # characters
-UNEVEN = 0.1  # of a step, by which a time stamp may be off: loggers round them
+UNEVEN = 0.1  # allowed relative deviation of a step, because loggers round time stamps
 _NAMES = (
-    "; a column has the name of a field of gearbox_state or operating_point, with a unit in "
-    "brackets where it is not SI"
+    "; a heading must be a field of gearbox_state or operating_point, with a unit in brackets "
+    "unless it is SI"
 )
 _HEADING = re.compile(r"(.*?)\s*(?:\[(.*)\])?")
 
 
 class Measurements(NamedTuple):
-    """What a table holds."""
+    """Contents of a table."""
 
     step: float
-    """Length of the interval of each row, at whose end its time stamp stands [s]."""
+    """Length of the interval of each row, which ends at its time stamp [s]."""
     columns: dict[str, Array]
-    """By name, each (rows,) in SI; NaN where nothing was measured."""
+    """By name, each (rows,) in SI; NaN for missing values."""
     labels: Sequence[Any] | None
-    """What the column `operating_point` says in each row; None without one."""
+    """Values of the column `operating_point`; None if there is no such column."""
 
     @property
     def rows(self) -> int:
-        """How many."""
+        """Number of rows."""
         return len(next(iter(self.columns.values())))
 
 
@@ -53,11 +53,14 @@ def read_measurements(path: Path, units: Mapping[str, str]) -> Measurements:
 
     Args:
         path: of the file.
-        units: SI unit of every column there may be, by name.
+        units: SI unit of every allowed column, by name.
+
+    Returns:
+        The measurements in SI.
 
     Raises:
-        ValueError: a heading, a value or a time stamp cannot be.
-        OSError: it cannot be read.
+        ValueError: a heading, a value or a time stamp is invalid.
+        OSError: the file cannot be read.
     """
     table = _read(path)
     found: dict[str, pa.ChunkedArray] = {}
@@ -77,7 +80,7 @@ def read_measurements(path: Path, units: Mapping[str, str]) -> Measurements:
     }
     step = _step(columns.pop(TIME[0]))
     if not columns:
-        raise ValueError(f"{path}: holds nothing that was measured beside the time")
+        raise ValueError(f"{path}: has no column besides the time")
     return Measurements(step, columns, labels)
 
 
@@ -98,7 +101,7 @@ def _read(path: Path) -> pa.Table:
 
 
 def _read_csv(stream: BinaryIO) -> pa.Table:
-    """Separated by commas, semicolons or tabulators; decimal commas where none separates."""
+    """Read CSV separated by commas, semicolons or tabs; decimal commas unless commas separate."""
     text = stream.read().decode()
     stream.seek(0)
     heading, _, body = text.partition("\n")
@@ -119,9 +122,9 @@ _READERS: dict[str, Callable[[BinaryIO], pa.Table]] = {
 
 
 def _named(heading: str, units: Mapping[str, str]) -> tuple[str, str | None]:
-    """Name and unit that a heading tells; no unit where it tells none."""
+    """Name and unit in a heading; None without a unit."""
     parts = _HEADING.fullmatch(heading.strip())
-    assert parts is not None  # whatever is no unit is a name
+    assert parts is not None  # the pattern matches every text
     name, unit = parts[1], parts[2]
     if name in TIME:
         return TIME[0], unit
@@ -154,7 +157,7 @@ def _numbers(name: str, column: pa.ChunkedArray) -> Array:
     """Values (rows,) of a column, NaN where it is empty."""
     try:
         return np.asarray(column.cast(pa.float64()).to_numpy(), dtype=float)
-    except (pa.ArrowInvalid, pa.ArrowNotImplementedError):  # value by value, to tell of which
+    except (pa.ArrowInvalid, pa.ArrowNotImplementedError):  # value by value, to name the row
         return np.array([_number(name, k, value) for k, value in enumerate(column.to_pylist(), 1)])
 
 
@@ -166,19 +169,19 @@ def _number(name: str, row: int, value: Any) -> float:
 
 
 def _step(time: Array) -> float:
-    """The step of time stamps (rows,) [s] that follow one another evenly."""
+    """The step of equally spaced time stamps (rows,) [s]."""
     if len(time) < 2:
-        raise ValueError(f"{len(time)} rows: must be at least 2, whose time stamps tell the step")
+        raise ValueError(f"{len(time)} rows: must be at least 2, to determine the time step")
     steps = np.diff(time)
     for k in np.flatnonzero(~(steps > 0.0))[:1]:
         raise ValueError(
-            f"row {k + 2}: time = {time[k + 1]:.9g} s: must be later than {time[k]:.9g} s, the row "
-            "before"
+            f"row {k + 2}: time = {time[k + 1]:.9g} s: must be later than {time[k]:.9g} s in the "
+            "previous row"
         )
     usual = float(np.median(steps))
     for k in np.flatnonzero(np.abs(steps - usual) > UNEVEN * usual)[:1]:
         raise ValueError(
-            f"row {k + 2}: time = {time[k + 1]:.9g} s: is {steps[k]:.6g} s after the row before, "
-            f"must be {usual:.6g} s as most are, to within {UNEVEN:.0%}"
+            f"row {k + 2}: time = {time[k + 1]:.9g} s: is {steps[k]:.6g} s after the previous row, "
+            f"must be {usual:.6g} s (the median step), to within {UNEVEN:.0%}"
         )
     return float((time[-1] - time[0]) / len(steps))

@@ -1,4 +1,4 @@
-"""Messages as tables of plain columns, batch by batch."""
+"""Converts messages to tables of plain columns, in batches."""
 
 from __future__ import annotations
 
@@ -15,11 +15,11 @@ from ..ros2.topics import POINT, STATE, WAVEFORM
 from ..runs.schedule import stamp_of
 
 Batch = dict[str, np.ndarray]
-STAMP = "stamp"  # ROS time since the epoch; numbers beside it are in SI
-MESSAGES = 4096  # of a batch, at most
-ROWS = 2**17  # about which a batch ends
+STAMP = "stamp"  # ROS time since the epoch [ns]; other columns are in SI
+MESSAGES = 4096  # per batch, at most
+ROWS = 2**17  # per batch, approximately
 TABLES = (STATE, POINT, WAVEFORM)
-"""Topics that make a table."""
+"""Topics that can be exported."""
 
 
 class Column(NamedTuple):
@@ -27,16 +27,16 @@ class Column(NamedTuple):
 
     name: str
     unit: str
-    """Empty where there is none, as of a text."""
+    """Empty for columns without a unit, such as text."""
     kind: np.dtype[Any]
 
 
 class Table:
-    """Gathers the messages of one topic into batches of columns.
+    """Collects the messages of one topic in batches of columns.
 
-    GearboxState and OperatingPoint: one row per message; of the arrays a column for each planet
-    there is, `name_1`, `name_2`, .... MeshWaveform: one row per sample, with its `time` and a
-    column for each quantity and mesh, `dte_sun_planet_1`.
+    GearboxState and OperatingPoint: one row per message; arrays have a column for each planet,
+    `name_1`, `name_2`, .... MeshWaveform: one row per sample, with `time` and a column for each
+    quantity and mesh, `dte_sun_planet_1`.
     """
 
     def __init__(self, topic: str, definition: str) -> None:
@@ -47,16 +47,15 @@ class Table:
         self._count = 0
 
     def add(self, message: Any) -> Iterator[Batch]:
-        """Take a message; yields a batch where that makes it full.
+        """Add a message; yields a batch when it is full.
 
         Raises:
-            RecordingError: the gearbox has another number of planets than before.
+            RecordingError: the number of planets changes.
         """
         planets = getattr(message, "planets", None)
         if self._planets not in (None, planets):
             raise RecordingError(
-                f"planets = {planets}: another gearbox than before, with {self._planets}; "
-                "one table cannot hold both"
+                f"planets = {planets}: was {self._planets} before; a table takes one gearbox only"
             )
         self._planets = planets
         self._waiting.append(message)
@@ -65,7 +64,7 @@ class Table:
             yield from self.rest()
 
     def rest(self) -> Iterator[Batch]:
-        """What is left."""
+        """The last, incomplete batch."""
         if self._waiting:
             yield self._columns(self._waiting)
         self._waiting, self._count = [], 0
@@ -75,7 +74,7 @@ class Table:
         return [Column(name, self._unit(name), column.dtype) for name, column in batch.items()]
 
     def _unit(self, column: str) -> str:
-        """That of the field which `column` shows: the longest name it begins with."""
+        """Unit of the field whose name is the longest prefix of `column`."""
         if column in self._units:
             return self._units[column]
         parts = column.split("_")

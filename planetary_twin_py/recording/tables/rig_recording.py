@@ -1,4 +1,4 @@
-"""What was measured on a rig, written as a recording of it."""
+"""Writes measurements of a test rig as a recording."""
 
 from __future__ import annotations
 
@@ -31,38 +31,45 @@ from .measurements import Array, Measurements, read_measurements
 
 TOPICS = (ORIGIN, DESCRIPTION, POINT, STATE)
 PARTS = 4  # of an operating point, whose means are compared
-DRIFT = 0.05  # of its mean, by which they may differ
+DRIFT = 0.05  # allowed relative difference of these means
 
 
-class Held(NamedTuple):
-    """Rows at one operating point: those from `first` up to `last`, without it."""
+class SteadyRows(NamedTuple):
+    """Rows at one operating point, from `first` to before `last`."""
 
     first: int
     last: int
     means: dict[str, float]
-    """Over these rows, of what the table tells of the operating point."""
+    """Means over these rows, of the fields of the operating point in the table."""
     scene: Scene
-    """At these."""
+    """The scene at these means."""
 
 
 class Imported(NamedTuple):
-    """What was written."""
+    """The new recording."""
 
     file: Path
     measured: Measurements
-    held: list[Held]
+    points: list[SteadyRows]
 
 
 def write_measured(table: Path, scene: Scene, out: Path) -> Imported:
-    """Write the measured `table` into `out`: a bag folder, or one file if it ends in .mcap.
+    """Convert a table of measurements to a recording.
 
-    Simulated time begins a step before the time stamp of the first row. What the table does not
-    tell of the operating point is as in `scene`.
+    Simulated time starts one step before the time stamp of the first row.
+
+    Args:
+        table: CSV or Parquet file.
+        scene: of the gearbox; gives the fields of the operating point that the table lacks.
+        out: a bag folder, or a file that ends in .mcap.
+
+    Returns:
+        The recording.
 
     Raises:
-        ValueError: a heading, a time stamp or a value cannot be.
+        ValueError: a heading, a time stamp or a value is invalid.
         FileExistsError: `out` exists.
-        OSError: the table cannot be read, or the recording not written.
+        OSError: the table cannot be read, or the recording cannot be written.
     """
     topics = {topic.name.rpartition("/")[2]: topic for topic in topics_of(NAMESPACE)}
     places = _places(topics[STATE], scene.gearset.planets)
@@ -72,42 +79,43 @@ def write_measured(table: Path, scene: Scene, out: Path) -> Imported:
     measured = read_measurements(table, units)
     if measured.step > LONGEST_WINDOW:
         raise ValueError(f"a row every {measured.step:g} s: must be at most {LONGEST_WINDOW:g} s")
-    held = list(_held(measured, scene))
+    points = list(_points(measured, scene))
 
     def write(folder: Path) -> Path:
         bag = BagWriter(folder)
         try:
-            attached = yaml.safe_dump(held[0].scene.model_dump(mode="json"), sort_keys=False)
+            attached = yaml.safe_dump(points[0].scene.model_dump(mode="json"), sort_keys=False)
             bag.attach(SCENE_ATTACHMENT, attached.encode(), "application/yaml")
             composer = Composer(bag, [topics[name] for name in TOPICS], NAMESPACE)
-            origin = Origin(held[0].scene, time.time_ns(), Measured(table.name))
-            _compose(composer, origin, held, round(measured.step * TICKS), _rows(measured, places))
+            origin = Origin(points[0].scene, time.time_ns(), Measured(table.name))
+            length, rows = round(measured.step * TICKS), _rows(measured, places)
+            _compose(composer, origin, points, length, rows)
         finally:
             bag.close()
         return bag.file
 
-    return Imported(write_as(out, write), measured, held)
+    return Imported(write_as(out, write), measured, points)
 
 
 def _compose(
-    composer: Composer, origin: Origin, held: list[Held], length: int, rows: Iterator[Row]
+    composer: Composer, origin: Origin, points: list[SteadyRows], length: int, rows: Iterator[Row]
 ) -> None:
-    """Tell of intervals of `length` [ticks], of which `rows` show what was measured."""
+    """Write intervals of `length` [ticks], with the measured fields `rows`."""
     composer.begin(origin)
-    for part in held:
+    for part in points:
         begin = part.first * length
         stamp = origin.begins + nanoseconds(begin)
         composer.point(part.scene.operating_point, begin / TICKS, stamp)
         for k in range(part.first, part.last):
             end = (k + 1) * length
             stamp = origin.begins + nanoseconds(end)
-            told = {"simulated_time": end / TICKS, "interval": length / TICKS}
+            times = {"simulated_time": end / TICKS, "interval": length / TICKS}
             planets = {"planets": part.scene.gearset.planets}
-            composer.write(STATE, next(rows) | told | planets, stamp, stamp)
+            composer.write(STATE, next(rows) | times | planets, stamp, stamp)
 
 
 def _places(state: Topic, planets: int) -> dict[str, tuple[str, int | None]]:
-    """Field of GearboxState that a column shows, and which planet's, from 0; None: no planet's."""
+    """Field of GearboxState and index of the planet (None for other fields), by column name."""
     places: dict[str, tuple[str, int | None]] = {}
     for field, (kind, _) in get_types_from_msg(state.definition, state.type)[state.type][1]:
         if kind == Nodetype.ARRAY:
@@ -118,7 +126,7 @@ def _places(state: Topic, planets: int) -> dict[str, tuple[str, int | None]]:
 
 
 def _rows(measured: Measurements, places: dict[str, tuple[str, int | None]]) -> Iterator[Row]:
-    """Fields of GearboxState, row by row; NaN where nothing was measured."""
+    """Fields of GearboxState, row by row; NaN for missing values."""
     shown = [(*places[name], column) for name, column in measured.columns.items() if name in places]
     for k in range(measured.rows):
         row: Row = {
@@ -133,8 +141,8 @@ def _rows(measured: Measurements, places: dict[str, tuple[str, int | None]]) -> 
         yield row
 
 
-def _held(measured: Measurements, scene: Scene) -> Iterator[Held]:
-    """The operating points of a table: rows in sequence with the same label."""
+def _points(measured: Measurements, scene: Scene) -> Iterator[SteadyRows]:
+    """The operating points of a table: successive rows with the same label."""
     labels = measured.labels or [None] * measured.rows
     begins = [k for k in range(len(labels)) if not k or labels[k] != labels[k - 1]]
     columns = {
@@ -144,11 +152,11 @@ def _held(measured: Measurements, scene: Scene) -> Iterator[Held]:
     }
     for first, last in pairwise([*begins, len(labels)]):
         means = {name: _mean(name, column, first, last) for name, column in columns.items()}
-        yield Held(first, last, means, scene.replace(**means))
+        yield SteadyRows(first, last, means, scene.replace(**means))
 
 
 def _mean(name: str, column: Array, first: int, last: int) -> float:
-    """Over the rows of one operating point, which has to be one."""
+    """Mean over the rows of one operating point; raises `ValueError` if the values drift."""
     values = column[first:last]
     if not np.isfinite(values).all():
         row = first + 1 + int(np.argmin(np.isfinite(values)))
@@ -157,8 +165,9 @@ def _mean(name: str, column: Array, first: int, last: int) -> float:
     parts = [part.mean() for part in np.array_split(values, min(PARTS, len(values)))]
     if max(parts) - min(parts) > DRIFT * abs(mean):
         raise ValueError(
-            f"rows {first + 1} to {last}: {name} goes from {min(parts):.6g} to {max(parts):.6g} "
-            f"{TUNABLES[name].unit}, must stay within {DRIFT:.0%}: a column operating_point tells, "
-            f"by any number or word, which rows belong together; or leave {name} out and set it"
+            f"rows {first + 1} to {last}: {name} varies from {min(parts):.6g} to {max(parts):.6g} "
+            f"{TUNABLES[name].unit}, must be constant within {DRIFT:.0%}; label the rows of each "
+            f"operating point in a column operating_point, or remove the column {name} and use "
+            "--set"
         )
     return mean

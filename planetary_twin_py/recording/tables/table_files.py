@@ -1,4 +1,4 @@
-"""Files that a table is written into batch by batch: Parquet, CSV and NumPy's .npz."""
+"""Writers of tables, in batches: Parquet, CSV and NumPy's .npz."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ from .message_tables import Batch, Column
 
 
 class TableFile(Protocol):
-    """A table in the making; all batches have the same columns."""
+    """A table that is being written; all batches have the same columns."""
 
     def write(self, batch: Batch) -> None:
         """Append rows."""
@@ -29,14 +29,14 @@ class TableFile(Protocol):
 
 
 class Parquet:
-    """Units stand in the metadata of the columns."""
+    """Parquet, with units in the metadata of the columns."""
 
     def __init__(self, path: Path, columns: Sequence[Column]) -> None:
         self._schema = _schema(columns)
         self._writer = parquet.ParquetWriter(path, self._schema, compression="zstd")
 
     def write(self, batch: Batch) -> None:
-        """Append rows, as a row group of their own."""
+        """Append rows as a row group."""
         self._writer.write_table(_table(batch, self._schema))
 
     def close(self) -> None:
@@ -45,7 +45,7 @@ class Parquet:
 
 
 class Csv:
-    """Units stand in a file beside, NAME.units.json; numbers have all the digits they need."""
+    """CSV with full precision, and units in a separate file NAME.units.json."""
 
     def __init__(self, path: Path, columns: Sequence[Column]) -> None:
         self._schema = _schema(columns)
@@ -64,9 +64,9 @@ class Csv:
 
 
 class Npz:
-    """An array per column; `columns` and `units` hold their names and units.
+    """NumPy archive with an array per column; the arrays `columns` and `units` describe them.
 
-    Arrays lie in temporary files until it is known how long they are.
+    Arrays are in temporary files until their lengths are known.
     """
 
     def __init__(self, path: Path, columns: Sequence[Column]) -> None:
@@ -83,7 +83,7 @@ class Npz:
         """Append rows."""
         for column, spool in zip(self._columns, self._spools, strict=True):
             values = batch[column.name]
-            if column.kind.kind == "U":  # each batch has its own longest text
+            if column.kind.kind == "U":  # the longest text differs between batches
                 self._texts.setdefault(column.name, []).append(values)
             else:
                 np.ascontiguousarray(values, column.kind).tofile(spool)
@@ -126,7 +126,7 @@ def _schema(columns: Sequence[Column]) -> pa.Schema:
 
 
 def _table(batch: Batch, schema: pa.Schema) -> pa.Table:
-    # A number that is none stays NaN: it was published, nothing is missing.
+    # NaN is a published value, not a missing one.
     arrays = [pa.array(batch[field.name], field.type, from_pandas=False) for field in schema]
     return pa.Table.from_arrays(arrays, schema=schema)
 

@@ -1,7 +1,7 @@
-"""Parameters of a gearbox from a recording of it, and what the recording cannot tell.
+"""Estimation of scene parameters from a recording, with identifiability analysis.
 
-parameter (what is free), stretch (which part of the recording), readings (what a rig would have
-measured of it), model (parameters in, the same readings out), misfit (how far apart, in units of
-the noise), least_squares (where that is least), intervals (how far the truth may lie from there),
-identifiability (what the readings do not tell), identify (all of it in its order).
+parameter: the free parameters. excerpt: the part of the recording that is used. readings: the
+measured quantities in it. model: the same quantities from a simulation. misfit: noise and weighted
+residuals. least_squares: minimisation. intervals: confidence intervals. identifiability:
+parameters that the readings do not determine. identify: the complete procedure.
 """

@@ -1,4 +1,4 @@
-"""An estimate of the parameters with its intervals, from residuals alone."""
+"""Estimates of the parameters with confidence intervals, from residuals."""
 
 from __future__ import annotations
 
@@ -6,35 +6,36 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from .identifiability import correlation, split, unseen
-from .intervals import Interval, intervals
+from .identifiability import correlation, insensitive_range, split
+from .intervals import ConfidenceInterval, intervals
 from .least_squares import Array, Minimum, Residuals, explained
 from .parameter import Parameter
 
 
 @dataclass(frozen=True)
 class Estimate:
-    """What residuals tell of the parameters."""
+    """Estimates of the p parameters, in SI, and their uncertainty."""
 
     values: Array
-    """(p,); without meaning where not told."""
-    intervals: tuple[Interval, ...]
-    """Where the truth lies; of what is not told, values tried with the others held, NaN where
-    several are told only together."""
+    """(p,); meaningless for parameters that are not identifiable."""
+    intervals: tuple[ConfidenceInterval, ...]
+    """Confidence intervals; for a parameter that is not identifiable, the range of values that
+    fit equally with the others fixed, or NaN if only a combination is identifiable."""
     correlation: Array
-    """(p, p), NaN beside what is not told."""
-    untold: tuple[tuple[int, ...], ...]
-    """Parameters that are not told: alone, or several that are told only together."""
+    """(p, p), NaN for parameters that are not identifiable."""
+    not_identifiable: tuple[tuple[int, ...], ...]
+    """Indices of parameters that are not identifiable; several of which only a combination is
+    identifiable form one group."""
     unbounded: Array
-    """(p,); where the sum of squares would be least without the ranges, to first order."""
+    """(p,); minimum of the sum of squares without the ranges, to first order."""
     at_bound: tuple[bool, ...]
-    """Whether that lies beyond an end of the range, at which the estimate then stands."""
+    """Whether `unbounded` is outside the range, so that the estimate is at its end."""
     excess: float
-    """What is left over what noise leaves, by which the intervals are widened; 1: no more."""
+    """Reduced chi-squared that widens the intervals; 1 if noise explains the residuals."""
 
-    def told(self, place: int) -> bool:
-        """Whether there is an estimate of a parameter."""
-        return all(place not in members for members in self.untold)
+    def identifiable(self, place: int) -> bool:
+        """Whether the parameter with this index is identifiable."""
+        return all(place not in members for members in self.not_identifiable)
 
 
 def conclude(
@@ -44,28 +45,32 @@ def conclude(
     freedom: float,
     confidence: float,
 ) -> Estimate:
-    """The estimate at a minimum.
+    """Estimate parameters and their uncertainty at a minimum of the sum of squares.
 
     Args:
         residuals: see `least_squares.Residuals`.
-        parameters: what is free.
-        minimum: where the sum of squares is least.
-        freedom: degrees of freedom to which the noise is known.
-        confidence: of the intervals, within 0 and 1.
+        parameters: the free parameters.
+        minimum: of the sum of squares.
+        freedom: degrees of freedom of the noise estimate.
+        confidence: level of the intervals, within 0 and 1.
+
+    Returns:
+        The estimate.
     """
     from scipy.stats import t
 
     left = len(minimum.residuals) - len(parameters)
     excess = 1.0 if explained(minimum) else minimum.sum / max(left, 1)
     rise = float(t.ppf(0.5 + 0.5 * confidence, freedom)) ** 2 * excess
-    told = split(minimum, parameters, rise**0.5)
-    found = intervals(residuals, parameters, minimum, told, rise)
+    linear = split(minimum, parameters, rise**0.5)
+    found = intervals(residuals, parameters, minimum, linear, rise)
     for k in range(len(parameters)):
-        if (k,) in told.untold:
-            found[k] = Interval(*unseen(residuals, parameters, minimum, k, rise), True)
-        elif told.lost(k):
-            found[k] = Interval(math.nan, math.nan, True)
-    unbounded = minimum.values - told.covariance @ (minimum.slopes.T @ minimum.residuals)
+        if (k,) in linear.groups:
+            ends = insensitive_range(residuals, parameters, minimum, k, rise)
+            found[k] = ConfidenceInterval(*ends, True)
+        elif not linear.identifiable(k):
+            found[k] = ConfidenceInterval(math.nan, math.nan, True)
+    unbounded = minimum.values - linear.covariance @ (minimum.slopes.T @ minimum.residuals)
     bound = tuple(
         bool(value < p.low or value > p.high)
         for value, p in zip(unbounded, parameters, strict=True)
@@ -73,8 +78,8 @@ def conclude(
     return Estimate(
         values=minimum.values,
         intervals=tuple(found[k] for k in range(len(parameters))),
-        correlation=correlation(told),
-        untold=told.untold,
+        correlation=correlation(linear),
+        not_identifiable=linear.groups,
         unbounded=unbounded,
         at_bound=bound,
         excess=excess,

@@ -1,4 +1,4 @@
-"""What the readings do not tell, from how they change with the parameters."""
+"""Parameters that the readings do not determine, from the sensitivities at the minimum."""
 
 from __future__ import annotations
 
@@ -11,30 +11,38 @@ import numpy as np
 from .least_squares import Array, Minimum, Residuals
 from .parameter import Parameter
 
-PART = 0.3  # of a direction of unit length, from which a parameter is named as part of it
-WIDER = 4.0  # from one value tried to the next
-FARTHEST = 10  # values tried on each side
+PART = 0.3  # component of a unit direction above which a parameter belongs to it
+WIDER = 4.0  # ratio of successive steps of the search
+FARTHEST = 10  # steps of the search on each side
 
 
 @dataclass(frozen=True)
-class Told:
-    """The linear picture at a minimum, split into what is told and what is not."""
+class LinearAnalysis:
+    """Identifiable and non-identifiable directions of the model linearised at a minimum."""
 
     covariance: Array
-    """Of the parameters (p, p), without the directions that are not told."""
-    untold: tuple[tuple[int, ...], ...]
-    """Parameters of each direction in which a change by their own magnitude is lost in noise."""
+    """Covariance of the parameters (p, p) in the identifiable directions."""
+    groups: tuple[tuple[int, ...], ...]
+    """Indices of the parameters of each direction that is not identifiable."""
 
-    def lost(self, place: int) -> bool:
-        """Whether a parameter is part of what is not told."""
-        return any(place in members for members in self.untold)
+    def identifiable(self, place: int) -> bool:
+        """Whether the parameter with this index is in none of the groups."""
+        return all(place not in members for members in self.groups)
 
 
-def split(minimum: Minimum, parameters: Sequence[Parameter], quantile: float) -> Told:
-    """Directions of the parameters, relative to their magnitudes, by what they change.
+def split(minimum: Minimum, parameters: Sequence[Parameter], quantile: float) -> LinearAnalysis:
+    """Split the parameter space into identifiable and non-identifiable directions.
 
-    Singular values of the slopes are how many standard deviations of the noise a change of the
-    whole magnitude makes; one below `quantile` is not told from none at all.
+    A singular value of the scaled sensitivities is the change of the readings, in standard
+    deviations of the noise, for a change of the parameters by their own magnitude.
+
+    Args:
+        minimum: of the sum of squares.
+        parameters: the free parameters.
+        quantile: singular value below which a direction is not identifiable.
+
+    Returns:
+        Covariance, and groups of parameters that are not identifiable.
     """
     size = magnitudes(minimum, parameters)
     _, strength, directions = np.linalg.svd(minimum.slopes * size, full_matrices=False)
@@ -42,22 +50,33 @@ def split(minimum: Minimum, parameters: Sequence[Parameter], quantile: float) ->
     known = directions[seen] / strength[seen, None]
     covariance = (known.T @ known) * np.outer(size, size)
     lost = tuple(tuple(np.flatnonzero(np.abs(v) > PART).tolist()) for v in directions[~seen])
-    return Told(covariance, lost)
+    return LinearAnalysis(covariance, lost)
 
 
 def magnitudes(minimum: Minimum, parameters: Sequence[Parameter]) -> Array:
-    """By which changes of the parameters (p,) are counted."""
+    """Magnitudes (p,) that scale changes of the parameters."""
     return np.maximum(np.abs(minimum.values), [0.1 * p.scale for p in parameters])
 
 
-def unseen(
+def insensitive_range(
     residuals: Residuals,
     parameters: Sequence[Parameter],
     minimum: Minimum,
     place: int,
     rise: float,
 ) -> tuple[float, float]:
-    """Lowest and highest value tried of one parameter that raise the sum of squares less."""
+    """Range of one parameter, the others fixed, in which the sum of squares is insensitive to it.
+
+    Args:
+        residuals: see `least_squares.Residuals`.
+        parameters: the free parameters.
+        minimum: of the sum of squares.
+        place: index of the parameter.
+        rise: increase of the sum of squares at the ends of the range.
+
+    Returns:
+        Lowest and highest value tried whose increase is smaller.
+    """
     parameter, centre = parameters[place], float(minimum.values[place])
     ends = []
     for sign, bound in ((-1.0, parameter.low), (1.0, parameter.high)):
@@ -75,14 +94,14 @@ def unseen(
 
 
 def _towards(centre: float, bound: float, step: float) -> list[float]:
-    """Values ever farther from `centre`, and `bound` if it is finite and not there yet."""
+    """Values at increasing distance from `centre`, then `bound` if it is finite."""
     values = centre + step * WIDER ** np.arange(FARTHEST)
     within = values[(bound - values) * step > 0.0].tolist()
     return within + ([bound] if math.isfinite(bound) and bound != centre else [])
 
 
-def correlation(told: Told) -> Array:
-    """Of the estimates (p, p); NaN beside what is not told."""
-    deviation = np.sqrt(np.diag(told.covariance))
-    deviation[[told.lost(k) for k in range(len(deviation))]] = math.nan
-    return np.asarray(told.covariance / np.outer(deviation, deviation))
+def correlation(linear: LinearAnalysis) -> Array:
+    """Correlation of the estimates (p, p); NaN for parameters that are not identifiable."""
+    deviation = np.sqrt(np.diag(linear.covariance))
+    deviation[[not linear.identifiable(k) for k in range(len(deviation))]] = math.nan
+    return np.asarray(linear.covariance / np.outer(deviation, deviation))

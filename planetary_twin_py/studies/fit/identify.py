@@ -1,4 +1,4 @@
-"""Parameters of a gearbox from a recording of it, from reading the file to what is not told."""
+"""Estimation of the parameters of a gearbox from a recording: the complete procedure."""
 
 from __future__ import annotations
 
@@ -13,50 +13,50 @@ import numpy as np
 
 from ..local import Threads
 from .estimate import Estimate, conclude
-from .lacking import Lacking, find_lacking
-from .least_squares import Minimum, explained, minimise, with_magnitudes
+from .excerpt import Excerpt, read_excerpt
+from .least_squares import Minimum, explained, minimise, with_initial_magnitudes
 from .least_squares import search as find_least
-from .misfit import Yardstick, measure_noise
-from .model import Model, Outcome, read_all
+from .misfit import WeightedReadings, measure_noise
+from .missing_loss import MissingLoss, find_missing_loss
+from .model import Model, ModelOutput, read_all
 from .parameter import Parameter, read_parameters
 from .readings import HARMONICS, USUAL, Array, Readings, check_observables, recorded
 from .simulations import Simulations
-from .stretch import Stretch, read_stretch
 
-ROUNDS = 4  # of weighing anew with what is left at the minimum
-SETTLED = 0.05  # change of a noise that needs no other round
+ROUNDS = 4  # iterations of the noise estimate from the residuals at the minimum
+SETTLED = 0.05  # relative change of the noise at which the iteration has converged
 
 
 class Search(NamedTuple):
-    """What is looked for, and in what."""
+    """Free parameters, observables and known noise."""
 
     free: Sequence[str]
-    """Fields of the scene, by their dotted names."""
+    """Dotted names of fields of the scene."""
     observe: Sequence[str] = USUAL
     """See `readings.OBSERVABLES`."""
     start: Mapping[str, Any] = {}
-    """Where the search begins, where that is not the recorded value."""
+    """Initial values that differ from the recorded ones."""
     noise: Mapping[str, float] = {}
-    """Standard deviation of a reading of an observable, where it is known."""
+    """Standard deviation of a reading by observable, in SI, if known."""
     confidence: float = 0.95
 
 
 @dataclass(frozen=True)
 class Identified:
-    """What a recording tells of its parameters."""
+    """Estimated parameters of a recording."""
 
     parameters: tuple[Parameter, ...]
     estimate: Estimate
-    stretch: Stretch
+    excerpt: Excerpt
     contact_fraction: float
-    """Of the mesh where it is smallest, in the simulation at the estimate."""
-    yardstick: Yardstick
+    """Smallest of any mesh, in the simulation at the estimate."""
+    weighted: WeightedReadings
     confidence: float
-    """Of the intervals."""
+    """Level of the intervals."""
     sum: float
-    """Of squares at the estimate."""
-    lacking: Lacking | None
-    """What the model leaves out and would explain what it misses; None if nothing does."""
+    """Sum of squares at the estimate."""
+    missing_loss: MissingLoss | None
+    """A loss absent from the model that would explain the residuals, or None."""
     simulations: int
     wall_time: float
     """[s]"""
@@ -68,64 +68,68 @@ def identify(
     namespace: str | None = None,
     begin: float | None = None,
     end: float | None = None,
-    crew: Threads | None = None,
-    hear: Callable[[int], None] = lambda simulations: None,
+    threads: Threads | None = None,
+    report: Callable[[int], None] = lambda simulations: None,
 ) -> Identified:
-    """Estimate what is free in `search` from the recording at `path`.
+    """Estimate the free parameters of `search` from the recording at `path`.
 
     Args:
-        path: an .mcap file or the folder of one.
-        search: what is looked for.
-        namespace: which gearbox, if the recording holds several.
-        begin, end: stretch [s] of its longest run; None: see `read_stretch`.
-        crew: who simulates; all cores unless given.
-        hear: is told how many simulations are done.
+        path: an .mcap file, or its folder.
+        search: free parameters, observables and noise.
+        namespace: of the gearbox, if the recording has several.
+        begin: start of the part of the longest run to use [s]; None: see `read_excerpt`.
+        end: its end [s].
+        threads: threads that simulate; None uses all cores.
+        report: called with the number of completed simulations.
+
+    Returns:
+        The estimates.
 
     Raises:
-        ValueError: a name or a value cannot be, or the recording holds no such stretch.
-        ArithmeticError: the stretch cannot be simulated.
+        ValueError: a name or value is invalid, or the recording has no such part.
+        ArithmeticError: the part cannot be simulated.
     """
     began = time.perf_counter()
     _check(search)
-    stretch = read_stretch(Path(path), namespace, begin, end, HARMONICS in search.observe)
-    parameters = read_parameters(stretch.scene, search.free, search.start)
-    data = _data(search, stretch)
-    model = Model(stretch, tuple(search.free), tuple(search.observe))
-    runs = Simulations(model, crew or Threads(), hear)
+    excerpt = read_excerpt(Path(path), namespace, begin, end, HARMONICS in search.observe)
+    parameters = read_parameters(excerpt.scene, search.free, search.start)
+    data = _data(search, excerpt)
+    model = Model(excerpt, tuple(search.free), tuple(search.observe))
+    runs = Simulations(model, threads or Threads(), report)
 
-    def weigh(values: Array) -> Yardstick:
-        return measure_noise(data, _known(runs, values).readings, stretch.tolerance, search.noise)
+    def weigh(values: Array) -> WeightedReadings:
+        return measure_noise(data, _known(runs, values).readings, excerpt.tolerance, search.noise)
 
-    yardstick = weigh(np.array([p.start for p in parameters]))
-    if yardstick.count < len(parameters):
+    weighted = weigh(np.array([p.start for p in parameters]))
+    if weighted.count < len(parameters):
         raise ValueError(
-            f"free = {', '.join(search.free)}: {yardstick.count} readings cannot tell "
-            f"{len(parameters)} parameters; observe more, or more operating points"
+            f"free = {', '.join(search.free)}: {weighted.count} mean readings do not determine "
+            f"{len(parameters)} parameters; use more observables or more operating points"
         )
-    parameters = with_magnitudes(runs.apart(yardstick), parameters)
-    minimum = find_least(runs.apart(yardstick), parameters)
+    parameters = with_initial_magnitudes(runs.residuals(weighted), parameters)
+    minimum = find_least(runs.residuals(weighted), parameters)
     for _ in range(ROUNDS):
         closer = weigh(minimum.values)
-        if closer.near(yardstick, SETTLED):
+        if closer.near(weighted, SETTLED):
             break
-        yardstick = closer
-        minimum = minimise(runs.apart(yardstick), parameters, minimum.values)
+        weighted = closer
+        minimum = minimise(runs.residuals(weighted), parameters, minimum.values)
         if not explained(minimum):
             minimum = min(
-                minimum, find_least(runs.apart(yardstick), parameters), key=lambda m: m.sum
+                minimum, find_least(runs.residuals(weighted), parameters), key=lambda m: m.sum
             )
     found = conclude(
-        runs.apart(yardstick), parameters, minimum, yardstick.freedom, search.confidence
+        runs.residuals(weighted), parameters, minimum, weighted.freedom, search.confidence
     )
     return Identified(
         parameters=parameters,
         estimate=found,
-        stretch=stretch,
+        excerpt=excerpt,
         contact_fraction=_known(runs, minimum.values).contact_fraction,
-        yardstick=yardstick,
+        weighted=weighted,
         confidence=search.confidence,
         sum=minimum.sum,
-        lacking=_lacking(runs, yardstick, parameters, minimum, found),
+        missing_loss=_missing_loss(runs, weighted, parameters, minimum, found),
         simulations=runs.count,
         wall_time=time.perf_counter() - began,
     )
@@ -135,42 +139,44 @@ def _check(search: Search) -> None:
     check_observables(search.observe)
     for name, value in search.noise.items():
         if name not in search.observe:
-            raise ValueError(f"noise = {name}: is not observed")
+            raise ValueError(f"noise = {name}: must be one of observe")
         if not 0.0 < value < math.inf:
             raise ValueError(f"noise of {name} = {value!r}: must be above 0")
     if not 0.0 < search.confidence < 1.0:
         raise ValueError(f"confidence = {search.confidence!r}: must be between 0 and 1")
 
 
-def _data(search: Search, stretch: Stretch) -> tuple[Readings, ...]:
-    data = read_all(search.observe, recorded(stretch), stretch)
+def _data(search: Search, excerpt: Excerpt) -> tuple[Readings, ...]:
+    data = read_all(search.observe, recorded(excerpt), excerpt)
     for readings in data:
         if not np.all(np.isfinite(readings.values)):
-            raise ValueError(f"observe = {readings.name}: is no number somewhere in this stretch")
+            raise ValueError(
+                f"observe = {readings.name}: has NaN or infinite values in this excerpt"
+            )
     return data
 
 
-def _lacking(
+def _missing_loss(
     runs: Simulations,
-    yardstick: Yardstick,
+    weighted: WeightedReadings,
     parameters: Sequence[Parameter],
     minimum: Minimum,
     found: Estimate,
-) -> Lacking | None:
-    """What the model leaves out, where noise does not explain what is left or a range holds it."""
+) -> MissingLoss | None:
+    """Missing loss, if noise does not explain the residuals or an estimate is at its bound."""
     enough = len(minimum.residuals) > len(parameters)
     if not enough or (explained(minimum) and not any(found.at_bound)):
         return None
 
     def trial(field: str, value: float) -> Array | None:
         wider = runs.freeing(field)
-        return wider.apart(yardstick)([np.append(minimum.values, value)])[0]
+        return wider.residuals(weighted)([np.append(minimum.values, value)])[0]
 
-    return find_lacking(runs.scene, parameters, minimum, trial)
+    return find_missing_loss(runs.scene, parameters, minimum, trial)
 
 
-def _known(runs: Simulations, values: Array) -> Outcome:
-    outcome = runs.at([values])[0]
-    if outcome is None:
-        raise ArithmeticError(f"the stretch cannot be simulated with what is free at {values}")
-    return outcome
+def _known(runs: Simulations, values: Array) -> ModelOutput:
+    output = runs.at([values])[0]
+    if output is None:
+        raise ArithmeticError(f"the excerpt cannot be simulated with free parameters = {values}")
+    return output

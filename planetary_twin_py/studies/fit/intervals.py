@@ -1,5 +1,5 @@
-"""How far the truth may lie from an estimate: from the curvature, or where that misleads from the
-profile of the sum of squares."""
+"""Confidence intervals: from the curvature of the sum of squares or, if that is inaccurate, from
+its profile."""
 
 from __future__ import annotations
 
@@ -9,38 +9,49 @@ from typing import NamedTuple
 
 import numpy as np
 
-from .identifiability import Told
+from .identifiability import LinearAnalysis
 from .least_squares import Array, Minimum, Residuals, bounds_of, minimise
 from .parameter import Parameter
 
-DOUBTFUL = 0.3  # of the expected rise by which the sum of squares may miss it
-FINE = 0.02  # of the half-width to which the end of a profile is found
-FARTHEST = 2.0**12  # half-widths at which the search for an end gives up
+DOUBTFUL = 0.3  # relative error of the expected rise above which the curvature is not used
+FINE = 0.02  # accuracy of the end of a profile, in half-widths
+FARTHEST = 2.0**12  # half-widths at which the search for an end stops
 
 
-class Interval(NamedTuple):
-    """Where the truth lies with the given confidence."""
+class ConfidenceInterval(NamedTuple):
+    """A confidence interval in SI."""
 
     low: float
     high: float
     profiled: bool
-    """Whether it comes from the profile of the sum of squares, not from the curvature."""
+    """Whether it follows from the profile of the sum of squares, not from the curvature."""
 
 
 def intervals(
     residuals: Residuals,
     parameters: Sequence[Parameter],
     minimum: Minimum,
-    told: Told,
+    linear: LinearAnalysis,
     rise: float,
-) -> dict[int, Interval]:
-    """An interval for each parameter that is told, within which the least sum rises by `rise`.
+) -> dict[int, ConfidenceInterval]:
+    """Confidence intervals of the identifiable parameters.
 
-    The covariance says where that is if all is linear; where an end lies beyond a bound or the rise
-    is another there, it is found with all other parameters estimated anew.
+    The covariance gives the ends for a linear model. If an end is beyond a bound, or the sum of
+    squares rises differently there, the profile likelihood is used: all other parameters are
+    estimated again at each value of the parameter.
+
+    Args:
+        residuals: see `least_squares.Residuals`.
+        parameters: the free parameters.
+        minimum: of the sum of squares.
+        linear: identifiability at the minimum.
+        rise: increase of the least sum of squares at the ends.
+
+    Returns:
+        Intervals by the index of the parameter.
     """
-    covariance = told.covariance
-    places = [k for k in range(len(parameters)) if not told.lost(k)]
+    covariance = linear.covariance
+    places = [k for k in range(len(parameters)) if linear.identifiable(k)]
     doubtful = _doubtful(residuals, parameters, minimum, covariance, places, rise)
     found = {}
     for k in places:
@@ -54,7 +65,7 @@ def intervals(
             else:
                 ends.append(float(minimum.values[k] + sign * half))
         low, high = max(ends[0], parameter.low), min(ends[1], parameter.high)
-        found[k] = Interval(low, high, any(doubtful[k]))
+        found[k] = ConfidenceInterval(low, high, any(doubtful[k]))
     return found
 
 
@@ -66,7 +77,7 @@ def _doubtful(
     places: Sequence[int],
     rise: float,
 ) -> dict[int, list[bool]]:
-    """Whether either end of each interval is not where the curvature has it."""
+    """Whether the curvature misplaces the lower and the upper end of each interval."""
     low, high = bounds_of(parameters)
     points = [
         minimum.values + sign * math.sqrt(rise / covariance[k, k]) * covariance[:, k]
@@ -100,7 +111,7 @@ class _Profile:
         self._ridge = covariance[:, place] / covariance[place, place]
 
     def end(self, sign: float, half: float, rise: float) -> float:
-        """Where it has risen by `rise` on one side, or the bound; infinite if there is neither."""
+        """Value at which the profile has risen by `rise`, or the bound; infinite if neither."""
         from scipy.optimize import brentq
 
         centre = float(self._minimum.values[self._place])
@@ -122,7 +133,7 @@ class _Profile:
         return centre + sign * float(brentq(beyond, inner, outer, xtol=FINE * half))
 
     def _rise(self, away: float) -> float:
-        """Of the least sum of squares with the parameter held `away` from its estimate."""
+        """Rise of the least sum of squares with the parameter fixed `away` from its estimate."""
         start = self._minimum.values + away * self._ridge
         held = float(self._minimum.values[self._place] + away)
         if not self._others:

@@ -1,4 +1,4 @@
-"""Where a misfit is least. Knows nothing of gearboxes: points in, residuals out, many at once."""
+"""Nonlinear least squares with several starts; residuals of many points are evaluated at once."""
 
 from __future__ import annotations
 
@@ -13,25 +13,26 @@ from .parameter import Parameter
 
 Array = NDArray[np.float64]
 Residuals = Callable[[Sequence[Array]], list[Array | None]]
-"""Residuals (m,) in units of their noise at each of some points (p,); None where there are none."""
+"""Residuals (m,), divided by their noise, at each of several points (p,); None where the simulation
+fails."""
 
 STEP = 5e-3
-"""Of a parameter, to differentiate: means over 0.3 s scatter by 3e-6 of themselves at tolerance
-1e-3, so slopes are known to 3e-4, and central differences leave curvature of a fifth of that."""
-FAR = 8.0  # times larger or smaller than the first one other starts may be
-STARTS = 6  # points for each parameter, of which the search begins at the best
+"""Relative step of finite differences: means over 0.3 s scatter by 3e-6 at tolerance 1e-3, so the
+slopes have errors of 3e-4, and the truncation error of central differences is a fifth of that."""
+FAR = 8.0  # largest ratio of other starts to the first start
+STARTS = 6  # starts per parameter; the search uses the best
 SEARCHES = 4
-MISFIT = 1e-3  # chance below which noise alone does not explain what is left
+MISFIT = 1e-3  # probability below which noise does not explain the residuals
 MOST_STEPS = 30
-DECADES = 12  # of a range, of which one is the magnitude of a parameter that begins at zero
-NO_WORSE = 1.0  # rise of the sum of squares that no reading resolves
-CLOSE = 1e-5  # of its scale that the last step changes a parameter by
-FLAT = 1e-6  # of the sum of squares that it changes: far less than what noise makes it scatter by
+DECADES = 12  # decades searched for the magnitude of a parameter that starts at zero
+NO_WORSE = 1.0  # increase of the sum of squares that is not significant
+CLOSE = 1e-5  # relative change of the parameters at convergence
+FLAT = 1e-6  # relative change of the sum of squares at convergence, far below its scatter
 
 
 @dataclass(frozen=True)
 class Minimum:
-    """Values (p,), residuals (m,) and their slopes (m, p) where the sum of squares is least."""
+    """Values (p,), residuals (m,) and their slopes (m, p) at a minimum of the sum of squares."""
 
     values: Array
     residuals: Array
@@ -39,24 +40,32 @@ class Minimum:
 
     @property
     def sum(self) -> float:
-        """Of squares."""
+        """Sum of squares."""
         return float(self.residuals @ self.residuals)
 
 
 def search(residuals: Residuals, parameters: Sequence[Parameter], seed: int = 0) -> Minimum:
-    """The least sum of squares found from several starts, the first of them the lowest.
+    """Minimise the sum of squares from several starts, the best of them first.
 
-    As long as noise alone does not explain what is left, as on a plateau where nothing changes any
-    more, the start farthest from those tried before is the next.
+    While noise does not explain the residuals, as on a plateau, the next start is the one farthest
+    from the previous starts.
+
+    Args:
+        residuals: see `Residuals`.
+        parameters: the p free parameters.
+        seed: of the random starts.
+
+    Returns:
+        The lowest minimum found.
 
     Raises:
-        ArithmeticError: there are no residuals at any start.
+        ArithmeticError: the residuals cannot be computed at any start.
     """
     starts = _starts(parameters, seed)
     heights = [_sum(there) for there in residuals(starts)]
     sound = [start for start, height in zip(starts, heights, strict=True) if height < math.inf]
     if not sound:
-        raise ArithmeticError("the stretch can be simulated at no value of what is free")
+        raise ArithmeticError("the excerpt cannot be simulated at any start value")
     tried = [starts[int(np.argmin(heights))]]
     best = minimise(residuals, parameters, tried[0])
     while not explained(best) and len(tried) < min(SEARCHES, len(sound)):
@@ -67,7 +76,7 @@ def search(residuals: Residuals, parameters: Sequence[Parameter], seed: int = 0)
 
 
 def explained(minimum: Minimum) -> bool:
-    """Whether noise alone may leave what is left at a minimum."""
+    """Whether noise explains the residuals at a minimum (chi-squared test)."""
     from scipy.stats import chi2
 
     left = len(minimum.residuals) - len(minimum.values)
@@ -90,11 +99,20 @@ def _farthest(
     return max(starts, key=distance)
 
 
-def with_magnitudes(residuals: Residuals, parameters: Sequence[Parameter]) -> tuple[Parameter, ...]:
-    """The parameters; one that begins at zero, the end of its range, begins at a magnitude.
+def with_initial_magnitudes(
+    residuals: Residuals, parameters: Sequence[Parameter]
+) -> tuple[Parameter, ...]:
+    """Replace a start of zero, if zero is the end of the range, by an order of magnitude.
 
-    That is the largest of the powers of ten of its range that fits as well as any, the others at
-    their starts.
+    It is the largest of the decades of the range that fits no worse than the others, with the
+    other parameters at their starts.
+
+    Args:
+        residuals: see `Residuals`.
+        parameters: the p free parameters.
+
+    Returns:
+        The parameters with their new starts.
     """
     found = list(parameters)
     for k, parameter in enumerate(parameters):
@@ -110,7 +128,7 @@ def with_magnitudes(residuals: Residuals, parameters: Sequence[Parameter]) -> tu
 
 
 def minimise(residuals: Residuals, parameters: Sequence[Parameter], start: Array) -> Minimum:
-    """The least sum of squares that a search from `start` (p,) ends at."""
+    """Local minimum of the sum of squares from `start` (p,)."""
     from scipy.optimize import least_squares
 
     scale = np.array([p.scale for p in parameters])
@@ -133,10 +151,15 @@ def minimise(residuals: Residuals, parameters: Sequence[Parameter], start: Array
 
 
 def differentiate(residuals: Residuals, parameters: Sequence[Parameter], values: Array) -> Array:
-    """Slopes (m, p) at `values` (p,) from differences, one-sided at a bound, all at once.
+    """Slopes (m, p) of the residuals by central differences, one-sided at a bound.
+
+    Args:
+        residuals: see `Residuals`.
+        parameters: the p free parameters.
+        values: (p,).
 
     Raises:
-        ArithmeticError: there are no residuals beside `values`.
+        ArithmeticError: the residuals cannot be computed near `values`.
     """
     low, high = bounds_of(parameters)
     points, widths = [], []
@@ -150,18 +173,18 @@ def differentiate(residuals: Residuals, parameters: Sequence[Parameter], values:
             points.append(point)
     found = residuals(points)
     if any(r is None for r in found):
-        raise ArithmeticError("the stretch cannot be simulated beside the values found")
+        raise ArithmeticError("the excerpt cannot be simulated near the estimated values")
     pairs = np.array(found).reshape(len(parameters), 2, -1)
     return np.asarray((pairs[:, 1] - pairs[:, 0]).T / widths)
 
 
 def bounds_of(parameters: Sequence[Parameter]) -> tuple[Array, Array]:
-    """Lowest and highest values (p,)."""
+    """Lower and upper bounds, (p,) each."""
     return np.array([p.low for p in parameters]), np.array([p.high for p in parameters])
 
 
 def _starts(parameters: Sequence[Parameter], seed: int) -> list[Array]:
-    """The first one, and others of other magnitudes."""
+    """The given start, and others of different magnitude."""
     from scipy.stats.qmc import LatinHypercube
 
     first = np.array([p.start for p in parameters])
@@ -175,5 +198,5 @@ def _starts(parameters: Sequence[Parameter], seed: int) -> list[Array]:
 def _one(residuals: Residuals, point: Array) -> Array:
     found = residuals([point])[0]
     if found is None:
-        raise ArithmeticError("the stretch cannot be simulated at the start")
+        raise ArithmeticError("the excerpt cannot be simulated at the start")
     return found

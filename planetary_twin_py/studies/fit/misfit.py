@@ -1,4 +1,4 @@
-"""How far a simulation is from the recording, in units of what noise makes of the means."""
+"""Residuals between simulation and recording, weighted by the noise of the means."""
 
 from __future__ import annotations
 
@@ -12,30 +12,30 @@ from numpy.typing import NDArray
 
 from .readings import Array, Readings
 
-CHANCE = 3.0  # standard deviations of a correlation of independent readings
-LARGEST = 0.99  # correlation that is counted: of a drift, more of it is not known
-EXACTNESS = 0.1  # of the tolerance: beyond what a mean over a stretch was seen to be off by
+CHANCE = 3.0  # significance level of a correlation, in standard deviations
+LARGEST = 0.99  # upper limit of a correlation; a drift does not determine it better
+EXACTNESS = 0.1  # numerical error of a mean, in tolerances; upper bound of observed errors
 
 
 class Noise(NamedTuple):
-    """Of one observable, whose sensors are the same throughout a stretch."""
+    """Noise of one observable."""
 
     reading: Array
     """Standard deviation of one reading, shape (channels,)."""
     mean: Array
     """Standard deviation of the mean over a segment, shape (segments, channels)."""
     freedom: float
-    """Degrees of freedom that it is known to; infinite where it was given."""
+    """Degrees of freedom of the estimate; infinite if the noise is given."""
     correlation: float
-    """Of successive readings, where it lowers what their mean tells; else 0."""
+    """Correlation of successive readings if it increases the noise of the mean; else 0."""
 
 
 @dataclass(frozen=True)
-class Yardstick:
-    """The recorded means and their noise.
+class WeightedReadings:
+    """Recorded means and their noise.
 
-    Residuals are those of means over each operating point. Where teeth rattle, two runs that
-    differ in the last bit soon differ in every interval, but not in their means.
+    Residuals are computed from means over each operating point: if teeth rattle chaotically, two
+    runs with different rounding errors soon differ in every interval, but not in their means.
     """
 
     recorded: tuple[Readings, ...]
@@ -43,23 +43,23 @@ class Yardstick:
 
     @property
     def freedom(self) -> float:
-        """The fewest degrees of freedom that a noise is known to."""
+        """Smallest number of degrees of freedom of any noise."""
         return min(noise.freedom for noise in self.noise)
 
     @property
     def count(self) -> int:
-        """Of residuals."""
+        """Number of residuals."""
         return sum(noise.mean.size for noise in self.noise)
 
-    def near(self, other: Yardstick, share: float) -> bool:
-        """Whether no noise differs from another's by more than a `share` of it."""
+    def near(self, other: WeightedReadings, share: float) -> bool:
+        """Whether all noise agrees with that of `other` within the relative difference `share`."""
         return all(
             bool(np.allclose(a.mean, b.mean, rtol=share, atol=0.0))
             for a, b in zip(self.noise, other.noise, strict=True)
         )
 
-    def apart(self, readings: Sequence[Readings]) -> Array:
-        """Differences of simulated means from the recorded ones over their noise, flat."""
+    def residuals(self, readings: Sequence[Readings]) -> Array:
+        """Simulated minus recorded means, divided by their noise, as a vector."""
         return np.concatenate(
             [
                 ((_means(s) - _means(r)) / noise.mean).ravel()
@@ -73,15 +73,24 @@ def measure_noise(
     readings: Sequence[Readings],
     tolerance: float,
     given: Mapping[str, float],
-) -> Yardstick:
-    """The noise of `recorded`, from what is left of it beside a simulation, or as it is `given`.
+) -> WeightedReadings:
+    """Estimate the noise from the differences of recorded and simulated readings.
 
-    What repeats itself in both, as a cycle of the motor's torque does, is no noise.
+    Fluctuations that both have, such as torque ripple, do not count as noise.
+
+    Args:
+        recorded: readings of the recording.
+        readings: the same readings of a simulation.
+        tolerance: of the simulation.
+        given: known standard deviations of a reading by observable, in SI.
+
+    Returns:
+        The recorded readings with their noise.
     """
     noise = tuple(
         _noise(r, s, tolerance, given.get(r.name)) for r, s in zip(recorded, readings, strict=True)
     )
-    return Yardstick(tuple(recorded), noise)
+    return WeightedReadings(tuple(recorded), noise)
 
 
 def _noise(recorded: Readings, readings: Readings, tolerance: float, given: float | None) -> Noise:
@@ -96,12 +105,12 @@ def _noise(recorded: Readings, readings: Readings, tolerance: float, given: floa
     scatter, size, repeat = np.empty(left.shape[1]), np.empty(means.shape), np.empty(left.shape[1])
     freedom = math.inf
     for kind in np.unique(recorded.kinds):
-        alike = recorded.kinds == kind
-        repeat[alike] = _correlation(left[:, alike], place)
-        degrees = (rows - len(segments)) * int(alike.sum())
-        freedom = min(freedom, degrees / _repeats(repeat[alike][0]))
-        scatter[alike] = math.sqrt((left[:, alike] ** 2).sum() / degrees)
-        size[:, alike] = np.abs(means[:, alike]).max(axis=1, keepdims=True)
+        same = recorded.kinds == kind
+        repeat[same] = _correlation(left[:, same], place)
+        degrees = (rows - len(segments)) * int(same.sum())
+        freedom = min(freedom, degrees / _repeats(repeat[same][0]))
+        scatter[same] = math.sqrt((left[:, same] ** 2).sum() / degrees)
+        size[:, same] = np.abs(means[:, same]).max(axis=1, keepdims=True)
     if given is not None:
         scatter[:], freedom = given, math.inf
     sampling = scatter * np.sqrt(_repeats(repeat) / count[:, None])
@@ -111,7 +120,7 @@ def _noise(recorded: Readings, readings: Readings, tolerance: float, given: floa
 
 
 def _correlation(left: Array, place: NDArray[np.int64]) -> float:
-    """Of `left` (readings, channels), each with the next of its segment; 0 if it may be chance."""
+    """Correlation of successive rows of `left` (readings, channels); 0 if not significant."""
     same = place[1:] == place[:-1]
     products = (left[1:] * left[:-1])[same]
     square = float((left**2).sum())
@@ -122,12 +131,12 @@ def _correlation(left: Array, place: NDArray[np.int64]) -> float:
 
 
 def _repeats(correlation: Any) -> Any:
-    """Readings that tell as much as one independent one, of a process whose correlation falls off
-    by this factor from one to the next (Bartlett 1946, J. R. Stat. Soc. Suppl. 8, 27-41)."""
+    """Number of readings per independent reading, for a first-order autoregressive process
+    (Bartlett 1946, J. R. Stat. Soc. Suppl. 8, 27-41)."""
     return (1.0 + correlation) / (1.0 - correlation)
 
 
 def _means(readings: Readings) -> Array:
-    """Over each segment, shape (segments, channels)."""
+    """Means over each segment, shape (segments, channels)."""
     segments = np.unique(readings.segment)
     return np.array([readings.values[readings.segment == s].mean(axis=0) for s in segments])

@@ -1,4 +1,4 @@
-"""Parameters in, readings out: the recorded stretch, simulated with other parameters."""
+"""The model to fit: simulates the recorded excerpt with other parameters."""
 
 from __future__ import annotations
 
@@ -13,78 +13,78 @@ from ...recording.ros2.fields import POWER_FLOW
 from ...scene import TUNABLES
 from ...twin import LONGEST_WINDOW, TICKS, Twin
 from ...window import Window
-from .readings import Array, Interval, Readings, read, simulated
-from .stretch import Stretch
+from .excerpt import Excerpt
+from .readings import Array, IntervalReadings, Readings, read, simulated
 
-UNSEEN = 1.0  # [Hz] sample rate of what nobody looks at
-FEW = 100  # samples of an interval of which only the power flow, an integral, is looked at
+UNUSED = 1.0  # [Hz] sample rate if the samples are not used
+FEW = 100  # samples per interval if only the power flow, an integral, is used
 
 
 @dataclass(frozen=True)
-class Outcome:
-    """What a simulation of the stretch gives."""
+class ModelOutput:
+    """Readings of a simulation of the excerpt."""
 
     readings: tuple[Readings, ...]
     contact_fraction: float
-    """Share of time in contact, of the mesh where it is smallest."""
+    """Fraction of time in contact, smallest of any mesh."""
 
 
 @dataclass(frozen=True)
 class Model:
-    """A stretch, what is free, and what is read."""
+    """A excerpt, the names of the free parameters, and the names of the observables."""
 
-    stretch: Stretch
+    excerpt: Excerpt
     free: tuple[str, ...]
     observables: tuple[str, ...]
 
-    def __call__(self, values: Array) -> Outcome | None:
-        """The readings with the free parameters at `values`; None where it cannot be simulated."""
+    def __call__(self, values: Array) -> ModelOutput | None:
+        """Readings with the free parameters at `values` (p,); None if the simulation fails."""
         overrides = dict(zip(self.free, values.tolist(), strict=True))
         try:
-            windows = list(_windows(self.stretch, overrides, self._most_samples))
+            windows = list(_windows(self.excerpt, overrides, self._most_samples))
         except (ValueError, ArithmeticError):
             return None
-        intervals = [simulated(window, self.stretch.begins) for window in windows]
+        intervals = [simulated(window, self.excerpt.begins) for window in windows]
         contact = min(float(np.min(window.mesh["contact_fraction"])) for window in windows)
-        return Outcome(read_all(self.observables, intervals, self.stretch), contact)
+        return ModelOutput(read_all(self.observables, intervals, self.excerpt), contact)
 
     @property
     def _most_samples(self) -> float:
-        """Of an interval."""
+        """Upper limit of samples per interval."""
         return FEW if set(self.observables) <= set(POWER_FLOW) else math.inf
 
 
 def read_all(
-    names: Sequence[str], intervals: Sequence[Interval], stretch: Stretch
+    names: Sequence[str], intervals: Sequence[IntervalReadings], excerpt: Excerpt
 ) -> tuple[Readings, ...]:
-    """Every observable over these intervals."""
-    return tuple(read(name, intervals, stretch) for name in names)
+    """Readings of every observable `names` over these intervals."""
+    return tuple(read(name, intervals, excerpt) for name in names)
 
 
 def _windows(
-    stretch: Stretch, overrides: Mapping[str, float], most_samples: float
+    excerpt: Excerpt, overrides: Mapping[str, float], most_samples: float
 ) -> Iterator[Window]:
-    """The intervals of a stretch, with parameters other than the recorded ones.
+    """Simulate the intervals of a excerpt with other parameters.
 
-    What came before the operating point of the stretch is simulated as recorded: how it still moves
-    at the start follows from the change.
+    The operating points before it are simulated as recorded, so that the transient after the last
+    change is included.
     """
-    first = (*stretch.before, *stretch.intervals)[0]
+    first = (*excerpt.before, *excerpt.intervals)[0]
     held = {name: value for name, value in overrides.items() if name in TUNABLES}
-    at_once = stretch.held_from == stretch.begins
+    at_once = excerpt.held_from == excerpt.begins
     fixed = {name: value for name, value in overrides.items() if at_once or name not in held}
-    twin = Twin(stretch.scene.replace(**fixed), UNSEEN, first.tolerance)
-    begins = round(stretch.begins * TICKS)
+    twin = Twin(excerpt.scene.replace(**fixed), UNUSED, first.tolerance)
+    begins = round(excerpt.begins * TICKS)
     changes = deque(
         (
             round(change.time * TICKS) - begins,
-            change.values | (held if change.time >= stretch.held_from else {}),
+            change.values | (held if change.time >= excerpt.held_from else {}),
         )
-        for change in stretch.changes
+        for change in excerpt.changes
     )
 
     def reach(ticks: int) -> Window | None:
-        """Run on to an instant after `begins`, through what changes on the way."""
+        """Advance to `ticks` after `begins`, applying the changes at their times."""
         window = None
         while True:
             now = round(twin.time * TICKS)
@@ -95,14 +95,14 @@ def _windows(
             stop = min(ticks, changes[0][0] if changes else ticks)
             window = twin.advance(min((stop - now) / TICKS, LONGEST_WINDOW))
 
-    for interval in stretch.before:
+    for interval in excerpt.before:
         twin.set_tolerance(interval.tolerance)
         reach(interval.end - begins)
-    for interval in stretch.intervals:
+    for interval in excerpt.intervals:
         reach(interval.begin - begins)
         twin.set_tolerance(interval.tolerance)
         length = (interval.end - interval.begin) / TICKS
         twin.set_sample_rate(min(interval.sample_rate, most_samples / length))
         window = reach(interval.end - begins)
-        assert window is not None  # an interval has a length
+        assert window is not None  # an interval is not empty
         yield window

@@ -1,4 +1,4 @@
-"""What is free: a quantity of the scene, its range, and where the search begins."""
+"""Free parameters: quantities of the scene with their ranges and initial values."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from ...scene.quantity import bounds, unit_of
 from ...scene.unused import not_in_use
 from ..axes import look_up, read_value
 
-SHARE_OF_RANGE = 1e-3  # that is the scale of a parameter whose search begins at 0
+SHARE_OF_RANGE = 1e-3  # fraction of the range that scales a parameter with initial value 0
 
 
 class Parameter(NamedTuple):
@@ -25,7 +25,7 @@ class Parameter(NamedTuple):
 
     @property
     def scale(self) -> float:
-        """Magnitude in which changes of it are counted."""
+        """Magnitude that scales changes of the parameter."""
         width = self.high - self.low
         return abs(self.start) or (SHARE_OF_RANGE * width if math.isfinite(width) else 1.0)
 
@@ -33,14 +33,22 @@ class Parameter(NamedTuple):
 def read_parameters(
     scene: Scene, names: Sequence[str], starts: Mapping[str, Any]
 ) -> tuple[Parameter, ...]:
-    """The parameters `names` of `scene`; the search begins at the scene's value, or in `starts`.
+    """Make the free parameters.
+
+    Args:
+        scene: gives units, ranges and default initial values.
+        names: dotted names of the fields to estimate.
+        starts: other initial values by name.
+
+    Returns:
+        A parameter per name.
 
     Raises:
-        ValueError: no name, one twice, one that is no continuous quantity or not in use, or a
-            start that is out of range or of none of them.
+        ValueError: there is no name, a name occurs twice, is not a continuous quantity or has no
+            effect in the scene, or an initial value is out of range or not of a free parameter.
     """
     if not names:
-        raise ValueError("nothing is free: name at least one field, e.g. backlash")
+        raise ValueError("no free parameter: name at least one field, e.g. backlash")
     for name in (*names, *starts):
         if list(names).count(name) != 1:
             raise ValueError(f"{name}: " + ("given twice" if name in names else "is not free"))

@@ -1,4 +1,4 @@
-"""What a test rig would read off a gearbox, from a recording of it and from a simulation alike."""
+"""Quantities that a test rig measures, from a recording and from a simulation."""
 
 from __future__ import annotations
 
@@ -14,20 +14,20 @@ from numpy.typing import NDArray
 from ...recording.ros2.fields import MEMBERS, POWER_FLOW, state_fields
 from ...window import Window
 from ..measures import MESH, SIDES
-from .stretch import Stretch
+from .excerpt import Excerpt
 
 Array = NDArray[np.float64]
 
 HARMONICS = "dte_waveform"
-ORDERS = 6  # of the meshing frequency, whose amplitudes tell the shape of a waveform
+ORDERS = 6  # harmonics of the mesh frequency that describe a waveform
 USUAL = ("dte_rms", "power_loss")
-"""What most rigs have: transmission error from two encoders, whose zero is not known, and loss."""
+"""Measured by most rigs: transmission error from two encoders of unknown zero, and power loss."""
 OBSERVABLES = (*POWER_FLOW, *(name for name in MESH if name not in POWER_FLOW), HARMONICS)
 
 
 @dataclass(frozen=True)
 class Readings:
-    """One observable over a stretch.
+    """One observable over a excerpt.
 
     `values` (readings, channels): a row for each interval, or mesh cycle; a column for each mesh.
     `kinds` (channels,): channels of one number have the same noise. `segment` (readings,): counts
@@ -40,8 +40,8 @@ class Readings:
     segment: NDArray[np.int64]
 
 
-class Interval(NamedTuple):
-    """What was published of an interval, or would have been."""
+class IntervalReadings(NamedTuple):
+    """Published quantities of an interval, recorded or simulated."""
 
     end: float  # simulated [s]
     length: float  # [s]
@@ -51,9 +51,9 @@ class Interval(NamedTuple):
 
 
 def check_observables(names: Sequence[str]) -> None:
-    """Raise `ValueError` for no name, an unknown one, or one given twice."""
+    """Raise `ValueError` if there is no name, an unknown name, or a name occurs twice."""
     if not names:
-        raise ValueError("nothing is observed: name at least one observable, e.g. dte_rms")
+        raise ValueError("no observable: name at least one, e.g. dte_rms")
     for name in names:
         if name not in OBSERVABLES:
             raise ValueError(f"observe = {name}: must be one of {', '.join(OBSERVABLES)}")
@@ -61,47 +61,55 @@ def check_observables(names: Sequence[str]) -> None:
             raise ValueError(f"observe = {name}: given twice")
 
 
-def recorded(stretch: Stretch) -> list[Interval]:
-    """The intervals of a stretch as they are recorded."""
-    meshes = 2 * int(stretch.states[0].planets)
-    blocks = stretch.blocks
+def recorded(excerpt: Excerpt) -> list[IntervalReadings]:
+    """The intervals of a excerpt as recorded."""
+    meshes = 2 * int(excerpt.states[0].planets)
+    blocks = excerpt.blocks
     time = _joined([b.start_time + np.arange(b.samples) * b.sample_period for b in blocks])
     dte = np.concatenate(
         [np.empty((0, meshes)), *(b.dte.reshape(meshes, -1).T.astype(float) for b in blocks)]
     )
-    ends = [state.simulated_time for state in stretch.states]
+    ends = [state.simulated_time for state in excerpt.states]
     cuts = np.searchsorted(time, np.array(ends) + 1e-9)
     cuts = np.concatenate([[0], cuts])
     return [
-        Interval(state.simulated_time, state.interval, vars(state), time[a:b], dte[a:b])
-        for state, a, b in zip(stretch.states, cuts, cuts[1:], strict=False)
+        IntervalReadings(state.simulated_time, state.interval, vars(state), time[a:b], dte[a:b])
+        for state, a, b in zip(excerpt.states, cuts, cuts[1:], strict=False)
     ]
 
 
-def simulated(window: Window, begins: float) -> Interval:
-    """What a window, of a twin that starts at `begins` [s], would have been published as."""
+def simulated(window: Window, begins: float) -> IntervalReadings:
+    """The quantities that a twin that starts at `begins` [s] would publish of a window."""
     names = [f"{side}_{name}" for side in SIDES for name in MESH]
     wave = window.waveform
     length = window.end - window.start
     fields = state_fields(window, names)
-    return Interval(begins + window.end, length, fields, begins + wave.time, wave.dte)
+    return IntervalReadings(begins + window.end, length, fields, begins + wave.time, wave.dte)
 
 
-def read(name: str, intervals: Sequence[Interval], stretch: Stretch) -> Readings:
-    """The observable `name` over these intervals, of those meshes where the recording tells it.
+def read(name: str, intervals: Sequence[IntervalReadings], excerpt: Excerpt) -> Readings:
+    """Readings of one observable, for the meshes for which it was recorded.
+
+    Args:
+        name: one of `OBSERVABLES`.
+        intervals: recorded or simulated.
+        excerpt: that the intervals are part of.
+
+    Returns:
+        The readings.
 
     Raises:
-        ValueError: it tells it of none.
+        ValueError: the observable was not recorded for any mesh.
     """
     if name == HARMONICS:
-        return _harmonics(intervals, stretch)
-    told = ~np.isnan([_row(name, vars(state)) for state in stretch.states]).all(axis=0)
-    if not told.any():
-        raise ValueError(f"observe = {name}: is no number anywhere in this stretch")
+        return _harmonics(intervals, excerpt)
+    present = ~np.isnan([_row(name, vars(state)) for state in excerpt.states]).all(axis=0)
+    if not present.any():
+        raise ValueError(f"observe = {name}: was not recorded in this excerpt")
     rows = np.array([_row(name, interval.fields) for interval in intervals])
     ends = np.array([interval.end for interval in intervals])
     kinds = _kinds(rows.shape[1])
-    return Readings(name, rows[:, told], kinds[told], _segments(ends, stretch))
+    return Readings(name, rows[:, present], kinds[present], _segments(ends, excerpt))
 
 
 def _row(name: str, fields: Mapping[str, Any]) -> Array:
@@ -112,27 +120,27 @@ def _row(name: str, fields: Mapping[str, Any]) -> Array:
 
 
 def _kinds(channels: int) -> NDArray[np.int64]:
-    """The first half are sun meshes, the second ring meshes; one channel is of the whole train."""
+    """0 for sun meshes, 1 for ring meshes; a single channel describes the whole train."""
     return np.arange(channels) * 2 // channels
 
 
-def _segments(time: Array, stretch: Stretch) -> NDArray[np.int64]:
-    """How many changes lie before the ends or middles `time` [s]."""
-    return np.searchsorted(np.array(stretch.segments), time - 1e-12)
+def _segments(time: Array, excerpt: Excerpt) -> NDArray[np.int64]:
+    """Number of changes of the operating point before each `time` [s]."""
+    return np.searchsorted(np.array(excerpt.segments), time - 1e-12)
 
 
-def _harmonics(intervals: Sequence[Interval], stretch: Stretch) -> Readings:
-    """Amplitudes of the DTE at multiples of the meshing frequency, mesh cycle by mesh cycle.
+def _harmonics(intervals: Sequence[IntervalReadings], excerpt: Excerpt) -> Readings:
+    """Amplitudes of the DTE at harmonics of the mesh frequency, for each mesh cycle.
 
-    Cycles are told by the gears' angles, so neither the speed nor when a run began matters. Their
-    mean is left out: it holds the zero of the encoders.
+    Cycles follow from the angles of the gears, so they do not depend on speed or start time. The
+    mean is omitted because the zero of the encoders is unknown.
     """
     time = _joined([interval.time for interval in intervals])
-    phase = _mesh_phase(intervals, stretch, time)
+    phase = _mesh_phase(intervals, excerpt, time)
     dte = np.concatenate([interval.dte for interval in intervals])
     cycle = np.floor(phase).astype(np.int64)
     if not len(cycle):
-        raise ValueError(f"observe = {HARMONICS}: there is no waveform in this stretch")
+        raise ValueError(f"observe = {HARMONICS}: no waveform was recorded in this excerpt")
     starts = np.searchsorted(cycle, np.arange(cycle[0] + 1, cycle[-1] + 1))
     rows, middles = [], []
     for first, last in pairwise(starts):
@@ -144,17 +152,19 @@ def _harmonics(intervals: Sequence[Interval], stretch: Stretch) -> Readings:
         rows.append(_amplitudes(phase[first:last], dte[first:last]))
         middles.append(0.5 * (time[first] + time[last - 1]))
     if len(rows) < 2:
-        raise ValueError(f"observe = {HARMONICS}: fewer than two whole mesh cycles in this stretch")
+        raise ValueError(
+            f"observe = {HARMONICS}: must have two complete mesh cycles in this excerpt"
+        )
     values = np.array(rows)
     return Readings(
-        HARMONICS, values, _kinds(values.shape[1]), _segments(np.array(middles), stretch)
+        HARMONICS, values, _kinds(values.shape[1]), _segments(np.array(middles), excerpt)
     )
 
 
-def _mesh_phase(intervals: Sequence[Interval], stretch: Stretch, time: Array) -> Array:
-    """Mesh cycles since an instant of the first interval at which one began, at `time` [s]."""
+def _mesh_phase(intervals: Sequence[IntervalReadings], excerpt: Excerpt, time: Array) -> Array:
+    """Mesh cycles at `time` [s], counted from the start of a cycle in the first interval."""
     sun, _, carrier = (f"{member}_angle" for member in MEMBERS)
-    teeth = stretch.scene.gearset.teeth.sun
+    teeth = excerpt.scene.gearset.teeth.sun
     first = intervals[0]
     phase = teeth * (first.fields[sun] - first.fields[carrier]) / (2.0 * math.pi) % 1.0
     at, phases = [first.end - first.length], [0.0]
@@ -169,7 +179,7 @@ def _mesh_phase(intervals: Sequence[Interval], stretch: Stretch, time: Array) ->
 
 
 def _amplitudes(phase: Array, dte: Array) -> Array:
-    """Cosine and sine amplitudes of `dte` (samples, meshes) over one cycle; meshes vary slowest."""
+    """Cosine and sine amplitudes of `dte` (samples, meshes) over one cycle, mesh by mesh."""
     angle = 2.0 * math.pi * phase[:, None] * np.arange(1, ORDERS + 1)
     waves = np.concatenate([np.ones((len(phase), 1)), np.cos(angle), np.sin(angle)], axis=1)
     found: Array = np.linalg.lstsq(waves, dte, rcond=None)[0][1:]

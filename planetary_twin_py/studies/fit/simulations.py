@@ -1,4 +1,4 @@
-"""Simulations on all cores, each point only once."""
+"""Simulations in parallel, with the results cached."""
 
 from __future__ import annotations
 
@@ -10,51 +10,51 @@ import numpy as np
 from ...scene import Scene
 from ..local import Threads
 from .least_squares import Residuals
-from .misfit import Yardstick
-from .model import Model, Outcome
+from .misfit import WeightedReadings
+from .model import Model, ModelOutput
 from .readings import Array
 
 
 class Simulations:
-    """What a model gives at points that are asked for; `hear` is told how many were simulated."""
+    """Cached outputs of a model; `report` is called with the number of simulations so far."""
 
     def __init__(
-        self, model: Model, crew: Threads, hear: Callable[[int], None] = lambda count: None
+        self, model: Model, threads: Threads, report: Callable[[int], None] = lambda count: None
     ) -> None:
-        self._model, self._crew, self._hear = model, crew, hear
-        self._known: dict[tuple[float, ...], Outcome | None] = {}
+        self._model, self._threads, self._report = model, threads, report
+        self._known: dict[tuple[float, ...], ModelOutput | None] = {}
 
     @property
     def count(self) -> int:
-        """Simulations so far."""
+        """Number of simulations so far."""
         return len(self._known)
 
     @property
     def scene(self) -> Scene:
-        """The model, at what was recorded."""
-        return self._model.stretch.scene
+        """The scene with its recorded values."""
+        return self._model.excerpt.scene
 
     def freeing(self, field: str) -> Simulations:
-        """The same with a further free field, the last entry of a point."""
+        """The same with `field` as a further free parameter, the last entry of a point."""
         wider = replace(self._model, free=(*self._model.free, field))
-        return Simulations(wider, self._crew, self._hear)
+        return Simulations(wider, self._threads, self._report)
 
-    def at(self, points: Sequence[Array]) -> list[Outcome | None]:
-        """The outcome at each point (p,)."""
+    def at(self, points: Sequence[Array]) -> list[ModelOutput | None]:
+        """The output at each point (p,)."""
         keys = [tuple(point.tolist()) for point in points]
         new = [key for key in dict.fromkeys(keys) if key not in self._known]
-        for key, outcome in self._crew.do(lambda key: self._model(np.array(key)), new):
-            self._known[key] = outcome
-            self._hear(self.count)
+        for key, output in self._threads.do(lambda key: self._model(np.array(key)), new):
+            self._known[key] = output
+            self._report(self.count)
         return [self._known[key] for key in keys]
 
-    def apart(self, yardstick: Yardstick) -> Residuals:
-        """Distances of the outcomes from the recording."""
+    def residuals(self, weighted: WeightedReadings) -> Residuals:
+        """Function that returns the residuals at several points."""
 
         def residuals(points: Sequence[Array]) -> list[Array | None]:
             return [
-                None if outcome is None else yardstick.apart(outcome.readings)
-                for outcome in self.at(points)
+                None if output is None else weighted.residuals(output.readings)
+                for output in self.at(points)
             ]
 
         return residuals

@@ -65,7 +65,7 @@ def test_a_bag_that_is_not_read_is_converted_as_the_refusal_says(
     with pytest.raises(RecordingError) as refusal:
         read_recording(Path("bag"))
     assert f"bag: {told}" in str(refusal.value) and "\n" not in str(refusal.value)
-    command = str(refusal.value).partition("; ")[2].partition(" makes one")[0]
+    command = str(refusal.value).partition("; to convert it: ")[2]
     name, *arguments = shlex.split(command)
     subprocess.run([Path(sys.executable).with_name(name), *arguments], check=True)
     assert len(read_recording(Path("bag_mcap")).state) == len(read_recording(sound).state)

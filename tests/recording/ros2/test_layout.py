@@ -119,7 +119,7 @@ def test_no_message_is_read_beyond_its_end_or_with_something_behind_it():
         with pytest.raises(LayoutError):
             Layout(TYPES.fielddefs, kind, whole[:size])
     assert Layout(TYPES.fielddefs, kind, whole + b"\0\0\0").dtype.itemsize == len(whole) + 3
-    with pytest.raises(LayoutError, match="go on behind the last field"):
+    with pytest.raises(LayoutError, match="bytes after the last field"):
         Layout(TYPES.fielddefs, kind, whole + bytes(4))
-    with pytest.raises(LayoutError, match="only plain CDR"):
+    with pytest.raises(LayoutError, match="must be plain CDR"):
         Layout(TYPES.fielddefs, kind, b"\0\7" + whole[2:])

@@ -76,7 +76,7 @@ def test_a_torn_file_becomes_whole_with_all_that_was_sound(sound, tmp_path, shar
     kept = messages(saved.file)
     assert len(kept) == sum(saved.messages.values()) > 30
     assert kept == messages(sound)[: len(kept)]
-    assert "ends torn" in saved.remarks[0]
+    assert "is truncated" in saved.remarks[0]
     verdict = verify(saved.file.parent, NAMESPACE)
     assert verdict.identical
 
@@ -115,7 +115,7 @@ def test_damage_in_the_middle_is_left_out_and_told_with_its_time_and_number_of_m
     assert kept == [m for m in messages(sound) if (m[1], m[3], m[4]) not in lost]
     assert kept[-1][1] == last.message_end_time
     (remark,) = saved.remarks
-    assert f"{index.chunk_length} bytes from byte {index.chunk_start_offset} on" in remark
+    assert f"{index.chunk_length} bytes from byte {index.chunk_start_offset} are skipped" in remark
     assert f"1 chunk, {lost.total()} messages by the index" in remark
     begin, end = map(float, re.search(r"from (\S+) to (\S+) s", remark).groups())
     start = first.message_start_time
@@ -142,7 +142,7 @@ def test_the_command_says_what_is_lost_and_overwrites_nothing(sound, tmp_path):
     torn.write_bytes(sound.read_bytes()[:-5000])
     answer = CliRunner().invoke(build_app(), ["recover", str(torn)])
     assert answer.exit_code == 0
-    assert "not readable" in answer.output
+    assert "unreadable" in answer.output
     assert "gearbox_state" in answer.output
     elsewhere = tmp_path / "elsewhere"
     chosen = CliRunner().invoke(build_app(), ["recover", str(torn), "--out", str(elsewhere)])

@@ -120,7 +120,7 @@ def test_a_killed_logger_s_last_file_is_read_with_those_before(tmp_path):
     last.write_bytes(last.read_bytes()[:-200])
     saved = recover(folder, tmp_path / "saved")
     assert read_numbers(saved.file) == list(range(1, 161))
-    assert "ends torn" in saved.remarks[0]
+    assert "is truncated" in saved.remarks[0]
 
 
 @pytest.mark.parametrize("written", [0, 5])

@@ -111,7 +111,7 @@ def test_topics_are_chosen(whole):
     tape = Tape(whole, ["/twin/point"])
     assert {cue.topic for cue in tape.cues()} == set(tape.topics) == {"/twin/point"}
     assert tape.length == 300 * STEP
-    with pytest.raises(RecordingError, match=r"topics: /odd: .* holds /diagnostics, /twin/model"):
+    with pytest.raises(RecordingError, match=r"topics: /odd: .* has /diagnostics, /twin/model"):
         Tape(whole, ["/odd"])
 
 
@@ -144,5 +144,5 @@ def test_topics_move_below_another_namespace():
     assert list(moved(names, "b/c").values()) == ["/b/c/state", "/b/c/logger/status", "/tf"]
     assert list(moved(names, "/").values()) == ["/state", "/logger/status", "/tf"]
     assert list(moved(["/a/x", "/b/x", "/tf"], "n").values()) == ["/n/a/x", "/n/b/x", "/tf"]
-    with pytest.raises(ValueError, match="namespace = n: nothing"):
+    with pytest.raises(ValueError, match="namespace = n: no recorded topic"):
         moved(["/tf"], "n")

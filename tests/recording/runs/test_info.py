@@ -121,12 +121,12 @@ def test_the_command_tells_what_happened(sound, tmp_path):
     figures = json.loads(file.read_text())
     events = [(event["run"], round(event["time"], 9), event["text"]) for event in figures["events"]]
     assert [event for event in events if "contact" not in event[2]] == [
-        (1, 0.0, "starts"),
+        (1, 0.0, "start"),
         (1, 0.0, "tolerance = 0.001"),
         (1, 0.0, "waveform at 10000 Hz"),
         (1, 0.15, "tolerance = 0.01"),
         (1, 0.2, "waveform at 5000 Hz"),
-        (2, 0.0, "starts again, after a reset"),
+        (2, 0.0, "start after a reset"),
         (2, 0.0, "tolerance = 0.001"),
         (2, 0.0, "waveform at 10000 Hz"),
     ]
@@ -146,8 +146,8 @@ def test_contact_that_is_lost_and_messages_that_are_missing_are_told(tmp_path):
     file = record(tmp_path / "bag", alter)
     told = [(round(e.time, 9), e.text) for e in read_events(file, NAMESPACE, []) if e.run == 1]
     assert told[3:6] == [
-        (0.03, "contact is lost for a time at sun_planet_2"),
-        (0.05, "contact is kept at every mesh"),
+        (0.03, "teeth separate in sun_planet_2"),
+        (0.05, "teeth remain in contact in every mesh"),
         (0.08, "1 messages of gearbox_state are missing before"),
     ]
 

@@ -6,7 +6,7 @@ from mcap.records import Attachment, Channel, DataEnd, Message, Metadata, Schema
 from mcap.stream_reader import StreamReader
 from synthetic_recording import BLOCK, SAMPLE_PERIOD, START_NS, state, waveform, write_recording
 
-from planetary_twin_py.recording.container.framing import TORN
+from planetary_twin_py.recording.container.framing import DAMAGED
 from planetary_twin_py.recording.container.integrity import damaged_summary
 from planetary_twin_py.recording.container.records import RecordingError, records_of
 from planetary_twin_py.recording.runs.reader import read_recording
@@ -66,7 +66,7 @@ def test_a_file_cut_anywhere_opens_with_what_is_before_the_cut(sound, tmp_path, 
     assert 0 < count <= 30
     assert np.array_equal(recording.state.time, read_recording(sound).state.time[:count])
     assert len(recording.remarks) == 1
-    assert "not readable" in recording.remarks[0]
+    assert "unreadable" in recording.remarks[0]
     assert "\n" not in recording.remarks[0]
 
 
@@ -77,7 +77,7 @@ def test_a_damaged_chunk_is_told_and_not_shown(sound, tmp_path):
     damaged.write_bytes(data)
     recording = read_recording(damaged)
     (remark,) = recording.remarks
-    assert "damaged.mcap: damaged from 0." in remark and "left out" in remark
+    assert "damaged.mcap: damaged from 0." in remark and "are skipped" in remark
     whole = read_recording(sound).state
     kept = np.isin(whole.time, recording.state.time)
     assert 0 < kept.sum() < len(whole) and kept[0] and kept[-1]
@@ -97,7 +97,7 @@ def test_the_namespace_is_found_or_must_be_one_that_is_there(tmp_path):
     file = write_recording(tmp_path / "a.mcap", 0.02, namespace="/left/gearbox")
     assert read_recording(file).namespace == "/left/gearbox"
     assert read_recording(file, "left/gearbox").namespace == "/left/gearbox"
-    with pytest.raises(RecordingError, match=r"namespace = /right: .* holds /left/gearbox"):
+    with pytest.raises(RecordingError, match=r"namespace = /right: .* has /left/gearbox"):
         read_recording(file, "right")
     write_recording(tmp_path / "b.mcap", 0.02, namespace="/right")
     with pytest.raises(RecordingError, match="choose --namespace from /left/gearbox, /right"):
@@ -113,7 +113,7 @@ def test_what_is_no_recording_says_so_in_one_line(tmp_path):
     for path, reason in [
         (tmp_path / "missing.mcap", "no such file"),
         (text, "not an MCAP file"),
-        (empty, "holds no .mcap file"),
+        (empty, "has no .mcap file"),
         (bare, "no gearbox_state message"),
     ]:
         with pytest.raises(RecordingError, match=reason) as caught:
@@ -161,7 +161,7 @@ def test_records_of_a_damaged_file_go_on_where_mcap_stops_and_none_is_invented(s
                     in_data &= not isinstance(record, DataEnd)  # what follows only repeats
                     if in_data and isinstance(record, kinds):
                         expected.append(record)
-            except TORN:
+            except DAMAGED:
                 sound_end = False
         assert all(record in original for record in found)
         rest = iter(original)

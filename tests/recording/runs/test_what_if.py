@@ -92,7 +92,7 @@ def test_the_second_recording_is_one_like_any_other(sound, branched):
 def test_from_the_start_on_the_model_itself_may_differ(sound, tmp_path):
     branch = Branch({"gearset.planet_angles": FOUR, "input_torque": "30 N m"}, duration=0.05)
     made = resimulate(sound, NAMESPACE, branch, tmp_path / "bag")
-    assert made.remarks == ["holds 2 runs, and the last is simulated: --run chooses"]
+    assert made.remarks == ["has 2 runs, the last is simulated; use --run to select"]
     recording = read_recording(made.file)
     assert recording.planets == 4 and len(recording.state) == 5
     assert np.array_equal(recording.operating_point["input_torque"], [30.0])
@@ -130,7 +130,7 @@ def test_what_was_lost_in_recording_is_there_again(sound, tmp_path):
         (("--set", "lambda_ratoi=1"), ["lambda_ratoi: no such field", "lambda_ratio"]),
         (("--set", "lambda_ratio"), ["NAME=VALUE"]),
         (("--set", "backlash=3 K"), ["backlash", "'3 K'"]),
-        (("--set", "mesh.ramp=0", "--from", "0.05"), ["mesh.ramp", "from = 0 only"]),
+        (("--set", "mesh.ramp=0", "--from", "0.05"), ["mesh.ramp", "requires from = 0"]),
         (("--from", "0.2"), ["from = 0.2 s", "within 0 and 0.09 s"]),
         (("--from", "nan"), ["from = nan s", "within 0 and 0.09 s"]),
         (("--duration", "0"), ["duration = 0.0 s", "above 0 and at most 3600"]),
@@ -154,5 +154,5 @@ def test_the_command_says_from_when_on_it_differs(sound, tmp_path):
     given = ["--run", "1", "--set", "backlash=0.4 um", "--from", "0.3", "--out", tmp_path / "bag"]
     answer = CliRunner().invoke(build_app(), ["resimulate", *map(str, [sound.parent, *given])])
     assert answer.exit_code == 0, answer.output
-    assert "as recorded up to 0.3 s, then as set up to 0.3001 s" in answer.stdout
+    assert "as recorded until 0.3 s, then as set until 0.3001 s" in answer.stdout
     assert read_recording(tmp_path / "bag").operating_point["backlash"][-1] == 4e-7

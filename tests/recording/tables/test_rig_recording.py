@@ -92,7 +92,7 @@ def test_rows_with_another_label_are_another_operating_point(tmp_path):
     (only,) = read_runs(tmp_path / "rig", NAMESPACE, [])
     assert [c.time for c in only.changes] == pytest.approx([0.0, 0.02, 0.05])
     assert [c.values["input_torque"] for c in only.changes] == pytest.approx([20.1, 60.0, 20.1])
-    assert "from 0.02 s on: input_torque = 60 N m" in done.output
+    assert "from 0.02 s: input_torque = 60 N m" in done.output
 
 
 def test_time_stamps_may_be_those_of_a_calendar(tmp_path):
@@ -127,7 +127,7 @@ def test_verify_says_that_it_was_measured_and_does_not_compare(tmp_path):
     bring_in(tmp_path, SOUND)
     done = run("verify", tmp_path / "rig", "--json", tmp_path / "out.json")
     assert done.exit_code == 2 and done.output.count("\n") == 1
-    assert "was measured (it comes from rig.csv) and not simulated" in done.output
+    assert "was measured (imported from rig.csv), not simulated" in done.output
     assert not (tmp_path / "out.json").exists()
 
 
@@ -135,7 +135,7 @@ def test_what_is_simulated_from_it_is_a_simulation(tmp_path):
     bring_in(tmp_path, SOUND)
     done = run("resimulate", tmp_path / "rig", "--from", 0.1, "--out", tmp_path / "twin")
     assert done.exit_code == 0, done.output
-    assert "was measured: what comes before the branch is simulated, too" in done.output
+    assert "was measured: the part before the branch is simulated, too" in done.output
     verdict = run("verify", tmp_path / "twin", "--json", "-")
     assert verdict.exit_code == 0 and json.loads(verdict.stdout)["identical"]
 
@@ -144,7 +144,7 @@ def test_it_is_read_and_tells_no_tolerance(tmp_path):
     bring_in(tmp_path, SOUND)
     recording = read_recording(tmp_path / "rig")
     assert len(recording.state.time) == 3
-    assert [e.text for e in read_events(tmp_path / "rig", NAMESPACE, [])] == ["starts"]
+    assert [e.text for e in read_events(tmp_path / "rig", NAMESPACE, [])] == ["start"]
 
 
 def test_one_file_instead_of_a_folder(tmp_path):
@@ -152,7 +152,7 @@ def test_one_file_instead_of_a_folder(tmp_path):
     assert run("import", table, "--out", tmp_path / "rig.mcap").exit_code == 0
     assert read_runs(tmp_path / "rig.mcap", NAMESPACE, [])
     again = run("import", table, "--out", tmp_path / "rig.mcap")
-    assert again.exit_code == 2 and "rig.mcap': exists" in again.output
+    assert again.exit_code == 2 and "rig.mcap': already exists" in again.output
 
 
 def with_column(name, values, **without):
@@ -171,25 +171,28 @@ def with_time(*time):
         (with_time(1.0, 1.1, None), "row 3: time = nan s: must be"),
         (with_time(0.0, 120.0, 240.0), "a row every 120 s: must be at most 60 s"),
         (with_column("power_los", [1, 2, 3]), "no such quantity; did you mean power_loss?"),
-        (with_column("Drehzahl [rpm]", [1, 2, 3]), "no such quantity; a column has the name of a"),
+        (with_column("Drehzahl [rpm]", [1, 2, 3]), "no such quantity; a heading must be a"),
         (with_column("sun_planet_dte_rms_4", [1, 2, 3]), "column 'sun_planet_dte_rms_4': no such"),
         (with_column("power_loss", [1, 2, 3]), "column 'power_loss': power_loss is given twice"),
         (with_column("efficiency", ["a", "b", "c"]), "row 1: efficiency = 'a': must be a number"),
-        (with_column("output_speed [1/min]", [1, 2, 3]), "'output_speed': [1/min] is no unit"),
-        (with_column("output_speed [m]", [1, 2, 3]), "[m] is no unit that goes into rad/s"),
+        (
+            with_column("output_speed [1/min]", [1, 2, 3]),
+            "'output_speed': [1/min] cannot be converted",
+        ),
+        (with_column("output_speed [m]", [1, 2, 3]), "[m] cannot be converted to rad/s"),
         (
             with_column("torque_ripple", [1, None, 1]),
             "row 2: torque_ripple = nan: must be a number",
         ),
         (with_column("lambda_ratio", [11, 11, 11]), "lambda_ratio = 11.0: must be a number within"),
-        (with_column("backlash", [1e-7, 1e-7, 2e-7]), "rows 1 to 3: backlash goes from 1e-07 to"),
+        (with_column("backlash", [1e-7, 1e-7, 2e-7]), "rows 1 to 3: backlash varies from 1e-07 to"),
         (
             with_column("backlash [kg]", [1, 1, 1]),
-            "column 'backlash': [kg] is no unit that goes into",
+            "column 'backlash': [kg] cannot be converted to",
         ),
         (with_column("efficiency", SOUND_DATES), "row 1: efficiency = '2026-11-22"),
         ({"power_loss": [1.0, 2.0]}, "column 'time': missing"),
-        ({"time": [1.0, 2.0]}, "holds nothing that was measured"),
+        ({"time": [1.0, 2.0]}, "has no column besides the time"),
         ({"time": [1.0], "power_loss": [1.0]}, "1 rows: must be at least 2"),
     ],
 )
@@ -204,7 +207,7 @@ def test_a_missing_row_is_told_with_its_place(tmp_path):
     time = np.delete(np.arange(100) / 100.0, 40)
     done = bring_in(tmp_path, {"time": time, "power_loss": np.ones(99)})
     assert done.exit_code == 2
-    assert "row 41: time = 0.41 s: is 0.02 s after the row before, must be 0.01 s" in done.output
+    assert "row 41: time = 0.41 s: is 0.02 s after the previous row, must be 0.01 s" in done.output
 
 
 def test_a_file_that_is_no_table_is_refused(tmp_path):

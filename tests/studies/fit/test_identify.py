@@ -4,10 +4,10 @@ import numpy as np
 import pytest
 from studies.fit.rig import LIGHT, PAPER, record
 
-from planetary_twin_py.studies.fit import stretch
+from planetary_twin_py.studies.fit import excerpt
+from planetary_twin_py.studies.fit.excerpt import read_excerpt
 from planetary_twin_py.studies.fit.identify import Search, identify
 from planetary_twin_py.studies.fit.remarks import remarks
-from planetary_twin_py.studies.fit.stretch import read_stretch
 
 ELSEWHERE = {"backlash": 6e-7, "lambda_ratio": 2.0, "input_torque": 45.0}
 
@@ -34,15 +34,15 @@ def test_rattle_tells_the_backlash(tmp_path):
 def test_steady_load_tells_torque_and_film_and_says_that_it_does_not_tell_backlash(tmp_path):
     path = record(tmp_path / "bag", PAPER, 0.1, 0, share=0.003)
     found = find(path, "backlash", "lambda_ratio", "input_torque", confidence=0.999)
-    assert found.estimate.untold == ((0,),)
+    assert found.estimate.not_identifiable == ((0,),)
     for place, truth in ((1, 1.0), (2, 63.0)):
         low, high, _ = found.estimate.intervals[place]
         assert low < truth < high
     told = list(remarks(found))
     assert len(told) == 1
     assert told[0].startswith(
-        "backlash: not told by this stretch: teeth never part (contact_fraction = 1); any value "
-        "from 0 to "
+        "backlash: not identifiable from this excerpt: teeth never separate (contact_fraction = 1)"
+        "; all values from 0 to "
     )
     assert np.isnan(found.estimate.correlation[0]).all()
 
@@ -60,7 +60,7 @@ def test_without_noise_the_truth_is_found_through_a_change_that_still_rings(tmp_
     changes = [(0.1, {"input_torque": 40.0})]
     path = record(tmp_path / "bag", PAPER, 0.3, changes=changes)
     found = find(path, "lambda_ratio", "input_torque", begin=0.2, end=0.3)
-    assert found.stretch.begins == 0.0 and found.stretch.held_from == pytest.approx(0.1)
+    assert found.excerpt.begins == 0.0 and found.excerpt.held_from == pytest.approx(0.1)
     assert found.estimate.values == pytest.approx([1.0, 40.0], rel=1e-4)
 
 
@@ -79,26 +79,26 @@ def test_the_waveform_tells_more_than_its_rms(tmp_path):
 def test_the_longest_stretch_without_a_change_is_looked_at(tmp_path):
     changes = [(0.08, {"lambda_ratio": 1.5}), (0.09, {"lambda_ratio": 1.2})]
     path = record(tmp_path / "bag", PAPER, 0.2, changes=changes)
-    found = read_stretch(path)
+    found = read_excerpt(path)
     assert (found.start, found.end) == (0.0, 0.08)
-    found = read_stretch(path, begin=0.05, end=0.15)
+    found = read_excerpt(path, begin=0.05, end=0.15)
     assert (found.start, found.end) == (0.05, 0.15)
     assert found.segments == pytest.approx((0.08, 0.09))
 
 
 def test_far_into_a_run_the_simulation_begins_at_the_recorded_angles(tmp_path, monkeypatch):
     path = record(tmp_path / "bag", PAPER.replace(input_speed=91.0), 0.3)
-    monkeypatch.setattr(stretch, "HISTORY", 0.1)
+    monkeypatch.setattr(excerpt, "HISTORY", 0.1)
     found = find(path, "lambda_ratio", begin=0.2, end=0.3, observe=("power_loss", "dte_waveform"))
     period = 2.0 * np.pi / 91.0
-    assert found.stretch.begins == pytest.approx(period, rel=1e-3)
+    assert found.excerpt.begins == pytest.approx(period, rel=1e-3)
     assert found.estimate.values == pytest.approx([1.0], rel=0.05)
 
 
 @pytest.mark.parametrize(
     ("search", "told"),
     [
-        (Search(()), "nothing is free"),
+        (Search(()), "no free parameter"),
         (Search(("nosuch",)), "nosuch: no such field"),
         (Search(("mesh.nosuch",)), "mesh.nosuch: no such field"),
         (Search(("viscosity",)), "viscosity: no such field; did you mean lubrication.viscosity?"),
@@ -108,13 +108,19 @@ def test_far_into_a_run_the_simulation_begins_at_the_recorded_angles(tmp_path, m
         (Search(("backlash", "backlash")), "backlash: given twice"),
         (Search(("backlash",), start={"backlash": 1.0}), "backlash = 1.0: must be a number within"),
         (Search(("backlash",), start={"lambda_ratio": 1.0}), "lambda_ratio: is not free"),
-        (Search(("backlash",), ()), "nothing is observed"),
+        (Search(("backlash",), ()), "no observable: name at least one"),
         (Search(("backlash",), ("noise",)), "observe = noise: must be one of"),
-        (Search(("backlash",), noise={"dte_mean": 1.0}), "noise = dte_mean: is not observed"),
+        (
+            Search(("backlash",), noise={"dte_mean": 1.0}),
+            "noise = dte_mean: must be one of observe",
+        ),
         (Search(("backlash",), noise={"dte_rms": 0.0}), "must be above 0"),
         (Search(("backlash",), confidence=1.0), "confidence = 1.0: must be between 0 and 1"),
-        (Search(("backlash",), ("second_input_speed",)), "is no number anywhere"),
-        (Search(("backlash", "lambda_ratio"), ("power_loss",)), "1 readings cannot tell 2"),
+        (Search(("backlash",), ("second_input_speed",)), "was not recorded in this excerpt"),
+        (
+            Search(("backlash", "lambda_ratio"), ("power_loss",)),
+            "1 mean readings do not determine 2",
+        ),
     ],
 )
 def test_what_cannot_be_estimated_is_refused_in_one_line(short, search, told):

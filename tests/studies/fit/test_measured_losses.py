@@ -35,11 +35,11 @@ def drag_by_regression():
 def test_friction_alone_runs_into_the_end_of_its_range_and_the_drag_it_lacks_is_named(rig):
     found = identify(rig, Search((FRICTION,), ("power_loss",)), begin=0.0, end=22.5)
     assert found.estimate.at_bound == (True,) and found.estimate.unbounded[0] > 1.0
-    assert found.lacking.field == DRAG
-    assert found.lacking.value == pytest.approx(drag_by_regression(), rel=0.1)
-    assert found.lacking.sum < 0.01 * found.sum
+    assert found.missing_loss.field == DRAG
+    assert found.missing_loss.value == pytest.approx(drag_by_regression(), rel=0.1)
+    assert found.missing_loss.sum < 0.01 * found.sum
     said = list(remarks(found))
-    assert said[0].startswith(f"{FRICTION}: stands at the end of its range, 1; without the range")
+    assert said[0].startswith(f"{FRICTION}: is at the end of its range, 1; without the range")
     assert said[1].startswith(f"the model lacks a loss: {DRAG} = ")
 
 
@@ -54,6 +54,6 @@ def test_with_a_load_independent_drag_friction_stays_within_its_range(rig):
 def test_one_of_several_operating_points_is_not_looked_at_silently(rig):
     found = identify(rig, Search((DRAG,), ("power_loss",)))
     assert any(
-        line.startswith("1 of 9 operating points is looked at, 0 to 2.5 s of 22.5 s")
+        line.startswith("only 1 of 9 operating points is used, 0 to 2.5 s of 22.5 s")
         for line in remarks(found)
     )

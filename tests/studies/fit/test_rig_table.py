@@ -9,18 +9,18 @@ from studies.fit.rig import PAPER, record
 import planetary_twin_py as pt
 from planetary_twin_py.recording.tables.export import Export, export
 from planetary_twin_py.recording.tables.rig_recording import write_measured
-from planetary_twin_py.studies.fit import stretch
+from planetary_twin_py.studies.fit import excerpt
+from planetary_twin_py.studies.fit.excerpt import read_excerpt
 from planetary_twin_py.studies.fit.identify import Search, identify
-from planetary_twin_py.studies.fit.stretch import read_stretch
 
 FREE = ("lambda_ratio", "input_torque")
 ELSEWHERE = {"lambda_ratio": 2.0, "input_torque": 45.0}
 
 
-def assert_told(found, **truth):
+def assert_identified(found, **truth):
     for place, parameter in enumerate(found.parameters):
         low, high, _ = found.estimate.intervals[place]
-        assert found.estimate.told(place) and low < truth[parameter.name] < high
+        assert found.estimate.identifiable(place) and low < truth[parameter.name] < high
         assert high - low < 0.2 * truth[parameter.name]
 
 
@@ -37,8 +37,8 @@ def exported(tmp_path_factory):
 def test_what_is_exported_imported_and_fitted_is_the_truth(exported, tmp_path):
     write_measured(exported, PAPER, tmp_path / "rig")
     found = identify(tmp_path / "rig", Search(FREE, start=ELSEWHERE, confidence=0.999))
-    assert_told(found, lambda_ratio=0.7, input_torque=63.0)
-    assert found.stretch.scene.operating_point.input_torque == pytest.approx(63.0, rel=0.005)
+    assert_identified(found, lambda_ratio=0.7, input_torque=63.0)
+    assert found.excerpt.scene.operating_point.input_torque == pytest.approx(63.0, rel=0.005)
 
 
 @pytest.mark.exhaustive
@@ -48,16 +48,16 @@ def test_readings_of_one_mesh_are_enough(exported, tmp_path):
     csv.write_csv(table, tmp_path / "rig.csv")
     write_measured(tmp_path / "rig.csv", PAPER, tmp_path / "rig")
     found = identify(tmp_path / "rig", Search(FREE, start=ELSEWHERE, confidence=0.999))
-    assert [readings.values.shape for readings in found.yardstick.recorded] == [(30, 1), (30, 1)]
-    assert_told(found, lambda_ratio=0.7, input_torque=63.0)
+    assert [readings.values.shape for readings in found.weighted.recorded] == [(30, 1), (30, 1)]
+    assert_identified(found, lambda_ratio=0.7, input_torque=63.0)
 
 
 @pytest.mark.parametrize(
     ("observe", "told"),
     [
-        ("dte_peak", "observe = dte_peak: is no number anywhere in this stretch"),
-        ("dte_waveform", "observe = dte_waveform: there is no waveform in this stretch"),
-        ("power_loss", "observe = power_loss: is no number somewhere in this stretch"),
+        ("dte_peak", "observe = dte_peak: was not recorded in this excerpt"),
+        ("dte_waveform", "observe = dte_waveform: no waveform was recorded in this excerpt"),
+        ("power_loss", "observe = power_loss: has NaN or infinite values in this excerpt"),
     ],
 )
 def test_what_was_not_measured_cannot_be_observed(tmp_path, observe, told):
@@ -70,7 +70,7 @@ def test_what_was_not_measured_cannot_be_observed(tmp_path, observe, told):
 
 
 def test_without_angles_a_late_stretch_begins_in_steady_running(exported, tmp_path, monkeypatch):
-    monkeypatch.setattr(stretch, "HISTORY", 0.1)
+    monkeypatch.setattr(excerpt, "HISTORY", 0.1)
     table = parquet.read_table(exported).select(["simulated_time", "power_loss", "input_torque"])
     parquet.write_table(table, tmp_path / "rig.parquet")
     write_measured(tmp_path / "rig.parquet", PAPER, tmp_path / "rig")
@@ -78,13 +78,13 @@ def test_without_angles_a_late_stretch_begins_in_steady_running(exported, tmp_pa
         tmp_path / "rig", Search(("lambda_ratio",), ("power_loss",), confidence=0.999),
         begin=0.2, end=0.3,
     )  # fmt: skip
-    assert found.stretch.begins == pytest.approx(0.1)
-    assert_told(found, lambda_ratio=0.7)
+    assert found.excerpt.begins == pytest.approx(0.1)
+    assert_identified(found, lambda_ratio=0.7)
 
 
 def test_of_slow_readings_as_many_are_looked_at_as_tell_their_noise(tmp_path):
     table = pa.table({"time": np.arange(60.0), "power_loss": np.full(60, 75.0)})
     csv.write_csv(table, tmp_path / "rig.csv")
     write_measured(tmp_path / "rig.csv", pt.load_scene("paper"), tmp_path / "rig")
-    found = read_stretch(tmp_path / "rig")
+    found = read_excerpt(tmp_path / "rig")
     assert (found.start, found.end) == (0.0, 5.0)

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from planetary_twin_py.studies.fit.estimate import conclude
-from planetary_twin_py.studies.fit.least_squares import search, with_magnitudes
+from planetary_twin_py.studies.fit.least_squares import search, with_initial_magnitudes
 from planetary_twin_py.studies.fit.parameter import Parameter
 
 TIME = np.linspace(0.0, 3.0, 25)
@@ -44,7 +44,7 @@ def test_intervals_hold_the_truth_as_often_as_they_say_and_estimates_are_not_bia
 def test_without_noise_the_truth_is_found():
     found = estimate(decay, decay(TRUTH))
     assert found.values == pytest.approx(TRUTH, rel=1e-5)
-    assert found.untold == () and found.excess == 1.0
+    assert found.not_identifiable == () and found.excess == 1.0
 
 
 def test_noise_known_to_few_degrees_of_freedom_widens_the_intervals():
@@ -57,8 +57,8 @@ def test_noise_known_to_few_degrees_of_freedom_widens_the_intervals():
 
 def test_a_parameter_that_changes_nothing_is_not_told_and_spoils_no_other():
     found = estimate(lambda v: decay([v[0], TRUTH[1]]), decay(TRUTH) + noise_of(2))
-    assert found.untold == ((1,),)
-    assert found.told(0) and not found.told(1)
+    assert found.not_identifiable == ((1,),)
+    assert found.identifiable(0) and not found.identifiable(1)
     assert found.intervals[1][:2] == (0.0, 50.0)
     alone = estimate(lambda v: decay([v[0], TRUTH[1]]), decay(TRUTH) + noise_of(2), free=FREE[:1])
     assert found.intervals[0] == pytest.approx(alone.intervals[0], rel=1e-4)
@@ -66,7 +66,7 @@ def test_a_parameter_that_changes_nothing_is_not_told_and_spoils_no_other():
 
 def test_parameters_that_act_alike_are_named_together():
     found = estimate(lambda v: decay([v[0] * v[1], TRUTH[1]]), decay(TRUTH) + noise_of(3))
-    assert found.untold == ((0, 1),)
+    assert found.not_identifiable == ((0, 1),)
 
 
 def test_at_its_bound_an_interval_ends_there_and_follows_the_profile():
@@ -105,14 +105,16 @@ def test_a_search_that_begins_at_zero_finds_the_magnitude(truth):
     free = (Parameter("height", "m", 0.0, 1e6, 0.0),)
     data = decay([truth, 0.7])
     residuals = residuals_of(lambda v: decay([v[0], 0.7]), data, 1e-3 * truth)
-    found = conclude(residuals, free, search(residuals, with_magnitudes(residuals, free)), 99, 0.95)
+    found = conclude(
+        residuals, free, search(residuals, with_initial_magnitudes(residuals, free)), 99, 0.95
+    )
     assert found.values == pytest.approx([truth], rel=1e-5)
 
 
 def test_what_is_zero_stays_within_what_noise_hides():
     free = (Parameter("height", "m", 0.0, 1e6, 0.0),)
     residuals = residuals_of(lambda v: decay([v[0], 0.7]), noise_of(0))
-    free = with_magnitudes(residuals, free)
+    free = with_initial_magnitudes(residuals, free)
     assert 1e-4 <= free[0].start <= NOISE
 
 

@@ -10,6 +10,7 @@ from typing import Annotated, Any
 import typer
 
 from planetary_twin_py.cli._arguments import JsonOption, SceneArgument
+from planetary_twin_py.cli._durations import SECONDS
 from planetary_twin_py.cli._fail import fail, need, remark
 from planetary_twin_py.cli._figures import console_beside, put_figures
 from planetary_twin_py.cli._interrupts import interrupt
@@ -18,6 +19,7 @@ from planetary_twin_py.cli._settings import changed_scene, settings
 from .pacing import check_rate_factor
 
 RECORDINGS = Path("recordings")
+SHORTEST = 0.1  # [s] of a run
 PointOption = Annotated[
     list[str] | None,
     typer.Option(
@@ -31,7 +33,7 @@ PointOption = Annotated[
 def run(
     scene: SceneArgument = "paper",
     duration: Annotated[
-        float, typer.Option(help="Gearbox time [s]; inf: until Ctrl-C.", min=0.1)
+        float, typer.Option(help="Gearbox time; inf: until Ctrl-C.", **SECONDS)
     ] = 12.0,
     record: Annotated[
         str | None, typer.Option(metavar="NAME", help="Folder in recordings/; must be free.")
@@ -54,6 +56,8 @@ def run(
     Example: planetary-twin run paper --duration 20 --record first --set backlash=0.3um
     """
     need("ros", "mcap", "rosbags")
+    if not duration >= SHORTEST:
+        fail(f"--duration = {duration:g} s: must be at least {SHORTEST:g} s")
     interrupt_on_signals()
     options = {
         "scene": scene,

@@ -11,7 +11,7 @@ from enum import StrEnum
 from typing import NamedTuple, Protocol
 
 from planetary_twin_py import OperatingPoint, Twin, Window
-from planetary_twin_py.affordable import Affordable, Setting
+from planetary_twin_py.quality_control import QualityControl, Setting
 from planetary_twin_py.runaway import RunawayError
 
 from .hold import Hold
@@ -39,8 +39,8 @@ class Listener(Protocol):
     def refused(self, reason: str) -> None:
         """Hear why what was on its way to new values stays where it is."""
 
-    def retuned(self, instant: float, before: Setting, affordable: Affordable) -> None:
-        """From simulated time `instant` [s] on, `affordable` sets what `before` did."""
+    def retuned(self, instant: float, before: Setting, quality: QualityControl) -> None:
+        """From simulated time `instant` [s] on, `quality` sets what `before` did."""
 
     def ready(self) -> bool:
         """Whether time can pass: what it waits for is there, such as a clock to follow."""
@@ -84,7 +84,7 @@ class LiveTwin:
     Advances `twin` by `interval` [s] at a time.
 
     It makes `rate_factor` simulated seconds per second, or as fast as it goes where that is 0.
-    `affordable` chooses the setting, and may be replaced at any time, from any thread. Orders
+    `quality` chooses the setting, and may be replaced at any time, from any thread. Orders
     are carried out between two intervals; their futures give the simulated instant [s] of that.
 
     Above real time and in steps it waits for its recorder; at real time and below it never does.
@@ -95,7 +95,7 @@ class LiveTwin:
         twin: Twin,
         interval: float,
         rate_factor: float,
-        affordable: Affordable,
+        quality: QualityControl,
         listener: Listener,
     ) -> None:
         self._twin = twin
@@ -103,7 +103,7 @@ class LiveTwin:
         self._stop = threading.Event()
         self._pace = Pace(interval / rate_factor if rate_factor else 0.0, self._stop.wait)
         self._hold = Hold(lambda: 0.0 < rate_factor <= 1.0 or listener.has_room())
-        self.affordable = affordable
+        self.quality = quality
         self._listener = listener
         self._orders = Orders(self._set)
         self._ramps = Ramps()
@@ -186,10 +186,10 @@ class LiveTwin:
         """
         Compute one interval, and publish it after `wait`; returns whether the twin could.
 
-        The setting is the affordable one as far as is known; only the wait costs nothing.
+        The setting is that of the quality control so far; only the wait costs nothing.
         """
-        affordable = self.affordable
-        self._tune(affordable)
+        quality = self.quality
+        self._tune(quality)
         begin, idle = time.monotonic(), time.thread_time()
         try:
             window = self._twin.advance(duration)
@@ -202,17 +202,17 @@ class LiveTwin:
         waited = time.monotonic() - prepared
         self._listener.publish()
         work = time.thread_time() - idle
-        affordable.observe(time.monotonic() - begin - waited, work, window.repeated)
+        quality.observe(time.monotonic() - begin - waited, work, window.repeated)
         self._repeated = window.repeated
         return True
 
-    def _tune(self, affordable: Affordable) -> None:
-        twin, setting = self._twin, affordable.setting
+    def _tune(self, quality: QualityControl) -> None:
+        twin, setting = self._twin, quality.setting
         before = Setting(twin.tolerance, twin.sample_rate)
         if setting != before:
             twin.set_tolerance(setting.tolerance)
             instant = twin.set_sample_rate(setting.sample_rate)
-            self._listener.retuned(instant, before, affordable)
+            self._listener.retuned(instant, before, quality)
 
     def _set(self, values: Mapping[str, float]) -> float:
         self._ramps.leave(values)
@@ -221,7 +221,7 @@ class LiveTwin:
     def _change(self, values: Mapping[str, float]) -> float:
         self._refuse_after_failure()
         instant = self._twin.set(**values)
-        self.affordable.relearn()
+        self.quality.relearn()
         self._untold = True
         return instant
 

@@ -9,7 +9,7 @@ from typing import NamedTuple
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus, KeyValue
 
 from planetary_twin_py import Change
-from planetary_twin_py.affordable import Affordable
+from planetary_twin_py.quality_control import QualityControl
 from planetary_twin_py.recording.ros2.topics import REAL_TIME, status_name
 
 from .live import Progress, State
@@ -71,7 +71,7 @@ class RealTimeReport:
     def message(
         self,
         now: Progress,
-        affordable: Affordable,
+        quality: QualityControl,
         published: Mapping[str, int],
         *,
         last: bool,
@@ -86,11 +86,11 @@ class RealTimeReport:
         recent = _ratio(now.ran - self._last.ran, lasted, resting)
         overruns = now.overruns - self._last.overruns
         silence = time.monotonic() - now.wall
-        self.verdict = self._judge(now, affordable, recent, 0.0 if last else silence)
+        self.verdict = self._judge(now, quality, recent, 0.0 if last else silence)
         if self.verdict == STANDS:
             recent = 0.0
         details = {
-            THINNED: f"{self._log[-1].sample_rate:g} of {affordable.full_sample_rate:g} Hz",
+            THINNED: f"{self._log[-1].sample_rate:g} of {quality.full_sample_rate:g} Hz",
             FALLS_BEHIND: f"real time x {recent:.3f}, {overruns} overruns",
             FALLS_FAR_BEHIND: f"real time x {recent:.3f}, {overruns} overruns",
             WAITS_LONG: "for the first message on /clock, or for the node that wait_for names",
@@ -114,11 +114,11 @@ class RealTimeReport:
             "overruns": now.overruns,
             "held": f"{now.held:.3f}",
             **self._cpu(now),
-            "computing": f"{affordable.load:.3f}",
+            "computing": f"{quality.load:.3f}",
             "mesh_cycles": "repeated" if now.repeats else "computed",
-            "tolerance_choice": "automatic" if affordable.automatic else "fixed",
+            "tolerance_choice": "automatic" if quality.automatic else "fixed",
             "waveform": "full"
-            if self._log[-1].sample_rate == affordable.full_sample_rate
+            if self._log[-1].sample_rate == quality.full_sample_rate
             else "thinned",
             **self._settings(),
             **{f"published.{topic}": count for topic, count in published.items()},
@@ -128,7 +128,7 @@ class RealTimeReport:
         return DiagnosticArray(status=[status])
 
     def _judge(
-        self, now: Progress, affordable: Affordable, recent: float, silence: float
+        self, now: Progress, quality: QualityControl, recent: float, silence: float
     ) -> Verdict:
         if now.state == State.FAILED:
             return FAILED
@@ -150,7 +150,7 @@ class RealTimeReport:
                 return FALLS_BEHIND
         if now.overruns > self._last.overruns:
             return FALLS_BEHIND
-        thinned = self._log[-1].sample_rate < affordable.full_sample_rate
+        thinned = self._log[-1].sample_rate < quality.full_sample_rate
         return THINNED if thinned else KEEPS_UP
 
     def _mean(self, now: Progress) -> float:

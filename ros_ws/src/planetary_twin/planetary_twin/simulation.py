@@ -14,7 +14,7 @@ from planetary_twin_msgs.srv import NaturalModes, SetOperatingPoint
 from rclpy.parameter import Parameter
 
 import planetary_twin_py as pt
-from planetary_twin_py.affordable import Affordable, Setting
+from planetary_twin_py.quality_control import QualityControl, Setting
 from planetary_twin_py.robot import robot_description
 from planetary_twin_py.runaway import RunawayError
 
@@ -89,9 +89,9 @@ class Simulation(ManagedNode):
             twin.set(**self._given.point())
         except RunawayError as reason:
             raise NodeError(f"{reason}; clean up and configure the node for a new run") from None
-        given, affordable = self._given, self._given.affordable(twin)
+        given, quality = self._given, self._given.quality(twin)
         self._audience.begin()
-        self._live = LiveTwin(twin, 1.0 / given.rate, given.rate_factor, affordable, self)
+        self._live = LiveTwin(twin, 1.0 / given.rate, given.rate_factor, quality, self)
         self._report = self._new_report(twin, self._live.start())
         self._telemetry.describe(self._urdf)
         self.get_logger().info(f"runs {twin.scene.name} from {twin.time:g} s on")
@@ -152,9 +152,9 @@ class Simulation(ManagedNode):
         """Say why a ramp has ended where it is."""
         self.get_logger().warning(f"a ramp ends on its way: {reason}")
 
-    def retuned(self, instant: float, before: Setting, affordable: Affordable) -> None:
+    def retuned(self, instant: float, before: Setting, quality: QualityControl) -> None:
         """Say which setting holds, and why."""
-        now, load = affordable.setting, affordable.load
+        now, load = quality.setting, quality.load
         why = "as set" if math.isnan(load) else f"an interval cost {load:.0%} of its time"
         text = (
             f"tolerance {now.tolerance:g}, waveform at {now.sample_rate:g} Hz "
@@ -198,7 +198,7 @@ class Simulation(ManagedNode):
         if self._live is None:
             return
         if any(p.name == TOLERANCE.name for p in parameters):
-            self._live.affordable = self._given.affordable(self._running_twin())
+            self._live.quality = self._given.quality(self._running_twin())
         values = tunables(parameters)
         if not values:
             return
@@ -282,7 +282,7 @@ class Simulation(ManagedNode):
             return
 
         def report_now(published: Mapping[str, int]) -> DiagnosticArray:
-            message = report.message(live.progress, live.affordable, published, last=last)
+            message = report.message(live.progress, live.quality, published, last=last)
             message.status += [self._ledger.status(), self._accuracy.status()]
             return message
 

@@ -6,7 +6,7 @@ from rcl_interfaces.msg import SetParametersResult
 from rclpy.parameter import Parameter
 
 import planetary_twin_py as pt
-from planetary_twin_py.affordable import Affordable, Setting, settings_of
+from planetary_twin_py.quality_control import QualityControl, Setting, settings_of
 from planetary_twin_py.run import check_point
 from planetary_twin_py.tolerance import AUTOMATIC, LIVE_TOLERANCE, TOLERANCES, ladder_of
 
@@ -98,7 +98,7 @@ class SimulationParameters:
         """Return the scene at that operating point."""
         return self.scene.replace(**self.point())
 
-    def affordable(self, twin: pt.Twin) -> Affordable:
+    def quality(self, twin: pt.Twin) -> QualityControl:
         """Return what chooses the setting as asked for, from the twin's present one on."""
         wanted = self._node.get_parameter(TOLERANCE.name).value
         begin = Setting(twin.tolerance, twin.sample_rate)
@@ -106,7 +106,7 @@ class SimulationParameters:
             settings = settings_of(ladder_of(wanted), self.sample_rate)
         else:  # nothing to keep up with
             settings = [Setting(wanted or LIVE_TOLERANCE, self.sample_rate)]
-        return Affordable(settings, self._compute_share, self.period, begin)
+        return QualityControl(settings, self._compute_share, self.period, begin)
 
     def _declare_scene(self) -> None:
         """Declare the operating point of the scene and its geometry."""

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
+from planetary_twin_py.cli._arguments import complete_parameter
 from planetary_twin_py.cli._console import make_console
 from planetary_twin_py.cli._fail import fail, note
 from planetary_twin_py.cli._settings import in_words
@@ -20,6 +21,8 @@ NAMESPACE = "/planetary_twin"
 Namespace = Annotated[str, typer.Option(help="Of the twin, where several run.")]
 # A value may begin with "-", which would else be taken for an option.
 _NEGATIVE = {"ignore_unknown_options": True}
+
+Name = Annotated[str, typer.Argument(help="Of the parameter.", autocompletion=complete_parameter)]
 
 param = typer.Typer(no_args_is_help=True, help="Parameters of a running twin.")
 
@@ -59,7 +62,7 @@ def list_(namespace: Namespace = NAMESPACE) -> None:
 
 @param.command("get")
 def get(
-    name: Annotated[str, typer.Argument(help="Of the parameter.")],
+    name: Name,
     namespace: Namespace = NAMESPACE,
 ) -> None:
     """
@@ -73,7 +76,7 @@ def get(
 
 @param.command("set", context_settings=_NEGATIVE)
 def set_(
-    name: Annotated[str, typer.Argument(help="Of the parameter.")],
+    name: Name,
     value: Annotated[str, typer.Argument(help="In SI, or with a unit: '0.3 um', '2000 rpm'.")],
     namespace: Namespace = NAMESPACE,
 ) -> None:

@@ -1,4 +1,4 @@
-"""Which loss that the model leaves out would explain what it misses."""
+"""A loss absent from the model that would explain the residuals."""
 
 from __future__ import annotations
 
@@ -11,43 +11,43 @@ from ...scene import Scene
 from .least_squares import Array, Minimum, bounds_of
 from .parameter import Parameter
 
-SHARE = 1e-2  # of the input torque: a trial drag, within which its effect is linear
-PART = 0.5  # of the sum of squares, below which a loss does not explain it
-NOISE = 11.0  # fall of the sum of squares that noise brings with a chance of 1e-3: chi^2_1
+SHARE = 1e-2  # of the input torque: a trial drag small enough for a linear effect
+PART = 0.5  # fraction of the sum of squares that a loss must explain
+NOISE = 11.0  # decrease of the sum of squares due to noise with probability 1e-3: chi^2_1
 
 Trial = Callable[[str, float], Array | None]
-"""Residuals (m,) at a minimum with a further field at a value; None where there are none."""
+"""Residuals (m,) at a minimum with a further field at a value; None if the simulation fails."""
 
 
-class Lacking(NamedTuple):
-    """A field that is zero in the model, and what freeing it is expected to give."""
+class MissingLoss(NamedTuple):
+    """A field that is zero in the model, and its linear estimate."""
 
     field: str
     value: float
-    """Estimate of it, in SI."""
+    """Estimate in SI."""
     unit: str
     sum: float
-    """Of squares that would be left."""
+    """Expected sum of squares with this value."""
 
 
-def find_lacking(
+def find_missing_loss(
     scene: Scene, parameters: Sequence[Parameter], minimum: Minimum, trial: Trial
-) -> Lacking | None:
-    """The load-independent drag of the input shaft that would lower the sum of squares most.
+) -> MissingLoss | None:
+    """Find the load-independent drag of the input shaft that reduces the sum of squares most.
 
-    The score test of an omitted parameter (Rao 1948, Proc. Cambridge Phil. Soc. 44, 50-57), with
-    ranges: the linear model at the minimum is solved again with the omitted one as a further
-    unknown that is not negative.
+    Score test of an omitted parameter (Rao 1948, Proc. Cambridge Phil. Soc. 44, 50-57) with
+    ranges: the model linearised at the minimum is solved with the omitted parameter as a further
+    non-negative unknown.
 
     Args:
         scene: the model.
-        parameters: what is free.
-        minimum: where the sum of squares is least.
+        parameters: the free parameters.
+        minimum: of the sum of squares.
         trial: see `Trial`.
 
     Returns:
-        The field, or None if none is expected to lower the sum of squares by more than half of it,
-        and by more than noise may.
+        The field, or None if no field would at least halve the sum of squares and reduce it by
+        more than noise does.
     """
     from scipy.optimize import lsq_linear
 
@@ -63,12 +63,12 @@ def find_lacking(
         done = lsq_linear(slopes, -minimum.residuals, (ends[0], np.append(ends[1], np.inf)))
         left = 2.0 * float(done.cost)
         if minimum.sum - left > max(PART * minimum.sum, NOISE):
-            found.append(Lacking(field, float(done.x[-1]) * drag, unit, left))
+            found.append(MissingLoss(field, float(done.x[-1]) * drag, unit, left))
     return min(found, key=lambda candidate: candidate.sum, default=None)
 
 
 def _candidates(scene: Scene) -> Iterator[tuple[str, str, float]]:
-    """Drags that the scene leaves out: name, unit, and a value that is small for it."""
+    """Drags that are zero in the scene: name, unit, and a small trial value."""
     member, point = scene.drive.input.member, scene.operating_point
     drag = getattr(scene.losses, f"{member}_drag")
     torque = SHARE * (abs(point.input_torque) or scene.drive.torque_limit)

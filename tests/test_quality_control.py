@@ -8,10 +8,10 @@ from collections.abc import Callable
 
 import pytest
 
-from planetary_twin_py.affordable import (
+from planetary_twin_py.quality_control import (
     DEARER,
     LOWEST_SAMPLE_RATE,
-    Affordable,
+    QualityControl,
     Setting,
     settings_of,
 )
@@ -27,7 +27,9 @@ def power_law(at_loosest: float, order: float) -> Load:
     return lambda tolerance: at_loosest * (LADDER[0] / tolerance) ** (1.0 / order)
 
 
-def settings(policy: Affordable, cost: Callable[[Setting], float], seconds: float, **kind: bool):
+def settings(
+    policy: QualityControl, cost: Callable[[Setting], float], seconds: float, **kind: bool
+):
     """The settings of the windows of `seconds`, each of which takes a share `cost` of its time."""
     chosen = []
     for _ in range(round(seconds / PERIOD)):
@@ -36,7 +38,7 @@ def settings(policy: Affordable, cost: Callable[[Setting], float], seconds: floa
     return chosen
 
 
-def chosen(policy: Affordable, load: Load, seconds: float) -> list[float]:
+def chosen(policy: QualityControl, load: Load, seconds: float) -> list[float]:
     """The tolerances of the windows of `seconds`."""
     return [s.tolerance for s in settings(policy, lambda s: load(s.tolerance), seconds)]
 
@@ -45,12 +47,12 @@ def changes(chosen: list) -> int:
     return sum(a != b for a, b in itertools.pairwise(chosen))
 
 
-def of(tolerance: float, share: float = SHARE, begin: float = LIVE_TOLERANCE) -> Affordable:
+def of(tolerance: float, share: float = SHARE, begin: float = LIVE_TOLERANCE) -> QualityControl:
     ladder = settings_of(ladder_of(tolerance), FULL)
-    return Affordable(ladder, share, PERIOD, Setting(begin, FULL))
+    return QualityControl(ladder, share, PERIOD, Setting(begin, FULL))
 
 
-def automatic() -> Affordable:
+def automatic() -> QualityControl:
     return of(0.0)
 
 
@@ -308,5 +310,5 @@ def test_a_tolerance_that_is_too_dear_to_compute_is_tried_ever_more_rarely_while
 
 def test_a_new_choice_of_tolerances_begins_with_the_waveform_as_it_is():
     ladder = settings_of(ladder_of(2e-5), FULL)
-    policy = Affordable(ladder, SHARE, PERIOD, Setting(1e-2, 12.5e3))
+    policy = QualityControl(ladder, SHARE, PERIOD, Setting(1e-2, 12.5e3))
     assert policy.setting == Setting(2e-5, 12.5e3)

@@ -1,6 +1,6 @@
-"""The best setting a live twin can afford, from what its windows cost.
+"""Quality control of a live twin: selects tolerance and sample rate by the cost of its windows.
 
-Pure arithmetic without a clock: whoever runs the twin measures, and feeds what it has measured.
+It has no clock: the caller measures the computing time of each window.
 """
 
 from __future__ import annotations
@@ -9,61 +9,61 @@ import math
 from collections.abc import Sequence
 from typing import NamedTuple
 
-# The error of a step goes with the cube of its length at least (Rosenbrock's: the fourth power).
-DEARER = (10.0 / 3.0) ** (1.0 / 3.0)  # what a tolerance may cost over the next looser one, at most
-HALVINGS = 3  # of the waveform's rate, at most
-LOWEST_SAMPLE_RATE = 1e3  # [Hz] that halving leaves
-STRETCH = 0.5  # [s] over which a mean cost is taken
-FEWEST = 4  # windows for that
-PATIENCE = 1.0  # [s] a cost must have allowed for climbing
+# The error of a step is of third order in its length at least (Rosenbrock: fourth order).
+DEARER = (10.0 / 3.0) ** (1.0 / 3.0)  # largest cost ratio of successive tolerances
+HALVINGS = 3  # of the sample rate, at most
+LOWEST_SAMPLE_RATE = 1e3  # [Hz] after halving
+AVERAGING = 0.5  # [s] over which the cost is averaged
+FEWEST = 4  # windows in an average
+PATIENCE = 1.0  # [s] for which the load must be low before a better setting is tried
 LONGEST_PATIENCE = 64.0  # [s]
-COMFORTABLE = 0.8  # load at which more samples are tried: what they cost beside the rest varies
+COMFORTABLE = 0.8  # load at which a higher sample rate is tried, whose cost is not known
 
 
 class Setting(NamedTuple):
-    """What a twin can give up for time."""
+    """Tolerance and sample rate of a twin."""
 
     tolerance: float
     sample_rate: float  # [Hz] of the waveform
 
 
 def settings_of(tolerances: Sequence[float], sample_rate: float) -> list[Setting]:
-    """A ladder, the best last: all `tolerances` at the full rate, below them halves of the rate.
+    """Settings in ascending order of quality.
 
     Args:
         tolerances: the loosest first.
-        sample_rate: of the waveform [Hz]; halves of it are taken at the loosest tolerance.
+        sample_rate: full rate of the waveform [Hz].
+
+    Returns:
+        Halved rates at the loosest tolerance, then all tolerances at the full rate.
     """
     halves = [sample_rate / 2**n for n in range(HALVINGS, 0, -1)]
     thinned = [Setting(tolerances[0], rate) for rate in halves if rate >= LOWEST_SAMPLE_RATE]
     return thinned + [Setting(tolerance, sample_rate) for tolerance in tolerances]
 
 
-class Affordable:
-    """Chooses among the settings of a ladder by the cost of windows.
+class QualityControl:
+    """Selects a setting by the load, which is computing time/available time of windows.
 
-    The share is one of the processor's time, lateness one of wall time, see `observe`.
+    Two successive windows with a load above 1, or a mean over half a second above the limit, reduce
+    the quality at once, by as many steps as necessary. The limit is `share` of the processor time
+    for tolerances and 1 for the sample rate, which is reduced only if the twin would be late
+    otherwise.
 
-    Two windows in a row that cost more than the time there is, or a mean over half a second above
-    what is granted, step down at once, by as many rungs as that asks for at least. A tolerance is
-    granted the share, the full waveform all the time there is: it is thinned where the twin would
-    be late otherwise, and not before.
-
-    A mean within the grant must last before a better rung is tried: several at once as long as
-    none of them can cost too much, then one by one: a tolerance as long as it cannot be late, a
-    fuller waveform as long as there is some time left. Where that proves too dear, from then on a
-    mean must last twice as long, and of a tolerance it is remembered by how much; so a cost at the
-    limit does not let the setting swing.
+    A mean below the limit must last before a better setting is tried: several steps at once if none
+    of them can exceed the limit, then single steps: a tolerance if the twin cannot be late, a
+    higher sample rate if the load is comfortable. If a setting proves too expensive, the next
+    attempt waits twice as long, and the cost of a tolerance is stored, to avoid oscillation.
 
     Windows that are repeated lead back up to the rung to begin with, no higher: they do not show
     what a tolerance costs, but a short overload, as of the start of other processes, must not keep
     the tolerance loose for good.
 
     Args:
-        ladder: of `settings_of`.
-        share: of the time there is, that windows may cost in the mean.
-        period: time there is for a window [s].
-        begin: to begin with; where the ladder lacks it, the next better one.
+        ladder: from `settings_of`.
+        share: largest mean load.
+        period: available time for a window [s].
+        begin: initial setting; if the ladder lacks it, the next better one.
     """
 
     def __init__(
@@ -75,47 +75,47 @@ class Affordable:
         self._rung = sum(_rank(setting) < _rank(begin) for setting in ladder[:-1])
         self._first = self._rung
         self._full = sum(setting.sample_rate < ladder[-1].sample_rate for setting in ladder)
-        self._windows = max(math.ceil(STRETCH / period - 1e-9), FEWEST)
+        self._windows = max(math.ceil(AVERAGING / period - 1e-9), FEWEST)
         self._loads: list[float] = []
         self._last = 0.0
         self._repeated = False
-        self._climbed_at = math.nan  # mean at which the rung in use was tried
+        self._climbed_at = math.nan  # mean load at which the present setting was tried
         self.load = math.nan
-        """Cost over the time there is, as last judged."""
+        """Load at the last decision."""
         self.relearn()
 
     @property
     def automatic(self) -> bool:
-        """Whether there is a choice of tolerances."""
+        """Whether there are several tolerances."""
         return self._full < len(self._ladder) - 1
 
     @property
     def setting(self) -> Setting:
-        """The one to use for the next window."""
+        """Setting for the next window."""
         return self._ladder[self._rung]
 
     @property
     def full_sample_rate(self) -> float:
-        """Of a waveform that is not thinned [Hz]."""
+        """Full rate of the waveform [Hz]."""
         return self._ladder[-1].sample_rate
 
     def relearn(self) -> None:
-        """Forget what was too dear: the operating point is another one."""
+        """Reset what was learned about costs, after a change of the operating point."""
         self._patience = PATIENCE
         self._calm = 0.0
-        self._dearer = [1.0] * len(self._ladder)  # than the next worse; at first anything may do
+        self._dearer = [1.0] * len(self._ladder)  # cost ratio to the next worse setting
 
     def observe(self, cost: float, work: float, repeated: bool = False) -> None:
-        """Learn from a window.
+        """Update with a window.
 
-        One in time costs what the processor worked for it: that other processes held it up says
-        nothing of a setting. A late one costs all the time it took, whatever took it.
+        A window that is in time counts with its processor time, because a delay by other processes
+        does not depend on the setting. A late window counts with its wall time.
 
         Args:
-            cost: wall time that it took [s].
-            work: processor time of it [s].
-            repeated: whether it was not computed; then it says nothing of what a tolerance costs,
-                but if it is late, then at any tolerance.
+            cost: wall time of the window [s].
+            work: processor time of the window [s].
+            repeated: whether steady running was repeated, not computed; the cost then does not
+                depend on the tolerance.
         """
         load = (work if cost <= self._period else cost) / self._period
         if repeated != self._repeated:
@@ -131,7 +131,7 @@ class Affordable:
             self._judge(self.load)
 
     def _judge(self, mean: float) -> None:
-        """Decide by the mean of a stretch."""
+        """Decide by a mean load."""
         if mean > self._grant(self._rung):
             self._descend(mean)
             return
@@ -143,7 +143,7 @@ class Affordable:
             self._climbed_at = mean
 
     def _goal(self, mean: float) -> int:
-        """The rung to climb to."""
+        """Index of the setting to try."""
         top = max(self._full, self._first) if self._repeated else len(self._ladder) - 1
         goal, most = self._rung, mean
         while goal < top and (most := most * self._steepest(goal + 1)) <= self._limit(goal + 1):
@@ -151,7 +151,7 @@ class Affordable:
         return self._rung + 1 if goal == self._rung < top and self._may_climb(mean) else goal
 
     def _may_climb(self, mean: float) -> bool:
-        """Whether the next rung is worth a trial."""
+        """Whether the next better setting may be tried."""
         above = self._rung + 1
         if above <= self._full:
             return mean <= COMFORTABLE
@@ -168,15 +168,15 @@ class Affordable:
         self._move(rung)
 
     def _grant(self, rung: int) -> float:
-        """The load above which `rung` is left for the next worse one."""
+        """Load above which a setting is left for a worse one."""
         return 1.0 if self._repeated else self._limit(rung)
 
     def _limit(self, rung: int) -> float:
-        """The load up to which `rung` is tried."""
+        """Largest load at which a setting is tried."""
         return self._share if rung > self._full else 1.0
 
     def _steepest(self, rung: int) -> float:
-        """What `rung` may cost over the next worse one, at most."""
+        """Largest cost ratio of a setting to the next worse one."""
         if rung <= self._full:
             return 2.0
         return 1.0 if self._repeated else DEARER
@@ -187,11 +187,11 @@ class Affordable:
         self._forget()
 
     def _forget(self) -> None:
-        """Begin a new stretch."""
+        """Start a new average."""
         self._last = self._calm = 0.0
         self._loads.clear()
 
 
 def _rank(setting: Setting) -> tuple[float, float]:
-    """The better, the greater."""
+    """Sort key: a better setting is greater."""
     return setting.sample_rate, -setting.tolerance

@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 import planetary_twin_py as pt
-from planetary_twin_py.studies.fit.lacking import find_lacking
 from planetary_twin_py.studies.fit.least_squares import search
+from planetary_twin_py.studies.fit.missing_loss import find_missing_loss
 from planetary_twin_py.studies.fit.parameter import Parameter
 
 PAPER = pt.load_scene("paper")
@@ -22,9 +22,9 @@ def residuals(lost, friction, **drag):
     return (friction * TORQUE + sum(EFFECT[k] * v for k, v in drag.items()) - lost) / 1e-3
 
 
-def lacking(lost, scene=PAPER):
+def missing_loss(lost, scene=PAPER):
     minimum = search(lambda points: [residuals(lost, p[0]) for p in points], (FRICTION,))
-    return find_lacking(
+    return find_missing_loss(
         scene, (FRICTION,), minimum, lambda k, v: residuals(lost, minimum.values[0], **{k: v})
     )
 
@@ -33,19 +33,19 @@ def lacking(lost, scene=PAPER):
 @pytest.mark.parametrize("friction", [0.2, 0.48])
 def test_the_drag_that_is_there_is_named_with_its_value(name, friction):
     """With a friction of 0.48 the search ends at the end of the range, and comes back off it."""
-    found = lacking(friction * TORQUE + 0.7 * EFFECT[name])
+    found = missing_loss(friction * TORQUE + 0.7 * EFFECT[name])
     assert found.field == name
     assert found.value == pytest.approx(0.7, rel=1e-6) and found.sum < 1e-6
 
 
 def test_a_loss_that_follows_the_load_is_no_drag():
-    assert lacking(0.1 * TORQUE**2) is None
+    assert missing_loss(0.1 * TORQUE**2) is None
 
 
 def test_less_loss_than_the_model_has_is_no_drag():
-    assert lacking(0.2 * TORQUE - 0.7) is None
+    assert missing_loss(0.2 * TORQUE - 0.7) is None
 
 
 def test_a_drag_that_the_scene_has_is_not_lacking():
     both = PAPER.replace(**{"losses.sun_drag": {"coulomb": 0.1, "viscous": 0.1}})
-    assert lacking(0.2 * TORQUE + 0.7, both) is None
+    assert missing_loss(0.2 * TORQUE + 0.7, both) is None

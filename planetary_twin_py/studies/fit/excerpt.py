@@ -1,4 +1,4 @@
-"""The part of a recording that is looked at, and what its simulation begins from."""
+"""The part of a recording that is fitted, and the start of its simulation."""
 
 from __future__ import annotations
 
@@ -15,78 +15,93 @@ from ...recording.container.records import RecordingError
 from ...recording.ros2.namespaces import choose_namespace
 from ...recording.ros2.tape import Tape
 from ...recording.ros2.topics import STATE, WAVEFORM
-from ...recording.runs.schedule import Change, Interval, Run, messages_of, read_runs, stamp_of
+from ...recording.runs.schedule import (
+    Change,
+    Interval,
+    RecordedRun,
+    messages_of,
+    read_runs,
+    stamp_of,
+)
 from ...recording.runs.steadiness import between, length, longest_steady_part, settling
 from ...scene import Scene
 from ...twin import TICKS, Twin
 
-LONGEST = 1.0  # [s] that is looked at unless more is asked for
-HISTORY = 2.0  # [s] before it that are simulated as recorded; of more, only the last part
-LEAD = 0.1  # [s] simulated before it then, for what is left of the start
-FEWEST = 5  # intervals that noise can be seen in
+LONGEST = 1.0  # [s] used by default
+HISTORY = 2.0  # [s] before the excerpt that are simulated as recorded; if longer, see `_reference`
+LEAD = 0.1  # [s] simulated before the excerpt in that case, for the transient of the start
+FEWEST = 5  # intervals needed to estimate the noise
 
 
 @dataclass(frozen=True)
-class Stretch:
-    """Recorded intervals of one run, in their order, and all that is needed to simulate them."""
+class Excerpt:
+    """Recorded intervals of one run, with everything needed to simulate them."""
 
     scene: Scene
-    """At the operating point in force at `begins`."""
+    """The scene with the operating point at `begins`."""
     begins: float
-    """Simulated instant of the recorded run at which a simulation starts [s]; 0 is its start."""
+    """Time of the recorded run at which a simulation starts [s]."""
     before: tuple[Interval, ...]
-    """Recorded intervals from `begins` on that are simulated and not looked at."""
+    """Recorded intervals after `begins` that are simulated but not fitted."""
     intervals: tuple[Interval, ...]
     states: tuple[Any, ...]
     """The GearboxState of each interval."""
     changes: tuple[Change, ...]
-    """Operating points that come into force from `begins` on."""
+    """Changes of the operating point after `begins`."""
     blocks: tuple[Any, ...]
-    """Blocks of the waveform; empty unless asked for."""
+    """Blocks of the waveform; empty if not requested."""
     remarks: tuple[str, ...]
-    """What of the file could not be read."""
+    """Warnings about the file."""
 
     @property
     def start(self) -> float:
-        """[s]"""
+        """Start of the first interval [s]."""
         return self.intervals[0].begin / TICKS
 
     @property
     def end(self) -> float:
-        """[s]"""
+        """End of the last interval [s]."""
         return self.intervals[-1].end / TICKS
 
     @property
     def held_from(self) -> float:
-        """From when the operating point at the start is in force, as far as is simulated [s]."""
+        """Time from which the operating point at the start applies, not before `begins` [s]."""
         times = (c.time for c in self.changes if self.begins < c.time <= self.start)
         return max(times, default=self.begins)
 
     @property
     def tolerance(self) -> float:
-        """The loosest in force."""
+        """Largest tolerance of any interval."""
         return max(interval.tolerance for interval in self.intervals)
 
     @property
     def segments(self) -> tuple[float, ...]:
-        """Instants at which another operating point comes into force within the stretch [s]."""
+        """Times at which the operating point changes within the excerpt [s]."""
         return tuple(c.time for c in self.changes if self.start < c.time < self.end)
 
 
-def read_stretch(
+def read_excerpt(
     path: Path,
     namespace: str | None = None,
     begin: float | None = None,
     end: float | None = None,
     waveform: bool = False,
-) -> Stretch:
-    """Read from `begin` to `end` [s] of the longest run in the recording at `path`.
+) -> Excerpt:
+    """Read a part of the longest run of a recording.
 
-    Without them: the longest stretch of any run on which the operating point stays the same, its
-    settling left out, up to `LONGEST`.
+    Args:
+        path: an .mcap file, or its folder.
+        namespace: of the gearbox, if the recording has several.
+        begin: start [s]. Without `begin` and `end`, the longest settled part of any run with a
+            constant operating point is used, up to `LONGEST`.
+        end: end [s].
+        waveform: whether to read the waveform.
+
+    Returns:
+        The excerpt.
 
     Raises:
-        RecordingError: there is no run with its scene, or no such stretch in it.
+        RecordingError: no run has a scene, or there are too few intervals.
     """
     remarks: list[str] = []
     chosen = choose_namespace(Tape(path).topics, namespace, path)
@@ -115,7 +130,7 @@ def read_stretch(
     }
     scene, begins = _start(run, reference and states[reference.stamp], reference)
     last = intervals[-1].end / TICKS
-    return Stretch(
+    return Excerpt(
         scene=scene,
         begins=begins,
         before=tuple(i for i in between(run, begins, math.inf) if i.end <= intervals[0].begin),
@@ -127,19 +142,19 @@ def read_stretch(
     )
 
 
-def _left_out(run: Run, intervals: list[Interval]) -> Iterator[str]:
-    """A line on the operating points of a run that its longest steady part leaves out."""
+def _left_out(run: RecordedRun, intervals: list[Interval]) -> Iterator[str]:
+    """Warning if the longest steady part does not contain all operating points of a run."""
     last = run.intervals[-1].end / TICKS
     points = sum(change.time < last for change in run.changes)
     if intervals and points > 1:
         yield (
-            f"1 of {points} operating points is looked at, {intervals[0].begin / TICKS:g} to "
-            f"{intervals[-1].end / TICKS:g} s of {last:g} s; choose more with --from and --to"
+            f"only 1 of {points} operating points is used, {intervals[0].begin / TICKS:g} to "
+            f"{intervals[-1].end / TICKS:g} s of {last:g} s; use --from and --to to select more"
         )
 
 
-def _reference(run: Run, begin: float) -> Interval | None:
-    """The last interval before `begin` at whose end the train runs steadily; None: none needed."""
+def _reference(run: RecordedRun, begin: float) -> Interval | None:
+    """The last interval before `begin` that ends in steady running; None if none is needed."""
     if begin <= HISTORY:
         return None
     until = begin - LEAD
@@ -153,8 +168,8 @@ def _reference(run: Run, begin: float) -> Interval | None:
     return run.intervals[place - 1] if place else None
 
 
-def _start(run: Run, state: Any, reference: Interval | None) -> tuple[Scene, float]:
-    """Scene and instant at which steady running has the recorded angles; else the run's start."""
+def _start(run: RecordedRun, state: Any, reference: Interval | None) -> tuple[Scene, float]:
+    """Scene and time at which steady running has the recorded angles, or the start of the run."""
     scene = run.origin.scene
     if reference is None:
         return scene, 0.0
@@ -168,10 +183,10 @@ def _start(run: Run, state: Any, reference: Interval | None) -> tuple[Scene, flo
 
 
 def _since_start_angles(scene: Scene, state: Any) -> float:
-    """Time [s] since the teeth, and as nearly as may be the motor, stood as a run starts.
+    """Time [s] since the gears, and as closely as possible the motor, had the angles of a start.
 
-    Each start stands at the same angles, so a start at that instant has the recorded phases; 0
-    where a rig has not measured them.
+    Every run starts at the same angles, so a run started at that time has the recorded phases. The
+    result is 0 if the angles were not measured.
     """
     first = Twin(scene).advance(1.0 / TICKS)
     at = {body: first.angle[k] for k, body in enumerate(first.bodies)}

@@ -1,0 +1,50 @@
+"""Words outside the vocabulary of the field do not occur in messages, docstrings and names."""
+
+import io
+import re
+import tokenize
+from pathlib import Path
+
+import pytest
+
+PACKAGE = Path(__file__).parents[2] / "planetary_twin_py"
+DIALECT = re.compile(
+    r"\b(told|untold|anew|alike|begun|thrown|whereof|thereof|heard|torn|whoever|lest)\b",
+    re.IGNORECASE,
+)
+ROOMS = (
+    "cli", "doctor", "explanation", "plots", "recording", "robot", "scene", "studies", "view",
+)  # fmt: skip
+MODULES = (
+    "accuracy", "batch", "ledger_check", "printable", "quality_control", "quantities", "result",
+    "run", "runaway", "simulation", "tolerance", "twin", "units", "window",
+)  # fmt: skip
+DEPRECATED = {("cli/fit.py", "told"), ("cli/fit.py", "untold"), ("cli/doctor.py", "told")}
+"""JSON keys that are kept beside their plain names."""
+FILES = sorted(
+    [file for room in ROOMS for file in (PACKAGE / room).rglob("*.py")]
+    + [PACKAGE / f"{name}.py" for name in MODULES]
+)
+
+
+def found_in(source):
+    """Words of the dialect in the comments, strings and names of a Python source."""
+    tokens = tokenize.generate_tokens(io.StringIO(source).readline)
+    kinds = {tokenize.COMMENT, tokenize.STRING, tokenize.NAME}
+    kinds.add(getattr(tokenize, "FSTRING_MIDDLE", tokenize.STRING))  # from Python 3.12
+    texts = (token.string.replace("_", " ") for token in tokens if token.type in kinds)
+    return {word.lower() for text in texts for word in DIALECT.findall(text)}
+
+
+@pytest.mark.parametrize("file", FILES, ids=lambda file: str(file.relative_to(PACKAGE)))
+def test_a_source_has_plain_words_only(file):
+    path = str(file.relative_to(PACKAGE))
+    found = found_in(file.read_text(encoding="utf-8"))
+    assert {word for word in found if (path, word) not in DEPRECATED} == set()
+
+
+def test_comments_strings_and_names_are_searched():
+    assert found_in('x = "not told"\n') == {"told"}
+    assert found_in("x = 1  # begun\n") == {"begun"}
+    assert found_in("_told_again = f'anew {1}'\n") == {"told", "anew"}
+    assert found_in("x = 'is reported'\n") == set()
