@@ -135,4 +135,4 @@ def test_verify_says_which_figures_of_a_recording_the_tolerance_does_not_bound(t
         assert verdict.identical and len(verdict.accuracy) == count
         shown = CliRunner().invoke(build_app(), ["verify", str(file), "--json", "-"])
         assert len(json.loads(shown.stdout)["accuracy"]) == count
-        assert shown.stderr.count("flanks meet and part") == count
+        assert shown.stderr.count("flanks engage and separate") == count

@@ -86,7 +86,7 @@ def test_points_of_a_killed_worker_are_run_by_another(scheduler):
 
 
 def test_an_address_without_a_scheduler_is_told_in_one_line(monkeypatch):
-    monkeypatch.setattr("planetary_twin_py.studies.cluster._PATIENCE", 0.5)
+    monkeypatch.setattr("planetary_twin_py.studies.cluster._TIMEOUT", 0.5)
     with pytest.raises(ValueError, match=r"scheduler = 'tcp://127\.0\.0\.1:1'") as refusal:
         Cluster("tcp://127.0.0.1:1")
     assert "\n" not in str(refusal.value)

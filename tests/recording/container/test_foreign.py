@@ -90,7 +90,7 @@ def test_a_bag_compressed_by_message_is_read_and_so_is_its_file_alone(sound, tmp
 def test_messages_that_unpack_to_more_than_a_recording_holds_are_left_packed(sound, tmp_path):
     bomb = zstandard.ZstdCompressor().compress(bytes(2**28))
     file = rewritten(sound, tmp_path / "bomb.mcap", messages_of("gearbox_state", lambda data: bomb))
-    with pytest.raises(RecordingError, match="a message is compressed by itself, and cannot"):
+    with pytest.raises(RecordingError, match="a message is compressed individually, and cannot"):
         read_recording(file)
 
 
