@@ -124,7 +124,7 @@ def test_a_sweep_names_the_points_whose_motion_outgrows_the_tolerance():
     assert list(inaccuracies(tabulate(study, dict.fromkeys(range(3), sound)))) == []
     found = {0: rattling, 1: sound, 2: Failure("no such teeth")}
     (text,) = inaccuracies(tabulate(study, found))
-    assert text.startswith("at 1 of 3 points (unrepeated_flank_events), at worst: flanks meet and")
+    assert text.startswith("at 1 of 3 points (unrepeated_flank_events), at worst: flanks engage")
 
 
 def test_verify_says_which_figures_of_a_recording_the_tolerance_does_not_bound(tmp_path):

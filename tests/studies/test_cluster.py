@@ -77,7 +77,7 @@ def test_points_of_a_killed_worker_are_run_by_another(scheduler):
 
     try:
         until(lambda: len(cluster._client.nthreads()) == 2)
-        table = sweep(study, cluster, hear=hear)
+        table = sweep(study, cluster, report=hear)
     finally:
         cluster.close()
     assert workers[0].wait(10) == -signal.SIGKILL
