@@ -192,7 +192,7 @@ def test_without_a_package_of_the_peers_the_command_ends_in_one_line(monkeypatch
     answer = CliRunner().invoke(build_app(), ["bench", "--peers"])
     assert answer.exit_code == 2
     assert answer.output.splitlines() == [
-        "planetary-twin: this needs more packages: pip install 'planetary_twin_py[bench]'"
+        "planetary-twin: required packages are missing: pip install 'planetary_twin_py[bench]'"
     ]
 
 

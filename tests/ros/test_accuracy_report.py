@@ -21,6 +21,6 @@ def test_a_motion_that_outgrows_its_tolerance_is_a_warning_until_the_next_report
         report.add(replace(window, course=window.course._replace(reversals=3)))
     bad = report.status()
     assert bad.level == DiagnosticStatus.WARN
-    assert bad.message.startswith("vibration stops gears against the carrier, or nearly so, in 6")
+    assert bad.message.startswith("vibration stops gears relative to the carrier, or nearly so")
     assert {item.key: item.value for item in bad.values}["reversals"] == "6"
     assert report.status().level == DiagnosticStatus.OK

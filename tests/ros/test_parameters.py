@@ -85,7 +85,7 @@ REFUSED: tuple[tuple[str, object, tuple[str, ...]], ...] = (
     ("lambda_ratio", 10.5, ("10.5", "10")),
     ("lambda_ratio", "1 000", ("'1 000'", "number")),
     ("oil_temperature", 20, ("20", "233.15")),
-    ("second_input_speed", 1.0, ("1.0", "no second input")),
+    ("second_input_speed", 1.0, ("1.0", "must be 0 without a second input")),
     ("rate_factor", 2.0, ("2.0", "fixed", "-p rate_factor:=")),
     ("use_sim_time", "yes", ("'yes'", "BOOL")),
     ("gap", 1.0, ("no such parameter",)),

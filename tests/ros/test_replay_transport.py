@@ -271,7 +271,7 @@ def test_a_recorded_clock_is_played_alone(peer: Peer, play: Play, tmp_path: Path
 
 
 def test_what_cannot_be_renamed_or_chosen_ends_in_one_line(play: Play, split: Path) -> None:
-    _refused(play(split, "--topics", "/odd"), "topics: /odd: ", "holds /planetary_twin/gearbox_")
+    _refused(play(split, "--topics", "/odd"), "topics: /odd: ", "has /planetary_twin/gearbox_")
     _refused(play(split, "--namespace", "9 lives"), "/9 lives/gearbox_state: ")
     _refused(play(split, "--rate", "0.001"), "rate_factor = 0.001: must be within 0.01")
     _refused(play(split, "--remap", "no rule"), "--remap no rule: must be OLD:=NEW", code=2)
