@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import json
 import subprocess
+import sys
 import tempfile
 from collections.abc import Iterator
 from functools import cache
@@ -41,7 +42,8 @@ def fitted_rig() -> tuple[pt.Scene, tuple[float, ...]]:
 
 
 def _command(*words: str) -> None:
-    subprocess.run(["planetary-twin", *words], check=True, stdout=subprocess.DEVNULL)
+    program = Path(sys.executable).with_name("planetary-twin")
+    subprocess.run([program, *words], check=True, stdout=subprocess.DEVNULL)
 
 
 def rig_losses() -> Iterator[Row]:

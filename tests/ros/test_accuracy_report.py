@@ -22,5 +22,6 @@ def test_a_motion_that_outgrows_its_tolerance_is_a_warning_until_the_next_report
     bad = report.status()
     assert bad.level == DiagnosticStatus.WARN
     assert bad.message.startswith("vibration stops gears relative to the carrier, or nearly so")
+    assert " in 6 steps: " in bad.message
     assert {item.key: item.value for item in bad.values}["reversals"] == "6"
     assert report.status().level == DiagnosticStatus.OK

@@ -69,7 +69,8 @@ def test_where_two_motions_are_possible_each_way_keeps_its_own():
     smeared = 5e-8  # by shafts that still ring
     assert max(np.ptp(together), np.ptp(parting)) < smeared
     assert independent(pt.rpm(10_100), 0.6) == pytest.approx(together.mean(), abs=smeared)
-    assert independent(None, 0.4) == pytest.approx(parting.mean(), abs=smeared)
+    # Started at the static deflection, the motion is chaotic for up to half a second.
+    assert independent(None, 1.0) == pytest.approx(parting.mean(), abs=smeared)
 
 
 def test_the_table_says_units_and_what_it_follows_from():
