@@ -39,10 +39,13 @@ def bifurcation(
     --input-speed 8000rpm:10000rpm:41 --out jumps.png
     """
     check_suffix(out, TABLES + PICTURES)
+    from pyarrow import compute as pc
+
     from ..scene.unused import without_effect
     from ..studies.axes import Axis
     from ..studies.bifurcation import Dwell
     from ..studies.bifurcation import bifurcation as run
+    from ..studies.inaccurate import inaccuracies
 
     try:
         changes = settings(set_ or [])
@@ -62,6 +65,7 @@ def bifurcation(
         put(table, out)
     except (ValueError, OSError) as error:
         fail(error)
-    for line in without_effect(loaded, changes):
+    runs = table.filter(pc.equal(table["cycle"], 0))
+    for line in (*without_effect(loaded, changes), *inaccuracies(runs)):
         remark(f"warning: {line}")
     typer.echo(f"{out}: {len(speeds.values)} speeds, rising and falling")

@@ -15,9 +15,11 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
+from ..accuracy import Course
 from ..dynamics.bodies import mesh_names
 from ..scene import Scene
 from .marks import BIFURCATION
+from .measures import COURSE
 from .section import Section
 
 if TYPE_CHECKING:
@@ -27,6 +29,7 @@ UP, DOWN = "up", "down"
 FASTEST_SLEW = 1e6  # [rad/s^2], upper limit of a scene
 MOST_CYCLES = 100_000
 LONGEST_SETTLING = 60.0  # [s]
+COUNTED = ("reversals", "both_flanks")  # counters of `Course` that show inaccurate samples
 
 Report = Callable[[str | None], None]
 
@@ -127,20 +130,26 @@ class _Branch:
                 return
 
     def _sample(self, speed: float) -> _Sampled:
+        before = self._section.course
         try:
             self._section.hold(speed, self._dwell.settling)
             dte = np.array([self._section.dte() for _ in range(self._dwell.cycles)])
         except ArithmeticError as reason:
-            return _Sampled(speed, None, f"input_speed = {speed:.6g}: {reason}")
-        return _Sampled(speed, dte, None)
+            return _Sampled(speed, None, Course(), f"input_speed = {speed:.6g}: {reason}")
+        return _Sampled(speed, dte, self._section.course.since(before), None)
 
 
 class _Sampled(NamedTuple):
-    """DTEs [m], shape (cycles, meshes), at one speed [rad/s] of a branch, or the failure."""
+    """DTEs [m], shape (cycles, meshes), and counters at one speed [rad/s], or the failure."""
 
     speed: float
     dte: np.ndarray | None
+    course: Course
     failure: str | None
+
+
+def _counts(sampled: _Sampled) -> tuple[int, ...]:
+    return tuple(getattr(sampled.course, name) for name in COUNTED)
 
 
 def _tabulate(scene: Scene, dwell: Dwell, found: Mapping[str, Sequence[_Sampled]]) -> pa.Table:
@@ -154,10 +163,11 @@ def _tabulate(scene: Scene, dwell: Dwell, found: Mapping[str, Sequence[_Sampled]
         for sampled in branch:
             samples = np.full((1, len(meshes)), None) if sampled.dte is None else sampled.dte
             rows += [
-                (direction, sampled.speed, cycle, *dtes, sampled.failure)
+                (direction, sampled.speed, cycle, *dtes, *_counts(sampled), sampled.failure)
                 for cycle, dtes in enumerate(samples.tolist())
             ]
-    directions, speeds, cycles, *dtes, failures = zip(*rows, strict=True)
+    directions, speeds, cycles, *values, failures = zip(*rows, strict=True)
+    dtes, counts = values[: len(meshes)], values[len(meshes) :]
     columns = [
         column("direction", directions, "", "whether speeds rise or fall", "str"),
         column("input_speed", speeds, "rad/s", "speed set-point of the motor", "f8"),
@@ -165,6 +175,10 @@ def _tabulate(scene: Scene, dwell: Dwell, found: Mapping[str, Sequence[_Sampled]
         *(
             column(f"{mesh}_dte", values, "m", f"DTE of {mesh} at the section", "f8")
             for mesh, values in zip(meshes, dtes, strict=True)
+        ),
+        *(
+            column(name, numbers, COURSE[name].unit, COURSE[name].description, "i8")
+            for name, numbers in zip(COUNTED, counts, strict=True)
         ),
         column("failure", failures, "", "why the branch ends here", "str"),
     ]

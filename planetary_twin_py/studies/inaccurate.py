@@ -1,4 +1,4 @@
-"""Points of a study that are less accurate than its tolerance says, in words."""
+"""Warnings about the points of a study that are less accurate than its tolerance."""
 
 from __future__ import annotations
 
@@ -6,19 +6,22 @@ from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
 from ..accuracy import Course, course_warnings
+from .measures import COURSE
 
 if TYPE_CHECKING:
     import pyarrow as pa
 
 
 def inaccuracies(table: pa.Table) -> Iterator[str]:
-    """A sentence for each kind of motion that outgrows the tolerance at points of a study.
+    """Warn about motions that amplify errors beyond the tolerance.
 
     Args:
-        table: of `tabulate`.
+        table: with a row per point, and those columns of `COURSE` that apply.
+
+    Returns:
+        A sentence per kind of motion.
     """
-    names = ("unsettled", "reversals", "both_flanks", "unrepeated_flank_events")
-    for name in names:
+    for name in (name for name in COURSE if name in table.column_names):
         found = [value or 0.0 for value in table[name].to_pylist()]
         points, most = sum(value > 0.0 for value in found), max(found, default=0.0)
         for sentence in course_warnings(_worst(name, most)):
@@ -26,7 +29,7 @@ def inaccuracies(table: pa.Table) -> Iterator[str]:
 
 
 def _worst(name: str, most: float) -> Course:
-    """A course with nothing but the largest value of a column."""
+    """Counters that are 0 except for the largest value of a column."""
     if name == "unsettled":
         return Course(unsettled=most)
     if name == "reversals":

@@ -11,6 +11,7 @@ from fractions import Fraction
 
 import numpy as np
 
+from ..accuracy import Course, course_so_far
 from ..dynamics.bodies import body_names, mesh_names
 from ..dynamics.observe import DTE
 from ..integrators.interpolant import Samples
@@ -55,6 +56,11 @@ class Section:
     def time(self) -> float:
         """Simulated time [s]."""
         return float(self._time)
+
+    @property
+    def course(self) -> Course:
+        """Counters of the run from its start."""
+        return course_so_far(self._run.control, unsettled=0.0)
 
     def hold(self, speed: float, duration: float) -> None:
         """Set the speed of the first motor to `speed` [rad/s] and simulate `duration` [s]."""

@@ -11,6 +11,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from ...accuracy import Course
 from ..local import Threads
 from .estimate import Estimate, conclude
 from .excerpt import Excerpt, read_excerpt
@@ -50,6 +51,8 @@ class Identified:
     excerpt: Excerpt
     contact_fraction: float
     """Smallest of any mesh, in the simulation at the estimate."""
+    course: Course
+    """Counters of that simulation, from which its accuracy is estimated."""
     weighted: WeightedReadings
     confidence: float
     """Level of the intervals."""
@@ -121,11 +124,13 @@ def identify(
     found = conclude(
         runs.residuals(weighted), parameters, minimum, weighted.freedom, search.confidence
     )
+    closest = _known(runs, minimum.values)
     return Identified(
         parameters=parameters,
         estimate=found,
         excerpt=excerpt,
-        contact_fraction=_known(runs, minimum.values).contact_fraction,
+        contact_fraction=closest.contact_fraction,
+        course=closest.course,
         weighted=weighted,
         confidence=search.confidence,
         sum=minimum.sum,

@@ -6,9 +6,11 @@ import math
 from collections import deque
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from functools import reduce
 
 import numpy as np
 
+from ...accuracy import Course
 from ...recording.ros2.fields import POWER_FLOW
 from ...scene import TUNABLES
 from ...twin import LONGEST_WINDOW, TICKS, Twin
@@ -27,11 +29,13 @@ class ModelOutput:
     readings: tuple[Readings, ...]
     contact_fraction: float
     """Fraction of time in contact, smallest of any mesh."""
+    course: Course
+    """Counters of the intervals of the excerpt."""
 
 
 @dataclass(frozen=True)
 class Model:
-    """A excerpt, the names of the free parameters, and the names of the observables."""
+    """An excerpt, the names of the free parameters, and the names of the observables."""
 
     excerpt: Excerpt
     free: tuple[str, ...]
@@ -46,7 +50,8 @@ class Model:
             return None
         intervals = [simulated(window, self.excerpt.begins) for window in windows]
         contact = min(float(np.min(window.mesh["contact_fraction"])) for window in windows)
-        return ModelOutput(read_all(self.observables, intervals, self.excerpt), contact)
+        course = reduce(Course.joined, (window.course for window in windows))
+        return ModelOutput(read_all(self.observables, intervals, self.excerpt), contact, course)
 
     @property
     def _most_samples(self) -> float:
@@ -64,7 +69,7 @@ def read_all(
 def _windows(
     excerpt: Excerpt, overrides: Mapping[str, float], most_samples: float
 ) -> Iterator[Window]:
-    """Simulate the intervals of a excerpt with other parameters.
+    """Simulate the intervals of an excerpt with other parameters.
 
     The operating points before it are simulated as recorded, so that the transient after the last
     change is included.

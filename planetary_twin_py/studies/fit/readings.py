@@ -27,7 +27,7 @@ OBSERVABLES = (*POWER_FLOW, *(name for name in MESH if name not in POWER_FLOW), 
 
 @dataclass(frozen=True)
 class Readings:
-    """One observable over a excerpt.
+    """One observable over an excerpt.
 
     `values` (readings, channels): a row for each interval, or mesh cycle; a column for each mesh.
     `kinds` (channels,): channels of one number have the same noise. `segment` (readings,): counts
@@ -62,7 +62,7 @@ def check_observables(names: Sequence[str]) -> None:
 
 
 def recorded(excerpt: Excerpt) -> list[IntervalReadings]:
-    """The intervals of a excerpt as recorded."""
+    """The intervals of an excerpt as recorded."""
     meshes = 2 * int(excerpt.states[0].planets)
     blocks = excerpt.blocks
     time = _joined([b.start_time + np.arange(b.samples) * b.sample_period for b in blocks])

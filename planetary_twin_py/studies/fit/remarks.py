@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from ...accuracy import course_warnings
 from .identify import Identified
 from .parameter import Parameter
 
@@ -53,6 +54,9 @@ def remarks(found: Identified) -> Iterator[str]:
                 f"{readings.name}: successive readings are correlated, with a coefficient of "
                 f"{noise.correlation:.2g}; intervals are widened accordingly"
             )
+    # Readings are means over intervals: impacts that amplify errors of single values do not matter.
+    for line in course_warnings(found.course._replace(flank_events=0)):
+        yield f"at the estimate, {line}"
     yield from found.excerpt.remarks
 
 
