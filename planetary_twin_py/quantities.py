@@ -1,69 +1,185 @@
-"""Plotted quantities with their titles and customary units.
+"""The catalogue of quantities: name, title, description, SI unit, and customary unit of plots.
 
-Recordings are in SI. Plots use customary units (um, rpm, %), which every title states.
+Messages, tables, studies, plots and views take the quantities from here. A quantity is computed in
+`window` (statistics and powers), and its type is in the message definition; no other file lists it.
+Recordings and tables are in SI. Plots use customary units (um, rpm, %), which every title states.
 """
 
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from typing import NamedTuple
 
+import numpy as np
+
 RPM = 30.0 / math.pi
+CUSTOMARY = {"m": ("µm", 1e6), "rad/s": ("rpm", RPM), "": ("-", 1.0)}
+"""Customary unit and customary value/SI value by SI unit; other units are customary themselves."""
+SIDES = ("sun_planet", "planet_ring")
+"""Kinds of meshes, by prefix of a field."""
 
 
 class Quantity(NamedTuple):
-    """A plotted quantity: title, unit, and plotted value/SI value."""
+    """A quantity of plots and tables."""
 
     title: str
-    unit: str
-    factor: float = 1.0
+    """Of a plot."""
+    si: str = ""
+    """SI unit, empty for a dimensionless number."""
+    description: str = ""
+    """Of a column of a table; empty if the title says it all."""
+    customary: tuple[str, float] | None = None
+    """Unit of plots, and plotted value/SI value; None is that of `CUSTOMARY`."""
+    over_meshes: Callable[[np.ndarray], np.float64] = np.mean
+    """Combines the values of the meshes of one kind."""
+
+    @property
+    def unit(self) -> str:
+        """Unit of plots."""
+        return self._plotted[0]
+
+    @property
+    def factor(self) -> float:
+        """Plotted value/SI value."""
+        return self._plotted[1]
 
     @property
     def heading(self) -> str:
-        """Title with the unit, e.g. "Mesh force, mean [N]"."""
+        """Title with the unit of plots, e.g. "Mesh force, mean [N]"."""
         return f"{self.title} [{self.unit}]"
 
+    @property
+    def text(self) -> str:
+        """Description, or else the title."""
+        return self.description or self.title
 
-# Per mesh, by field of GearboxState without the prefix sun_planet_ or planet_ring_.
-MESH = {
-    "dte_mean": Quantity("DTE, mean", "µm", 1e6),
-    "dte_rms": Quantity("DTE, rms of the deviation from the mean", "µm", 1e6),
-    "dte_peak": Quantity("DTE, largest magnitude", "µm", 1e6),
-    "mesh_force_mean": Quantity("Mesh force, mean", "N"),
-    "mesh_force_peak": Quantity("Mesh force, largest magnitude", "N"),
-    "contact_fraction": Quantity("Fraction of time in contact", "%", 100.0),
-    "film_thickness": Quantity("Film thickness", "µm", 1e6),
-    "lambda_ratio": Quantity("Lambda ratio", "-"),
-    "boundary_friction": Quantity("Boundary friction", "N"),
-    "viscous_friction": Quantity("Viscous friction", "N"),
-    "power_loss": Quantity("Power loss per mesh", "W"),
-}
+    @property
+    def _plotted(self) -> tuple[str, float]:
+        return self.customary or CUSTOMARY.get(self.si, (self.si, 1.0))
 
-# Samples of every mesh, by field of MeshWaveform.
-WAVEFORM = {
-    "dte": Quantity("DTE", "µm", 1e6),
-    "mesh_force": Quantity("Mesh force", "N"),
-}
 
-# Of the whole train: the fields of GearboxState that share a plot.
+PERCENT = ("%", 100.0)
+
 TRAIN = {
-    "speed": (
-        Quantity("Speed", "rpm", RPM),
-        ("sun_speed", "ring_speed", "carrier_speed"),
+    "mesh_frequency": Quantity("Mesh frequency", "Hz", "rate at which teeth pass a mesh"),
+    "input_speed": Quantity("Speed of the motor", "rad/s"),
+    "input_torque": Quantity("Torque of the motor", "N m"),
+    "second_input_speed": Quantity("Speed of the second motor", "rad/s"),
+    "second_input_torque": Quantity("Torque of the second motor", "N m"),
+    "output_speed": Quantity("Speed of the load", "rad/s"),
+    "output_torque": Quantity("Torque of the load", "N m"),
+    "input_power": Quantity("Input power", "W", "from the motors into the train, mean"),
+    "output_power": Quantity("Output power", "W", "from the train into the load, mean"),
+    "power_loss": Quantity("Power loss", "W", "tooth friction, bearings and churning, mean"),
+    "stored_power": Quantity(
+        "Stored power", "W", "increase of kinetic and elastic energy per second"
     ),
-    "mesh_frequency": (Quantity("Mesh frequency", "Hz"), ("mesh_frequency",)),
+    "efficiency": Quantity(
+        "Efficiency", "", "1 - power loss/power of the driving machines", PERCENT
+    ),
+}
+"""Of the whole train: fields of GearboxState, properties of `Window`."""
+
+MESH = {
+    "dte_mean": Quantity("DTE, mean", "m"),
+    "dte_rms": Quantity(
+        "DTE, rms of the deviation from the mean", "m",
+        "DTE, rms of the deviation from the mean, largest", over_meshes=np.max,
+    ),
+    "dte_peak": Quantity("DTE, largest magnitude", "m", over_meshes=np.max),
+    "mesh_force_mean": Quantity("Mesh force, mean", "N", "mesh force, mean"),
+    "mesh_force_peak": Quantity(
+        "Mesh force, largest magnitude", "N", "mesh force, largest magnitude", over_meshes=np.max
+    ),
+    "contact_fraction": Quantity(
+        "Fraction of time in contact", "", "share of time in contact, smallest", PERCENT, np.min
+    ),
+    "film_thickness": Quantity("Film thickness", "m", "film thickness in contact, mean"),
+    "lambda_ratio": Quantity(
+        "Lambda ratio", "", "lambda ratio (specific film thickness) in contact, mean"
+    ),
+    "boundary_friction": Quantity("Boundary friction", "N", "boundary friction of a mesh, mean"),
+    "viscous_friction": Quantity("Viscous friction", "N", "viscous friction of a mesh, mean"),
+    "power_loss": Quantity(
+        "Tooth friction loss", "W", "tooth friction of all these meshes, mean", over_meshes=np.sum
+    ),
+}  # fmt: skip
+"""Statistics of a mesh: fields of GearboxState after a prefix of `SIDES`, see `mesh_statistics`."""
+
+TRAIN_PLOTS = {
+    "speed": (Quantity("Speed", "rad/s"), ("sun_speed", "ring_speed", "carrier_speed")),
+    "mesh_frequency": (TRAIN["mesh_frequency"], ("mesh_frequency",)),
     "power": (Quantity("Power", "W"), ("input_power", "output_power")),
     "power_loss": (Quantity("Power loss, all of the gearbox", "W"), ("power_loss",)),
-    "efficiency": (Quantity("Efficiency", "%", 100.0), ("efficiency",)),
+    "efficiency": (TRAIN["efficiency"], ("efficiency",)),
 }
+"""Fields of GearboxState that share a plot of a recording, by name of the plot."""
 
-# By field of OperatingPoint.
+WAVEFORM = {"dte": Quantity("DTE", "m"), "mesh_force": Quantity("Mesh force", "N")}
+"""Samples of every mesh: fields of MeshWaveform."""
+
 OPERATING_POINT = {
-    "backlash": Quantity("Backlash", "µm", 1e6),
-    "lambda_ratio": Quantity("Prescribed lambda ratio", "-"),
+    "backlash": Quantity("Backlash", "m"),
+    "lambda_ratio": Quantity("Prescribed lambda ratio"),
     "oil_temperature": Quantity("Oil temperature", "K"),
-    "input_speed": Quantity("Speed set-point", "rpm", RPM),
-    "second_input_speed": Quantity("Second speed set-point", "rpm", RPM),
+    "input_speed": Quantity("Speed set-point", "rad/s"),
+    "second_input_speed": Quantity("Second speed set-point", "rad/s"),
     "input_torque": Quantity("Input torque", "N m"),
     "torque_ripple": Quantity("Torque ripple", "N m"),
 }
+"""Fields of OperatingPoint."""
+
+
+def _study() -> dict[str, Quantity]:
+    """Columns of the results of a study, in order."""
+    found = {name: TRAIN[name] for name in STUDIED}
+    for side in SIDES:
+        meshes = side_title(side)
+        for name, quantity in MESH.items():
+            found[f"{side}_{name}"] = quantity._replace(
+                title=f"{quantity.title}, {meshes}", description=f"{meshes} meshes: {quantity.text}"
+            )
+    for side in SIDES:
+        found[f"{side}_{CLIPPED}"] = Quantity(
+            f"Clipped viscous friction, {side_title(side)}",
+            description=f"{side_title(side)} meshes: fraction of the time in contact in which "
+            "viscous friction is clipped to zero because the pressure is too low for its law",
+        )
+    return found | {EXCESS: LEDGER_EXCESS} | COURSE
+
+
+def side_title(side: str) -> str:
+    """One of `SIDES` in words."""
+    return side.replace("_", "-")
+
+
+STUDIED = ("efficiency", "power_loss", "input_power", "output_power", "mesh_frequency")
+"""Those of `TRAIN` that a study stores; a study has set-points in columns of their own."""
+CLIPPED = "viscous_friction_clipped"
+"""Column of a study's table, after a prefix of `SIDES`."""
+EXCESS = "ledger_excess"
+"""Column of a study's table, see `ledger_check`."""
+LEDGER_EXCESS = Quantity(
+    "Residual of the energy ledger",
+    description="residual of the energy ledger/allowed residual; above 1, losses are uncertain",
+)
+COURSE = {
+    "unsettled": Quantity(
+        "Time to settle", "s", "time until creeping gears have forgotten their initial state"
+    ),
+    "reversals": Quantity(
+        "Reversals", description="steps in which vibration stops gears, or nearly so"
+    ),
+    "both_flanks": Quantity(
+        "Both flanks", description="steps in which both flanks of a tooth touch"
+    ),
+    "unrepeated_flank_events": Quantity(
+        "Flank events",
+        description="engagements and separations of flanks in a motion that does not become "
+        "periodic",
+    ),
+}
+"""Counters of `accuracy.Course`, from which the accuracy of a point is estimated."""
+STUDY_RESULTS = _study()
+"""Columns of the results of a study, in order."""

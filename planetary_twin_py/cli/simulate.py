@@ -147,24 +147,14 @@ def _train(scene: Scene, result: Result) -> dict[str, float]:
     }
 
 
-_MESH_MEASURES = (
-    "dte_mean",
-    "dte_rms",
-    "mesh_force_mean",
-    "contact_fraction",
-    "film_thickness",
-    "lambda_ratio",
-    "power_loss",
-)
-
-
 def _meshes(result: Result) -> dict[str, dict[str, float]]:
     """Results of the sun meshes and of the ring meshes, by measure with its SI unit."""
-    from ..studies.measures import MESH, mesh_rows
+    from ..quantities import MESH
+    from ..studies.measures import mesh_rows
 
-    units = {name: MESH[name].unit for name in _MESH_MEASURES}
+    keys = {name: f"{name}_{quantity.si}".rstrip("_") for name, quantity in MESH.items()}
     return {
-        side: {f"{name}_{unit}".rstrip("_"): row[name] for name, unit in units.items()}
+        side: {keys[name]: value for name, value in row.items()}
         for side, row in mesh_rows(result.mesh).items()
     }
 
@@ -172,14 +162,14 @@ def _meshes(result: Result) -> dict[str, dict[str, float]]:
 def _table(meshes: dict[str, dict[str, float]]) -> Table:
     from rich.table import Table
 
-    from ..studies.measures import MESH
+    from ..quantities import MESH
 
     table = Table("", title="Meshes by kind")
     for side in meshes:
         table.add_column(side.replace("_", "-"), justify="right")
     rows = (row.values() for row in meshes.values())
-    for name, *values in zip(_MESH_MEASURES, *rows, strict=True):
-        label = rf"{MESH[name].description} \[{MESH[name].unit or '-'}]"
+    for quantity, *values in zip(MESH.values(), *rows, strict=True):
+        label = rf"{quantity.text} \[{quantity.si or '-'}]"
         table.add_row(label, *(f"{value:.4g}" for value in values))
     return table
 

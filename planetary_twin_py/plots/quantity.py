@@ -7,14 +7,20 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from ..quantities import MESH, OPERATING_POINT, RPM, TRAIN, WAVEFORM, Quantity
+from ..quantities import (
+    OPERATING_POINT,
+    SIDES,
+    STUDY_RESULTS,
+    WAVEFORM,
+    Quantity,
+    side_title,
+)
 
 if TYPE_CHECKING:
     import pyarrow as pa
 
-SIDES = {"sun_planet": "sun-planet", "planet_ring": "planet-ring"}
 LENGTHS = ((1e-3, "µm", 1e6), (1.0, "mm", 1e3))  # upper limit [m], unit, factor
-UNITS = {"rad/s": ("rpm", RPM), "rad": ("°", 180.0 / np.pi)}
+ANGLE = ("°", 180.0 / np.pi)
 LEAST_RATIO = 25.0  # largest/smallest value for a logarithmic axis
 
 
@@ -94,23 +100,14 @@ def _column(table: pa.Table, field: pa.Field) -> Column:
 
 def _known(name: str) -> Quantity | None:
     """Quantity of a result or a set-point; None for other columns."""
-    plain = {key: each for key, (each, _) in TRAIN.items() if key not in ("speed", "power")}
-    plain |= OPERATING_POINT
-    plain["power_loss"] = Quantity("Power loss", "W")  # includes bearings and churning
-    if name in plain:
-        return plain[name]
-    for side, words in SIDES.items():
-        if not name.startswith(f"{side}_"):
-            continue
-        measure = name.removeprefix(f"{side}_")
-        if measure in MESH:
-            quantity = MESH[measure]
-            title = "Power loss" if measure == "power_loss" else quantity.title
-            return quantity._replace(title=f"{title}, {words}")
-        number, _, waveform = measure.partition("_")
-        if waveform in WAVEFORM:
+    if found := STUDY_RESULTS.get(name) or OPERATING_POINT.get(name):
+        return found
+    for side in SIDES:
+        number, _, waveform = name.removeprefix(f"{side}_").partition("_")
+        if name.startswith(f"{side}_") and waveform in WAVEFORM:
             quantity = WAVEFORM[waveform]
-            return quantity._replace(title=f"{quantity.title} of {words} mesh {number}")
+            title = f"{quantity.title} of {side_title(side)} mesh {number}"
+            return quantity._replace(title=title)
     return None
 
 
@@ -122,6 +119,5 @@ def _by_unit(name: str, unit: str, values: np.ndarray) -> Quantity:
         largest = np.nanmax(np.abs(values), initial=0.0)
         for limit, shown, factor in LENGTHS:
             if largest < limit:
-                return Quantity(title, shown, factor)
-    shown, factor = UNITS.get(unit, (unit or "-", 1.0))
-    return Quantity(title, shown, factor)
+                return Quantity(title, unit, customary=(shown, factor))
+    return Quantity(title, unit, customary=ANGLE if unit == "rad" else None)

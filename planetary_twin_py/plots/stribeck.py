@@ -5,8 +5,9 @@ from __future__ import annotations
 import numpy as np
 from matplotlib.figure import Figure
 
+from ..quantities import SIDES, side_title
 from .clipped import clipped_points, mark
-from .quantity import SIDES, Column, find
+from .quantity import Column, find
 from .style import BLUE, GREEN, ORANGE, logarithmic, panels
 
 PARTS = (("boundary", ORANGE, "--"), ("viscous", GREEN, "--"))
@@ -27,7 +28,7 @@ def stribeck_diagram(known: dict[str, Column]) -> Figure:
         ValueError: a column is missing, or the lambda ratio does not vary.
     """
     figure, panes = panels(len(SIDES), 3.2)
-    for axes, (side, words) in zip(panes, SIDES.items(), strict=True):
+    for axes, side in zip(panes, SIDES, strict=True):
         ratio = find(known, f"{side}_lambda_ratio", "x").values
         force = np.abs(find(known, f"{side}_mesh_force_mean", "y").values)
         if not np.ptp(ratio) > 0.0:
@@ -45,7 +46,7 @@ def stribeck_diagram(known: dict[str, Column]) -> Figure:
         hollow = clipped_points(known, len(ratio), [side])
         mark(axes, ratio[hollow], total[hollow], BLUE)
         logarithmic(axes, "x")
-        axes.set_title(f"{words} meshes")
+        axes.set_title(f"{side_title(side)} meshes")
         axes.set_xlabel("Lambda ratio [-]")
         axes.set_ylabel("Friction coefficient [-]")
     top = max(axes.get_ylim()[1] for axes in panes)

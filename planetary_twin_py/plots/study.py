@@ -12,8 +12,8 @@ from matplotlib.axes import Axes
 from matplotlib.colors import to_hex
 from matplotlib.figure import Figure
 
+from ..quantities import STUDY_RESULTS
 from ..studies.marks import BIFURCATION
-from ..studies.measures import MEASURES
 from .bifurcation import bifurcation_diagram
 from .clipped import LEGEND, clipped_points, mark
 from .maps import draw_map
@@ -95,7 +95,7 @@ def plot_study(
 
 def fields(table: pa.Table) -> list[str]:
     """Names of the columns that the study varied."""
-    own = ("point", "failure", *MEASURES)
+    own = ("point", "failure", *STUDY_RESULTS)
     return [name for name in table.column_names if name not in own]
 
 
@@ -141,7 +141,7 @@ def _taken(free: list[str], lack: str) -> str:
 
 
 def _first_measure(known: dict[str, Column]) -> str:
-    return next(name for name in known if name in MEASURES)
+    return next(name for name in known if name in STUDY_RESULTS)
 
 
 def _fill_a_map(x: Column, by: Column | None) -> bool:

@@ -17,9 +17,9 @@ import numpy as np
 
 from ..accuracy import Course
 from ..dynamics.bodies import mesh_names
+from ..quantities import COURSE
 from ..scene import Scene
 from .marks import BIFURCATION
-from .measures import COURSE
 from .section import Section
 
 if TYPE_CHECKING:
@@ -177,7 +177,7 @@ def _tabulate(scene: Scene, dwell: Dwell, found: Mapping[str, Sequence[_Sampled]
             for mesh, values in zip(meshes, dtes, strict=True)
         ),
         *(
-            column(name, numbers, COURSE[name].unit, COURSE[name].description, "i8")
+            column(name, numbers, COURSE[name].si, COURSE[name].text, "i8")
             for name, numbers in zip(COUNTED, counts, strict=True)
         ),
         column("failure", failures, "", "why the branch ends here", "str"),

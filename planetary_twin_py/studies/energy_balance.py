@@ -6,7 +6,7 @@ import json
 from typing import TYPE_CHECKING
 
 from ..ledger_check import advice
-from .measures import EXCESS
+from ..quantities import EXCESS
 
 if TYPE_CHECKING:
     import pyarrow as pa

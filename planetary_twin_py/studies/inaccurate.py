@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
 from ..accuracy import Course, course_warnings
-from .measures import COURSE
+from ..quantities import COURSE
 
 if TYPE_CHECKING:
     import pyarrow as pa

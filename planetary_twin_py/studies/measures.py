@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from typing import NamedTuple
 
 import numpy as np
 
 from ..ledger_check import balance_of_window
+from ..quantities import CLIPPED, COURSE, EXCESS, MESH, SIDES, STUDIED
 from ..result import Result
 from ..scene import Scene
 from ..twin import Twin
@@ -15,83 +15,6 @@ from ..window import Window
 from .plan import Settings
 
 Row = dict[str, float]
-
-
-class Measure(NamedTuple):
-    """A quantity evaluated over the measured part of a run."""
-
-    unit: str
-    description: str
-
-
-class MeshMeasure(NamedTuple):
-    """A statistic of each mesh, and how it is combined over the meshes of one kind."""
-
-    unit: str
-    description: str
-    over_meshes: Callable[[np.ndarray], np.float64]
-
-
-# Of the whole train, by property of `Window`.
-TRAIN = {
-    "efficiency": Measure("", "1 - power loss/power of the driving machines"),
-    "power_loss": Measure("W", "tooth friction, bearings and churning, mean"),
-    "input_power": Measure("W", "from the motors into the train, mean"),
-    "output_power": Measure("W", "from the train into the load, mean"),
-    "mesh_frequency": Measure("Hz", "rate at which teeth pass a mesh"),
-}
-# Of the sun meshes and of the ring meshes, by statistic of `Window.mesh`.
-MESH = {
-    "dte_mean": MeshMeasure("m", "DTE, mean", np.mean),
-    "dte_rms": MeshMeasure("m", "DTE, rms of the deviation from the mean, largest", np.max),
-    "dte_peak": MeshMeasure("m", "DTE, largest magnitude", np.max),
-    "mesh_force_mean": MeshMeasure("N", "mesh force, mean", np.mean),
-    "mesh_force_peak": MeshMeasure("N", "mesh force, largest magnitude", np.max),
-    "contact_fraction": MeshMeasure("", "share of time in contact, smallest", np.min),
-    "film_thickness": MeshMeasure("m", "film thickness in contact, mean", np.mean),
-    "lambda_ratio": MeshMeasure(
-        "", "lambda ratio (specific film thickness) in contact, mean", np.mean
-    ),
-    "boundary_friction": MeshMeasure("N", "boundary friction of a mesh, mean", np.mean),
-    "viscous_friction": MeshMeasure("N", "viscous friction of a mesh, mean", np.mean),
-    "power_loss": MeshMeasure("W", "tooth friction of all these meshes, mean", np.sum),
-}
-SIDES = ("sun_planet", "planet_ring")
-EXCESS = "ledger_excess"  # column of a table, see `ledger_check`
-CLIPPED = "viscous_friction_clipped"  # column of a table, after the kind of mesh
-
-MEASURES: dict[str, Measure] = TRAIN | {
-    f"{side}_{name}": Measure(
-        measure.unit, f"{side.replace('_', '-')} meshes: {measure.description}"
-    )
-    for side in SIDES
-    for name, measure in MESH.items()
-}
-MEASURES |= {
-    f"{side}_{CLIPPED}": Measure(
-        "",
-        f"{side.replace('_', '-')} meshes: fraction of the time in contact in which viscous "
-        "friction is clipped to zero because the pressure is too low for its law",
-    )
-    for side in SIDES
-}
-MEASURES |= {
-    EXCESS: Measure(
-        "",
-        "residual of the energy ledger/allowed residual; above 1, losses are uncertain",
-    )
-}
-COURSE = {
-    "unsettled": Measure("s", "time until creeping gears have forgotten their initial state"),
-    "reversals": Measure("", "steps in which vibration stops gears, or nearly so"),
-    "both_flanks": Measure("", "steps in which both flanks of a tooth touch"),
-    "unrepeated_flank_events": Measure(
-        "", "engagements and separations of flanks in a motion that does not become periodic"
-    ),
-}
-"""Counters of `accuracy.Course`, from which the accuracy of a point is estimated."""
-MEASURES |= COURSE
-"""Every quantity of a row, in order."""
 
 
 def measure(scene: Scene, settings: Settings) -> Row:
@@ -102,7 +25,7 @@ def measure(scene: Scene, settings: Settings) -> Row:
         settings: of the run.
 
     Returns:
-        Values in SI by the names of `MEASURES`.
+        Values in SI by the names of `STUDY_RESULTS`.
 
     Raises:
         ValueError: the scene is invalid.
@@ -134,8 +57,8 @@ def glance(result: Result) -> Glance:
 
 
 def row(scene: Scene, window: Window) -> Row:
-    """Values of `MEASURES` over a window of a run of `scene`, in SI."""
-    figures = {name: float(getattr(window, name)) for name in TRAIN}
+    """Values of `STUDY_RESULTS` over a window of a run of `scene`, in SI."""
+    figures = {name: float(getattr(window, name)) for name in STUDIED}
     for side, values in mesh_rows(window.mesh).items():
         figures |= {f"{side}_{name}": value for name, value in values.items()}
     shares = clipped_friction(scene, window)
@@ -171,7 +94,7 @@ def mesh_rows(mesh: dict[str, np.ndarray]) -> dict[str, Row]:
     planets = len(mesh["dte_mean"]) // 2
     return {
         side: {
-            name: float(measure.over_meshes(mesh[name][meshes])) for name, measure in MESH.items()
+            name: float(quantity.over_meshes(mesh[name][meshes])) for name, quantity in MESH.items()
         }
         for side, meshes in zip(SIDES, (slice(planets), slice(planets, None)), strict=True)
     }

@@ -7,8 +7,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from .._compile import cache_folder
+from ..quantities import STUDY_RESULTS
 from .journal import Journal
-from .measures import MEASURES
 from .plan import Study
 from .work import Evaluation, Executor, Failure, Found
 
@@ -41,7 +41,7 @@ def sweep(
     """
     from .table import tabulate
 
-    makers = "/".join((cache_folder().name, *MEASURES))  # other kernels or measures: new results
+    makers = "/".join((cache_folder().name, *STUDY_RESULTS))  # others: new results
     keys = {point.place: study.key(point, makers) for point in study.points}
     book = Journal(journal) if journal else None
     known = book.done if book else {}

@@ -15,10 +15,10 @@ import pyarrow as pa
 import pyarrow.csv
 import pyarrow.parquet
 
+from ..quantities import STUDY_RESULTS
 from ..scene.quantity import unit_of
 from .axes import look_up
 from .marks import BIFURCATION
-from .measures import MEASURES
 from .plan import Study
 from .work import Failure, Found
 
@@ -42,9 +42,9 @@ def tabulate(study: Study, found: Mapping[int, Found]) -> pa.Table:
         info, _ = look_up(first, field)
         values = [point.changes[field] for point in study.points]
         columns.append(column(field, values, unit_of(info) or "", info.description or ""))
-    for name, measure in MEASURES.items():
+    for name, quantity in STUDY_RESULTS.items():
         figures = [None if isinstance(row, Failure) else row[name] for row in rows]
-        columns.append(column(name, figures, measure.unit, measure.description, "f8"))
+        columns.append(column(name, figures, quantity.si, quantity.text, "f8"))
     reasons = [row.reason if isinstance(row, Failure) else None for row in rows]
     columns.append(column("failure", reasons, "", "why there are no results", "str"))
     about = {

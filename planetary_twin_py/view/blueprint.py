@@ -7,7 +7,7 @@ from typing import Literal, NamedTuple
 
 import rerun.blueprint as rrb
 
-from ..quantities import MESH, OPERATING_POINT, TRAIN, WAVEFORM
+from ..quantities import MESH, OPERATING_POINT, TRAIN_PLOTS, WAVEFORM
 from ..robot.parts import carrier_radius
 from ..scene.gearset import Gearset
 from . import phase_portrait, spectra
@@ -148,7 +148,7 @@ def _tabs(gearset: Gearset | None, compared: str | None) -> rrb.Tabs:
         ),
         *contact,
         _spectra(gearset),
-        _page("Power and speed", [_train(name, several) for name in TRAIN]),
+        _page("Power and speed", [_train(name, several) for name in TRAIN_PLOTS]),
         _page("Operating point", [_set_point(name, several) for name in OPERATING_POINT]),
         *difference,
         active_tab=0,
@@ -198,7 +198,7 @@ def _mesh(name: str, legend: bool = True) -> rrb.TimeSeriesView:
 
 
 def _train(name: str, several: bool) -> rrb.TimeSeriesView:
-    quantity, fields = TRAIN[name]
+    quantity, fields = TRAIN_PLOTS[name]
     return _plot(f"train/{name}", quantity.heading, legend=several or len(fields) > 1)
 
 

@@ -9,7 +9,7 @@ import numpy as np
 import rerun as rr
 from numpy.typing import NDArray
 
-from ..quantities import MESH, TRAIN
+from ..quantities import MESH, TRAIN_PLOTS
 from ..recording.runs.reader import Recording
 from . import timeline
 from .layer import Colour, Layer
@@ -26,7 +26,7 @@ def log_plots(layer: Layer, recording: Recording) -> None:
     for name, quantity in MESH.items():
         values = quantity.factor * recording.per_mesh(name)
         log_series(layer, f"mesh/{name}", index, values, recording.meshes, colours)
-    for name, (quantity, fields) in TRAIN.items():
+    for name, (quantity, fields) in TRAIN_PLOTS.items():
         values = quantity.factor * np.column_stack([state[field] for field in fields])
         log_series(layer, f"train/{name}", index, values, fields, TRAIN_COLOURS)
 

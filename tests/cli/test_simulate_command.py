@@ -63,6 +63,10 @@ def test_meshes_of_the_sun_and_of_the_ring_are_told_apart(name):
             {
                 "dte_mean_m": run.dte[:, meshes].mean(),
                 "dte_rms_m": max(run.dte[:, meshes].std(axis=0)),
+                "dte_peak_m": abs(run.dte[:, meshes]).max(),
+                "mesh_force_peak_N": abs(run.mesh_force[:, meshes]).max(),
+                "boundary_friction_N": run.boundary_friction[:, meshes].mean(),
+                "viscous_friction_N": run.viscous_friction[:, meshes].mean(),
                 "mesh_force_mean_N": run.mesh_force[:, meshes].mean(),
                 "contact_fraction": min(touching.mean(axis=0)),
                 "film_thickness_m": np.nanmean(run.film_thickness[:, meshes], axis=0).mean(),

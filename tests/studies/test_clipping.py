@@ -97,7 +97,7 @@ def test_a_journal_of_other_figures_is_left_alone(tmp_path, monkeypatch):
     study = grid(PAPER, [Axis("input_torque", (20.0,))], Settings(duration=0.005, settling=0.0))
     journal = tmp_path / "journal"
     with monkeypatch.context() as earlier:
-        earlier.setattr(module, "MEASURES", {"efficiency": None})
+        earlier.setattr(module, "STUDY_RESULTS", {"efficiency": None})
         sweep(study, Threads(1), journal)
     lines = journal.read_text().splitlines()
     sweep(study, Threads(1), journal)

@@ -9,11 +9,12 @@ from scipy.integrate import trapezoid
 from studies.small import AXES, PAPER, QUICK, STUDY
 
 import planetary_twin_py as pt
+from planetary_twin_py.quantities import STUDY_RESULTS
 from planetary_twin_py.studies import work
 from planetary_twin_py.studies.axes import Axis
 from planetary_twin_py.studies.journal import Journal
 from planetary_twin_py.studies.local import AHEAD, Threads
-from planetary_twin_py.studies.measures import MEASURES, measure
+from planetary_twin_py.studies.measures import measure
 from planetary_twin_py.studies.plan import grid
 from planetary_twin_py.studies.sweep import sweep
 from planetary_twin_py.studies.table import write
@@ -70,7 +71,7 @@ def test_the_table_says_units_meanings_and_what_it_follows_from(tmp_path):
     write(table, tmp_path / "study.parquet")
     back = pyarrow.parquet.read_table(tmp_path / "study.parquet")
     assert back.equals(table, check_metadata=True)
-    assert back.column_names == ["point", "input_torque", "lambda_ratio", *MEASURES, "failure"]
+    assert back.column_names == ["point", "input_torque", "lambda_ratio", *STUDY_RESULTS, "failure"]
     assert back.schema.field("input_torque").metadata[b"unit"] == b"N m"
     assert back.schema.field("power_loss").metadata[b"unit"] == b"W"
     assert b"scene" in back.schema.metadata and b"settings" in back.schema.metadata

@@ -6,23 +6,10 @@ from typing import Any
 
 import numpy as np
 
+from ...quantities import SIDES, TRAIN
 from ...window import Window
 
 MEMBERS = ("sun", "ring", "carrier")
-POWER_FLOW = (
-    "mesh_frequency",
-    "input_speed",
-    "input_torque",
-    "second_input_speed",
-    "second_input_torque",
-    "output_speed",
-    "output_torque",
-    "input_power",
-    "output_power",
-    "power_loss",
-    "stored_power",
-    "efficiency",
-)
 WAVES = ("dte", "mesh_force", "friction")
 ROOM = 7  # largest number of planets in a message
 TURN = 2.0 * np.pi  # [rad]
@@ -30,9 +17,9 @@ TURN = 2.0 * np.pi  # [rad]
 
 def mesh_field(name: str, planets: int) -> tuple[str, int] | None:
     """Statistic and first mesh of a per-mesh field of GearboxState; None for other fields."""
-    for kind, first in (("sun_planet_", 0), ("planet_ring_", planets)):
-        if name.startswith(kind):
-            return name.removeprefix(kind), first
+    for side, first in zip(SIDES, (0, planets), strict=True):
+        if name.startswith(f"{side}_"):
+            return name.removeprefix(f"{side}_"), first
     return None
 
 
@@ -44,7 +31,7 @@ def state_fields(window: Window, names: list[str]) -> dict[str, Any]:
         "simulated_time": window.end,
         "interval": window.end - window.start,
     }
-    found |= {name: float(getattr(window, name)) for name in POWER_FLOW}
+    found |= {name: float(getattr(window, name)) for name in TRAIN}
     for member in MEMBERS:
         body = window.bodies.index(member)
         found[f"{member}_angle"] = float(window.angle[body])

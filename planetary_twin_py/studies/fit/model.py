@@ -11,7 +11,7 @@ from functools import reduce
 import numpy as np
 
 from ...accuracy import Course
-from ...recording.ros2.fields import POWER_FLOW
+from ...quantities import TRAIN
 from ...scene import TUNABLES
 from ...twin import LONGEST_WINDOW, TICKS, Twin
 from ...window import Window
@@ -56,7 +56,7 @@ class Model:
     @property
     def _most_samples(self) -> float:
         """Upper limit of samples per interval."""
-        return FEW if set(self.observables) <= set(POWER_FLOW) else math.inf
+        return FEW if set(self.observables) <= set(TRAIN) else math.inf
 
 
 def read_all(

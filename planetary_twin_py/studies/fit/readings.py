@@ -11,9 +11,9 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from ...recording.ros2.fields import MEMBERS, POWER_FLOW, state_fields
+from ...quantities import MESH, SIDES, TRAIN
+from ...recording.ros2.fields import MEMBERS, state_fields
 from ...window import Window
-from ..measures import MESH, SIDES
 from .excerpt import Excerpt
 
 Array = NDArray[np.float64]
@@ -22,7 +22,7 @@ HARMONICS = "dte_waveform"
 ORDERS = 6  # harmonics of the mesh frequency that describe a waveform
 USUAL = ("dte_rms", "power_loss")
 """Measured by most rigs: transmission error from two encoders of unknown zero, and power loss."""
-OBSERVABLES = (*POWER_FLOW, *(name for name in MESH if name not in POWER_FLOW), HARMONICS)
+OBSERVABLES = (*TRAIN, *(name for name in MESH if name not in TRAIN), HARMONICS)
 
 
 @dataclass(frozen=True)
@@ -113,7 +113,7 @@ def read(name: str, intervals: Sequence[IntervalReadings], excerpt: Excerpt) -> 
 
 
 def _row(name: str, fields: Mapping[str, Any]) -> Array:
-    if name in POWER_FLOW:
+    if name in TRAIN:
         return np.array([fields[name]], dtype=float)
     planets = int(fields["planets"])
     return np.concatenate([fields[f"{side}_{name}"][:planets] for side in SIDES])

@@ -15,7 +15,8 @@ from planetary_twin_msgs import msg
 from sensor_msgs.msg import JointState
 
 from planetary_twin_py import TUNABLES, OperatingPoint, Scene, Window
-from planetary_twin_py.recording.ros2.fields import MEMBERS, POWER_FLOW, TURN, WAVES, mesh_field
+from planetary_twin_py.quantities import TRAIN
+from planetary_twin_py.recording.ros2.fields import MEMBERS, TURN, WAVES, mesh_field
 
 from .whole_turns import WholeTurns
 
@@ -58,7 +59,7 @@ class StateMessage:
         planets = slice(first, first + self._planets)
         message.planet_angle[: self._planets] = window.angle[planets]
         message.planet_speed[: self._planets] = window.mean_speed[planets]
-        for name in POWER_FLOW:
+        for name in TRAIN:
             setattr(message, name, float(getattr(window, name)))
         for target, name, first in self._mesh:
             end = first + self._planets
