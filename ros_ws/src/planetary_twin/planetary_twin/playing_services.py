@@ -1,4 +1,4 @@
-"""Services that hold a replay, let it go step by step, and let it go on elsewhere."""
+"""Services that pause a replay, step it and seek in it."""
 
 from __future__ import annotations
 
@@ -15,17 +15,17 @@ from .playing import Player
 
 
 class Deck(Protocol):
-    """The replay, as far as its services are concerned."""
+    """The part of a replay that its services use."""
 
     def playing(self) -> Player:
-        """Return the player; raises `ValueError` where there is none."""
+        """Return the player; raises `ValueError` if there is none."""
 
     def stamp(self, instant: float) -> int:
         """Return the recorder's time [ns] of a recorded instant [s]."""
 
 
 class PlayingServices:
-    """`~/pause`, `~/step` and `~/seek` of a node."""
+    """The services `~/pause`, `~/step` and `~/seek` of `node`, which control `deck`."""
 
     def __init__(self, node: Node, deck: Deck) -> None:
         self._deck = deck
@@ -42,18 +42,18 @@ class PlayingServices:
         )
 
     def _step(self, request: Step.Request, response: Step.Response) -> Step.Response:
-        def told(instant: float) -> str:
+        def describe(instant: float) -> str:
             response.simulated_time = instant
             return self._set(response.stamp, instant)
 
-        return answer(response, lambda: self._deck.playing().step(request.duration), told)
+        return answer(response, lambda: self._deck.playing().step(request.duration), describe)
 
     def _seek(self, request: Seek.Request, response: Seek.Response) -> Seek.Response:
-        def told(instant: float) -> str:
+        def describe(instant: float) -> str:
             response.time = instant
             return self._set(response.stamp, instant)
 
-        return answer(response, lambda: self._deck.playing().seek(request.time), told)
+        return answer(response, lambda: self._deck.playing().seek(request.time), describe)
 
     def _set(self, stamp: Time, instant: float) -> str:
         set_stamp(stamp, self._deck.stamp(instant))

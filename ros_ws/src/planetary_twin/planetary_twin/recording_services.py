@@ -1,4 +1,4 @@
-"""Services that begin and end recordings while the logger is active."""
+"""Services that start and end recordings while the logger is active."""
 
 from __future__ import annotations
 
@@ -12,10 +12,10 @@ from .recorder import Recorder, Refused
 
 class RecordingServices:
     """
-    `~/start`, `~/stop`, `~/split` and `~/snapshot` of a node.
+    The services `~/start`, `~/stop`, `~/split` and `~/snapshot` of `node`.
 
-    `active` gives its recorder, and raises `Refused` where it has none. The answer names the file,
-    or why there is none.
+    `active` returns the recorder, and raises `Refused` if there is none. The response gives the
+    file, or the reason of a refusal.
     """
 
     def __init__(self, node: Node, active: Callable[[], Recorder]) -> None:
