@@ -5,7 +5,7 @@ from __future__ import annotations
 import itertools
 
 import pytest
-from planetary_twin.stamps import Rising, Stamps
+from planetary_twin.stamps import StrictClock, Stamps
 from rclpy.clock import ROSClock
 from rclpy.duration import Duration
 from rclpy.time import Time
@@ -75,7 +75,7 @@ def test_a_source_of_time_asks_no_other_clock() -> None:
 
 def test_a_clock_that_is_set_back_still_rises() -> None:
     clock = Settable()
-    rising = Rising(clock)
+    rising = StrictClock(clock)
     stamps = [rising.now()]
     for ahead in (-HOUR, 0.0, HOUR, -HOUR):
         clock.ahead = ahead

@@ -14,8 +14,8 @@ from planetary_twin_py import OperatingPoint, Twin, Window
 from planetary_twin_py.quality_control import QualityControl, Setting
 from planetary_twin_py.runaway import RunawayError
 
+from .command_queue import CommandQueue
 from .hold import Hold
-from .orders import Orders
 from .pacing import Pace
 from .ramps import Ramps
 
@@ -46,10 +46,10 @@ class Listener(Protocol):
         """Return whether time can pass: for example, the clock to follow is available."""
 
     def has_room(self) -> bool:
-        """Return whether the recorder has kept up, so that the next interval may be published."""
+        """Return whether the recorder has kept up and the next interval may be published."""
 
     def resumed(self, twin: Twin) -> None:
-        """Map the present time of `twin` to now: at the start, and after simulated time stopped."""
+        """Map the present time of `twin` to now: at the start and after a halt."""
 
     def stopped(self, defect: Exception) -> None:
         """Receive the exception that ended the thread."""
@@ -106,7 +106,7 @@ class LiveTwin:
         self._hold = Hold(lambda: 0.0 < rate_factor <= 1.0 or listener.has_room())
         self.quality = quality
         self._listener = listener
-        self._orders = Orders(self._set)
+        self._commands = CommandQueue(self._set)
         self._ramps = Ramps()
         self._paused = False
         self._failure = ""  # why the twin is stopped until a restart
@@ -131,28 +131,28 @@ class LiveTwin:
 
     def submit(self, values: Mapping[str, float]) -> Future[float]:
         """Set `values` of the operating point."""
-        return self._orders.change(values)
+        return self._commands.change(values)
 
     def ramp(self, values: Mapping[str, float], duration: float) -> Future[float]:
         """Change the operating point linearly to `values` within `duration` [s]."""
-        return self._orders.give(lambda: self._ramp(values, duration))
+        return self._commands.put(lambda: self._ramp(values, duration))
 
     def pause(self, paused: bool) -> Future[float]:
         """Pause simulated time, or resume it."""
-        return self._orders.give(lambda: self._pause(paused))
+        return self._commands.put(lambda: self._pause(paused))
 
     def step(self, duration: float) -> Future[float]:
         """Advance a paused twin by `duration` [s], as fast as possible."""
-        return self._orders.give(lambda: self._step(duration))
+        return self._commands.put(lambda: self._step(duration))
 
     def restart(self, twin: Twin) -> Future[float]:
         """Replace the twin by `twin`."""
-        return self._orders.give(lambda: self._restart(twin))
+        return self._commands.put(lambda: self._restart(twin))
 
     def _run(self) -> None:
         try:
             while not self._stop.is_set():
-                answers = self._orders.carry_out(self._patience())
+                answers = self._commands.execute(self._patience())
                 was_halted, self._halted = self._halted, self._must_halt()
                 if was_halted and not self._halted:
                     self._listener.resumed(self._twin)
@@ -174,7 +174,7 @@ class LiveTwin:
         except Exception as defect:
             self._listener.stopped(defect)
         finally:
-            self._orders.refuse("the simulation has stopped")
+            self._commands.refuse("the simulation has stopped")
 
     def _announce(self) -> None:
         """Publish the operating point once for each instant at which it changes."""

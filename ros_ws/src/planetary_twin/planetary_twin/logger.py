@@ -12,14 +12,14 @@ from rclpy.serialization import serialize_message
 from rclpy.timer import Timer
 
 from .heap import return_large_blocks
-from .logger_parameters import declare_wishes, wishes_of
+from .logger_parameters import declare_options, options_of
 from .managed import ManagedNode, NodeError, run_node
 from .messages import set_stamp
 from .parameters import brief
-from .recorder import Recorder, Refused
+from .recorder import Recorder, RecorderError
 from .recording_report import RecordingReport
 from .recording_services import RecordingServices
-from .stamps import STEADY, Rising
+from .stamps import STEADY, StrictClock
 
 _DISCOVERY_PERIOD = 0.1  # [s]
 _STATUS_PERIOD = 1.0  # [s]
@@ -32,13 +32,13 @@ class Logger(ManagedNode):
     def __init__(self) -> None:
         super().__init__("logger")
         return_large_blocks()
-        declare_wishes(self)
-        self._wishes = wishes_of(self)
+        declare_options(self)
+        self._options = options_of(self)
         self._recorder: Recorder | None = None
         self._ticking: list[Timer] = []
         self._own: deque[bytes] = deque(maxlen=_OWN)
         self._status = RecorderStatus()
-        self._now = Rising(self.get_clock())
+        self._now = StrictClock(self.get_clock())
         self._report = RecordingReport(self.get_namespace())
         self._status_publisher: LifecyclePublisher | None = None
         self._diagnostics: LifecyclePublisher | None = None
@@ -46,14 +46,12 @@ class Logger(ManagedNode):
 
     def configure(self) -> None:
         """Create the folder and file of the recording, and the publishers."""
-        self._wishes = wishes_of(self)
+        self._options = options_of(self)
         self._check_topics()
-        recorder = Recorder(
-            self, self._wishes, self._own, self._on_failure, self._publish_status
-        )
+        recorder = Recorder(self, self._options, self._own, self._on_failure, self._publish_status)
         try:
             recorder.begin()
-        except Refused as refusal:
+        except RecorderError as refusal:
             raise NodeError(str(refusal)) from None
         except ValueError as refusal:
             raise NodeError(f"name = {refusal}") from None
@@ -67,7 +65,7 @@ class Logger(ManagedNode):
         """Subscribe to existing topics, and to topics that appear later."""
         self._ticking = [
             self.create_timer(_DISCOVERY_PERIOD, self._discover, clock=STEADY),
-            self.create_timer(self._wishes.flush_period, self._recorder.flush, clock=STEADY),
+            self.create_timer(self._options.flush_period, self._recorder.flush, clock=STEADY),
             self.create_timer(_STATUS_PERIOD, self._report_status, clock=STEADY),
         ]
 
@@ -87,12 +85,12 @@ class Logger(ManagedNode):
         if recorder is not None:
             try:
                 recorder.close()
-            except Refused as refusal:
+            except RecorderError as refusal:
                 raise NodeError(str(refusal)) from None
 
     def _active(self) -> Recorder:
         if not self._ticking:
-            raise Refused("the logger is not active")
+            raise RecorderError("the logger is not active")
         return self._recorder
 
     def _stop_ticking(self) -> None:
@@ -101,7 +99,7 @@ class Logger(ManagedNode):
         self._ticking = []
 
     def _check_topics(self) -> None:
-        for name in self._wishes.topics:
+        for name in self._options.topics:
             try:
                 self.resolve_topic_name(name)
             except RuntimeError as refusal:  # from rcl

@@ -17,7 +17,7 @@ _LARGEST = 1e6  # [MB]
 
 
 @dataclass(frozen=True)
-class Wishes:
+class LoggerOptions:
     """What to record, where, and how."""
 
     directory: Path
@@ -29,7 +29,7 @@ class Wishes:
     storage: Storage
 
 
-def declare_wishes(node: ParameterNode) -> None:
+def declare_options(node: ParameterNode) -> None:
     """
     Declare the parameters on `node`; they may change until the node is configured.
 
@@ -62,7 +62,7 @@ def declare_wishes(node: ParameterNode) -> None:
     )
 
 
-def wishes_of(node: Node) -> Wishes:
+def options_of(node: Node) -> LoggerOptions:
     """
     Return the values of the parameters of `node`.
 
@@ -71,7 +71,7 @@ def wishes_of(node: Node) -> Wishes:
     value = {
         name: parameter.value for name, parameter in node.get_parameters_by_prefix("").items()
     }
-    return Wishes(
+    return LoggerOptions(
         Path(value["directory"]).expanduser(),
         value["name"],
         [topic for topic in value["topics"] if topic],

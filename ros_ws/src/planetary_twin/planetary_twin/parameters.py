@@ -21,7 +21,7 @@ from rclpy.parameter import Parameter
 from planetary_twin_py import TUNABLES, Tunable
 from planetary_twin_py.scene.quantity import unit_of, within
 
-from .pacing import AS_FAST_AS_IT_GOES, FASTEST, SLOWEST, check_rate_factor
+from .pacing import FASTEST, SLOWEST, UNLIMITED, check_rate_factor
 
 _AT_START = "fixed while the node runs: set it at start, -p {name}:=VALUE"
 _UNCONFIGURED = "fixed while the node is configured: set it before, or at start, -p {name}:=VALUE"
@@ -172,7 +172,7 @@ def declare_rate_factor(node: Declaring) -> float:
         node,
         "rate_factor",
         1.0,
-        (AS_FAST_AS_IT_GOES, FASTEST),
+        (UNLIMITED, FASTEST),
         f"simulated seconds per second, {SLOWEST:g} to {FASTEST:g}; 0: as fast as possible [-]",
     )
     check_rate_factor(value)

@@ -11,7 +11,7 @@ from typing import NamedTuple, Protocol
 from planetary_twin_py.recording.ros2.tape import Cue
 from planetary_twin_py.recording.ros2.transport import Transport
 
-from .orders import Orders
+from .command_queue import CommandQueue
 
 LONGEST_STEP = 10.0  # [s] recorded time of one step of a paused replay
 _POLL = 0.05  # [s]
@@ -19,7 +19,7 @@ _YIELD = 2e-3  # [s] for subscribers to acknowledge messages
 _LONGEST_WAIT = 3600.0  # [s] for a command, while there is nothing to play
 
 
-class Stage(Protocol):
+class Listener(Protocol):
     """Callbacks of a player, called in its thread."""
 
     def ready(self) -> bool:
@@ -41,7 +41,7 @@ class Stage(Protocol):
         """Receive the exception that ended the thread."""
 
 
-class Stretch(NamedTuple):
+class Excerpt(NamedTuple):
     """
     The part of a recording that is played, from `begin` to `end` [ns], repeatedly if `loop`.
 
@@ -64,15 +64,15 @@ class Player:
     all messages up to and at that instant have been played. Commands are executed between two
     messages; their futures return the recorded instant [s] of that.
 
-    `paused` is the state at the start. `stage` receives the messages.
+    `paused` is the state at the start. `listener` receives the messages.
     """
 
-    def __init__(self, stretch: Stretch, paused: bool, stage: Stage) -> None:
-        self._stretch = stretch
-        self._stage = stage
+    def __init__(self, excerpt: Excerpt, paused: bool, listener: Listener) -> None:
+        self._excerpt = excerpt
+        self._listener = listener
         self._paused = paused
-        self._transport = Transport(stretch.begin)
-        self._orders = Orders(self._set)
+        self._transport = Transport(excerpt.begin)
+        self._commands = CommandQueue(self._set)
         self._cues: Iterator[Cue] | None = None
         self._next: Cue | None = None
         self._stop = threading.Event()
@@ -81,7 +81,7 @@ class Player:
         """Longest delay of a message [s]."""
 
     def start(self, rate_factor: float) -> None:
-        """Start as soon as the stage is ready, or continue after `stop`."""
+        """Start as soon as the listener is ready, or continue after `stop`."""
         self._stop.clear()
         self._transport.set_rate(rate_factor, time.monotonic(), self._upcoming)
         self._thread = threading.Thread(target=self._run, name="tape", daemon=True)
@@ -90,43 +90,43 @@ class Player:
     def stop(self) -> None:
         """Stop before the next message."""
         self._stop.set()
-        self._orders.give(lambda: 0.0)  # wakes the thread
+        self._commands.put(lambda: 0.0)  # wakes the thread
         if self._thread is not None:
             self._thread.join()
 
     def pause(self, paused: bool) -> Future[float]:
         """Pause the replay, or resume it."""
-        return self._orders.give(lambda: self._pause(paused))
+        return self._commands.put(lambda: self._pause(paused))
 
     def step(self, duration: float) -> Future[float]:
         """Play `duration` [s] of a paused replay, as fast as possible."""
-        return self._orders.give(lambda: self._step(duration))
+        return self._commands.put(lambda: self._step(duration))
 
     def seek(self, time: float) -> Future[float]:
         """Continue at `time` [s] after the first message."""
-        return self._orders.give(lambda: self._seek(time))
+        return self._commands.put(lambda: self._seek(time))
 
     def set_rate(self, rate_factor: float) -> Future[float]:
         """Continue at another rate."""
-        return self._orders.change({"rate_factor": rate_factor})
+        return self._commands.change({"rate_factor": rate_factor})
 
     def _run(self) -> None:
         try:
-            while not self._stage.ready():
+            while not self._listener.ready():
                 if self._stop.wait(_POLL):
                     return
             if self._cues is None:
-                self._stage.begin()
-                self._go_to(self._stretch.begin)
+                self._listener.begin()
+                self._go_to(self._excerpt.begin)
             if not self._paused:
                 self._transport.go(time.monotonic())
             if self._play():
-                self._stage.ended()
+                self._listener.ended()
         except Exception as defect:
-            self._stage.stopped(defect)
+            self._listener.stopped(defect)
         finally:
             self._transport.hold(time.monotonic(), self._upcoming)
-            self._orders.refuse("the replay has stopped")
+            self._commands.refuse("the replay has stopped")
 
     def _play(self) -> bool:
         """Play to the end; returns False if stopped before."""
@@ -135,7 +135,7 @@ class Player:
             if not self._transport.paced and not self._has_room():
                 remaining = max(remaining, _YIELD)
             # Wait for a command instead of sleeping, so that it takes effect at once.
-            answers = self._orders.carry_out(min(max(remaining, 0.0), _LONGEST_WAIT))
+            answers = self._commands.execute(min(max(remaining, 0.0), _LONGEST_WAIT))
             for answer in answers:
                 answer()
             if answers or remaining > 0.0:
@@ -143,9 +143,9 @@ class Player:
             if self._next is not None:
                 self.lateness = max(self.lateness, -remaining)
                 self._play_next()
-            elif self._stretch.loop:
-                self._transport.shift(self._stretch.begin - self._stretch.end)
-                self._load(self._stretch.begin)
+            elif self._excerpt.loop:
+                self._transport.shift(self._excerpt.begin - self._excerpt.end)
+                self._load(self._excerpt.begin)
             else:
                 return True
         return False
@@ -153,17 +153,17 @@ class Player:
     @property
     def _upcoming(self) -> int:
         """Instant of the next message, or the end [ns]."""
-        return self._next.time if self._next is not None else self._stretch.end
+        return self._next.time if self._next is not None else self._excerpt.end
 
     def _load(self, instant: int) -> None:
-        self._cues = self._stretch.cues(instant)
+        self._cues = self._excerpt.cues(instant)
         self._next = next(self._cues, None)
 
     def _has_room(self) -> bool:
-        return self._next is None or self._stage.has_room(self._next)
+        return self._next is None or self._listener.has_room(self._next)
 
     def _play_next(self) -> None:
-        self._stage.play(self._next)
+        self._listener.play(self._next)
         self._next = next(self._cues, None)
 
     def _play_through(self, instant: int) -> None:
@@ -200,7 +200,7 @@ class Player:
             raise ValueError(
                 f"duration = {duration:g} s: must be above 0 and at most {LONGEST_STEP:g}"
             )
-        begin, end, loop, _ = self._stretch
+        begin, end, loop, _ = self._excerpt
         target = self._transport.position(time.monotonic(), self._upcoming)
         target += round(duration * 1e9)
         while loop and target > end:
@@ -212,7 +212,7 @@ class Player:
         return target * 1e-9
 
     def _seek(self, instant: float) -> float:
-        end = self._stretch.end * 1e-9
+        end = self._excerpt.end * 1e-9
         if not 0.0 <= instant <= end:
             raise ValueError(f"time = {instant:g} s: must be within 0 and {end:.9g}")
         self._go_to(round(instant * 1e9))

@@ -9,12 +9,12 @@ from planetary_twin_msgs.srv import Seek, Step
 from rclpy.node import Node
 from std_srvs.srv import SetBool
 
+from .command_queue import answer
 from .messages import set_stamp
-from .orders import answer
 from .playing import Player
 
 
-class Deck(Protocol):
+class PlaybackControl(Protocol):
     """The part of a replay that its services use."""
 
     def playing(self) -> Player:
@@ -25,10 +25,10 @@ class Deck(Protocol):
 
 
 class PlayingServices:
-    """The services `~/pause`, `~/step` and `~/seek` of `node`, which control `deck`."""
+    """The services `~/pause`, `~/step` and `~/seek` of `node`, which control `control`."""
 
-    def __init__(self, node: Node, deck: Deck) -> None:
-        self._deck = deck
+    def __init__(self, node: Node, control: PlaybackControl) -> None:
+        self._control = control
         node.create_service(SetBool, "~/pause", self._pause)
         node.create_service(Step, "~/step", self._step)
         node.create_service(Seek, "~/seek", self._seek)
@@ -37,7 +37,7 @@ class PlayingServices:
         word = "paused" if request.data else "runs"
         return answer(
             response,
-            lambda: self._deck.playing().pause(request.data),
+            lambda: self._control.playing().pause(request.data),
             lambda instant: f"{word} from {instant:.9g} s",
         )
 
@@ -46,15 +46,15 @@ class PlayingServices:
             response.simulated_time = instant
             return self._set(response.stamp, instant)
 
-        return answer(response, lambda: self._deck.playing().step(request.duration), describe)
+        return answer(response, lambda: self._control.playing().step(request.duration), describe)
 
     def _seek(self, request: Seek.Request, response: Seek.Response) -> Seek.Response:
         def describe(instant: float) -> str:
             response.time = instant
             return self._set(response.stamp, instant)
 
-        return answer(response, lambda: self._deck.playing().seek(request.time), describe)
+        return answer(response, lambda: self._control.playing().seek(request.time), describe)
 
     def _set(self, stamp: Time, instant: float) -> str:
-        set_stamp(stamp, self._deck.stamp(instant))
+        set_stamp(stamp, self._control.stamp(instant))
         return ""

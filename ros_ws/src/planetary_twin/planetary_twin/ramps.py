@@ -48,7 +48,7 @@ class Ramps:
         self._ramps.clear()
 
     def values(self, time: float) -> dict[str, float]:
-        """Return the values at `time` [s]; a ramp that has ended is included once, then removed."""
+        """Return the values at `time` [s]; a ramp that has ended is included once more."""
         values = {name: ramp.at(time) for name, ramp in self._ramps.items()}
         self._ramps = {name: ramp for name, ramp in self._ramps.items() if time < ramp.end}
         return values

@@ -1,4 +1,4 @@
-"""The recordings of the logger: to a bag on disk, or to memory from which snapshots are written."""
+"""The recordings of the logger: to a bag on disk, or to memory for snapshots."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from planetary_twin_py.recording.ros2.bag import BagWriter, free_folder, named_f
 from planetary_twin_py.recording.ros2.provenance import SOFTWARE_RECORD, host_clocks, software
 from planetary_twin_py.recording.ros2.ring import Ring
 
-from .logger_parameters import Wishes
+from .logger_parameters import LoggerOptions
 from .taps import Taps
 
 _SOFTWARE = (
@@ -29,7 +29,7 @@ _SOFTWARE = (
 )
 
 
-class Refused(Exception):
+class RecorderError(Exception):
     """A command cannot be executed; the message gives the reason in one line."""
 
 
@@ -37,25 +37,25 @@ class Recorder:
     """
     Makes the recordings of the logger `node`, one after another.
 
-    `wishes` are the parameters of the logger, `own` the newest messages that it has published.
+    `options` are the parameters of the logger, `own` the newest messages that it has published.
     `failed` is called with the reason if a recording cannot continue, `progressed` after every
-    400 messages. Methods raise `Refused` if the command cannot be executed.
+    400 messages. Methods raise `RecorderError` if the command cannot be executed.
     """
 
     def __init__(
         self,
         node: Node,
-        wishes: Wishes,
+        options: LoggerOptions,
         own: Collection[bytes],
         failed: Callable[[str], None],
         progressed: Callable[[], None],
     ) -> None:
         self._node = node
-        self._wishes = wishes
+        self._options = options
         self._own = own
         self._failed = failed
         self._progressed = progressed
-        self._scene = _scene_text(wishes.scene)
+        self._scene = _scene_text(options.scene)
         self._sink: BagWriter | Ring | None = None
         self._taps: Taps | None = None
         self._start = time.monotonic()
@@ -82,15 +82,15 @@ class Recorder:
 
     def begin(self) -> None:
         """Create the recording's file, or the memory for snapshots."""
-        wishes = self._wishes
-        self._open(Ring(wishes.snapshot_duration) if wishes.snapshot_duration else self._bag())
+        options = self._options
+        self._open(Ring(options.snapshot_duration) if options.snapshot_duration else self._bag())
 
     def start(self) -> str:
         """Start another recording in a free folder; returns its file."""
         if isinstance(self._sink, Ring):
-            raise Refused("messages are kept in memory: call ~/snapshot to write them")
+            raise RecorderError("messages are kept in memory: call ~/snapshot to write them")
         if self._sink is not None:
-            raise Refused(f"already recording into {self.file}")
+            raise RecorderError(f"already recording into {self.file}")
         self._open(self._bag(another=True))
         return self.file
 
@@ -107,23 +107,25 @@ class Recorder:
         try:
             bag.split()
         except OSError as reason:
-            raise Refused(self._give_up(reason)) from None
+            raise RecorderError(self._give_up(reason)) from None
         return f"{file} is finished, continues in {bag.file}"
 
     def snapshot(self) -> str:
         """Write the messages in memory to a bag; returns its file."""
         ring = self._sink
         if not isinstance(ring, Ring):
-            raise Refused("snapshot_duration = 0: nothing is kept in memory, all is recorded")
+            raise RecorderError(
+                "snapshot_duration = 0: nothing is kept in memory, all is recorded"
+            )
         if not ring.size:
-            raise Refused("no message has been received yet")
+            raise RecorderError("no message has been received yet")
         bag = self._bag(another=True)
         try:
             ring.pour(bag)
             bag.close()
         except OSError as reason:
             bag.abandon()
-            raise Refused(_failure(bag.file, reason)) from None
+            raise RecorderError(_failure(bag.file, reason)) from None
         return str(bag.file)
 
     def discover(self) -> bool:
@@ -163,7 +165,7 @@ class Recorder:
             sink.close()
         except OSError as reason:
             sink.abandon()
-            raise Refused(_failure(sink.file, reason)) from None
+            raise RecorderError(_failure(sink.file, reason)) from None
         text = f"{sink.file}: {_summary(taps.accounts)}"
         # After a signal, the node's logger can no longer publish to /rosout.
         running = self._node.context.ok()
@@ -178,7 +180,7 @@ class Recorder:
             sink.attach("scene.yaml", self._scene, "application/yaml")
         self._sink = sink
         self._taps = Taps(
-            self._node, self._wishes.topics, self._own, sink, self._fail, self._progressed
+            self._node, self._options.topics, self._own, sink, self._fail, self._progressed
         )
         self._start = time.monotonic()
         if self.file:
@@ -186,25 +188,27 @@ class Recorder:
 
     def _bag_in_progress(self) -> BagWriter:
         if not isinstance(self._sink, BagWriter):
-            raise Refused("nothing is being recorded")
+            raise RecorderError("nothing is being recorded")
         return self._sink
 
     def _bag(self, another: bool = False) -> BagWriter:
-        """Open a bag in the folder that `name` gives, or, if it is `another` one, in a free one."""
-        directory, name = self._wishes.directory, self._wishes.name
+        """Open a bag in the folder that `name` gives, or in a free one if `another` is True."""
+        directory, name = self._options.directory, self._options.name
         while True:
             folder = named_folder(directory, name) if name else None
             if folder is None or another:
                 stem = name or self._node.get_namespace().strip("/").replace("/", "_")
                 folder = free_folder(directory, stem or "twin")
             try:
-                bag = BagWriter(folder, self._wishes.storage, self._clocks)
+                bag = BagWriter(folder, self._options.storage, self._clocks)
             except OSError as reason:
                 taken = isinstance(reason, FileExistsError) and folder.exists()
                 if not taken:
-                    raise Refused(f"directory = {directory}: {reason.strerror}") from None
+                    raise RecorderError(f"directory = {directory}: {reason.strerror}") from None
                 if name and not another:
-                    raise Refused(f"name = {name}: {folder} exists; choose a free name") from None
+                    raise RecorderError(
+                        f"name = {name}: {folder} exists; choose a free name"
+                    ) from None
                 # Another logger has just created that folder: try the next.
             else:
                 bag.describe(SOFTWARE_RECORD, software(_SOFTWARE))

@@ -19,9 +19,9 @@ from planetary_twin_py.recording.ros2.tape import Cue, Tape
 
 from .managed import ManagedNode, NodeError, run_node
 from .outlets import Outlets
-from .pacing import AS_FAST_AS_IT_GOES, FASTEST, SLOWEST, check_rate_factor
+from .pacing import FASTEST, SLOWEST, UNLIMITED, check_rate_factor
 from .parameters import declare_bounded, declare_changing, declare_fixed
-from .playing import Player, Stretch
+from .playing import Excerpt, Player
 from .playing_services import PlayingServices
 
 # Participants discover each other at once, or, if a packet of the first exchange was lost, at the
@@ -79,7 +79,7 @@ class Replay(ManagedNode):
         tape = self._tape = Tape(Path(self._path).expanduser(), self._chosen)
         self._warned = self._played = 0
         self._warn_of_damage()
-        self._begin, self._end = self._stretch(tape)
+        self._begin, self._end = self._excerpt(tape)
         # A bag may contain topics without messages, whose types may not be installed here.
         topics = {name: topic for name, topic in tape.topics.items() if tape.counts[name]}
         ticking = self._clock_rate > 0.0 and CLOCK.name not in topics
@@ -94,10 +94,10 @@ class Replay(ManagedNode):
         )
         self._outlets = Outlets(self, topics.values(), names)
         self._opened = time.monotonic()
-        stretch = Stretch(
+        excerpt = Excerpt(
             self._begin, self._end, self._loop, lambda begin: self._cues(tape, begin, ticking)
         )
-        self._player = Player(stretch, self._start_paused, self)
+        self._player = Player(excerpt, self._start_paused, self)
 
     def activate(self) -> None:
         """Start after the time for discovery, or continue."""
@@ -182,7 +182,7 @@ class Replay(ManagedNode):
                 self,
                 _RATE,
                 1.0,
-                (AS_FAST_AS_IT_GOES, FASTEST),
+                (UNLIMITED, FASTEST),
                 f"recorded seconds per second, {SLOWEST:g} to {FASTEST:g}; 0: no limit [-]",
             )
         )
@@ -226,7 +226,7 @@ class Replay(ManagedNode):
             if self._active:
                 self._player.set_rate(value)
 
-    def _stretch(self, tape: Tape) -> tuple[int, int]:
+    def _excerpt(self, tape: Tape) -> tuple[int, int]:
         """Return start and end [ns] of the part to play, after the first message."""
         begin = round(self._start * 1e9)
         if begin > tape.length:

@@ -39,12 +39,10 @@ class Options:
             min=1e-9,
         ),
     ] = None
-    loop: Annotated[
-        bool, typer.Option("--loop", "-l", help="Repeat until Ctrl-C.")
-    ] = False
-    start_paused: Annotated[
-        bool, typer.Option("--start-paused", "-p", help="Start paused.")
-    ] = False
+    loop: Annotated[bool, typer.Option("--loop", "-l", help="Repeat until Ctrl-C.")] = False
+    start_paused: Annotated[bool, typer.Option("--start-paused", "-p", help="Start paused.")] = (
+        False
+    )
     clock: Annotated[
         float,
         typer.Option(metavar="HZ", help="/clock messages per recorded second; 0: none.", min=0.0),

@@ -35,13 +35,13 @@ from .telemetry import STALL, Telemetry
 from .time_services import TimeServices
 
 _REPORT_PERIOD = 1.0  # [s]
-# Time after which a waiting thread may take the interpreter lock from a busy one. Python's 5 ms are
-# half an interval: clients that send many requests would delay the twin.
+# Time after which a waiting thread may take the interpreter lock from a busy one. Python's 5 ms
+# are half an interval: clients that send many requests would delay the twin.
 _SWITCH_INTERVAL = 2e-4  # [s]
 
 
 class Simulation(ManagedNode):
-    """Runs a scene in real time: configure builds the model, activate runs it, deactivate stops."""
+    """Runs a scene in real time: configure builds it, activate runs it, deactivate pauses it."""
 
     def __init__(self) -> None:
         super().__init__("simulation")
@@ -135,7 +135,7 @@ class Simulation(ManagedNode):
         self._telemetry.announce(point, instant)
 
     def ready(self) -> bool:
-        """Return whether ROS time is available, and the node that `wait_for` names has subscribed."""
+        """Return whether ROS time is available and the node `wait_for` has subscribed."""
         return self._telemetry.ready() and self._audience.present()
 
     def has_room(self) -> bool:

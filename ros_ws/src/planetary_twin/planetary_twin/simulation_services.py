@@ -31,7 +31,7 @@ else:
 _PATIENCE = 60.0  # [s] longest wait for the execution of a command
 
 
-class Clockwork(Protocol):
+class TimeControl(Protocol):
     """The part of a simulation that its services use."""
 
     def running(self) -> LiveTwin:
@@ -45,12 +45,12 @@ class SimulationServices:
     """
     The services `~/get_simulator_features`, `~/get_simulation_state` and so on of `node`.
 
-    They control `clockwork` and need `AVAILABLE`. A step is one published interval, whose
+    They control `control` and need `AVAILABLE`. A step is one published interval, whose
     duration [s] `interval` returns.
     """
 
-    def __init__(self, node: Node, clockwork: Clockwork, interval: Callable[[], float]) -> None:
-        self._clockwork = clockwork
+    def __init__(self, node: Node, control: TimeControl, interval: Callable[[], float]) -> None:
+        self._control = control
         self._interval = interval
         node.create_service(GetSimulatorFeatures, "~/get_simulator_features", self._features)
         node.create_service(GetSimulationState, "~/get_simulation_state", self._get)
@@ -98,21 +98,21 @@ class SimulationServices:
         ):
             reason = f"scope = {request.scope}: must be 0 or 255; only all can be reset"
             return _refused(response, Result.RESULT_FEATURE_UNSUPPORTED, reason)
-        return self._carried_out(response, lambda live: _wait(self._clockwork.reset()))
+        return self._carried_out(response, lambda live: _wait(self._control.reset()))
 
     def _move(self, live: LiveTwin, wanted: int) -> None:
         """Change the state of the time of `live` to `wanted`."""
         if wanted != SimulationState.STATE_PLAYING:
             _wait(live.pause(True))
         if wanted == SimulationState.STATE_STOPPED:
-            _wait(self._clockwork.reset())
+            _wait(self._control.reset())
         if wanted == SimulationState.STATE_PLAYING:
             _wait(live.pause(False))
 
     def _state(self) -> int:
         """Return the state in terms of the package: a node that is not active has no world."""
         try:
-            progress = self._clockwork.running().progress
+            progress = self._control.running().progress
         except ValueError:
             return int(SimulationState.STATE_NO_WORLD)
         if progress.state in (State.RUNNING, State.WAITING):
@@ -121,21 +121,21 @@ class SimulationServices:
             return int(SimulationState.STATE_STOPPED)
         return int(SimulationState.STATE_PAUSED)
 
-    def _carried_out(self, response: Any, order: Callable[[LiveTwin], None]) -> Any:
+    def _carried_out(self, response: Any, command: Callable[[LiveTwin], None]) -> Any:
         try:
-            live = self._clockwork.running()
+            live = self._control.running()
         except ValueError as refusal:
             return _refused(response, Result.RESULT_INCORRECT_STATE, str(refusal))
         try:
-            order(live)
+            command(live)
         except (ValueError, TimeoutError) as refusal:
             return _refused(response, Result.RESULT_OPERATION_FAILED, str(refusal))
         response.result.result = Result.RESULT_OK
         return response
 
 
-def _wait(order: Future[float]) -> None:
-    order.result(timeout=_PATIENCE)
+def _wait(command: Future[float]) -> None:
+    command.result(timeout=_PATIENCE)
 
 
 def _refused(response: Any, code: int, reason: str) -> Any:

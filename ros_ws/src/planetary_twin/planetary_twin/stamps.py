@@ -13,7 +13,7 @@ _SET = 100_000_000  # [ns] a larger step of the system clock means that it was s
 _JUMP = 1_000_000_000  # [ns] a larger step of /clock between two readings is a jump
 
 
-class Rising:
+class StrictClock:
     """The time of `clock` [ns], made to increase strictly if the clock stops or is set back."""
 
     def __init__(self, clock: ROSClock) -> None:
@@ -47,9 +47,9 @@ class Stamps:
     Maps simulated time to ROS time, interval after interval.
 
     Stamps run with simulated time from the ROS time at which `begin` is called, and follow the
-    system clock if it is set. With `use_sim_time`, they are the time of `clock` when an interval is
-    published. If a clock is set back, they continue from the newest stamp. A twin that is itself
-    the `source` of /clock reads a clock only once. All stamps are later than `newest` [ns].
+    system clock if it is set. With `use_sim_time`, they are the time of `clock` when an interval
+    is published. If a clock is set back, they continue from the newest stamp. A twin that is
+    itself the `source` of /clock reads a clock only once. All stamps are later than `newest` [ns].
     """
 
     def __init__(self, clock: ROSClock, source: bool, newest: int = 0) -> None:

@@ -1,4 +1,4 @@
-"""What a run shows by itself: changes of the operating point, one after the other."""
+"""The tour of a run: a sequence of changes of the operating point."""
 
 from __future__ import annotations
 
@@ -8,11 +8,11 @@ from typing import NamedTuple
 
 from planetary_twin_py import rpm
 
-LENGTH = 12.0  # [s] the times below are meant for a run this long, and scale with it
+LENGTH = 12.0  # [s] duration of a run for which the times below are given; they scale with it
 
 
 class Stop(NamedTuple):
-    """At simulated `time` [s], set `values` (SI) and tell why."""
+    """At simulated `time` [s], set `values` (SI) and show `caption`."""
 
     time: float
     values: Mapping[str, float]

@@ -9,11 +9,11 @@ from concurrent.futures import Future
 from functools import partial
 from typing import Any
 
-Order = Callable[[], float]
+Command = Callable[[], float]
 _PATIENCE = 60.0  # [s] longest wait for the execution of a command
 
 
-class Orders:
+class CommandQueue:
     """
     A first-in, first-out queue of commands; each future returns the instant [s] of execution.
 
@@ -24,26 +24,26 @@ class Orders:
 
     def __init__(self, change: Callable[[Mapping[str, float]], float]) -> None:
         self._change = change
-        self._queue: queue.SimpleQueue[tuple[Order, Future[float]]] = queue.SimpleQueue()
+        self._queue: queue.SimpleQueue[tuple[Command, Future[float]]] = queue.SimpleQueue()
         self._lock = threading.Lock()
         self._gathering: tuple[dict[str, float], Future[float]] | None = None
 
-    def give(self, order: Order) -> Future[float]:
-        """Append `order` to the queue."""
+    def put(self, command: Command) -> Future[float]:
+        """Append `command` to the queue."""
         with self._lock:
             self._gathering = None
-            return self._put(order)
+            return self._append(command)
 
     def change(self, values: Mapping[str, float]) -> Future[float]:
         """Append a change to `values`, or merge it with the change that was appended last."""
         with self._lock:
             if self._gathering is None:
                 gathered: dict[str, float] = {}
-                self._gathering = gathered, self._put(lambda: self._set(gathered))
+                self._gathering = gathered, self._append(lambda: self._set(gathered))
             self._gathering[0].update(values)
             return self._gathering[1]
 
-    def carry_out(self, patience: float) -> list[Callable[[], None]]:
+    def execute(self, patience: float) -> list[Callable[[], None]]:
         """
         Execute the queued commands, and return the functions that set their futures.
 
@@ -53,11 +53,11 @@ class Orders:
         answers: list[Callable[[], None]] = []
         for _ in range(max(self._queue.qsize(), 1)):
             try:
-                order, future = self._queue.get(timeout=patience)
+                command, future = self._queue.get(timeout=patience)
             except queue.Empty:
                 break
             try:
-                answers.append(partial(future.set_result, order()))
+                answers.append(partial(future.set_result, command()))
             except ValueError as refusal:
                 answers.append(partial(future.set_exception, refusal))
             except Exception as defect:
@@ -75,9 +75,9 @@ class Orders:
             _, future = self._queue.get()
             future.set_exception(ValueError(reason))
 
-    def _put(self, order: Order) -> Future[float]:
+    def _append(self, command: Command) -> Future[float]:
         future: Future[float] = Future()
-        self._queue.put((order, future))
+        self._queue.put((command, future))
         return future
 
     def _set(self, gathered: dict[str, float]) -> float:
@@ -88,11 +88,15 @@ class Orders:
 
 
 def answer(
-    response: Any, order: Callable[[], Future[float]], describe: Callable[[float], str]
+    response: Any, command: Callable[[], Future[float]], describe: Callable[[float], str]
 ) -> Any:
-    """Execute `order` and fill in `response`; `describe` returns the message for its instant [s]."""
+    """
+    Execute `command` and fill in `response`, which is returned.
+
+    `describe` returns the message for the instant [s] of execution.
+    """
     try:
-        response.message = describe(order().result(timeout=_PATIENCE))
+        response.message = describe(command().result(timeout=_PATIENCE))
         response.success = True
     except (ValueError, TimeoutError) as refusal:
         response.success, response.message = False, str(refusal)
