@@ -45,7 +45,7 @@ HANDLERS = {
     ),
     "nodes": (
         "from planetary_twin.signals import SIGNALS",
-        "SIGNALS.listen(); within = SIGNALS.interrupting(); within.__enter__()",
+        "SIGNALS.install(); within = SIGNALS.interrupting(); within.__enter__()",
     ),
     "nothing": ("", ""),
 }
