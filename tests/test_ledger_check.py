@@ -20,11 +20,12 @@ from planetary_twin_py.ledger_check import (
     balance_of_window,
     ledger_warning,
 )
+from planetary_twin_py.quantities import EXCESS
 from planetary_twin_py.recording.runs.offline import Plan, record
 from planetary_twin_py.recording.runs.verify import verify
 from planetary_twin_py.studies.axes import Axis
 from planetary_twin_py.studies.energy_balance import unbalanced_runs
-from planetary_twin_py.studies.measures import EXCESS, measure
+from planetary_twin_py.studies.measures import measure
 from planetary_twin_py.studies.plan import Settings, grid
 from planetary_twin_py.studies.table import tabulate
 from planetary_twin_py.studies.work import Failure
