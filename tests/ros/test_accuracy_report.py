@@ -16,7 +16,7 @@ def test_inaccurate_intervals_are_a_warning_until_the_next_report() -> None:
     report.add(window)
     sound = report.status()
     assert (sound.name, sound.hardware_id) == (f"twin/{ACCURACY}", "/twin")
-    assert (sound.level, sound.message) == (DiagnosticStatus.OK, "as the tolerance says")
+    assert (sound.level, sound.message) == (DiagnosticStatus.OK, "consistent with the tolerance")
     for _ in range(2):
         report.add(replace(window, course=window.course._replace(reversals=3)))
     bad = report.status()

@@ -256,7 +256,7 @@ def test_a_full_disk_ends_the_logger_with_one_line_and_flushed_data_is_readable(
     logger = Logger(peer, start, setting, "compression:=none", "flush_period:=0.05")
     count(200.0, 10_000, 10_000, 100)
     peer.until(lambda: logger.process.poll() is not None)
-    logger.ends_with("No space left on device; what was flushed is readable")
+    logger.ends_with("No space left on device; flushed messages are readable")
     (folder,) = small_disk.iterdir()
     numbers = numbers_in(folder)
     assert numbers == list(range(1, len(numbers) + 1))

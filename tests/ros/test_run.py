@@ -220,7 +220,7 @@ def test_the_death_of_a_node_ends_the_run_with_one_line(
     _, errors = process.communicate(timeout=LONG)
     assert process.returncode == 1
     assert len(errors.strip().splitlines()) == 1
-    assert f"{node}: ended by SIGKILL; what was recorded is in recordings/" in errors
+    assert f"{node}: ended by SIGKILL; the recording is in recordings/" in errors
     assert working_in(tmp_path) == []
 
 
@@ -316,7 +316,7 @@ def test_a_run_whose_simulation_is_shut_down_reports_it(
     assert peer.call(ChangeState, f"{TWIN}/simulation/change_state", request, 20.0).success
     _, errors = process.communicate(timeout=LONG)
     assert process.returncode == 1
-    assert "is finalized after a lifecycle request; what was recorded is in" in errors
+    assert "is finalized after a lifecycle request; the recording is in" in errors
     assert counts(tmp_path / "recordings/bag")[f"{TWIN}/gearbox_state"] > 0
 
 

@@ -1,4 +1,4 @@
-"""Reports in /diagnostics whether figures of the twin are as accurate as its tolerance says."""
+"""Reports in /diagnostics whether the results of the twin are as accurate as its tolerance."""
 
 from __future__ import annotations
 
@@ -39,7 +39,7 @@ class AccuracyReport:
         return DiagnosticStatus(
             level=DiagnosticStatus.WARN if warnings else DiagnosticStatus.OK,
             name=status_name(ACCURACY, self._hardware),
-            message="; also: ".join(warnings) or "as the tolerance says",
+            message="; also: ".join(warnings) or "consistent with the tolerance",
             hardware_id=self._hardware,
             values=[
                 KeyValue(key=name, value=f"{getattr(course, name):.6g}")

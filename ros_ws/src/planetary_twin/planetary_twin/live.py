@@ -49,7 +49,7 @@ class Listener(Protocol):
         """Return whether the recorder has kept up and the next interval may be published."""
 
     def resumed(self, twin: Twin) -> None:
-        """Map the present time of `twin` to now: at the start and after a halt."""
+        """Map the present time of `twin` to the present ROS time, after a start or a halt."""
 
     def stopped(self, defect: Exception) -> None:
         """Receive the exception that ended the thread."""
@@ -85,7 +85,7 @@ class LiveTwin:
 
     It runs at `rate_factor` simulated seconds per second, or as fast as possible if that is 0.
     `quality` chooses tolerance and sample rate; any thread may replace it at any time. Commands
-    are executed between two intervals; their futures return the simulated instant [s] of that.
+    are executed between two intervals; their futures return the simulated instant [s].
 
     Above real time and in steps, the twin waits for its recorder. At real time or below, it does
     not.

@@ -62,7 +62,7 @@ class Player:
     If the rate factor is 0, it plays as fast as reliable subscribers acknowledge. A late message
     is played at once and none is skipped, so a delay is made up. If it is paused at an instant,
     all messages up to and at that instant have been played. Commands are executed between two
-    messages; their futures return the recorded instant [s] of that.
+    messages; their futures return the recorded instant [s].
 
     `paused` is the state at the start. `listener` receives the messages.
     """

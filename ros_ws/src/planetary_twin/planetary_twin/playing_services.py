@@ -25,7 +25,7 @@ class PlaybackControl(Protocol):
 
 
 class PlayingServices:
-    """The services `~/pause`, `~/step` and `~/seek` of `node`, which control `control`."""
+    """The services `~/pause`, `~/step` and `~/seek` of `node` for `control`."""
 
     def __init__(self, node: Node, control: PlaybackControl) -> None:
         self._control = control

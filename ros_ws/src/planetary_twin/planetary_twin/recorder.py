@@ -239,7 +239,7 @@ def _scene_text(scene: str) -> bytes:
 
 
 def _failure(file: Path, reason: OSError) -> str:
-    return f"{file}: {reason.strerror}; what was flushed is readable"
+    return f"{file}: {reason.strerror}; flushed messages are readable"
 
 
 def _summary(accounts: dict[str, TopicAccount]) -> str:

@@ -143,7 +143,7 @@ class Simulation(ManagedNode):
         return self._backlog.has_room()
 
     def resumed(self, twin: pt.Twin) -> None:
-        """Map the twin's present time to now."""
+        """Map the twin's present time to the present ROS time."""
         self._telemetry.begin(twin.time)
         if twin.time == 0.0:
             self._telemetry.originate(twin.scene)

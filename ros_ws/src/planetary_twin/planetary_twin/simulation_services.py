@@ -45,7 +45,7 @@ class SimulationServices:
     """
     The services `~/get_simulator_features`, `~/get_simulation_state` and so on of `node`.
 
-    They control `control` and need `AVAILABLE`. A step is one published interval, whose
+    They act on `control` and need `AVAILABLE`. A step is one published interval, whose
     duration [s] `interval` returns.
     """
 

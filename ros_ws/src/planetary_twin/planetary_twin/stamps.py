@@ -70,7 +70,7 @@ class Stamps:
         return not self._follows() or self._clock.now().nanoseconds > 0
 
     def begin(self, simulated: float) -> None:
-        """Map `simulated` [s] to now, or to just after the newest stamp if that is later."""
+        """Map `simulated` [s] to the present time, or just after the newest stamp if later."""
         newest = self._interval.last
         self._before = self._read()
         own = self._source and newest > 0

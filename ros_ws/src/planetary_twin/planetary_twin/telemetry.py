@@ -122,7 +122,7 @@ class Telemetry:
         return self._stamps.ready()
 
     def begin(self, simulated: float) -> None:
-        """Map time `simulated` [s] to now."""
+        """Map time `simulated` [s] to the present ROS time."""
         self._stamps.begin(simulated)
 
     def stamp(self, simulated: float) -> int:

@@ -27,7 +27,7 @@ class TimeControl(Protocol):
 
 
 class TimeServices:
-    """The services `~/pause`, `~/step` and `~/reset` of `node`, which control `control`."""
+    """The services `~/pause`, `~/step` and `~/reset` of `node` for `control`."""
 
     def __init__(self, node: Node, control: TimeControl) -> None:
         self._control = control

@@ -179,7 +179,7 @@ def _named_on_failure(folder: Path) -> Iterator[None]:
     try:
         yield
     except RunError as failure:
-        raise RunError(f"{failure}; what was recorded is in {folder}") from None
+        raise RunError(f"{failure}; the recording is in {folder}") from None
 
 
 def _drive(operator: Operator, plan: Plan, show: Show) -> None:
