@@ -265,7 +265,7 @@ def test_a_recorded_clock_is_played_alone(peer: Peer, play: Play, tmp_path: Path
     clock = peer.listen(Clock, "/clock")
     process = play("bag", "--clock", "100")
     peer.until(lambda: process.poll() is not None)
-    assert "clock = 100: bag holds /clock" in process.communicate()[0]
+    assert "clock = 100: bag contains /clock" in process.communicate()[0]
     peer.until(lambda: len(clock) >= 5)
     assert [message.clock.sec for message in clock] == [0, 1, 2, 3, 4]
 

@@ -148,7 +148,7 @@ def test_the_command_reports_losses_and_overwrites_nothing(sound, tmp_path):
     chosen = CliRunner().invoke(build_app(), ["recover", str(truncated), "--out", str(elsewhere)])
     assert chosen.exit_code == 0
     assert messages(next(elsewhere.glob("*.mcap"))) == messages(
-        next(tmp_path.glob("torn_*/*.mcap"))
+        next(tmp_path.glob("truncated_*/*.mcap"))
     )
     again = CliRunner().invoke(build_app(), ["recover", str(truncated)])
     assert again.exit_code == 2
