@@ -26,7 +26,7 @@ def invoke(*arguments):
 
 
 @pytest.mark.slow
-def test_page_figures_and_picture_are_of_one_run(tmp_path):
+def test_page_figures_and_picture_come_from_one_run(tmp_path):
     page, figures = tmp_path / "docs" / "page.md", tmp_path / "figures.json"
     picture = tmp_path / "docs" / "work.png"
     page.parent.mkdir()

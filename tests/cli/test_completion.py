@@ -1,4 +1,4 @@
-"""What a shell offers, and that it need not wait for it."""
+"""Completions in a shell, and the time they take."""
 
 import subprocess
 import sys
@@ -19,7 +19,7 @@ HEAVY = ("numba", "numpy", "pint", "rclpy", "rich", "scipy")
 
 @pytest.fixture
 def recordings(tmp_path, monkeypatch):
-    """Recordings where they land, one elsewhere, and what is none."""
+    """Recordings in their folder, one elsewhere, and a file that is none."""
     monkeypatch.chdir(tmp_path)
     for name in ("recordings/first", "recordings/second", "other/third"):
         (tmp_path / name).mkdir(parents=True)
@@ -30,7 +30,7 @@ def recordings(tmp_path, monkeypatch):
 
 
 def offered(*words):
-    """What bash is told for the last of these words."""
+    """The completions that bash receives for the last of these words."""
     line = ("planetary-twin", *words)
     answer = run(
         _PLANETARY_TWIN_COMPLETE="complete_bash",
@@ -62,7 +62,7 @@ def test_a_shell_is_offered_commands_scenes_and_recordings(recordings):
     assert offered("view", "--scene", "wind") == ["wind_turbine_stage"]
 
 
-def test_completion_and_help_load_nothing_that_one_would_wait_for():
+def test_completion_and_help_import_no_slow_module():
     for words in (["--help"], ["simulate", "--help"], ["run", "--help"]):
         code = (
             "import atexit, sys\n"
@@ -76,8 +76,8 @@ def test_completion_and_help_load_nothing_that_one_would_wait_for():
         assert done.stderr.strip() == ""
 
 
-def test_bash_completes_with_the_script_that_is_shown():
-    """The shell it is for is the one that asks."""
+def test_bash_completes_with_the_printed_script():
+    """The script is for the shell that requests it."""
     program = Path(sys.executable).with_name("planetary-twin")
     done = subprocess.run(
         ["bash", "-c", f'eval "$({program} --show-completion)"; complete -p planetary-twin'],

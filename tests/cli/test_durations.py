@@ -1,4 +1,4 @@
-"""Times on the command line are seconds, or carry a unit."""
+"""Times on the command line are in seconds, or have a unit."""
 
 import pytest
 import typer
@@ -17,12 +17,12 @@ def test_a_time_is_read_in_seconds(given, seconds):
 
 
 @pytest.mark.parametrize("given", ["10 m", "soon", "1,5", "", "3 rpm"])
-def test_what_is_not_a_time_is_refused(given):
+def test_text_that_is_not_a_time_is_refused(given):
     with pytest.raises(typer.BadParameter, match="must be a number of seconds, or with a unit"):
         read_seconds(given)
 
 
-def test_a_run_lasts_as_long_as_the_unit_says(tmp_path):
+def test_the_duration_of_a_run_follows_the_unit(tmp_path):
     out = tmp_path / "run.csv"
     command = ["simulate", "--duration", "2ms", "--sample-rate", "10000", "--out", str(out)]
     done = CliRunner().invoke(build_app(), command)

@@ -1,4 +1,4 @@
-"""The command `fields` against the schema, and where a user is told of it."""
+"""The command `fields` against the schema, and where commands mention it."""
 
 import json
 
@@ -22,7 +22,7 @@ def test_all_fields_are_listed_with_unit_default_and_range():
             assert [name, *field[1:]] in rows
 
 
-def test_a_part_of_a_name_leaves_those_that_have_it():
+def test_a_part_of_a_name_selects_the_fields_that_contain_it():
     found = json.loads(invoke("fields", "mesh.damping.", "--json", "-").stdout)
     names = [field["name"] for field in found]
     own = ("law", "damping_ratio", "loss_factor", "lowest_frequency")
@@ -37,13 +37,13 @@ def test_a_part_of_a_name_leaves_those_that_have_it():
     }
 
 
-def test_a_part_of_no_name_ends_in_one_line():
+def test_a_text_in_no_name_ends_in_one_line():
     done = invoke("fields", "mesh.colour")
     assert done.exit_code == 2
     assert done.stderr.count("\n") == 1 and "mesh.colour" in done.stderr
 
 
 @pytest.mark.parametrize("command", ["simulate", "sweep", "modal"])
-def test_commands_that_take_fields_tell_of_it(command):
+def test_commands_that_accept_fields_mention_it(command):
     shown = " ".join(invoke(command, "--help").stdout.split())
     assert "planetary-twin fields" in shown

@@ -1,4 +1,4 @@
-"""`planetary-twin fit` as it is typed."""
+"""The command `fit` as typed."""
 
 import json
 
@@ -19,7 +19,7 @@ def bag(tmp_path_factory):
     return record(tmp_path_factory.mktemp("rig") / "bag", PAPER, 0.1, share=0.01)
 
 
-def test_figures_and_a_warning_of_what_is_not_told_with_exit_code_0(bag, tmp_path):
+def test_figures_and_a_warning_of_unidentifiable_parameters_with_exit_code_0(bag, tmp_path):
     out = tmp_path / "fit.json"
     free = "backlash=4e-7,input-torque=50"
     done = run(bag, "--free", free, "--from", 0.02, "--to", 0.09, "--json", out)
@@ -49,7 +49,7 @@ def test_figures_and_a_warning_of_what_is_not_told_with_exit_code_0(bag, tmp_pat
 
 
 @pytest.mark.parametrize(
-    ("arguments", "told"),
+    ("arguments", "reason"),
     [
         (["--free", "nosuch"], "nosuch: no such field"),
         (["--free", "backlash", "--from", "7"], "0 intervals from --from to --to"),
@@ -59,10 +59,10 @@ def test_figures_and_a_warning_of_what_is_not_told_with_exit_code_0(bag, tmp_pat
         (["--free", ","], "no free parameter"),
     ],
 )
-def test_what_cannot_be_ends_in_one_line(bag, arguments, told):
+def test_invalid_arguments_end_in_one_line(bag, arguments, reason):
     done = run(bag, *arguments)
     assert done.exit_code == 2, done.output
-    assert done.output.count("\n") == 1 and told in done.output
+    assert done.output.count("\n") == 1 and reason in done.output
 
 
 def test_a_recording_without_its_scene_is_refused(tmp_path):

@@ -1,4 +1,4 @@
-"""What a person is used to from commands: exit codes, colours, pipes, Ctrl-C."""
+"""Conventions of commands: exit codes, colours, pipes, Ctrl-C."""
 
 import os
 import pty
@@ -24,19 +24,19 @@ MISTAKES = (
 
 
 @pytest.mark.parametrize("arguments", MISTAKES, ids=" ".join)
-def test_what_is_typed_wrong_ends_with_2_and_without_a_traceback(arguments, tmp_path):
+def test_invalid_arguments_end_with_2_and_without_a_traceback(arguments, tmp_path):
     done = run(*arguments)
     assert done.returncode == 2
     assert done.stderr and "Traceback" not in done.stderr
 
 
-def test_what_succeeds_ends_with_0_and_says_nothing_on_the_error_stream():
+def test_success_ends_with_0_and_an_empty_error_stream():
     done = run("modal")
     assert (done.returncode, done.stderr) == (0, "")
 
 
 def printed_on_a_terminal(**environment):
-    """All that a mistake puts on a terminal."""
+    """Everything that a mistake prints on a terminal."""
     ours, theirs = pty.openpty()
     subprocess.run(
         [*COMMAND, "simulate", "papyrus"],
@@ -50,7 +50,7 @@ def printed_on_a_terminal(**environment):
         return terminal.read1(10000)
 
 
-def test_colours_are_for_terminals_whose_user_has_not_declined():
+def test_colours_are_used_on_terminals_unless_disabled():
     assert b"\x1b[31m" in printed_on_a_terminal()
     assert b"\x1b[" not in printed_on_a_terminal(NO_COLOR="1")
     assert b"\x1b[" not in printed_on_a_terminal(TERM="dumb")
@@ -58,7 +58,7 @@ def test_colours_are_for_terminals_whose_user_has_not_declined():
 
 
 @pytest.mark.parametrize("arguments", (["--help"], ["modal"], ["modal", "--json", "-"]))
-def test_a_reader_that_has_read_enough_is_no_error_to_tell(arguments):
+def test_a_reader_that_closes_the_pipe_is_no_error(arguments):
     process = subprocess.Popen(
         [*COMMAND, *arguments], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True
     )
@@ -69,7 +69,7 @@ def test_a_reader_that_has_read_enough_is_no_error_to_tell(arguments):
 
 
 def busy_threads(process):
-    """Threads besides the first that have computed for a while."""
+    """Threads, except the first, that have computed for a while."""
     first = str(process.pid)
     busy = 0
     for thread in Path(f"/proc/{process.pid}/task").iterdir():
@@ -92,7 +92,7 @@ def busy_threads(process):
     ),
     ids=lambda arguments: arguments[0],
 )
-def test_ctrl_c_ends_what_takes_long_at_once(arguments, tmp_path):
+def test_ctrl_c_ends_a_long_command_at_once(arguments, tmp_path):
     process = subprocess.Popen(
         [*COMMAND, *arguments],
         cwd=tmp_path,

@@ -1,4 +1,4 @@
-"""Every command's help shows units, and an example that can be typed."""
+"""The help of every command shows units, and an example that can be typed."""
 
 import shlex
 
@@ -13,7 +13,7 @@ APP = build_app()
 
 
 def commands(group, *path):
-    """All commands with the words that lead to them."""
+    """All commands with the words that call them."""
     for name, command in group.commands.items():
         if isinstance(command, TyperGroup):
             yield from commands(command, *path, name)
@@ -37,7 +37,7 @@ def test_commands_of_both_packages_are_there():
 
 
 @pytest.mark.parametrize("words", ALL, ids=" ".join)
-def test_an_example_is_shown_as_it_is_typed_and_is_understood(words):
+def test_every_example_is_shown_as_typed_and_accepted(words):
     output = shown(*words)
     typed = output.partition("\nExample:\n")[2].replace("\\\n", " ")
     assert "\n" not in typed.strip()
@@ -49,15 +49,15 @@ def test_an_example_is_shown_as_it_is_typed_and_is_understood(words):
 @pytest.mark.parametrize(
     ("command", "unit"), [("replay", "[s]"), ("view", "[s]"), ("import", "[kW]")]
 )
-def test_units_in_brackets_are_seen(command, unit):
+def test_units_in_brackets_are_shown(command, unit):
     assert unit in shown(command)
 
 
-def test_a_run_offers_to_set_no_more_than_it_takes():
+def test_a_run_offers_only_fields_that_it_can_set():
     assert "mesh.ramp" in shown("simulate")
     assert "operating point" in shown("run") and "mesh.ramp" not in shown("run")
 
 
-def test_a_slip_of_the_keyboard_is_answered_with_what_was_meant():
+def test_a_mistyped_command_is_answered_with_a_similar_one():
     done = CliRunner().invoke(APP, ["simulte"])
     assert done.exit_code == 2 and "'simulate'" in done.output

@@ -12,8 +12,8 @@ from twin_recording import record
 SLOWER = 2.0  # than `verify` of a sound recording; both take longer on a busy machine
 MEGABYTES = 300.0
 
-# A child's own peak: what the kernel accounts to it begins with that of the process it is forked
-# from.
+# A child's own peak: the kernel's figure for it starts with that of the process from which it
+# is forked.
 COMMAND = """
 import atexit, pathlib, sys
 status, kept = pathlib.Path("/proc/self/status"), pathlib.Path(sys.argv.pop(1))
@@ -32,7 +32,7 @@ class Done(NamedTuple):
 
 
 def run(*arguments, folder):
-    """What a command prints, and what it took."""
+    """The output of a command, and its cost."""
     output, errors = folder / "output.txt", folder / "errors.txt"
     command = [sys.executable, "-c", COMMAND, folder / "peak.txt", *map(str, arguments)]
     with output.open("wb") as out, errors.open("wb") as err:
@@ -46,7 +46,7 @@ def run(*arguments, folder):
 
 
 def check(done, usual):
-    """Whatever it was, the command has ended as a command does."""
+    """The command has ended in the usual way."""
     assert done.code in (0, 1, 2), done.errors[-2000:]
     assert "Traceback" not in done.errors
     assert "\x1b" not in done.output + done.errors and "\x07" not in done.output + done.errors
@@ -62,7 +62,7 @@ def check_refused(done, usual):
 
 
 def first_of(names):
-    """The first three; the others are of the exhaustive tests."""
+    """The first three; the others belong to the exhaustive tests."""
     others = [pytest.param(name, marks=pytest.mark.exhaustive) for name in [*names][3:]]
     return [*names][:3] + others
 
@@ -74,7 +74,7 @@ def sound(tmp_path_factory):
 
 @pytest.fixture(scope="module")
 def usual(sound, tmp_path_factory):
-    """Time of the processor [s] that a sound recording takes, on this machine as busy as it is."""
+    """Processor time [s] for a sound recording on this machine, however busy."""
     done = run("verify", sound, folder=tmp_path_factory.mktemp("usual"))
     assert done.code == 0, done.errors
     return done.seconds
@@ -89,7 +89,7 @@ def test_a_hostile_scene_is_refused_in_one_line(usual, tmp_path, name):
 
 
 @pytest.mark.parametrize("command", [["explain"], ["info"], ["import", "--out", "x.mcap"]])
-def test_a_pipe_is_no_file_to_wait_for(usual, tmp_path, command):
+def test_a_pipe_is_refused_without_waiting(usual, tmp_path, command):
     os.mkfifo(pipe := tmp_path / "pipe.csv")
     check_refused(run(*command, pipe, folder=tmp_path), usual)
 
@@ -105,7 +105,7 @@ def test_a_recording_with_a_hostile_definition_is_refused_in_one_line(usual, sou
 
 @pytest.mark.slow
 @pytest.mark.parametrize("name", first_of(READ))
-def test_of_a_recording_that_is_hostile_in_parts_the_others_are_read(usual, sound, tmp_path, name):
+def test_the_valid_parts_of_a_hostile_recording_are_read(usual, sound, tmp_path, name):
     file = rewritten(sound, tmp_path / "hostile.mcap", READ[name])
     done = run("info", file, folder=tmp_path)
     check(done, usual)
@@ -114,7 +114,7 @@ def test_of_a_recording_that_is_hostile_in_parts_the_others_are_read(usual, soun
 
 @pytest.mark.slow
 @pytest.mark.parametrize("name", first_of(MESSAGES))
-def test_a_hostile_message_is_told_with_its_file_and_topic(usual, sound, tmp_path, name):
+def test_a_hostile_message_is_reported_with_its_file_and_topic(usual, sound, tmp_path, name):
     topic, data = MESSAGES[name]
     file = rewritten(sound, tmp_path / "hostile.mcap", messages_of(topic, data))
     done = run("verify", file, folder=tmp_path)
@@ -124,7 +124,7 @@ def test_a_hostile_message_is_told_with_its_file_and_topic(usual, sound, tmp_pat
 
 
 @pytest.mark.slow
-def test_more_topics_than_there_are_is_one_line(usual, tmp_path):
+def test_an_excessive_number_of_topics_is_one_line(usual, tmp_path):
     file = many_channels(tmp_path / "many.mcap")
     done = run("info", file, folder=tmp_path)
     check_refused(done, usual)
@@ -134,7 +134,7 @@ def test_more_topics_than_there_are_is_one_line(usual, tmp_path):
 @pytest.mark.exhaustive
 @pytest.mark.parametrize("command", ["info", "recover", "verify", "export", "spectrum"])
 @pytest.mark.parametrize("name", [*REFUSED, *READ, *MESSAGES])
-def test_no_command_stumbles_over_a_hostile_recording(sound, tmp_path, command, name):
+def test_no_command_fails_on_a_hostile_recording(sound, tmp_path, command, name):
     alter = REFUSED.get(name) or READ.get(name) or messages_of(*MESSAGES[name])
     file = rewritten(sound, tmp_path / "hostile.mcap", alter)
     out = ["--out", tmp_path / "out"] if command in ("recover", "export") else []

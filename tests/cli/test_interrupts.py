@@ -1,4 +1,4 @@
-"""A Ctrl-C that falls into a callback is heard once the callback is over."""
+"""A Ctrl-C during a callback takes effect after the callback."""
 
 import subprocess
 import sys
@@ -35,7 +35,7 @@ try:
     time.sleep(0.5)
     print("lost")
 except KeyboardInterrupt:
-    print("heard")
+    print("interrupted")
 """
 
 HANDLERS = {
@@ -45,7 +45,7 @@ HANDLERS = {
     ),
     "nodes": (
         "from planetary_twin.signals import SIGNALS",
-        "SIGNALS.listen(); within = SIGNALS.interrupting(); within.__enter__()",
+        "SIGNALS.install(); within = SIGNALS.interrupting(); within.__enter__()",
     ),
     "nothing": ("", ""),
 }
@@ -62,8 +62,8 @@ def said(handlers, callback):
 
 @pytest.mark.parametrize("handlers", ["commands", "nodes"])
 @pytest.mark.parametrize("callback", ["weak reference", "destructor"])
-def test_an_interrupt_within_a_callback_is_heard_after_it(handlers, callback):
-    assert said(handlers, callback) == ("heard", "")
+def test_an_interrupt_within_a_callback_takes_effect_after_it(handlers, callback):
+    assert said(handlers, callback) == ("interrupted", "")
 
 
 FORGETFUL = """
@@ -82,9 +82,9 @@ assert forgetful.interrupted.ready
 
 
 @pytest.mark.parametrize("handlers", ["commands", "nodes"])
-def test_an_interrupt_within_an_import_is_heard_after_it(handlers, monkeypatch):
+def test_an_interrupt_within_an_import_takes_effect_after_it(handlers, monkeypatch):
     monkeypatch.setitem(CALLBACKS, "import", FORGETFUL)
-    assert said(handlers, "import") == ("heard", "")
+    assert said(handlers, "import") == ("interrupted", "")
 
 
 def test_python_alone_loses_an_interrupt_within_a_callback():
@@ -111,6 +111,6 @@ main()
 """
 
 
-def test_an_interrupt_at_the_very_end_kills_nobody():
+def test_an_interrupt_at_the_very_end_does_no_harm():
     done = subprocess.run([sys.executable, "-c", ENDS], capture_output=True, text=True, timeout=120)
     assert (done.returncode, done.stderr) == (0, "")

@@ -35,7 +35,7 @@ def test_table_lists_modes_and_resonant_speeds():
     assert "harmonic 2 of the mesh frequency excites mode 2" in shown
 
 
-def test_speeds_are_told_up_to_the_limit_of_the_drive_and_modes_of_one_frequency_once():
+def test_speeds_are_listed_up_to_the_limit_of_the_drive_and_equal_frequencies_once():
     shown = " ".join(invoke("paper").output.split())
     assert "speeds up to 10504 rpm (drive.speed_limit)" in shown  # 1100 rad/s
     assert shown.count("harmonic 5 of the mesh frequency excites modes 3, 4 at") == 1
@@ -60,7 +60,7 @@ def test_campbell_diagram_is_drawn(tmp_path):
         (("paper", "--set", "gearset.teeth.sun=31"), "ring = sun + 2 planet"),
     ],
 )
-def test_what_cannot_be_ends_in_one_line(arguments, word):
+def test_invalid_arguments_end_in_one_line(arguments, word):
     result = invoke(*arguments)
     assert result.exit_code == 2
     assert word in result.stderr and result.stderr.count("\n") == 1

@@ -1,11 +1,11 @@
-"""Where a command cannot write, it says so before it computes anything."""
+"""A command that cannot write refuses before it computes."""
 
 import pytest
 from typer.testing import CliRunner
 
 from planetary_twin_py.cli import build_app
 
-LONG = ("--duration", "3000")  # [s] which nobody would wait for
+LONG = ("--duration", "3000")  # [s] longer than anyone would wait
 COMMANDS = [
     ("simulate", "paper", *LONG, "--out", "{}/run.npz"),
     ("simulate", "paper", *LONG, "--out", "{}/run.mcap"),
@@ -45,7 +45,7 @@ def test_a_folder_that_does_not_exist_is_refused_at_once(command, tmp_path):
     ("out", "reason"),
     [("taken", "already exists; choose another name"), ("plain/run", "plain is not a folder")],
 )
-def test_a_recording_that_cannot_be_made_is_refused_at_once(out, reason, tmp_path):
+def test_a_recording_that_cannot_be_created_is_refused_at_once(out, reason, tmp_path):
     (tmp_path / "taken").mkdir()
     (tmp_path / "plain").write_text("")
     arguments = ["simulate", "paper", *LONG, "--out", str(tmp_path / out)]
@@ -60,7 +60,7 @@ def test_a_folder_in_the_place_of_a_file_is_refused_at_once(tmp_path):
     assert "is a folder; name a file" in done.stderr
 
 
-def test_parents_of_the_folder_of_a_recording_are_made(tmp_path):
+def test_parents_of_the_folder_of_a_recording_are_created(tmp_path):
     out = tmp_path / "new" / "run"
     done = CliRunner().invoke(
         build_app(), ["simulate", "paper", "--duration", "0.01", "--out", str(out)]

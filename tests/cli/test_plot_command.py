@@ -1,4 +1,4 @@
-"""`plot`, `stribeck` and `bifurcation` as they are typed."""
+"""The commands `plot`, `stribeck` and `bifurcation` as typed."""
 
 import pyarrow.parquet
 import pytest
@@ -20,7 +20,7 @@ def last_line(done):
 
 @pytest.fixture(scope="module")
 def study(tmp_path_factory):
-    """A sweep of which one point fails."""
+    """A sweep with one failed point."""
     out = tmp_path_factory.mktemp("study") / "study.parquet"
     quick = ["--duration", "0.02", "--settling", "0", "--tolerance", "1e-3"]
     fields = ["--gearset.addendum", "0.3,0.9,1.0", "--input-torque", "20,60"]
@@ -30,7 +30,7 @@ def study(tmp_path_factory):
 
 
 @pytest.mark.parametrize(("name", "begin"), [("a.png", PNG), ("a.svg", SVG), ("a.pdf", PDF)])
-def test_a_table_becomes_a_picture_and_what_is_left_out_is_told(study, tmp_path, name, begin):
+def test_a_table_becomes_a_picture_and_omissions_are_reported(study, tmp_path, name, begin):
     picture = tmp_path / name
     done = run("plot", study, "--y", "efficiency,power_loss", "--out", picture)
     assert done.exit_code == 0, done.output
@@ -65,7 +65,7 @@ def test_a_bifurcation_is_kept_as_a_table_and_drawn_from_it(tmp_path):
     assert picture.read_bytes().startswith(PNG)
 
 
-def test_a_table_in_csv_is_drawn_as_the_same_table_in_parquet_is(study, tmp_path):
+def test_a_csv_table_is_drawn_like_the_same_parquet_table(study, tmp_path):
     """Whole numbers, units, words and points that failed, in curves and in bifurcations."""
     ways = ["--input-speed", "3000rpm:3100rpm:2", "--settling", 0.01, "--cycles", 4]
     way = tmp_path / "way.parquet"
@@ -86,7 +86,7 @@ def test_a_table_in_csv_is_drawn_as_the_same_table_in_parquet_is(study, tmp_path
 
 
 @pytest.mark.parametrize(
-    ("arguments", "told"),
+    ("arguments", "reason"),
     [
         (["plot", "STUDY", "--out", "a.doc"], "--out = 'a.doc': must end in .png, .svg, .pdf"),
         (["plot", "STUDY", "--out", "/nowhere/a.png"], "/nowhere/a.png"),
@@ -102,10 +102,10 @@ def test_a_table_in_csv_is_drawn_as_the_same_table_in_parquet_is(study, tmp_path
         (["paper", "--pictures", "doc", "--out", "a.md"], "--pictures = 'doc'"),
     ],
 )
-def test_what_cannot_be_ends_in_one_line(arguments, told, study, tmp_path, monkeypatch):
+def test_invalid_arguments_end_in_one_line(arguments, reason, study, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     (tmp_path / "other.csv").write_text("a,b\n1,2\n")
     (tmp_path / "empty.csv").touch()
     done = run(*(study if argument == "STUDY" else argument for argument in arguments))
     assert done.exit_code == 2
-    assert told in last_line(done)
+    assert reason in last_line(done)

@@ -38,14 +38,14 @@ def notes(done):
         ),
     ],
 )
-def test_a_number_without_a_unit_is_echoed_with_the_one_it_was_taken_in(setting, line):
+def test_a_number_without_a_unit_is_echoed_with_the_assumed_unit(setting, line):
     assert notes(invoke(*SHORT, "--set", setting)) == [line]
 
 
 @pytest.mark.parametrize(
     "setting", ["input_speed=1000rpm", "mesh.ramp=0.02", "lambda_ratio=1.5", "gearset.teeth.sun=30"]
 )
-def test_what_has_a_unit_or_needs_none_is_not_echoed(setting):
+def test_a_value_with_a_unit_or_without_need_of_one_is_not_echoed(setting):
     assert notes(invoke(*SHORT, "--set", setting)) == []
 
 
@@ -70,7 +70,7 @@ def test_a_setting_that_is_given_twice_is_refused():
         settings(["backlash=1um", "backlash=2um"])
 
 
-def test_a_list_that_does_not_end_is_refused_with_the_name_of_its_field():
+def test_an_unclosed_list_is_refused_with_the_name_of_its_field():
     with pytest.raises(ValueError, match=r"^--set faults is not YAML: [^\n]*$"):
         settings(["faults=[1"])
 
@@ -100,12 +100,12 @@ def test_a_sweep_varies_fields_in_lists_and_in_optional_sections(field, scene, f
         ("differential", ["second input speed -500 rpm"]),
     ],
 )
-def test_simulate_says_what_it_has_understood_in_engineers_units(name, lines):
+def test_simulate_echoes_settings_in_engineering_units(name, lines):
     shown = " ".join(invoke("simulate", name, "--duration", "0.002").stdout.split())
     assert [line for line in lines if line not in shown] == []
 
 
-def test_a_value_and_its_unit_stand_in_one_line():
+def test_a_value_and_its_unit_are_on_one_line():
     shown = CliRunner().invoke(
         build_app(), ["simulate", "paper", "--duration", "0.002"], env={"COLUMNS": "60"}
     )

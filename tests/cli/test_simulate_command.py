@@ -35,7 +35,7 @@ def test_figures_are_those_of_the_library():
     assert figures["mean_power_loss_W"] == pytest.approx(over_time(run, run.total_power_loss), 2e-3)
 
 
-def test_figures_do_not_depend_on_the_sample_rate_and_leave_the_settling_out():
+def test_figures_do_not_depend_on_the_sample_rate_and_exclude_the_settling():
     coarse, fine, late = (
         json.loads(invoke("paper", "--duration", "0.1", *options, "--json", "-").stdout)
         for options in (["--sample-rate", "10"], ["--sample-rate", "1e6"], ["--settling", "0.1"])
@@ -53,8 +53,8 @@ def test_figures_do_not_depend_on_the_sample_rate_and_leave_the_settling_out():
 
 
 @pytest.mark.parametrize("name", ["paper", "lightly_loaded"])
-def test_meshes_of_the_sun_and_of_the_ring_are_told_apart(name):
-    """Against the samples themselves; under light load the teeth part for a while."""
+def test_meshes_of_the_sun_and_of_the_ring_are_distinguished(name):
+    """Compared with the samples themselves; under light load the teeth separate for a while."""
     figures = json.loads(invoke(name, "--duration", "0.1", "--json", "-").stdout)
     run = pt.simulate(pt.load_scene(name), 0.1, 1e6)
     for side, meshes in {"sun_planet": slice(3), "planet_ring": slice(3, 6)}.items():
@@ -79,7 +79,7 @@ def test_meshes_of_the_sun_and_of_the_ring_are_told_apart(name):
 
 
 def test_the_mesh_frequency_is_that_of_a_differential_too():
-    """30 teeth of the sun, against the carrier that turns as well."""
+    """30 teeth of the sun, relative to the carrier, which turns as well."""
     scene = pt.load_scene("differential")
     sun, carrier = scene.operating_point.input_speed, scene.operating_point.second_input_speed
     figures = json.loads(invoke("differential", "--duration", "0.1", "--json", "-").stdout)
@@ -87,10 +87,10 @@ def test_the_mesh_frequency_is_that_of_a_differential_too():
     assert figures["mesh_frequency_Hz"] == pytest.approx(30 * turns, rel=1e-3)
 
 
-def test_what_a_person_reads_has_units_and_says_which_meshes_it_is_of():
+def test_the_printed_table_has_units_and_names_the_meshes():
     shown, figures = invoke("paper", *SHORT).stdout, expected()
-    told = dict(line.rsplit(maxsplit=1) for line in shown.splitlines() if "]  " in line)
-    labels = {label.strip(): float(value) for label, value in told.items() if "│" not in label}
+    rows = dict(line.rsplit(maxsplit=1) for line in shown.splitlines() if "]  " in line)
+    labels = {label.strip(): float(value) for label, value in rows.items() if "│" not in label}
     mesh, fine = figures.mesh, expected(1e6)
     for label, statistic, samples, rel in (
         ("DTE of all meshes, mean [m]", mesh["dte_mean"].mean(), fine.dte.mean(), 1e-4),
@@ -111,7 +111,7 @@ def test_what_a_person_reads_has_units_and_says_which_meshes_it_is_of():
     assert all(label.endswith("]") for label in (*labels, *rows))
 
 
-def test_samples_carry_their_scene(tmp_path):
+def test_samples_contain_their_scene(tmp_path):
     invoke("paper", *SHORT, "--out", str(tmp_path / "run.npz"))
     text = str(np.load(tmp_path / "run.npz")["scene_yaml"])
     assert pt.parse_scene(text) == pt.load_scene("paper").replace(
@@ -119,7 +119,7 @@ def test_samples_carry_their_scene(tmp_path):
     )
 
 
-def test_samples_are_written_whole(tmp_path):
+def test_samples_are_written_completely(tmp_path):
     run = expected()
     for name in ("run.npz", "run.csv"):
         assert invoke("paper", *SHORT, "--out", str(tmp_path / name)).exit_code == 0
@@ -144,7 +144,7 @@ def test_samples_are_written_whole(tmp_path):
         (("paper", "--out", "run.txt"), "run.txt"),
     ],
 )
-def test_what_cannot_be_ends_in_one_line(arguments, word):
+def test_invalid_arguments_end_in_one_line(arguments, word):
     result = invoke(*arguments)
     assert result.exit_code == 2
     assert word in result.stderr and result.stderr.count("\n") == 1
@@ -153,12 +153,12 @@ def test_what_cannot_be_ends_in_one_line(arguments, word):
 COMPUTED = ["--set", "lubrication.lambda_ratio=computed"]
 
 
-def test_a_lambda_ratio_that_the_scene_computes_is_told_to_have_no_effect_as_fit_tells_it():
+def test_a_lambda_ratio_that_the_scene_computes_is_reported_to_have_no_effect_as_by_fit():
     done = invoke("paper", *COMPUTED, *SHORT, "--json", "-")
     assert done.exit_code == 0, done.output
     (line,) = [line for line in done.stderr.splitlines() if "lambda_ratio" in line]
-    told, reason = line.split(": has no effect: ")
-    assert told == "planetary-twin: warning: lambda_ratio"
+    warning, reason = line.split(": has no effect: ")
+    assert warning == "planetary-twin: warning: lambda_ratio"
     assert "set lubrication.lambda_ratio = prescribed" in reason
     assert f"lambda_ratio: has no effect: {reason}" in json.loads(done.stdout)["remarks"]
     scene = pt.load_scene("paper").replace(**{"lubrication.lambda_ratio": "computed"})
@@ -168,5 +168,5 @@ def test_a_lambda_ratio_that_the_scene_computes_is_told_to_have_no_effect_as_fit
 
 
 @pytest.mark.parametrize("given", [SHORT, [*SHORT[:2], *COMPUTED]])
-def test_what_has_an_effect_or_is_not_given_is_not_told(given):
+def test_a_field_with_an_effect_or_not_given_is_not_reported(given):
     assert "no effect" not in invoke("paper", *given).stderr

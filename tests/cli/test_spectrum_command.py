@@ -1,4 +1,4 @@
-"""`planetary-twin spectrum` from the outside."""
+"""The command `spectrum` as typed."""
 
 import json
 import subprocess
@@ -47,7 +47,7 @@ def test_lines_are_named_as_harmonics_of_the_meshing(file, options, axis):
     assert "mesh harmonic 1" in done.stderr
 
 
-def test_without_a_span_the_longest_time_at_one_operating_point_is_analysed(tmp_path):
+def test_without_a_time_span_the_longest_time_at_one_operating_point_is_analysed(tmp_path):
     recording, twin = TwinRecording(tmp_path / "bag"), pt.Twin(pt.load_scene("paper"))
     recording.begin(twin, START_NS)
     for _ in range(6):
@@ -122,7 +122,7 @@ def test_samples_of_simulate_are_analysed_too(tmp_path):
 
 
 @pytest.mark.exhaustive
-def test_samples_without_a_scene_have_lines_that_are_not_named(tmp_path):
+def test_lines_of_samples_without_a_scene_are_not_named(tmp_path):
     npz = tmp_path / "run.npz"
     planetary_twin("simulate", "paper", "--duration", 0.1, "--out", npz)
     with np.load(npz) as held:
@@ -134,7 +134,7 @@ def test_samples_without_a_scene_have_lines_that_are_not_named(tmp_path):
     assert line["harmonic"] is None
 
 
-def test_lost_blocks_leave_the_longest_stretch_and_are_told(file):
+def test_lost_blocks_are_reported_and_the_longest_interval_is_analysed(file):
     recording = read_recording(file)
     wave = recording.waveform
     lost = np.r_[0 : 20 * BLOCK, 25 * BLOCK : 70 * BLOCK]

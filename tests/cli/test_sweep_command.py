@@ -1,4 +1,4 @@
-"""`planetary-twin sweep` as it is typed."""
+"""The command `sweep` as typed."""
 
 import signal
 import subprocess
@@ -18,7 +18,7 @@ def run(*arguments):
     return CliRunner().invoke(build_app(), ["sweep", *map(str, arguments)])
 
 
-def test_any_field_is_an_option_and_what_is_done_is_cleared_away(tmp_path):
+def test_any_field_is_an_option_and_the_journal_is_removed_at_the_end(tmp_path):
     out = tmp_path / "study.parquet"
     fields = ["--lambda-ratio", "1:2:2", "--mesh.damping.loss_factor=0.009,0.02"]
     done = run("paper", *fields, "--out", out, *QUICK)
@@ -28,7 +28,7 @@ def test_any_field_is_an_option_and_what_is_done_is_cleared_away(tmp_path):
     assert len(table) == 4 and list(tmp_path.iterdir()) == [out]
 
 
-def test_what_is_set_holds_at_every_point(tmp_path):
+def test_settings_apply_at_every_point(tmp_path):
     out = tmp_path / "study.parquet"
     fixed = ["--set", "drive.speed_limit=20000rpm", "--set=lambda_ratio=2"]
     done = run("paper", *fixed, "--input-speed", "11000rpm,12000rpm", "--out", out, *QUICK)
@@ -38,7 +38,7 @@ def test_what_is_set_holds_at_every_point(tmp_path):
     assert table["mesh_frequency"].to_pylist() == pytest.approx([5500.0, 6000.0], rel=1e-3)
 
 
-def test_points_are_drawn_where_samples_are_asked_for(tmp_path):
+def test_points_are_sampled_on_request(tmp_path):
     out = tmp_path / "study.csv"
     done = run("paper", "--backlash", "0.1um:1um:log", "--samples", 3, "--out", out, *QUICK)
     assert done.exit_code == 0, done.output
@@ -46,7 +46,7 @@ def test_points_are_drawn_where_samples_are_asked_for(tmp_path):
 
 
 @pytest.mark.parametrize(
-    ("arguments", "told"),
+    ("arguments", "reason"),
     [
         (["paper", "--out", "x.txt"], "--out = 'x.txt': must end in .parquet, .csv, .png"),
         (["paper", "--out", "x.csv"], "no field varies"),
@@ -58,12 +58,12 @@ def test_points_are_drawn_where_samples_are_asked_for(tmp_path):
         (["paper", "--backlash", "1e-7", "--scheduler", "0", "--out", "x.csv"], "workers = 0"),
     ],
 )
-def test_what_cannot_be_ends_in_one_line(arguments, told, tmp_path, monkeypatch):
+def test_invalid_arguments_end_in_one_line(arguments, reason, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     done = run(*arguments)
     assert done.exit_code == 2
     line = done.output.strip().splitlines()[-1]
-    assert told in line
+    assert reason in line
 
 
 @pytest.mark.parametrize(
@@ -76,16 +76,16 @@ def test_what_cannot_be_ends_in_one_line(arguments, told, tmp_path, monkeypatch)
         (["--lambda-ratio", "1,2"], 0),
     ],
 )  # fmt: skip
-def test_a_field_that_has_no_effect_at_any_point_is_told_once(given, lines, tmp_path):
+def test_a_field_without_effect_at_any_point_is_reported_once(given, lines, tmp_path):
     done = run("paper", *given, "--out", tmp_path / "a.csv", *QUICK)
     assert done.exit_code == 0, done.output
-    told = [line for line in done.stderr.splitlines() if "lambda_ratio: has no effect" in line]
-    assert len(told) == lines
+    warnings = [line for line in done.stderr.splitlines() if "lambda_ratio: has no effect" in line]
+    assert len(warnings) == lines
 
 
 @pytest.mark.exhaustive
 @pytest.mark.slow
-def test_a_killed_study_goes_on_where_it_was(tmp_path):
+def test_a_killed_study_continues_where_it_was(tmp_path):
     out, journal = tmp_path / "study.parquet", tmp_path / "study.parquet.journal"
     given = ["sweep", "paper", "--input-torque", "10:60:60", "--out", str(out), "--duration", "0.2"]
     command = [sys.executable, "-c", "from planetary_twin_py.cli import main; main()", *given]

@@ -1,4 +1,4 @@
-"""Tables at the widths of terminals: every word and every number of them is there, uncut."""
+"""Tables at any terminal width contain every word and every number, uncut."""
 
 import io
 
@@ -20,7 +20,7 @@ def shown(command, width):
 
 
 def words(text):
-    """Of a table, whatever lines and columns they are in; borders are none."""
+    """The words of a table, regardless of lines, columns and borders."""
     inside = "".join(character if character < "\u2500" else " " for character in text)
     return set(inside.replace(";", " ").replace(":", " ").split())
 
@@ -38,10 +38,10 @@ def words(text):
     ],
     ids=" ".join,
 )
-def test_a_narrow_terminal_shows_the_words_that_a_wide_one_shows(command, width):
+def test_a_narrow_terminal_shows_the_same_words_as_a_wide_one(command, width):
     narrow = shown(command, width)
     assert "\u2026" not in narrow
-    # The heading of the first column is left out where rows become paragraphs.
+    # The heading of the first column is omitted if rows become paragraphs.
     assert words(shown(command, 1000)) - {"name", "topic"} == words(narrow) - {"name", "topic"}
     tables = [line for line in narrow.splitlines() if "\u2500" <= line[:1] < "\u2600"]
     assert max(map(len, tables), default=0) <= width
@@ -71,7 +71,7 @@ def printed(width, **column):
     return console.file.getvalue()
 
 
-def test_a_column_gives_up_width_only_between_words():
+def test_a_column_wraps_only_between_words():
     lines = printed(60).splitlines()
     assert max(map(len, lines)) <= 60
     (row,) = [line for line in lines if "coupling_stiffness" in line]

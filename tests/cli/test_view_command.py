@@ -1,4 +1,4 @@
-"""`planetary-twin view` from the outside."""
+"""The command `view` as typed."""
 
 import subprocess
 import sys
@@ -26,7 +26,7 @@ def test_save_needs_no_display(file, tmp_path, monkeypatch):
     assert (tmp_path / "a.rrd").stat().st_size > 1e5
 
 
-def test_without_a_display_one_line_names_what_works(file, monkeypatch):
+def test_without_a_display_one_line_names_the_alternatives(file, monkeypatch):
     monkeypatch.delenv("DISPLAY", raising=False)
     monkeypatch.delenv("WAYLAND_DISPLAY", raising=False)
     done = planetary_twin("view", file, "--scene", "paper")

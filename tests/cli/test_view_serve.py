@@ -1,4 +1,4 @@
-"""`planetary-twin view --serve`: a page on this machine, until it is interrupted."""
+"""`planetary-twin view --serve`: a page on this machine until it is interrupted."""
 
 import re
 import signal
@@ -21,7 +21,7 @@ RERUN = Path(rerun_cli.__file__).parent / "rerun"
 
 
 def fetched(url, rrd):
-    """Whether the data that a viewer gets at `url` come to `rrd`."""
+    """Whether the data that a viewer receives at `url` are written to `rrd`."""
     command = [RERUN, "--bind", "127.0.0.1", "--port", "auto", url, "--save", rrd]
     with subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL) as client:
         deadline = time.monotonic() + 120.0
@@ -41,7 +41,7 @@ def url_port(url):
 @pytest.mark.parametrize(
     "ending", [signal.SIGINT, pytest.param(signal.SIGTERM, marks=pytest.mark.exhaustive)]
 )
-def test_page_and_data_are_served_to_this_machine_alone_until_interrupted(
+def test_page_and_data_are_served_to_this_machine_only_until_interrupted(
     tmp_path, monkeypatch, ending
 ):
     monkeypatch.delenv("DISPLAY", raising=False)

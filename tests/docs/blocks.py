@@ -1,8 +1,8 @@
-"""The fenced blocks of a page of the documentation, and what is said to be done with them.
+"""The fenced blocks of a page of the documentation, and how each is tested.
 
-The first word of an info string is the language, the others say how a block is tried:
+The first word of an info string is the language, the others say how a block is tested:
 `file=NAME` writes it there, `background` starts its commands and ends them after the page,
-`not-run=REASON` leaves it, for one of `REASONS`.
+`not-run=REASON` skips it, for one of `REASONS`.
 """
 
 import shlex
@@ -24,7 +24,7 @@ REASONS = {
 
 @dataclass(frozen=True)
 class Block:
-    """A fenced block: where it stands, what it is, what it holds."""
+    """A fenced block: its position, its language and its text."""
 
     page: Path
     line: int
@@ -36,13 +36,13 @@ class Block:
         return f"{self.page.relative_to(ROOT)}:{self.line}"
 
     def word(self, name: str) -> str | None:
-        """What `name=...` in the info string says."""
+        """The value of `name=...` in the info string."""
         values = dict(word.split("=", 1) for word in self.words if "=" in word)
         return values.get(name)
 
     @property
     def commands(self) -> list[str]:
-        """Lines after a prompt, with the lines they go on in; the others are output."""
+        """Lines after a prompt with their continuation lines; the others are output."""
         lines = self.text.replace("\\\n", " ").splitlines()
         return [line[2:] for line in lines if line.startswith("$ ")]
 

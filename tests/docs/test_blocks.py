@@ -1,7 +1,7 @@
-"""Every block of the documentation does what a reader would have it do.
+"""Every block of the documentation works as written.
 
-A page is read from top to bottom in a folder of its own, with a small recording as
-`recordings/NAME`: Python in one namespace, commands in a shell, files written as they are named.
+Each page is executed from top to bottom in a separate folder, with a small recording as
+`recordings/NAME`: Python in one namespace, commands in a shell, files under their names.
 """
 
 import os
@@ -22,8 +22,8 @@ import planetary_twin_py as pt
 PAGES = pages()
 RECORDED = 2.0  # [s] of recordings/NAME
 PATIENCE = 1200.0  # [s] for a command; those that compile take a minute, others a few seconds
-STARTS = 600.0  # [s] for what runs in the background to say something
-ENDS = 120.0  # [s] for it to end
+STARTS = 600.0  # [s] for the first output of a background command
+ENDS = 120.0  # [s] for its end
 
 pytestmark = pytest.mark.slow
 
@@ -38,7 +38,7 @@ def changes_code(page):
 
 @pytest.fixture(scope="session")
 def environment():
-    """That of a reader who has activated .venv, on a machine without a display."""
+    """The environment of a reader who has activated .venv, on a machine without a display."""
     outside = {key: value for key, value in os.environ.items() if key != "DISPLAY"}
     path = f"{Path(sys.executable).parent}:{os.environ['PATH']}"
     with private_domain() as number:
@@ -55,7 +55,7 @@ def recording(tmp_path_factory, environment):
 
 
 @pytest.mark.parametrize("page", PAGES, ids=name)
-def test_every_block_says_what_it_is_and_why_it_is_not_run(page):
+def test_every_block_states_its_language_and_why_it_is_not_run(page):
     for block in blocks(page):
         reason = block.word("not-run")
         assert reason is None or reason in REASONS, f"{block}: {reason}"
@@ -81,14 +81,14 @@ def test_page(page, tmp_path, recording, environment, monkeypatch):
 
 @pytest.mark.exhaustive
 def test_pages_that_change_the_package(tmp_path, environment):
-    """All in one copy of it: each has its changes made before any runs, to compile once."""
+    """All in one copy of the package, whose changes precede all other blocks: it compiles once."""
     source = ROOT / "planetary_twin_py"
     ignored = shutil.ignore_patterns("__pycache__")
     shutil.copytree(source, tmp_path / "planetary_twin_py", ignore=ignored)
     here = {"PYTHONPATH": str(tmp_path), "XDG_CACHE_HOME": str(tmp_path / "cache")}
-    told = [block for page in PAGES if changes_code(page) for block in tried(page)]
-    assert len({block.page for block in told}) > 1
-    for block in sorted(told, key=lambda block: not makes_a_change(block)):
+    changing = [block for page in PAGES if changes_code(page) for block in tried(page)]
+    assert len({block.page for block in changing}) > 1
+    for block in sorted(changing, key=lambda block: not makes_a_change(block)):
         try_block(block, tmp_path, environment | here, {}, [])
 
 
@@ -119,15 +119,15 @@ def try_block(block: Block, folder, environment, namespace, behind):
 
 
 def check_yaml(block):
-    """A scene, or a part of one, is a scene; parameters of nodes are YAML at least."""
-    told = yaml.safe_load(block.text)
-    if set(told) <= {"base", *pt.Scene.model_fields}:
-        whole = "base" in told or "gearset" in told
+    """A scene, or a part of one, is a valid scene; parameters of nodes are valid YAML."""
+    content = yaml.safe_load(block.text)
+    if set(content) <= {"base", *pt.Scene.model_fields}:
+        whole = "base" in content or "gearset" in content
         pt.parse_scene(block.text if whole else "base: paper\n" + block.text)
 
 
 def start(command, folder, environment):
-    """Start what runs beside the commands to come, and wait until it says something."""
+    """Start a background command, and wait for its first output."""
     log = folder / "background.log"
     process = subprocess.Popen(
         f"exec {command}", shell=True, cwd=folder, env=environment,
@@ -141,7 +141,7 @@ def start(command, folder, environment):
 
 
 def end(process):
-    """Ctrl-C; what the process then answers."""
+    """Ctrl-C; returns the final output of the process."""
     if process.poll() is None:
         process.send_signal(signal.SIGINT)
     return process.wait(ENDS)

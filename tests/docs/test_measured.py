@@ -1,4 +1,4 @@
-"""The page of measured figures is what its command writes."""
+"""The page of measured figures equals the output of its command."""
 
 import subprocess
 import sys
@@ -25,7 +25,7 @@ def test_every_miss_and_every_doubt_has_a_reason():
 
 
 @pytest.mark.exhaustive
-def test_the_command_comes_to_the_same_verdicts(tmp_path):
+def test_the_command_gives_the_same_verdicts(tmp_path):
     command = [sys.executable, "-m", "measured", tmp_path / "measured.md"]
     subprocess.run(command, cwd=ROOT / "benchmarks", check=True, timeout=1800)
     assert rows((tmp_path / "measured.md").read_text()) == rows(PAGE.read_text())

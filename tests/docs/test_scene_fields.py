@@ -1,4 +1,4 @@
-"""The page of the fields of a scene holds every field, as a row of a table."""
+"""The page of scene fields contains every field, as a row of a table."""
 
 import runpy
 
@@ -7,7 +7,7 @@ from docs.blocks import ROOT
 from planetary_twin_py.scene.fields import scene_sections
 
 
-def test_every_field_is_a_row_of_the_page_with_all_that_is_known_of_it():
+def test_every_field_is_a_row_of_the_page_with_all_its_attributes():
     page = runpy.run_path(str(ROOT / "docs/_generate/scene_fields.py"))["page"]()
     rows = [line for line in page.splitlines() if line.startswith("| `")]
     fields = [field for section in scene_sections() for field in section.fields]
@@ -17,6 +17,6 @@ def test_every_field_is_a_row_of_the_page_with_all_that_is_known_of_it():
         assert cells == [f"`{field.name}`", *(part.strip() for part in field[1:])]
 
 
-def test_pages_of_scenes_lead_to_it():
+def test_pages_of_scenes_link_to_it():
     for page in ("scenes.md", "index.md", "howto/gear-set.md"):
         assert "reference/scene-fields" in (ROOT / "docs" / page).read_text()

@@ -1,4 +1,4 @@
-"""The site is built without a warning: no broken link, no missing picture, no page left over."""
+"""The site builds without a warning: no broken link, no missing picture, no unlisted page."""
 
 import re
 import runpy
@@ -52,7 +52,7 @@ def test_fields_of_named_tuples_are_not_described_by_their_number(build):
 
 
 @pytest.mark.slow
-def test_faults_fail_the_build_and_are_told(tmp_path):
+def test_faults_fail_the_build_and_are_reported(tmp_path):
     pages = tmp_path / "docs"
     pages.mkdir()
     shutil.copy(ROOT / "docs/conf.py", pages)
@@ -69,13 +69,13 @@ def test_faults_fail_the_build_and_are_told(tmp_path):
 
 
 def test_reference_names_every_public_object():
-    told = (ROOT / "docs/reference/python.md").read_text()
-    named = ["TUNABLES", *re.findall(r"^\.\. auto\w+:: (\w+)$", told, re.MULTILINE)]
+    page = (ROOT / "docs/reference/python.md").read_text()
+    named = ["TUNABLES", *re.findall(r"^\.\. auto\w+:: (\w+)$", page, re.MULTILINE)]
     assert sorted(named) == sorted(pt.__all__)
 
 
-def test_pages_of_the_reference_are_those_that_the_code_makes(tmp_path):
-    # In a process of its own, for the nodes that it asks keep its environment to themselves.
+def test_pages_of_the_reference_are_those_generated_from_the_code(tmp_path):
+    # In a separate process, because it changes the environment for the nodes that it starts.
     make = [sys.executable, "-m", "_generate", tmp_path]
     subprocess.run(make, cwd=ROOT / "docs", check=True, timeout=600)
     made = {file.name: file.read_text() for file in tmp_path.iterdir()}
@@ -84,13 +84,13 @@ def test_pages_of_the_reference_are_those_that_the_code_makes(tmp_path):
     assert kept == made, "make docs writes them"
 
 
-def test_picture_of_the_architecture_is_the_one_that_is_drawn():
+def test_picture_of_the_architecture_is_the_generated_one():
     drawn = runpy.run_path(str(ROOT / "docs/_generate/architecture.py"))["picture"]()
     assert (ROOT / "docs/architecture.svg").read_text() == drawn
     assert all((ROOT / "planetary_twin_py" / folder).exists() for folder in folders(drawn))
 
 
 def folders(drawn):
-    """What the picture names of the package."""
+    """The folders of the package that the picture names."""
     titles = re.findall(r'font-weight="bold">([^<]*)<', drawn)
     return [name for title in titles for name in title.split() if not name.startswith("ros_ws")]

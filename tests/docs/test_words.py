@@ -7,7 +7,9 @@ from pathlib import Path
 
 import pytest
 
-PACKAGE = Path(__file__).parents[2] / "planetary_twin_py"
+ROOT = Path(__file__).parents[2]
+PACKAGE = ROOT / "planetary_twin_py"
+NODES = ROOT / "ros_ws/src/planetary_twin"
 DIALECT = re.compile(
     r"\b(told|untold|anew|alike|begun|thrown|whereof|thereof|heard|torn|whoever|lest)\b",
     re.IGNORECASE,
@@ -19,11 +21,16 @@ MODULES = (
     "accuracy", "batch", "ledger_check", "printable", "quality_control", "quantities", "result",
     "run", "runaway", "simulation", "tolerance", "twin", "units", "window",
 )  # fmt: skip
-DEPRECATED = {("cli/fit.py", "told"), ("cli/fit.py", "untold"), ("cli/doctor.py", "told")}
+DEPRECATED = {
+    (f"planetary_twin_py/cli/{file}.py", word)
+    for file, word in (("fit", "told"), ("fit", "untold"), ("doctor", "told"))
+}
 """JSON keys that are kept beside their plain names."""
 FILES = sorted(
     [file for room in ROOMS for file in (PACKAGE / room).rglob("*.py")]
     + [PACKAGE / f"{name}.py" for name in MODULES]
+    + [NODES / "setup.py", *(NODES / "launch").glob("*.py")]
+    + list((NODES / "planetary_twin").rglob("*.py"))
 )
 
 
@@ -36,9 +43,9 @@ def found_in(source):
     return {word.lower() for text in texts for word in DIALECT.findall(text)}
 
 
-@pytest.mark.parametrize("file", FILES, ids=lambda file: str(file.relative_to(PACKAGE)))
+@pytest.mark.parametrize("file", FILES, ids=lambda file: str(file.relative_to(ROOT)))
 def test_a_source_has_plain_words_only(file):
-    path = str(file.relative_to(PACKAGE))
+    path = str(file.relative_to(ROOT))
     found = found_in(file.read_text(encoding="utf-8"))
     assert {word for word in found if (path, word) not in DEPRECATED} == set()
 

@@ -1,4 +1,4 @@
-"""The doctor tells sound parts from absent and broken ones, and how to mend them."""
+"""The doctor distinguishes sound, absent and broken parts, and says how to fix them."""
 
 import json
 from importlib.metadata import entry_points
@@ -17,7 +17,7 @@ def by_part(findings):
     return {finding.part: finding for finding in findings}
 
 
-def test_packages_that_lack_are_named_with_the_extra_that_brings_them(monkeypatch):
+def test_missing_packages_are_named_with_the_extra_that_contains_them(monkeypatch):
     known = packages.version
     missing = {"rerun-sdk", "pyarrow"}
 
@@ -35,7 +35,7 @@ def test_packages_that_lack_are_named_with_the_extra_that_brings_them(monkeypatc
     assert found["recording"].state == found["plots"].state == "sound"
 
 
-def test_every_extra_of_an_installation_is_looked_at():
+def test_every_extra_of_an_installation_is_checked():
     extras = set(packages.EXTRAS)
     project = Path(__file__).parents[2] / "pyproject.toml"
     import tomllib
@@ -44,9 +44,7 @@ def test_every_extra_of_an_installation_is_looked_at():
     assert declared - extras == {"ros", "build", "docs", "test", "bench"}
 
 
-def test_kernels_not_yet_compiled_and_a_cache_that_cannot_be_written_are_told(
-    tmp_path, monkeypatch
-):
+def test_uncompiled_kernels_and_a_read_only_cache_are_reported(tmp_path, monkeypatch):
     home = tmp_path / "cache"
     monkeypatch.setattr(cache, "cache_folder", lambda: home / "planetary_twin" / "0123")
     (found,) = cache.check()
@@ -84,23 +82,23 @@ def test_a_viewer_that_does_not_start_is_broken(tmp_path, monkeypatch):
 
 
 @pytest.mark.slow
-def test_this_installation_is_sound_and_its_nodes_can_talk(tmp_path):
-    told = tmp_path / "found.json"
-    done = CliRunner().invoke(build_app(), ["doctor", "--json", str(told)])
+def test_this_installation_is_sound_and_its_nodes_can_communicate(tmp_path):
+    file = tmp_path / "found.json"
+    done = CliRunner().invoke(build_app(), ["doctor", "--json", str(file)])
     assert done.exit_code == 0, done.output
-    found = {entry["part"]: entry for entry in json.loads(told.read_text())}
+    found = {entry["part"]: entry for entry in json.loads(file.read_text())}
     assert {"python", "model", "kernels", "disk", "viewer", "ros", "shared memory"} <= set(found)
     assert found["middleware"]["state"] == "sound" and "arrived" in found["middleware"]["told"]
 
 
-def test_a_middleware_that_ends_its_process_does_not_end_the_doctor(monkeypatch):
+def test_a_middleware_that_crashes_does_not_end_the_doctor(monkeypatch):
     monkeypatch.setenv("RMW_IMPLEMENTATION", "rmw_of_no_one")
     (found,) = apart.check()
     assert (found.part, found.state) == ("ros", "broken")
     assert "rmw_of_no_one" in found.details and "RMW_IMPLEMENTATION" in found.fix
 
 
-def test_another_distribution_that_is_sourced_is_told(monkeypatch):
+def test_another_sourced_distribution_is_reported(monkeypatch):
     monkeypatch.setenv("ROS_DISTRO", "jazzy")
     assert [*environment.check()] == []
     monkeypatch.setenv("ROS_DISTRO", "humble")
@@ -108,7 +106,7 @@ def test_another_distribution_that_is_sourced_is_told(monkeypatch):
     assert found.state == "broken" and "humble" in found.details
 
 
-def test_a_command_that_cannot_be_loaded_takes_no_other_with_it(monkeypatch):
+def test_a_command_that_cannot_be_loaded_affects_no_other(monkeypatch):
     (entry,) = entry_points(group=GROUP, name="run")
 
     def broken(_):

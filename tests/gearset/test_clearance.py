@@ -1,4 +1,4 @@
-"""Planets pass each other: distances from the coordinates of their centres."""
+"""Clearance of planets: distances from the coordinates of their centres."""
 
 import itertools
 import math
@@ -21,7 +21,7 @@ on_all = pytest.mark.parametrize("size", SIZES, ids=str)
 
 
 def gap(size, angles):
-    """Least distance of two centres less the tip diameter [m]."""
+    """Least distance of two centres minus the tip diameter [m]."""
     radius = size.module * (size.teeth.sun + size.teeth.planet) / 2
     centres = radius * np.exp(1j * np.asarray(angles))
     least = min(abs(a - b) for a, b in itertools.combinations(centres, 2))
@@ -29,7 +29,7 @@ def gap(size, angles):
 
 
 @on_all
-def test_planets_pass_each_other_where_their_centres_are_far_enough_apart(size):
+def test_planets_clear_each_other_if_their_centres_are_far_enough_apart(size):
     rng = np.random.default_rng(1)
     for count in (2, 3, 4):
         for angles in rng.uniform(-10.0, 10.0, (50, count)):
@@ -37,7 +37,7 @@ def test_planets_pass_each_other_where_their_centres_are_far_enough_apart(size):
 
 
 @on_all
-def test_as_many_planets_fit_as_is_told_and_one_more_does_not(size):
+def test_the_reported_number_of_planets_fits_and_one_more_does_not(size):
     most = most_planets(size)
     for count, fits in ((most, True), (most + 1, False)):
         even = [2 * math.pi * n / count for n in range(count)]
@@ -63,14 +63,14 @@ def test_planets_that_touch_are_refused_in_one_line(angles, words):
     assert [word for word in words if word not in message] == []
 
 
-def test_too_many_planets_for_their_size_are_told_how_many_fit():
+def test_the_refusal_of_too_many_planets_says_how_many_fit():
     """Centres 40 sqrt(2) = 56.6 mm apart, tip circles of 65.6 mm."""
     right = [math.pi / 2 * n for n in range(4)]
     with pytest.raises(ValueError, match=r"56\.5685 mm.* 65\.6 mm; at most 3 planets fit"):
         check_clearance(Size(Teeth(20, 80, 180), 0.8e-3, 1.0), right)
 
 
-def test_planets_that_pass_by_a_shorter_addendum_are_admitted():
+def test_planets_that_clear_each_other_by_a_shorter_addendum_are_accepted():
     seven = nearest_assembly(Teeth(30, 20, 70), [2 * math.pi * n / 7 for n in range(7)])
     with pytest.raises(pt.SceneError, match="at most 6 planets"):
         PAPER.replace(**{"gearset.planet_angles": seven})

@@ -39,7 +39,7 @@ def test_a_ring_without_flanks_at_its_tip_is_refused():
 
 @pytest.mark.parametrize("addendum", [0.8, 1.0, 1.2])
 @pytest.mark.parametrize("angle", [20.0, 25.0])
-def test_a_pinion_needs_the_teeth_that_interference_with_a_mate_asks_for(angle, addendum):
+def test_a_pinion_needs_enough_teeth_to_avoid_interference(angle, addendum):
     """The least number by the closed form of Buckingham (1949), ch. 4, for a gear of 40 teeth."""
     sine, mate = math.sin(math.radians(angle)), 40
     square = mate**2 + 4.0 * addendum * (mate + addendum) / sine**2
@@ -49,7 +49,7 @@ def test_a_pinion_needs_the_teeth_that_interference_with_a_mate_asks_for(angle, 
         sun_planet_path(Teeth(mate, least - 1, mate), math.radians(angle), addendum)
 
 
-def test_tips_of_the_ring_may_not_reach_below_the_base_circle_of_the_planets():
+def test_tips_of_the_ring_must_not_reach_below_the_base_circle_of_the_planets():
     planet_ring_path(Teeth(44, 17, 78), ANGLE, 1.0)
     with pytest.raises(ValueError, match=r"^gearset.teeth.planet = 16: tips of the ring"):
         planet_ring_path(Teeth(44, 16, 76), ANGLE, 1.0)

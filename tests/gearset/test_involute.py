@@ -48,28 +48,28 @@ def placed(outline, angle, centre):
 @pytest.mark.parametrize("held", ["carrier", "ring", "sun"])
 @pytest.mark.parametrize("turned", [0.0, 0.013, 0.1, 1.7, 5.9])
 def test_flanks_touch_and_never_overlap_as_the_gears_roll(teeth, planet_angles, held, turned):
-    """At any angle the flanks of every mesh stay together on both sides."""
+    """At any angle, the flanks of every mesh touch on both sides."""
     reference = "carrier" if held == "sun" else "sun"
     angle = {k: float(v) * turned for k, v in speed_ratios(teeth, held, reference).items()}
-    stand = mount(teeth, planet_angles)
+    mounted = mount(teeth, planet_angles)
     outline = SpurGear(teeth.planet, MODULE, ALPHA).outline(points=200)
     sun, ring = SpurGear(teeth.sun, MODULE, ALPHA), SpurGear(teeth.ring, MODULE, ALPHA, 1.0, True)
     radius = 0.5 * MODULE * (teeth.sun + teeth.planet)
     for i, psi in enumerate(planet_angles):
         at = psi + angle["carrier"]
         centre = radius * math.cos(at), radius * math.sin(at)
-        planet = placed(outline, stand.planets[i] + angle["planet"], centre)
+        planet = placed(outline, mounted.planets[i] + angle["planet"], centre)
         gaps = [
-            *gap_to(sun, stand.sun + angle["sun"], planet),
-            *gap_to(ring, stand.ring + angle["ring"], planet),
+            *gap_to(sun, mounted.sun + angle["sun"], planet),
+            *gap_to(ring, mounted.ring + angle["ring"], planet),
         ]
         assert min(gaps) > -1e-3 * MODULE
         assert max(gaps) < 0.05 * MODULE
 
 
 def test_leading_flank_of_the_suns_tooth_zero_meets_planet_one_at_the_pitch_point():
-    stand = mount(*PAPER)
-    flank = stand.sun + SUN.half_thickness(np.array(SUN.pitch_radius))
+    mounted = mount(*PAPER)
+    flank = mounted.sun + SUN.half_thickness(np.array(SUN.pitch_radius))
     assert flank == pytest.approx(PAPER[1][0], abs=1e-12)
 
 

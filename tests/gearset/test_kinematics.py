@@ -21,7 +21,7 @@ PAIRS = list(permutations(MEMBERS, 2))
 
 @pytest.mark.parametrize("held, reference", PAIRS)
 @pytest.mark.parametrize("teeth", [PAPER, Teeth(21, 39, 99)])
-def test_pitch_lines_roll_without_slip_whatever_is_held(teeth, held, reference):
+def test_pitch_lines_roll_without_slip_whichever_member_is_held(teeth, held, reference):
     w = speed_ratios(teeth, held, reference)
     zs, zp, zr = teeth
     assert w[held] == 0 and w[reference] == 1
@@ -45,14 +45,14 @@ def test_meshing_frequency_at_1000_rpm(held, reference, frequency):
 
 
 def test_speeds_of_a_differential_are_those_of_both_inputs_together():
-    """1000 rpm at the sun and 500 at the carrier: ring 285.71 rpm, 250 Hz; alike: no meshing."""
+    """1000 rpm at the sun and 500 at the carrier: ring 285.71 rpm, 250 Hz; equal: no meshing."""
     sun, carrier = speeds_per_input(PAPER, ("sun", "carrier"), "none")
     both = {body: 1000 * sun[body] + 500 * carrier[body] for body in sun}
     assert (both["sun"], both["carrier"], both["ring"]) == (1000, 500, Fraction(2000, 7))
     assert mesh_cycles_per_turn(PAPER, both) / 60 == 250
-    alike = {body: sun[body] + carrier[body] for body in sun}
-    assert set(alike.values()) == {1}
-    assert mesh_cycles_per_turn(PAPER, alike) == 0
+    equal = {body: sun[body] + carrier[body] for body in sun}
+    assert set(equal.values()) == {1}
+    assert mesh_cycles_per_turn(PAPER, equal) == 0
 
 
 @pytest.mark.parametrize("held, reference", [("sun", "sun"), ("planet", "sun"), ("ring", "")])

@@ -19,13 +19,13 @@ def test_phases_of_the_papers_planets():
     assert ring == [Fraction(1, 2), Fraction(3, 5), Fraction(2, 5)]
 
 
-def test_phases_are_those_of_the_position_a_planet_can_be_put_in():
+def test_phases_are_those_of_the_position_at_which_a_planet_can_be_assembled():
     angles = [90.0, -28.8000001, 208.7999999]
     assert mesh_phases(PAPER, np.radians(angles)) == mesh_phases(PAPER, FITTING)
 
 
-def test_sun_and_ring_mesh_of_a_planet_keep_their_distance_in_any_position_that_fits():
-    """The planet's own teeth tie its two meshes together: half a cycle, or none if odd."""
+def test_sun_and_ring_mesh_of_a_planet_keep_their_phase_difference_in_any_valid_position():
+    """The planet's own teeth couple its two meshes: half a cycle, or none if odd."""
     for teeth, offset in ((PAPER, Fraction(1, 2)), (Teeth(21, 39, 99), Fraction(0))):
         angles = [2 * math.pi * k / (teeth.sun + teeth.ring) for k in (0, 17, 41, 66)]
         pairs = zip(*mesh_phases(teeth, angles), strict=True)
@@ -43,12 +43,12 @@ def test_equal_spacing_fits_where_it_divides_the_teeth_of_sun_and_ring(planets):
     check_assembly(PAPER, [2 * math.pi * k / planets for k in range(planets)])
 
 
-def test_what_is_offered_fits():
+def test_the_suggested_positions_fit():
     check_assembly(PAPER, nearest_assembly(PAPER, [0.3, 2.0, 4.4, 5.1]))
 
 
-def test_no_places_are_offered_at_which_planets_touch():
-    """52.7 deg apart they pass, by 0.2 modules; at 50.4 deg, where they can be put in, not."""
+def test_no_positions_are_suggested_at_which_planets_touch():
+    """At 52.7 deg they clear by 0.2 modules; at 50.4 deg, a valid position, they overlap."""
     with pytest.raises(ValueError, match="planets touch each other") as error:
         check_assembly(PAPER, np.radians([0.0, 52.7, 105.4]))
     assert "nearest:" not in str(error.value)

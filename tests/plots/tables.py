@@ -1,4 +1,4 @@
-"""Tables as a study gives them, their figures made up: a plot must show them and nothing else."""
+"""Tables in the format of a study with invented values, which a plot must show unchanged."""
 
 import itertools
 

@@ -1,4 +1,4 @@
-"""Stribeck and bifurcation figures show their tables; files depend on their content alone."""
+"""Stribeck and bifurcation figures show their tables; files depend on their content only."""
 
 import numpy as np
 import pyarrow as pa
@@ -69,7 +69,7 @@ def test_another_format_is_refused(tmp_path, diagram):
         save(pt.plot_study(diagram), str(tmp_path / "a.doc"))
 
 
-def test_without_a_film_that_follows_the_speed_there_is_no_curve(diagram):
+def test_without_a_speed_dependent_film_there_is_no_curve(diagram):
     from planetary_twin_py.studies.plan import Settings, grid
     from planetary_twin_py.studies.sweep import sweep
 

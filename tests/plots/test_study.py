@@ -1,4 +1,4 @@
-"""What is drawn is what the table holds, in the engineer's units."""
+"""A plot shows the values of the table, in engineering units."""
 
 import itertools
 
@@ -44,7 +44,7 @@ def test_a_second_field_is_a_curve_for_each_of_its_values():
     assert legend.get_title().get_text() == "Input torque [N m]"
 
 
-def test_what_is_asked_for_is_drawn_instead():
+def test_the_requested_measure_is_drawn_instead():
     fields = {"input_speed": SPEEDS, "input_torque": TORQUES}
     rms = {"efficiency": efficiency, "sun_planet_dte_rms": lambda speed, torque: 1e-7 * torque}
     measures = ["sun_planet_dte_rms", "efficiency"]
@@ -66,7 +66,7 @@ def test_a_third_field_is_a_panel_for_each_of_its_values():
         assert curve[1] == pytest.approx([30.0] * 3)
 
 
-def test_two_fields_of_many_values_are_a_map_with_a_hole_where_a_point_failed():
+def test_two_fields_of_many_values_are_a_map_with_a_gap_at_a_failed_point():
     fields = {"input_speed": MANY, "input_torque": tuple(np.linspace(5.0, 60.0, 7))}
     figure = pt.plot_study(study(fields, {"efficiency": efficiency}, failed=(24,)))
     axes, bar = figure.axes
@@ -89,7 +89,7 @@ def test_two_fields_of_many_values_are_a_map_with_a_hole_where_a_point_failed():
     assert not is_filled(3, 3) and is_filled(2, 2) and is_filled(5, 4)
 
 
-def test_curves_can_be_asked_for_where_a_map_would_be_drawn():
+def test_curves_can_be_requested_instead_of_a_map():
     fields = {"input_speed": MANY, "input_torque": tuple(np.linspace(5.0, 60.0, 7))}
     figure = pt.plot_study(study(fields, {"efficiency": efficiency}), kind="curves")
     assert len(drawn(figure.axes[0])) == 7
@@ -104,7 +104,7 @@ def test_scattered_points_are_a_map_too():
     assert len(axes) == 2 and y == pytest.approx(torques)
 
 
-def test_values_in_equal_ratios_have_a_logarithmic_axis():
+def test_values_with_equal_ratios_have_a_logarithmic_axis():
     viscosities = tuple(np.geomspace(0.01, 1.0, 5))
     table = study({"lubrication.viscosity": viscosities}, {"efficiency": lambda v: 0.9})
     (axes,) = pt.plot_study(table).axes
@@ -125,7 +125,7 @@ def hollow(axes):
 
 
 @pytest.mark.parametrize("kind", ["curves", "map"])
-def test_points_whose_viscous_friction_is_clipped_are_hollow_and_that_is_said(kind):
+def test_points_with_clipped_viscous_friction_are_hollow_and_the_caption_explains_it(kind):
     fields = {"input_speed": SPEEDS, "input_torque": (20.0, 40.0)}
     figure = pt.plot_study(study(fields, CLIPPED), kind=kind)
     speed = 30.0 / np.pi * SPEEDS[0]
@@ -154,13 +154,13 @@ def test_a_stribeck_curve_is_hollow_on_the_side_that_is_clipped():
     assert hollow(sun) == [pytest.approx((0.01 * SPEEDS[0], 0.03))] and hollow(ring) == []
 
 
-def test_nothing_is_hollow_where_nothing_is_clipped():
+def test_no_point_is_hollow_without_clipping():
     figure = pt.plot_study(study({"input_speed": SPEEDS[1:]}, CLIPPED))
     assert hollow(figure.axes[0]) == [] and figure.get_supxlabel() == ""
 
 
 @pytest.mark.parametrize(
-    ("given", "told"),
+    ("given", "reason"),
     [
         ({"measures": ["efficency"]}, "y = 'efficency': .*efficiency"),
         ({"x": "input_sped"}, "x = 'input_sped': .*input_speed"),
@@ -170,9 +170,9 @@ def test_nothing_is_hollow_where_nothing_is_clipped():
         ({"kind": "stribeck"}, "sun_planet_lambda_ratio"),
     ],
 )
-def test_what_cannot_be_drawn_is_refused_in_one_line(given, told):
+def test_an_undrawable_request_is_refused_in_one_line(given, reason):
     table = study({"input_speed": SPEEDS}, {"efficiency": efficiency})
-    with pytest.raises(ValueError, match=told) as refusal:
+    with pytest.raises(ValueError, match=reason) as refusal:
         pt.plot_study(table, **given)
     assert "\n" not in str(refusal.value)
 

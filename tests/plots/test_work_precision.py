@@ -32,7 +32,7 @@ def test_every_case_has_a_panel_with_the_rows_that_have_figures():
     assert panes[0].get_xscale() == panes[0].get_yscale() == "log"
 
 
-def test_many_cases_stand_in_rows_and_methods_are_told_apart():
+def test_many_cases_are_arranged_in_rows_and_methods_are_distinguishable():
     rows = [row(f"case {c}", f"m{m}", 1e-2, 1e-3, 1.0 + m) for c in range(5) for m in range(9)]
     figure = work_precision(rows)
     assert len(figure.axes) == 5

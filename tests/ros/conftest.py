@@ -1,4 +1,4 @@
-"""Real nodes as processes of their own, on a DDS domain no other test uses."""
+"""Real nodes as separate processes, on a DDS domain that no other test uses."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ import planetary_twin_py as pt
 from .peer import LATCHED, TWIN, Peer
 from .programs import Executed, Forked, Program
 
-_PATIENCE = 5.0  # [s] for a node to end when it is asked to
+_PATIENCE = 5.0  # [s] for a node to end after a signal
 
 
 Start = Callable[..., Program]
@@ -27,13 +27,13 @@ Start = Callable[..., Program]
 
 @pytest.fixture
 def start(domain: int, tmp_path: Path) -> Iterator[Start]:
-    """Start a node with arguments; whatever still runs at the end is ended."""
+    """Start a node with arguments; processes that still run at the end are ended."""
     yield from _starting(Forked, tmp_path)
 
 
 @pytest.fixture
 def execute(domain: int, tmp_path: Path) -> Iterator[Start]:
-    """Start a module with arguments, as users do: where its very start is of concern."""
+    """Start a module with arguments, as users do: for tests of the start itself."""
     yield from _starting(Executed, tmp_path)
 
 
@@ -49,7 +49,7 @@ def _starting(kind: type[Executed | Forked], place: Path) -> Iterator[Start]:
 
 
 def _end(processes: list[Program]) -> None:
-    # Asked before they are killed: who dies at once leaves its shared memory to those that live.
+    # SIGTERM first: a killed process leaves its shared memory behind.
     for process in processes:
         if process.poll() is None:
             process.send_signal(signal.SIGCONT)
@@ -65,25 +65,25 @@ def _end(processes: list[Program]) -> None:
 
 @dataclass(frozen=True)
 class RunningTwin:
-    """A simulation that all tests of a module share, and a user who listens to it."""
+    """A simulation shared by the tests of a module, and a participant that subscribes to it."""
 
     domain: int
     user: Peer
     points: list[OperatingPoint]
 
     def restore(self) -> None:
-        """Begin again at the operating point of the scene; `points` keeps that one only."""
+        """Start again at the operating point of the scene; `points` keeps that one only."""
         scene = pt.load_scene("paper").operating_point.model_dump()
-        # A set value ends its ramp, so all are set.
+        # Setting a value ends its ramp, so all are set.
         answer = self.user.set(f"{TWIN}/simulation", atomically=True, **scene)
         assert answer.successful, answer.reason
         before = len(self.points)
         assert self.user.call(Trigger, f"{TWIN}/simulation/reset", Trigger.Request()).success
 
-        def begun() -> bool:
+        def started() -> bool:
             return any(point.simulated_time == 0.0 for point in self.points[before:])
 
-        self.user.until(begun)
+        self.user.until(started)
         del self.points[:-1]
 
 
@@ -104,7 +104,7 @@ def running_twin(tmp_path_factory: pytest.TempPathFactory) -> Iterator[RunningTw
 
 @pytest.fixture
 def user(running_twin: RunningTwin) -> Peer:
-    """The participant beside the module's running twin."""
+    """The participant of the module's running twin."""
     return running_twin.user
 
 
@@ -113,7 +113,7 @@ def points(
     running_twin: RunningTwin, monkeypatch: pytest.MonkeyPatch
 ) -> Iterator[list[OperatingPoint]]:
     """
-    What the module's running twin has published as its operating point: that of its scene.
+    The operating points published by the module's running twin, reset to that of its scene.
 
     Commands that a test starts find this twin.
     """
@@ -124,7 +124,7 @@ def points(
 
 @pytest.fixture
 def peer(domain: int) -> Iterator[Peer]:
-    """Another participant, as a user's own program."""
+    """Another participant, as a user's program."""
     user = Peer()
     yield user
     user.close()
@@ -138,7 +138,7 @@ def small_disk(tmp_path: Path) -> Iterator[Path]:
 
 
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
-    """Tests that start nodes take seconds each: they are not of the fast tier."""
+    """Mark tests that start nodes as slow: they take seconds each."""
     here = Path(__file__).parent
     for item in items:
         if item.path.is_relative_to(here):

@@ -1,7 +1,7 @@
-"""Publishes numbers in its own numbering: `counter TOPIC RATE COUNT SIZE DEPTH RELIABILITY`.
+"""Publishes numbered messages: `counter TOPIC RATE COUNT SIZE DEPTH RELIABILITY`.
 
-Waits for a subscriber, sends COUNT numbered strings of SIZE bytes, RATE a second (0: as fast as it
-goes), and one more when a line on standard input says that the others have been dealt with.
+Waits for a subscriber, sends COUNT numbered strings of SIZE bytes at RATE per second (0: as fast as
+possible), and one more after a line on standard input, when the others have been handled.
 """
 
 from __future__ import annotations

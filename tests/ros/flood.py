@@ -1,4 +1,4 @@
-"""A client that sends parameter sets as fast as it can: `flood RATE BATCH`, until it is killed."""
+"""A client that sends parameter changes as fast as possible: `flood RATE BATCH`, until killed."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ SERVICE = "/planetary_twin/simulation/set_parameters"
 
 
 def parameter(number: int) -> Parameter:
-    """The `number`-th value: all are within the range."""
+    """The `number`-th value; all are within the range."""
     value = ParameterValue(
         type=ParameterType.PARAMETER_DOUBLE, double_value=1.0 + number % 1000 * 1e-3
     )
@@ -22,7 +22,7 @@ def parameter(number: int) -> Parameter:
 
 
 def main(rate: float, batch: int) -> None:
-    """Send `rate` sets a second, `batch` in each request, and never wait for an answer."""
+    """Send `rate` changes per second, `batch` in each request, without waiting for responses."""
     rclpy.init()
     client = rclpy.create_node("flood").create_client(SetParameters, SERVICE)
     client.wait_for_service()

@@ -1,6 +1,6 @@
-"""Another recorder, with rosbag2's QoS: `other_recorder`; prints on SIGTERM what it has heard.
+"""Another recorder with the QoS of rosbag2; prints the message counts by topic on SIGTERM.
 
-The subscriptions are those of rosbag2 on Jazzy (`Rosbag2QoS`): reliable, the newest 10.
+The subscriptions are those of rosbag2 on Jazzy (`Rosbag2QoS`): reliable, with a depth of 10.
 """
 
 from __future__ import annotations
@@ -24,19 +24,21 @@ TOPICS = {"gearbox_state": GearboxState, "mesh_waveform": MeshWaveform, "joint_s
 def main() -> None:
     rclpy.init()
     node = rclpy.create_node(NAME, namespace=NAMESPACE)
-    heard: Counter[str] = Counter()
+    received: Counter[str] = Counter()
 
-    def hear(topic: str, raw: bytes) -> None:
-        heard[f"{NAMESPACE}/{topic}"] += 1
+    def receive(topic: str, raw: bytes) -> None:
+        received[f"{NAMESPACE}/{topic}"] += 1
 
     for topic, kind in TOPICS.items():
-        node.create_subscription(kind, topic, partial(hear, topic), QoSProfile(depth=10), raw=True)
+        node.create_subscription(
+            kind, topic, partial(receive, topic), QoSProfile(depth=10), raw=True
+        )
     executor = SingleThreadedExecutor()
     executor.add_node(node)
     try:
         executor.spin()
     except (ExternalShutdownException, KeyboardInterrupt):
-        print(json.dumps(heard), flush=True)
+        print(json.dumps(received), flush=True)
 
 
 if __name__ == "__main__":

@@ -1,4 +1,4 @@
-"""A user's program: listens to topics and calls services with plain rclpy."""
+"""A user's program: subscribes to topics and calls services with plain rclpy."""
 
 from __future__ import annotations
 
@@ -26,14 +26,14 @@ _GOALS = {
     "deactivate": "inactive",
     "cleanup": "unconfigured",
 }
-LONG = 120.0  # [s] after which what should have come will not, however busy the machine is
+LONG = 120.0  # [s] for a message or an answer on a busy machine
 PATIENCE = 10.0  # [s] for an answer
 ATTEMPTS = 6
-TRANSITION = 30.0  # [s] that configuring a node may take where others keep the machine busy
+TRANSITION = 30.0  # [s] for configuring a node on a busy machine
 
 
 class Peer:
-    """Polls with a deadline; never sleeps and hopes."""
+    """Polls with a deadline instead of sleeping."""
 
     def __init__(self) -> None:
         self.context = rclpy.Context()
@@ -57,18 +57,18 @@ class Peer:
         return value
 
     def listen(self, kind: type, topic: str, qos: QoSProfile | int = 1000) -> list[Any]:
-        """A list that fills with the messages of `topic`."""
-        heard: list[Any] = []
-        self.node.create_subscription(kind, topic, heard.append, qos)
-        return heard
+        """A list to which the messages of `topic` are appended."""
+        received: list[Any] = []
+        self.node.create_subscription(kind, topic, received.append, qos)
+        return received
 
     def call(self, kind: type, service: str, request: Any, patience: float = PATIENCE) -> Any:
         """
-        The answer of a service.
+        The response of a service.
 
-        An answer gets lost where the server has not yet found a client that is new: then it asks
-        again after `patience` [s], which must be longer than the answer takes where being asked
-        twice matters.
+        A response is lost if the server has not discovered a new client yet. The call is then
+        repeated after `patience` [s], which must be longer than the response takes if a repeated
+        request matters.
         """
         if service not in self._clients:
             self._clients[service] = self.node.create_client(kind, service)
@@ -95,17 +95,17 @@ class Peer:
         return self.call(SetParameters, f"{node}/set_parameters", request).results[0]
 
     def change_state(self, node: str, transition: str) -> None:
-        """Take a lifecycle node through a transition."""
+        """Make a lifecycle node execute a transition."""
         request = ChangeState.Request(transition=Transition(label=transition))
 
         def there() -> bool:
             answer = self.call(ChangeState, f"{node}/change_state", request, TRANSITION)
-            return answer.success or self.state(node) == _GOALS[transition]  # an answer got lost
+            return answer.success or self.state(node) == _GOALS[transition]  # the response was lost
 
         self.until(there)
 
     def state(self, node: str) -> str:
-        """The state a lifecycle node is in."""
+        """The state of a lifecycle node."""
         answer = self.call(GetState, f"{node}/get_state", GetState.Request())
         return str(answer.current_state.label)
 

@@ -1,4 +1,4 @@
-"""Which processes there are, and what they listen on."""
+"""Processes and the addresses to which they bind."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ def working_in(folder: Path) -> list[int]:
 
 
 def bound_addresses(process: int) -> set[str]:
-    """Addresses of the Internet sockets that a process holds."""
+    """Addresses of the Internet sockets of a process."""
     place = Path(f"/proc/{process}")
     held = {
         match[1] for path in (place / "fd").iterdir() if (match := _SOCKET.match(_target(path)))
@@ -42,12 +42,12 @@ _SOCKET = re.compile(r"socket:\[(\d+)\]")
 def _target(path: Path) -> str:
     try:
         return os.readlink(path)
-    except FileNotFoundError:  # closed meanwhile
+    except FileNotFoundError:  # closed in the meantime
         return ""
 
 
 def _address(family: socket.AddressFamily, written: str) -> str:
-    """An address from words of four bytes, each in the order of this machine."""
+    """An address from words of four bytes, each in the byte order of this machine."""
     words = (written[i : i + 8] for i in range(0, len(written), 8))
     return socket.inet_ntop(family, b"".join(bytes.fromhex(word)[::-1] for word in words))
 

@@ -1,4 +1,4 @@
-"""Nodes as processes of their own: executed as users do, or forked from one that is warm."""
+"""Nodes as separate processes: executed as by users, or forked from a process with the imports."""
 
 from __future__ import annotations
 
@@ -24,20 +24,21 @@ _WARM = multiprocessing.get_context("forkserver")
 @functools.cache
 def _warm_up() -> None:
     """
-    Start the process of which nodes are forks.
+    Start the process from which nodes are forked.
 
-    A node spends most of its start on imports and on loading kernels: there once for all that a
+    A node spends most of its start on imports and on loading kernels: here this happens once for
+    each test runner.
     test runner starts.
     """
     _WARM.set_forkserver_preload(["ros.warm"])
     with pytest.MonkeyPatch.context() as environment:
-        # Python 3.11 gives that process no search path of ours.
+        # Python 3.11 gives that process no search path of the tests.
         environment.setenv("PYTHONPATH", str(Path(__file__).parents[1]))
         ensure_running()
 
 
 class _Lines:
-    """Reads a stream all the time: who writes there would stand still once the pipe is full."""
+    """Reads a stream continuously: the writer would block once the pipe is full."""
 
     def __init__(self, pipe: IO[str]) -> None:
         self._lines: list[str] = []
@@ -45,7 +46,7 @@ class _Lines:
         self._reader.start()
 
     def text(self) -> str:
-        """All of it, once the writer has ended."""
+        """All lines, once the writer has ended."""
         self._reader.join()
         return "".join(self._lines)
 
@@ -55,7 +56,7 @@ class _Lines:
 
 
 class Executed(subprocess.Popen[str]):
-    """A module run by an interpreter of its own."""
+    """A module run by a separate interpreter."""
 
     def __init__(self, module: str, *arguments: str, cwd: Path) -> None:
         super().__init__(
@@ -74,12 +75,12 @@ class Executed(subprocess.Popen[str]):
         return output, self._errors.text()
 
     def close(self) -> None:
-        """Let go of the pipe."""
+        """Close the pipe."""
         self.stdout.close()
 
 
 class Forked:
-    """The `main` of a module, in a process forked from a warm one; used as `Executed` is."""
+    """The `main` of a module in a process forked from a warm one; used as `Executed`."""
 
     def __init__(self, module: str, *arguments: str, cwd: Path) -> None:
         _warm_up()
@@ -97,7 +98,7 @@ class Forked:
 
     @property
     def returncode(self) -> int | None:
-        """Exit code; None while it runs, as last seen."""
+        """Exit code as last polled; None while it runs."""
         return self._process.exitcode
 
     def poll(self) -> int | None:
@@ -105,7 +106,7 @@ class Forked:
         return self._process.exitcode
 
     def wait(self, timeout: float | None = None) -> int:
-        """Exit code; raises `TimeoutExpired` where it runs for longer."""
+        """Exit code; raises `TimeoutExpired` if it still runs after `timeout`."""
         self._process.join(timeout)
         if (code := self._process.exitcode) is None:
             raise subprocess.TimeoutExpired(str(self.pid), timeout)
@@ -117,7 +118,7 @@ class Forked:
         return self._output.text(), self._errors.text()
 
     def send_signal(self, number: int) -> None:
-        """Nothing where it has ended."""
+        """Send a signal, unless the process has ended."""
         if self._process.exitcode is None:
             os.kill(self.pid, number)
 
@@ -128,7 +129,7 @@ class Forked:
         self.send_signal(signal.SIGKILL)
 
     def close(self) -> None:
-        """Nothing to let go of: both streams are read to their end."""
+        """Do nothing: both streams are read to their end."""
 
 
 Program = Executed | Forked
@@ -137,7 +138,7 @@ Program = Executed | Forked
 def _text(pipe: Connection) -> IO[str]:
     duplicate = os.dup(pipe.fileno())
     pipe.close()
-    return open(duplicate, errors="replace")  # closed by who reads it
+    return open(duplicate, errors="replace")  # closed by the reader
 
 
 def _run(

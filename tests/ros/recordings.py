@@ -27,15 +27,15 @@ def counts(folder: Path) -> dict[str, int]:
 
 
 def disorder(file: Path) -> float:
-    """Share of messages that stand behind one that was received later."""
+    """Share of messages that follow one that was received later."""
     with file.open("rb") as stream:
         records = StreamReader(stream, emit_chunks=False).records
         times = [record.log_time for record in records if isinstance(record, Message)]
     return sum(later < earlier for earlier, later in pairwise(times)) / len(times)
 
 
-def torn_states(file: Path) -> list[GearboxState]:
-    """The states in a file that nobody finished."""
+def unfinished_states(file: Path) -> list[GearboxState]:
+    """The states in an unfinished file."""
     states = []
     channels: dict[int, str] = {}
     with file.open("rb") as stream, contextlib.suppress(McapError, EOFError, zlib.error):
@@ -47,7 +47,7 @@ def torn_states(file: Path) -> list[GearboxState]:
     return states
 
 
-class Heard(NamedTuple):
+class Received(NamedTuple):
     """A topic of a finished bag, in the order of log time."""
 
     type: str
@@ -56,14 +56,14 @@ class Heard(NamedTuple):
     messages: list[bytes]
 
 
-def read_all(folder: Path) -> dict[str, Heard]:
+def read_all(folder: Path) -> dict[str, Received]:
     """Topics by name, read by MCAP's own reader."""
-    topics: dict[str, Heard] = {}
+    topics: dict[str, Received] = {}
     (file,) = folder.glob("*.mcap")
     with file.open("rb") as stream:
         for schema, channel, message in make_reader(stream).iter_messages():
             assert schema is not None
             described = (channel.metadata[k] for k in ("topic_type_hash", "offered_qos_profiles"))
-            topic = topics.setdefault(channel.topic, Heard(schema.name, *described, []))
+            topic = topics.setdefault(channel.topic, Received(schema.name, *described, []))
             topic.messages.append(message.data)
     return topics

@@ -1,4 +1,4 @@
-"""The report of the accuracy in /diagnostics."""
+"""The accuracy report in /diagnostics."""
 
 from __future__ import annotations
 
@@ -10,13 +10,13 @@ from planetary_twin.accuracy_report import ACCURACY, AccuracyReport
 import planetary_twin_py as pt
 
 
-def test_a_motion_that_outgrows_its_tolerance_is_a_warning_until_the_next_report() -> None:
+def test_inaccurate_intervals_are_a_warning_until_the_next_report() -> None:
     window = pt.Twin(pt.load_scene("paper"), tolerance=1e-3).advance(0.01)
     report = AccuracyReport("/twin")
     report.add(window)
     sound = report.status()
     assert (sound.name, sound.hardware_id) == (f"twin/{ACCURACY}", "/twin")
-    assert (sound.level, sound.message) == (DiagnosticStatus.OK, "as the tolerance says")
+    assert (sound.level, sound.message) == (DiagnosticStatus.OK, "consistent with the tolerance")
     for _ in range(2):
         report.add(replace(window, course=window.course._replace(reversals=3)))
     bad = report.status()

@@ -1,4 +1,4 @@
-"""A twin may wait for the node that is to record it, and then nothing of it is missed."""
+"""A twin can wait for the node that records it, so that no message is missed."""
 
 from __future__ import annotations
 
@@ -12,14 +12,14 @@ from planetary_twin_msgs.msg import GearboxState, RecorderStatus
 
 from .conftest import Start
 from .peer import LONG, TWIN, Peer
-from .told import figures, listen_to_reports
+from .reported import figures, listen_to_reports
 
 STATES = f"{TWIN}/gearbox_state"
 WAITING = ("--ros-args", "-p", "wait_for:=logger")
 
 
 def accounted(peer: Peer, topic: str = STATES, messages: int = 30) -> RecorderStatus:
-    """The first status of the logger that tells of that many messages."""
+    """The first status of the logger that counts that many messages."""
     status = peer.listen(RecorderStatus, f"{TWIN}/logger/status")
 
     def enough() -> bool:
@@ -30,16 +30,14 @@ def accounted(peer: Peer, topic: str = STATES, messages: int = 30) -> RecorderSt
     return status[-1]
 
 
-def test_of_nodes_that_start_together_the_recording_has_every_message(
-    peer: Peer, start: Start
-) -> None:
+def test_nodes_that_start_together_record_every_message(peer: Peer, start: Start) -> None:
     start("planetary_twin.logger")
     start("planetary_twin.simulation", *WAITING)
     status = accounted(peer)
     assert not any(status.lost)
 
 
-def test_the_logger_may_come_later_and_may_want_few_topics(peer: Peer, start: Start) -> None:
+def test_the_logger_may_start_later_and_subscribe_to_few_topics(peer: Peer, start: Start) -> None:
     start("planetary_twin.simulation", *WAITING)
     reports = listen_to_reports(peer)
     peer.until(lambda: figures(reports).get("state") == "waits")
@@ -49,17 +47,17 @@ def test_the_logger_may_come_later_and_may_want_few_topics(peer: Peer, start: St
     assert not any(status.lost)
 
 
-def test_a_twin_whose_logger_never_comes_says_so_and_begins(peer: Peer, start: Start) -> None:
+def test_a_twin_without_its_logger_warns_and_starts(peer: Peer, start: Start) -> None:
     simulation = start("planetary_twin.simulation", "--ros-args", "-p", "wait_for:=nobody")
     states = peer.listen(GearboxState, STATES)
     peer.until(lambda: states, PATIENCE + 60.0)
     simulation.terminate()
     _, errors = simulation.communicate(timeout=LONG)
-    assert "wait_for = nobody: has not subscribed within 10 s; begins without it" in errors
+    assert "wait_for = nobody: has not subscribed within 10 s; starts without it" in errors
 
 
 def waited(monkeypatch: pytest.MonkeyPatch, listener: str) -> float:
-    """Seconds that a twin waits for `logger` where a node of this name has subscribed."""
+    """Time [s] that a twin waits for `logger` if a node with this name has subscribed."""
     info = SimpleNamespace(node_name=listener, node_namespace=TWIN)
     publisher = SimpleNamespace(topic_name=STATES, get_subscription_count=lambda: 1)
     node = SimpleNamespace(
@@ -72,12 +70,12 @@ def waited(monkeypatch: pytest.MonkeyPatch, listener: str) -> float:
     monkeypatch.setattr(audience, "time", SimpleNamespace(monotonic=lambda: clock.now))
     waiting = Audience(node, "logger")
     waiting.begin()
-    while not waiting.there():
+    while not waiting.present():
         clock.now += 0.1
     return clock.now - 100.0
 
 
-def test_a_subscription_whose_node_is_never_named_ends_the_wait_without_a_warning(
+def test_a_subscription_of_an_unknown_node_ends_the_wait_without_a_warning(
     monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     assert waited(monkeypatch, "logger") < 1.0

@@ -1,4 +1,4 @@
-"""The live benchmark measures what it says, from outside the process it measures."""
+"""The live benchmark measures a separate process correctly."""
 
 from __future__ import annotations
 
@@ -30,16 +30,16 @@ def test_a_slope_is_found_within_its_error() -> None:
     assert abs(slope.value - 3.0) < 4.0 * slope.error < 0.3
 
 
-def test_processor_time_is_what_a_process_has_used() -> None:
+def test_processor_time_is_that_used_by_the_process() -> None:
     before, wall = processor_time(os.getpid()), time.process_time()
     while time.process_time() - wall < 0.3:
         pass
     assert processor_time(os.getpid()) - before == pytest.approx(0.3, abs=0.05)
 
 
-def test_resident_memory_grows_by_what_is_written() -> None:
+def test_resident_memory_grows_by_the_memory_written() -> None:
     before = resident_memory(os.getpid())
-    # Mapped anew: an array could take memory that the process has freed and not given back.
+    # A new mapping: an array could reuse memory that the process has freed but not returned.
     with mmap.mmap(-1, 50_000_000, flags=mmap.MAP_PRIVATE | mmap.MAP_ANONYMOUS) as block:
         block[:: mmap.PAGESIZE] = b"1" * (len(block) // mmap.PAGESIZE + 1)
         grown = resident_memory(os.getpid()) - before
@@ -62,7 +62,7 @@ def test_processes_that_must_share_a_core_wait_for_it() -> None:
 
 
 @pytest.mark.exhaustive
-def test_a_short_measurement_has_figures_that_can_be(
+def test_a_short_measurement_gives_plausible_figures(
     domain: int, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr("planetary_twin.benchmark.measure.SETS", 5)
@@ -71,7 +71,7 @@ def test_a_short_measurement_has_figures_that_can_be(
     found = Bench(2.0, said.append).punctuality(100.0)
     assert found.messages > 0 and found.lost == 0
     assert 0.0 < found.sent.p50 <= found.sent.p99 <= found.sent.max
-    # A value shows in the interval after the one in which it came, and not before that ends.
+    # A value appears at the end of the interval after the one in which it was set.
     assert found.answer.p50 < found.shown.p50
     assert found.shown.p50 > 0.01
     cost = Bench(2.0, said.append).cost("paper", 1e-3, 2)

@@ -1,4 +1,4 @@
-"""The recorder's benchmark counts what is in the file, from outside the process that writes it."""
+"""The recorder benchmark counts the messages in the file of a separate process."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from planetary_twin.benchmark.recorder import Payload, bare_rate, run_trial
 from planetary_twin.benchmark.tail import Tail
 
 
-def test_a_tail_sees_what_is_flushed_and_nothing_else(tmp_path: Path) -> None:
+def test_a_tail_sees_flushed_messages_only(tmp_path: Path) -> None:
     numbered = Numbered(tmp_path / "bag")
     with Tail(numbered.bag.file) as tail:
         for count in (7, 5):
@@ -29,7 +29,7 @@ def test_a_payload_has_its_size() -> None:
     assert [len(Payload(size)[7]) for size in (100, 1000, 100_000)] == [100, 1000, 100_000]
 
 
-def test_a_rate_that_is_no_effort_is_sustained(domain: int, tmp_path: Path) -> None:
+def test_a_low_rate_is_sustained(domain: int, tmp_path: Path) -> None:
     trial = run_trial(1000, 100.0, 1.0, tmp_path)
     assert trial.lost == 0
     assert 0.0 < trial.rate < 110.0

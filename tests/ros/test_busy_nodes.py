@@ -1,4 +1,4 @@
-"""Services are answered whatever a node is busy with: nothing it does starves them."""
+"""Services are answered while a node is busy."""
 
 from __future__ import annotations
 
@@ -24,36 +24,36 @@ NUMBERS = f"{TWIN}/numbers"
 
 
 def assert_answers(peer: Peer, node: str, parameter: str) -> None:
-    """Every request of another process is answered while this one listens to all that comes."""
-    command = [sys.executable, str(HERE / "asker.py"), node, parameter, str(REQUESTS)]
-    asker = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
-    peer.until(lambda: asker.poll() is not None)
-    answers, errors = asker.communicate()
-    assert asker.returncode == 0, errors
+    """Every request of another process is answered while this one receives all messages."""
+    command = [sys.executable, str(HERE / "requester.py"), node, parameter, str(REQUESTS)]
+    requester = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+    peer.until(lambda: requester.poll() is not None)
+    answers, errors = requester.communicate()
+    assert requester.returncode == 0, errors
     assert len(answers.splitlines()) == REQUESTS
 
 
-def test_a_replay_as_fast_as_it_goes(peer: Peer, start: Start, tmp_path: Path) -> None:
+def test_a_replay_as_fast_as_possible_answers(peer: Peer, start: Start, tmp_path: Path) -> None:
     bag = BagWriter(tmp_path / "bag")
     kind = "std_msgs/msg/String"
     channel = bag.add_topic(Topic(NUMBERS, kind, "", message_definition(kind)))
     for k in range(5000):
         bag.write(channel, serialize_message(String(data=f"{k}".ljust(400))), 1 + k, 1 + k, k)
     bag.close()
-    heard = peer.listen(String, NUMBERS, 1000)
+    received = peer.listen(String, NUMBERS, 1000)
     options = (f"file:={bag.file}", "rate_factor:=0.0", "loop:=true")
     arguments = [word for option in options for word in ("-p", option)]
     start("planetary_twin.replay", "--ros-args", *arguments)
-    peer.until(lambda: len(heard) > 1000)
+    peer.until(lambda: len(received) > 1000)
     node = f"{TWIN}/replay"
     assert_answers(peer, node, "loop")
-    # So are those who listen, and the orders that its player carries out.
+    # Other subscribers and the commands that the player executes are answered, too.
     for paused in (True, False):
         assert peer.call(SetBool, f"{node}/pause", SetBool.Request(data=paused)).success
     assert peer.set(node, rate_factor=1.0).successful
 
 
-def test_a_simulation_as_fast_as_it_goes(peer: Peer, start: Start) -> None:
+def test_a_simulation_as_fast_as_possible_answers(peer: Peer, start: Start) -> None:
     states = peer.listen(GearboxState, f"{TWIN}/gearbox_state", 1000)
     waves = peer.listen(MeshWaveform, f"{TWIN}/mesh_waveform", 1000)
     start("planetary_twin.simulation", "--ros-args", "-p", "rate_factor:=0.0")
@@ -65,7 +65,7 @@ def test_a_simulation_as_fast_as_it_goes(peer: Peer, start: Start) -> None:
     assert peer.set(node, backlash=3e-7).successful
 
 
-def test_a_logger_that_is_sent_more_than_it_can_take(peer: Peer, start: Start) -> None:
+def test_an_overloaded_logger_answers(peer: Peer, start: Start) -> None:
     status = peer.listen(RecorderStatus, f"{TWIN}/logger/status")
     start("planetary_twin.logger", "--ros-args", "-p", f"topics:=['{NUMBERS}']")
     count, size, depth = map(str, (10**9, 400, 1000))

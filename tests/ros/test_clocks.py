@@ -1,4 +1,4 @@
-"""Whatever happens to the clocks, stamps only rise, and who is late says so."""
+"""Stamps increase strictly if clocks jump or stop, and a late twin reports it."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ def seconds(stamp) -> float:
 
 
 def check_rising(*topics: list) -> None:
-    """Numbers without gaps, stamps that only rise."""
+    """Sequence numbers have no gaps, and stamps increase."""
     for messages in topics:
         for before, after in itertools.pairwise(messages):
             assert after.sequence == before.sequence + 1
@@ -35,7 +35,7 @@ def check_rising(*topics: list) -> None:
 
 
 class Ticking:
-    """A /clock that somebody else publishes, and sets."""
+    """A /clock from another publisher, which the test can set."""
 
     def __init__(self, peer: Peer, begin: float) -> None:
         self._ahead = begin - time.monotonic()
@@ -54,11 +54,13 @@ class Ticking:
 
 
 def figures(reports: list[DiagnosticArray]) -> dict[str, str]:
-    """Those of the newest report."""
+    """Values of the newest report."""
     return real_time_figures(reports[-1], TWIN) if reports else {}
 
 
-def test_stamps_follow_the_clock_of_another_and_outlive_its_jumps(peer: Peer, start: Start) -> None:
+def test_stamps_follow_an_external_clock_and_increase_when_it_jumps(
+    peer: Peer, start: Start
+) -> None:
     start(MODULE, "--ros-args", "-p", "use_sim_time:=true")
     states = peer.listen(GearboxState, f"{TWIN}/gearbox_state", 1000)
     waves = peer.listen(MeshWaveform, f"{TWIN}/mesh_waveform", 1000)
@@ -75,17 +77,17 @@ def test_stamps_follow_the_clock_of_another_and_outlive_its_jumps(peer: Peer, st
     assert seconds(states[0].header.stamp) >= 5.0
     clock.jump(2 * HOUR)
     peer.until(follows)
-    newest, heard = seconds(states[-1].header.stamp), len(states)
+    newest, received = seconds(states[-1].header.stamp), len(states)
     clock.jump(-HOUR)
-    peer.until(lambda: len(states) > heard + 100)
-    # They go on from the newest, neither standing nor following the clock back.
+    peer.until(lambda: len(states) > received + 100)
+    # They continue from the newest stamp: they neither stop nor follow the clock back.
     assert newest + 0.5 < seconds(states[-1].header.stamp) < newest + 30.0
     check_rising(states, waves)
     stamps = [Time.from_msg(report.header.stamp) for report in reports]
     assert all(after > before for before, after in itertools.pairwise(stamps))
 
 
-def test_a_process_that_was_stopped_goes_on_without_a_burst(peer: Peer, start: Start) -> None:
+def test_a_stopped_process_continues_without_a_burst(peer: Peer, start: Start) -> None:
     process = start(MODULE)
     states = peer.listen(GearboxState, f"{TWIN}/gearbox_state", 1000)
     waves = peer.listen(MeshWaveform, f"{TWIN}/mesh_waveform", 1000)
@@ -98,21 +100,21 @@ def test_a_process_that_was_stopped_goes_on_without_a_burst(peer: Peer, start: S
     before, resumed = states[-1].simulated_time, time.monotonic()
     process.send_signal(signal.SIGCONT)
     peer.until(lambda: states[-1].simulated_time > before + 1.0)
-    # What was missed is not made up: simulated time runs no faster than the steady clock.
+    # The delay is not made up: simulated time runs no faster than the steady clock.
     assert states[-1].simulated_time - before < time.monotonic() - resumed + 5 * INTERVAL
     peer.until(lambda: int(figures(reports)["overruns"]) > overruns)
     assert any(report.status[0].level != DiagnosticStatus.OK for report in reports)
     check_rising(states, waves)
 
 
-def test_as_fast_as_it_goes_is_never_late(peer: Peer, start: Start) -> None:
+def test_a_twin_as_fast_as_possible_is_never_late(peer: Peer, start: Start) -> None:
     start(MODULE, "--ros-args", "-p", "rate_factor:=0", "-p", "sample_rate:=5000")
     reports = peer.listen(DiagnosticArray, "/diagnostics")
     states = peer.listen(GearboxState, f"{TWIN}/gearbox_state", 1000)
     peer.until(lambda: len(reports) > 2)
-    assert {report.status[0].message for report in reports} == {"runs as fast as it goes"}
-    told = figures(reports)
-    assert float(told["real_time_factor"]) > 0.0
-    assert int(told["overruns"]) == 0
+    assert {report.status[0].message for report in reports} == {"runs as fast as possible"}
+    reported = figures(reports)
+    assert float(reported["real_time_factor"]) > 0.0
+    assert int(reported["overruns"]) == 0
     for state in states:
         assert state.simulated_time == pytest.approx(state.sequence * INTERVAL)

@@ -1,4 +1,4 @@
-"""Joint positions that count whole turns: they go with the speed, and a recording verifies."""
+"""Joint positions that count whole turns follow the speed, and their recording verifies."""
 
 from __future__ import annotations
 
@@ -42,16 +42,16 @@ def test_positions_are_the_integral_of_the_speed_and_modulo_a_turn_the_angle() -
     assert np.abs(apart).max() < 1e-9
 
 
-def test_a_window_that_continues_none_counts_from_there() -> None:
+def test_a_window_after_a_gap_starts_a_new_count() -> None:
     scene = pt.load_scene("paper").replace(dynamics="quasi_static")
     first, second = pt.Twin(scene), pt.Twin(scene)
     message = JointsMessage(first.advance(0.1).bodies, True)
-    for twin in (first, second):  # a reset begins with another twin
+    for twin in (first, second):  # a reset starts another twin
         begin = np.array(message.fill(twin.advance(0.1)).position)
         assert begin.min() >= 0.0 and begin.max() <= TURN
 
 
-def test_a_node_publishes_them_where_asked_and_the_recording_verifies(
+def test_a_node_publishes_them_on_request_and_the_recording_verifies(
     peer: Peer, start: Start, tmp_path: Path
 ) -> None:
     logger = start("planetary_twin.logger", "--ros-args", "-p", "name:=bag")

@@ -3,8 +3,8 @@
 import subprocess
 import sys
 
-# Blocks of sizes that vary, as chunks of a recording do, and small things that stay
-# between them. What the process keeps beyond these is what the heap holds on to.
+# Blocks of varying sizes, as the chunks of a recording, with small objects between them that
+# stay. What the process keeps beyond these is memory that the heap has not returned.
 PROGRAM = """
 import os, random, sys
 from planetary_twin.benchmark.process import own_memory
@@ -24,10 +24,10 @@ print(own_memory(os.getpid()) - before - sum(map(len, kept)) / 1e6)
 
 
 def kept(*arguments):
-    """Memory that the process still has after it has freed its large blocks [MB]."""
+    """Memory that the process keeps after freeing its large blocks [MB]."""
     command = [sys.executable, "-c", PROGRAM, *arguments]
     return float(subprocess.run(command, check=True, capture_output=True, text=True).stdout)
 
 
-def test_freed_large_blocks_leave_the_process_and_by_default_do_not():
+def test_freed_large_blocks_are_returned_and_by_default_are_not():
     assert kept("returned") < 1.0 < kept()

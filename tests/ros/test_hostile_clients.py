@@ -1,4 +1,4 @@
-"""Clients that flood, send nonsense or die cannot stop a twin, nor make it tell what is not so."""
+"""Clients that flood, send invalid data or die neither stop a twin nor falsify its reports."""
 
 from __future__ import annotations
 
@@ -30,13 +30,13 @@ from .conftest import Start
 from .peer import LONG, TWIN, Peer
 
 NODE = f"{TWIN}/simulation"
-READABLE = 300  # characters that a refusal takes at most
+READABLE = 300  # longest refusal [characters]
 MEGABYTE = "x" * 1_000_000
 FLOOD = Path(__file__).with_name("flood.py")
 
 
-class Heard:
-    """What a simulation publishes while it is being attacked."""
+class Received:
+    """Messages that a simulation publishes during an attack."""
 
     def __init__(self, peer: Peer, process: subprocess.Popen[str]) -> None:
         self.process = process
@@ -49,12 +49,12 @@ class Heard:
 
 
 @pytest.fixture
-def heard(peer: Peer, start: Start) -> Heard:
-    return Heard(peer, start("planetary_twin.simulation"))
+def received(peer: Peer, start: Start) -> Received:
+    return Received(peer, start("planetary_twin.simulation"))
 
 
 def flood(clients: int, batch: int) -> list[subprocess.Popen[str]]:
-    """Clients that send 10 000 sets a second in all, or as many as they can."""
+    """Clients that send 10 000 changes per second in total, or as many as they can."""
     command = [sys.executable, str(FLOOD), str(10_000 / clients), str(batch)]
     floods = [subprocess.Popen(command, stdout=subprocess.PIPE, text=True) for _ in range(clients)]
     for process in floods:
@@ -66,43 +66,45 @@ def flood(clients: int, batch: int) -> list[subprocess.Popen[str]]:
 @pytest.mark.parametrize(
     ("clients", "batch"), [(1, 1), pytest.param(3, 50, marks=pytest.mark.exhaustive)]
 )
-def test_a_flood_of_parameter_sets_neither_stops_the_twin_nor_makes_it_lie(
-    peer: Peer, heard: Heard, clients: int, batch: int
+def test_a_flood_of_changes_neither_stops_the_twin_nor_falsifies_its_reports(
+    peer: Peer, received: Received, clients: int, batch: int
 ) -> None:
     points = peer.listen(OperatingPoint, f"{TWIN}/operating_point", 1000)
-    resident = _resident(heard.process.pid)
+    resident = _resident(received.process.pid)
     floods = flood(clients, batch)
     try:
-        first, told, begin = len(heard.states), len(heard.reports), time.monotonic()
-        peer.until(lambda: len(heard.states) > first + 400 and len(heard.reports) > told + 2)
+        first, reported, begin = len(received.states), len(received.reports), time.monotonic()
+        peer.until(
+            lambda: len(received.states) > first + 400 and len(received.reports) > reported + 2
+        )
         elapsed = time.monotonic() - begin
-        during = heard.states[first:]
-        count = len(heard.reports)
-        peer.until(lambda: len(heard.reports) > count)
+        during = received.states[first:]
+        count = len(received.reports)
+        peer.until(lambda: len(received.reports) > count)
         assert peer.call(GetState, f"{NODE}/get_state", GetState.Request())
     finally:
-        for process in floods:  # they die amid their calls
+        for process in floods:  # killed during their calls
             process.kill()
             process.communicate()
-    # The machine is the flood's too, so the twin may fall behind; then it says so.
+    # The flood uses the same machine, so the twin may fall behind, and must report it.
     simulated = during[-1].simulated_time - during[0].simulated_time
-    if simulated < 0.8 * elapsed:  # more than what may still be under way to this process
-        assert any(report.status[0].level != b"\0" for report in heard.reports[told:])
+    if simulated < 0.8 * elapsed:  # fewer than the messages in transit explain
+        assert any(report.status[0].level != b"\0" for report in received.reports[reported:])
     assert [b.sequence - a.sequence for a, b in itertools.pairwise(during)] == [1] * (
         len(during) - 1
     )
-    # One change an interval at most: what is set meanwhile holds from the same instant.
+    # At most one change per interval: changes within an interval are merged.
     instants = [point.simulated_time for point in points]
     assert len(set(instants)) == len(instants) > 10
 
-    # Requests that were sent are still answered; what is set after them holds.
+    # Pending requests are still answered, and later changes apply.
     peer.until(lambda: _holds(peer, 3.25))
     assert peer.get(NODE, "lambda_ratio") == 3.25
-    peer.until(lambda: math.isclose(heard.states[-1].sun_planet_lambda_ratio[0], 3.25))
+    peer.until(lambda: math.isclose(received.states[-1].sun_planet_lambda_ratio[0], 3.25))
     assert points[-1].lambda_ratio == 3.25
-    later = len(heard.states) + 100
-    peer.until(lambda: len(heard.states) > later)
-    assert _resident(heard.process.pid) < resident + 60e6
+    later = len(received.states) + 100
+    peer.until(lambda: len(received.states) > later)
+    assert _resident(received.process.pid) < resident + 60e6
 
 
 def _holds(peer: Peer, value: float) -> bool:
@@ -120,7 +122,7 @@ def _resident(process: int) -> float:
 
 
 def values() -> list[ParameterValue]:
-    """One of each type that a number is not, and of types that there are not."""
+    """One value of each type that is not a number, and of unknown types."""
     return [
         ParameterValue(),
         ParameterValue(type=ParameterType.PARAMETER_BOOL, bool_value=True),
@@ -145,8 +147,8 @@ def values() -> list[ParameterValue]:
     ]
 
 
-def test_values_and_names_that_cannot_be_are_refused_in_one_readable_line(
-    peer: Peer, heard: Heard
+def test_invalid_values_and_names_are_refused_in_one_readable_line(
+    peer: Peer, received: Received
 ) -> None:
     before = peer.get(NODE, "backlash")
     names = ("backlash", "scene", "use_sim_time", "gearset.teeth.sun")
@@ -170,7 +172,7 @@ def test_values_and_names_that_cannot_be_are_refused_in_one_readable_line(
     assert peer.get(NODE, "backlash") == before
     listed = peer.call(ListParameters, f"{NODE}/list_parameters", ListParameters.Request())
     assert not set(others) & set(listed.result.names)
-    _runs_well(peer, heard)
+    _runs_well(peer, received)
 
 
 def _refused(successful: bool, reason: str, name: str) -> None:
@@ -180,18 +182,18 @@ def _refused(successful: bool, reason: str, name: str) -> None:
         assert name in reason
 
 
-def _runs_well(peer: Peer, heard: Heard) -> None:
-    """The twin goes on, and has printed nothing that a client has sent."""
-    count = len(heard.states)
-    peer.until(lambda: len(heard.states) > count + 20)
-    heard.process.terminate()
-    output, errors = heard.process.communicate(timeout=LONG)
-    assert heard.process.returncode == 0, errors
+def _runs_well(peer: Peer, received: Received) -> None:
+    """The twin continues, and has printed nothing that a client has sent."""
+    count = len(received.states)
+    peer.until(lambda: len(received.states) > count + 20)
+    received.process.terminate()
+    output, errors = received.process.communicate(timeout=LONG)
+    assert received.process.returncode == 0, errors
     assert "Traceback" not in errors
     assert all(len(line) < READABLE for line in (output + errors).splitlines())
 
 
-def test_services_refuse_what_is_too_much_or_makes_no_sense(peer: Peer, heard: Heard) -> None:
+def test_services_refuse_excessive_and_invalid_requests(peer: Peer, received: Received) -> None:
     service = f"{NODE}/set_operating_point"
     for names, given in (
         (["backlash"] * 100_000, [3e-7] * 100_000),
@@ -217,10 +219,10 @@ def test_services_refuse_what_is_too_much_or_makes_no_sense(peer: Peer, heard: H
         request = kind.Request(names=["", MEGABYTE])
         assert peer.call(kind, f"{NODE}/{name}", request)
     assert peer.get(NODE, "backlash") == 2e-7
-    _runs_well(peer, heard)
+    _runs_well(peer, received)
 
 
-def test_all_services_at_once_are_all_answered(peer: Peer, heard: Heard) -> None:
+def test_simultaneous_requests_are_all_answered(peer: Peer, received: Received) -> None:
     calls = (
         (SetOperatingPoint, "set_operating_point", {"names": ["backlash"], "values": [3e-7]}),
         (SetBool, "pause", {"data": True}),
@@ -232,7 +234,7 @@ def test_all_services_at_once_are_all_answered(peer: Peer, heard: Heard) -> None
     )
     clients = [peer.node.create_client(kind, f"{NODE}/{name}") for kind, name, _ in calls]
     peer.until(lambda: all(client.service_is_ready() for client in clients))
-    peer.set(NODE, backlash=2e-7)  # what comes later does not get lost in discovery
+    peer.set(NODE, backlash=2e-7)  # later requests are not lost in discovery
     futures = [
         client.call_async(kind.Request(**fields))
         for _ in range(10)
@@ -241,7 +243,7 @@ def test_all_services_at_once_are_all_answered(peer: Peer, heard: Heard) -> None
     peer.until(lambda: all(future.done() for future in futures))
     assert peer.call(SetBool, f"{NODE}/pause", SetBool.Request(data=False)).success
     assert peer.get(NODE, "backlash") == 3e-7
-    _runs_well(peer, heard)
+    _runs_well(peer, received)
 
 
 @pytest.mark.parametrize(
@@ -255,7 +257,7 @@ def test_all_services_at_once_are_all_answered(peer: Peer, heard: Heard) -> None
         (f"topics:=[{'t' * 5000}]", "topics: "),
     ],
 )
-def test_no_name_leads_out_of_the_recordings_folder(
+def test_no_name_leads_out_of_the_folder_of_recordings(
     start: Start, tmp_path: Path, parameter: str, reason: str
 ) -> None:
     name, value = parameter.split(":=")
@@ -270,7 +272,7 @@ def test_no_name_leads_out_of_the_recordings_folder(
 
 
 @pytest.mark.parametrize("remapped", ["__node:=../../x", "__ns:=/../x", "__node:=a b"])
-def test_a_node_cannot_be_called_by_a_path(start: Start, tmp_path: Path, remapped: str) -> None:
+def test_a_node_name_must_not_be_a_path(start: Start, tmp_path: Path, remapped: str) -> None:
     process = start("planetary_twin.logger", "--ros-args", "-r", remapped)
     _, errors = process.communicate(timeout=LONG)
     assert process.returncode == 1

@@ -1,4 +1,4 @@
-"""Layouts for PlotJuggler and Foxglove plot what there is, in keys that these tools read.
+"""Layouts for PlotJuggler and Foxglove plot existing fields, with keys that these tools read.
 
 The keys were read in the sources of Lichtblick 1.28 and PlotJuggler 3.17.
 """
@@ -32,7 +32,7 @@ TITLES = ("lichtblickPanelTitle", "foxglovePanelTitle")
 
 
 def field_of(curve: str) -> str:
-    """The field of GearboxState that a curve plots, which must have one value at its place."""
+    """The field of GearboxState that a curve plots, which must have one value there."""
     match = CURVE.match(curve)
     assert match, curve
     kind = GearboxState.get_fields_and_field_types()[match["field"]]
@@ -93,7 +93,7 @@ def test_foxglove_plots_over_the_time_that_its_time_bar_shows(panels: dict[str, 
         assert {path["timestampMethod"] for path in panel["paths"]} == {"receiveTime"}
 
 
-def test_plots_of_lengths_have_bounds_that_hold_the_sample_recording(
+def test_plots_of_lengths_have_bounds_that_contain_the_sample_recording(
     panels: dict[str, Any],
 ) -> None:
     """Without both bounds, Lichtblick's axis has ticks no closer than 1e-3."""

@@ -1,4 +1,4 @@
-"""The report of the energy ledger in /diagnostics."""
+"""The report on the energy ledger in /diagnostics."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Both nodes follow the life cycle in every order, and survive every transition that cannot be."""
+"""Both nodes follow the life cycle in every order, and survive every invalid transition."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ LEGAL = {
     "active": {"deactivate": "inactive", "shutdown": "finalized"},
     "finalized": {},
 }
-# Of each kind there is, and one that there is not.
+# All valid transitions, and an invalid one.
 TRANSITIONS = (
     "configure",
     "cleanup",
@@ -41,7 +41,7 @@ TRANSITIONS = (
     "?",
 )
 BY_NUMBER = (0, 1, 2, 3, 4, 5, 6, 7, 8, 60, 255)
-# Every legal transition, from every state that is reached in a second life too.
+# Every legal transition, also after a second configuration.
 WAY = (
     *("configure", "activate", "deactivate", "activate", "deactivate", "cleanup"),
     *("configure", "cleanup", "configure", "activate", "shutdown"),
@@ -49,7 +49,7 @@ WAY = (
 
 
 class Managed:
-    """A node of which a manager asks what the life cycle offers."""
+    """A node whose life cycle a manager controls."""
 
     def __init__(self, peer: Peer, name: str) -> None:
         self._peer = peer
@@ -113,7 +113,7 @@ def test_every_legal_transition_is_made_and_every_other_refused(
     assert "Traceback" not in errors
 
 
-def test_a_second_life_of_the_logger_is_a_second_recording(
+def test_a_logger_configured_again_starts_a_second_recording(
     peer: Peer, start: Start, tmp_path: Path
 ) -> None:
     start("planetary_twin.simulation")
@@ -122,8 +122,8 @@ def test_a_second_life_of_the_logger_is_a_second_recording(
     managed = Managed(peer, "logger")
     for end in ("cleanup", "shutdown"):
         assert managed.change("configure") and managed.change("activate")
-        heard = len(states)
-        peer.until(lambda n=heard: len(states) > n + 50)
+        received = len(states)
+        peer.until(lambda n=received: len(states) > n + 50)
         assert end == "shutdown" or managed.change("deactivate")
         assert managed.change(end)
     recordings = list((tmp_path / "recordings").iterdir())
@@ -131,7 +131,7 @@ def test_a_second_life_of_the_logger_is_a_second_recording(
     assert all(counts(folder)[f"{TWIN}/gearbox_state"] > 10 for folder in recordings)
 
 
-def test_a_logger_that_cannot_write_tells_why_and_is_mended(
+def test_a_logger_that_cannot_write_reports_the_reason_and_recovers(
     peer: Peer, start: Start, tmp_path: Path
 ) -> None:
     place = tmp_path / "recordings"
@@ -150,9 +150,7 @@ def test_a_logger_that_cannot_write_tells_why_and_is_mended(
     assert counts(place / "bag") == {}
 
 
-def test_services_of_a_simulation_that_stands_still_answer_in_one_line(
-    peer: Peer, start: Start
-) -> None:
+def test_services_of_an_inactive_simulation_answer_in_one_line(peer: Peer, start: Start) -> None:
     begin(start, "simulation")
     managed = Managed(peer, "simulation")
     calls = (
@@ -170,7 +168,7 @@ def test_services_of_a_simulation_that_stands_still_answer_in_one_line(
         assert managed.change(label)
 
 
-def test_what_is_set_while_it_stands_holds_when_it_runs(peer: Peer, start: Start) -> None:
+def test_parameters_set_while_inactive_apply_when_active(peer: Peer, start: Start) -> None:
     begin(start, "simulation")
     managed = Managed(peer, "simulation")
     points = peer.listen(OperatingPoint, f"{TWIN}/operating_point", LATCHED)
@@ -200,7 +198,7 @@ def simulation(
     rclpy.try_shutdown()
 
 
-def test_cleanup_lets_the_model_go(simulation: Simulation) -> None:
+def test_cleanup_releases_the_model(simulation: Simulation) -> None:
     assert simulation.trigger_configure().name == "SUCCESS"
     assert simulation.trigger_activate().name == "SUCCESS"
     held = [weakref.ref(simulation.running()), weakref.ref(simulation.running()._twin._engine)]
@@ -210,7 +208,7 @@ def test_cleanup_lets_the_model_go(simulation: Simulation) -> None:
     assert [reference() for reference in held] == [None, None]
 
 
-def test_a_twin_that_stops_by_itself_leads_through_the_error_state(
+def test_a_twin_that_fails_moves_the_node_to_the_error_state(
     simulation: Simulation,
 ) -> None:
     states = []
@@ -225,7 +223,7 @@ def test_a_twin_that_stops_by_itself_leads_through_the_error_state(
     simulation.trigger_activate()
     executor = SingleThreadedExecutor()
     executor.add_node(simulation)
-    simulation.running()._pass = None  # as a defect would: what it does now raises
+    simulation.running()._advance = None  # makes the next interval raise, as a defect would
     deadline = time.monotonic() + LONG
     while simulation.state != "unconfigured":
         assert time.monotonic() < deadline

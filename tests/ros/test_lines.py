@@ -1,4 +1,4 @@
-"""Who reads a node's log does not set its pace, and gets its lines."""
+"""The reader of a node's log does not delay the node, and receives its lines."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from planetary_twin_msgs.msg import GearboxState
 
 from .conftest import Start
 from .peer import LONG, TWIN, Peer
-from .told import figures, listen_to_reports
+from .reported import figures, listen_to_reports
 
 NODE = f"{TWIN}/simulation"
 PAGE = 4096
@@ -22,7 +22,7 @@ PAGE = 4096
 
 @pytest.fixture
 def stalled(domain: int, tmp_path: Path) -> Iterator[subprocess.Popen[bytes]]:
-    """A simulation that logs into a pipe which is full, and which nobody reads."""
+    """A simulation that logs into a full pipe without a reader."""
     reader, writer = os.pipe()
     fcntl.fcntl(writer, fcntl.F_SETPIPE_SZ, PAGE)
     os.write(writer, b"\n" * PAGE)
@@ -44,7 +44,7 @@ with never_waiting():
 """
 
 
-def test_lines_in_a_file_that_others_write_into_stay(tmp_path: Path) -> None:
+def test_lines_in_a_file_with_other_writers_are_kept(tmp_path: Path) -> None:
     file = tmp_path / "log"
     with file.open("wb", buffering=0) as log:
         log.write(b"before\n")
@@ -53,7 +53,7 @@ def test_lines_in_a_file_that_others_write_into_stay(tmp_path: Path) -> None:
     assert file.read_text() == "before\nof the node\nafter\n"
 
 
-def test_its_lines_come_where_somebody_reads(peer: Peer, start: Start) -> None:
+def test_lines_arrive_if_the_pipe_is_read(peer: Peer, start: Start) -> None:
     states = peer.listen(GearboxState, f"{TWIN}/gearbox_state")
     node = start("planetary_twin.simulation", "--ros-args", "-p", "rate_factor:=1e9")
     _, errors = node.communicate(timeout=LONG)
@@ -66,12 +66,12 @@ def test_its_lines_come_where_somebody_reads(peer: Peer, start: Start) -> None:
     assert "tolerance" in errors
 
 
-def test_a_terminal_that_stands_still_holds_up_neither_the_twin_nor_its_parameters(
+def test_a_stopped_terminal_delays_neither_the_twin_nor_its_parameters(
     peer: Peer, stalled: subprocess.Popen[bytes]
 ) -> None:
     states = peer.listen(GearboxState, f"{TWIN}/gearbox_state")
     reports = listen_to_reports(peer)
-    # The tolerance that it chooses is the first line it logs.
+    # The chosen tolerance is the first line that it logs.
     peer.until(lambda: int(figures(reports).get("tolerance_changes", 0)))
     count = len(states)
     assert peer.set(NODE, backlash=3e-7).successful

@@ -1,4 +1,4 @@
-"""A live twin tells its tolerance so exactly that what it published can be simulated again."""
+"""A live twin reports its tolerance exactly, so that its messages can be reproduced."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from planetary_twin_msgs.msg import MeshWaveform, OperatingPoint
 
 from .conftest import Start
 from .peer import LATCHED, TWIN, Peer
-from .told import assert_simulated_again, figures, settings_told
+from .reported import assert_simulated_again, figures, reported_settings
 
 NODE = f"{TWIN}/simulation"
 SAMPLE_RATE = 5000
@@ -18,12 +18,12 @@ SAMPLE_RATE = 5000
 
 @pytest.fixture
 def simulation(start: Start) -> subprocess.Popen[str]:
-    """A simulation that waits to be activated, so that a peer hears it from its first message."""
+    """A simulation that waits for activation, so that a peer receives its first message."""
     options = ("-p", "autostart:=false", "-p", f"sample_rate:={SAMPLE_RATE}")
     return start("planetary_twin.simulation", "--ros-args", *options)
 
 
-def test_what_was_published_is_simulated_again_bit_by_bit_from_what_was_told(
+def test_published_waveforms_are_reproduced_bit_for_bit_from_the_reports(
     peer: Peer, simulation: subprocess.Popen[str]
 ) -> None:
     waves = peer.listen(MeshWaveform, f"{TWIN}/mesh_waveform", 1000)
@@ -31,7 +31,7 @@ def test_what_was_published_is_simulated_again_bit_by_bit_from_what_was_told(
     reports = peer.listen(DiagnosticArray, "/diagnostics")
     peer.change_state(NODE, "configure")
     peer.change_state(NODE, "activate")
-    peer.until(lambda: waves and waves[-1].start_time > 1.2)  # time enough to choose
+    peer.until(lambda: waves and waves[-1].start_time > 1.2)  # long enough to choose a tolerance
     assert figures(reports)["tolerance_choice"] == "automatic"
     assert peer.set(NODE, backlash=3e-7).successful
     assert peer.set(NODE, tolerance=2e-5).successful
@@ -42,10 +42,10 @@ def test_what_was_published_is_simulated_again_bit_by_bit_from_what_was_told(
     peer.change_state(NODE, "deactivate")
     peer.until(lambda: figures(reports)["state"] == "stopped")
 
-    told = figures(reports)
-    tolerances = [setting.tolerance for setting in settings_told(told).values()]
+    reported = figures(reports)
+    tolerances = [setting.tolerance for setting in reported_settings(reported).values()]
     assert 2e-5 in tolerances
-    assert tolerances[-1] == float(told["tolerance"])
+    assert tolerances[-1] == float(reported["tolerance"])
     assert len(points) == 3
     assert len(waves) > 100
-    assert_simulated_again(waves, points, told, SAMPLE_RATE)
+    assert_simulated_again(waves, points, reported, SAMPLE_RATE)

@@ -1,4 +1,4 @@
-"""Nothing that is published is missing in the recording, at any speed and whatever stalls."""
+"""A recording contains every published message, at any speed and after any stall."""
 
 from __future__ import annotations
 
@@ -21,12 +21,12 @@ from .conftest import Program, Start
 from .other_recorder import NAME, TOPICS
 from .peer import TWIN, Peer
 from .recordings import counts
-from .told import figures, listen_to_reports
+from .reported import figures, listen_to_reports
 
 NODE = f"{TWIN}/simulation"
 STREAMS = (f"{TWIN}/gearbox_state", f"{TWIN}/mesh_waveform", f"{TWIN}/joint_states", "/tf")
 STEP = 8.0  # [s]
-OFTEN = 5  # changes of the operating point while the recorder stands still
+OFTEN = 5  # changes of the operating point while the recorder is stopped
 Go = Callable[["Twin"], None]
 
 
@@ -63,7 +63,7 @@ class Twin:
 
     @contextmanager
     def stall(self, seconds: float) -> Iterator[None]:
-        """Stop the recorder, as a machine does that has too much to do, for that long at least."""
+        """Stop the recorder for at least that long, as an overloaded machine does."""
         end = time.monotonic() + seconds
         if seconds:
             self.recorder.send_signal(signal.SIGSTOP)
@@ -74,31 +74,31 @@ class Twin:
         timer.join()
 
     def end(self) -> dict[str, str]:
-        """Stop it; returns its last report's figures."""
+        """Stop it; returns the values of its last report."""
         self.peer.change_state(NODE, "deactivate")
         self.peer.until(lambda: figures(self.reports[-1:]).get("state") == "stopped")
         return figures(self.reports[-1:])
 
 
-def published(told: dict[str, str]) -> dict[str, int]:
+def published(reported: dict[str, str]) -> dict[str, int]:
     prefix = "published."
-    return {k.removeprefix(prefix): int(v) for k, v in told.items() if k.startswith(prefix)}
+    return {k.removeprefix(prefix): int(v) for k, v in reported.items() if k.startswith(prefix)}
 
 
 def run_on(twin: Twin) -> None:
-    """It runs while the recorder stands still, and the operating point changes."""
+    """The twin runs while the recorder is stopped, and the operating point changes."""
     for number in range(OFTEN):
         assert twin.peer.set(NODE, lambda_ratio=1.0 + 0.1 * number).successful
 
 
 def step(twin: Twin) -> None:
-    """Steps that publish more than any queue of the middleware holds."""
+    """Steps that publish more messages than any queue of the middleware holds."""
     request = Step.Request(duration=STEP)
     assert twin.peer.call(Step, f"{NODE}/step", request, 100.0).success
 
 
 def rest(twin: Twin) -> None:
-    """It is paused, and goes on while the recorder still stands."""
+    """The twin is paused, and resumes while the recorder is still stopped."""
     twin.pause(True)
     twin.pause(False)
 
@@ -157,10 +157,10 @@ def test_the_logger_records_all_that_is_published(
 @pytest.mark.exhaustive
 @pytest.mark.parametrize("stall", [0.0, 3.0])
 @pytest.mark.parametrize("rate", [0.1, 1.0, 20.0, 0.0])
-def test_another_recorder_hears_all_where_its_own_queue_is_long_enough(
+def test_another_recorder_receives_all_if_its_queue_is_long_enough(
     peer: Peer, start: Start, other: Program, rate: float, stall: float
 ) -> None:
-    """At real time its queue of 10 is what limits a stall; above, the twin waits for it."""
+    """At real time its queue of 10 limits a stall; above, the twin waits for it."""
     twin = Twin(peer, start, other, NAME, rate)
     twin.advance(0.05)
     waits = rate > 1.0 or rate == 0.0
@@ -173,10 +173,10 @@ def test_another_recorder_hears_all_where_its_own_queue_is_long_enough(
     assert json.loads(output) == {f"{TWIN}/{topic}": sent[f"{TWIN}/{topic}"] for topic in TOPICS}
 
 
-def test_a_twin_waits_for_its_recorder_and_for_no_one_else(
+def test_a_twin_waits_for_its_recorder_and_for_no_other_subscriber(
     peer: Peer, start: Start, other: Program
 ) -> None:
-    """A listener that stands still holds nothing up; the recorder holds simulated time."""
+    """Another subscriber that stalls delays nothing; the recorder delays simulated time."""
     logger = start("planetary_twin.logger")
     twin = Twin(peer, start, logger, "logger", 0.0, "sample_rate:=1000.0")
     twin.advance(0.5)

@@ -1,4 +1,4 @@
-"""A twin opens no socket to a network unless its user asks for one."""
+"""A twin opens no socket to a network unless its user requests one."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ COMMAND = "import sys; from planetary_twin_py.cli import main; sys.exit(main())"
 
 @pytest.fixture
 def peer(domain: int, monkeypatch: pytest.MonkeyPatch) -> Iterator[Peer]:
-    """A program of this machine that has no profile, and shared memory."""
+    """A program on this machine without the profile, with shared memory."""
     monkeypatch.setenv("ROS_AUTOMATIC_DISCOVERY_RANGE", "LOCALHOST")
     user = Peer()
     yield user
@@ -30,11 +30,11 @@ def peer(domain: int, monkeypatch: pytest.MonkeyPatch) -> Iterator[Peer]:
 @pytest.fixture
 def twin(
     request: pytest.FixtureRequest,
-    peer: Peer,  # begins before the environment changes
+    peer: Peer,  # created before the environment changes
     tmp_path: Path,
     monkeypatch: pytest.MonkeyPatch,
 ) -> Iterator[None]:
-    """`planetary-twin run`, with the discovery range of the environment or without any."""
+    """`planetary-twin run` with the discovery range of the environment, or without one."""
     monkeypatch.delenv("ROS_AUTOMATIC_DISCOVERY_RANGE")
     monkeypatch.delenv("FASTRTPS_DEFAULT_PROFILES_FILE")
     if request.param is not None:
@@ -52,14 +52,14 @@ def _addresses(folder: Path) -> dict[int, set[str]]:
 @pytest.mark.parametrize("twin", [None], indirect=True)
 def test_every_socket_of_a_run_is_bound_to_loopback(twin: None, peer: Peer, tmp_path: Path) -> None:
     states = peer.listen(GearboxState, f"{TWIN}/gearbox_state")
-    peer.until(lambda: states, 120.0)  # who has other settings hears it all the same
+    peer.until(lambda: states, 120.0)  # participants with other settings receive it, too
     bound = _addresses(tmp_path)
     assert len(bound) == 3
     for addresses in bound.values():
         assert addresses == {"127.0.0.1"}
 
 
-def test_enforced_security_is_never_left_out_silently(
+def test_enforced_security_is_never_disabled_silently(
     start: Start, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     (tmp_path / "keys/enclaves").mkdir(parents=True)
@@ -76,7 +76,7 @@ def test_enforced_security_is_never_left_out_silently(
 
 @pytest.mark.exhaustive
 @pytest.mark.parametrize("twin", ["SUBNET"], indirect=True)
-def test_who_asks_for_the_network_gets_it(twin: None, peer: Peer, tmp_path: Path) -> None:
+def test_a_twin_uses_the_network_on_request(twin: None, peer: Peer, tmp_path: Path) -> None:
     states = peer.listen(GearboxState, f"{TWIN}/gearbox_state")
     peer.until(lambda: states)
     assert all("0.0.0.0" in addresses for addresses in _addresses(tmp_path).values())

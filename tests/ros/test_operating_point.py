@@ -1,4 +1,4 @@
-"""The operating point is changed as users do it, and nonsense changes nothing."""
+"""Users change the operating point by parameters and a service; invalid values change nothing."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ ROOT = Path(__file__).parents[2]
 NODE = f"{TWIN}/simulation"
 
 
-def test_a_number_may_be_typed_as_users_type_it(user: Peer, points: list[OperatingPoint]) -> None:
+def test_a_number_may_be_sent_in_any_type(user: Peer, points: list[OperatingPoint]) -> None:
     for typed in ("3e-7", 0, 2.5e-7):
         assert user.set(NODE, backlash=typed).successful
         assert user.get(NODE, "backlash") == float(typed)
@@ -28,7 +28,7 @@ def test_a_number_may_be_typed_as_users_type_it(user: Peer, points: list[Operati
     assert points[-1].changed == "lambda_ratio"
 
 
-def test_nonsense_is_refused_with_the_reason_and_changes_nothing(
+def test_invalid_values_are_refused_with_the_reason_and_change_nothing(
     user: Peer, points: list[OperatingPoint]
 ) -> None:
     before = {name: user.get(NODE, name) for name in ("backlash", "lambda_ratio")}
@@ -56,7 +56,7 @@ def test_nonsense_is_refused_with_the_reason_and_changes_nothing(
     assert len(points) == 1
 
 
-def test_values_set_atomically_hold_from_one_instant(
+def test_values_set_atomically_apply_from_one_instant(
     user: Peer, points: list[OperatingPoint]
 ) -> None:
     values = {"backlash": "3e-7", "lambda_ratio": 2, "input_speed": 200.0}
@@ -88,7 +88,7 @@ def test_the_service_answers_with_the_instant_and_the_parameters_follow(
     assert len(points) == 2
 
 
-def test_a_ramp_reaches_the_values_in_just_the_time_asked_for(
+def test_a_ramp_reaches_the_values_in_the_requested_time(
     user: Peer, points: list[OperatingPoint]
 ) -> None:
     request = SetOperatingPoint.Request(
@@ -101,7 +101,7 @@ def test_a_ramp_reaches_the_values_in_just_the_time_asked_for(
     on_the_way = points[1:]
     assert 45 <= len(on_the_way) <= 55
     for point in on_the_way:
-        # A window holds from its beginning what the ramp has reached at its end.
+        # A window uses, from its start, the value that the ramp has at its end.
         share = min((point.simulated_time + 0.01 - answer.simulated_time) / 0.5, 1.0)
         assert math.isclose(point.lambda_ratio, 1.0 + share, abs_tol=1e-9)
         assert math.isclose(point.backlash, 2e-7 + 2e-7 * share, abs_tol=1e-15)
@@ -110,7 +110,7 @@ def test_a_ramp_reaches_the_values_in_just_the_time_asked_for(
     user.until(lambda: len(points) == settled + 1)
 
 
-def test_what_is_set_meanwhile_leaves_its_ramp(user: Peer, points: list[OperatingPoint]) -> None:
+def test_setting_a_quantity_ends_its_ramp(user: Peer, points: list[OperatingPoint]) -> None:
     request = SetOperatingPoint.Request(
         names=["lambda_ratio", "backlash"], values=[2.0, 4e-7], ramp=2.0
     )
@@ -123,9 +123,7 @@ def test_what_is_set_meanwhile_leaves_its_ramp(user: Peer, points: list[Operatin
 
 
 @pytest.mark.parametrize("ramp", [-1.0, math.nan, 1e6])
-def test_a_ramp_that_cannot_be_is_refused(
-    user: Peer, points: list[OperatingPoint], ramp: float
-) -> None:
+def test_an_invalid_ramp_is_refused(user: Peer, points: list[OperatingPoint], ramp: float) -> None:
     request = SetOperatingPoint.Request(names=["backlash"], values=[4e-7], ramp=ramp)
     answer = user.call(SetOperatingPoint, f"{NODE}/set_operating_point", request)
     assert not answer.success and answer.message.startswith("ramp = ")
@@ -165,7 +163,7 @@ def test_values_given_at_start_are_read_the_same_way(peer: Peer, start: Start) -
         ),
     ],
 )
-def test_nonsense_at_start_ends_in_one_line(start: Start, given: str) -> None:
+def test_an_invalid_start_value_ends_the_node_with_one_line(start: Start, given: str) -> None:
     process = start("planetary_twin.simulation", "--ros-args", "-p", given)
     _, errors = process.communicate(timeout=LONG)
     assert process.returncode == 1
@@ -173,7 +171,7 @@ def test_nonsense_at_start_ends_in_one_line(start: Start, given: str) -> None:
     assert given.split(":=")[1] in errors
 
 
-def test_what_launch_starts_with_leaves_the_operating_point_to_the_scene(
+def test_the_default_parameter_file_leaves_the_operating_point_to_the_scene(
     peer: Peer, start: Start
 ) -> None:
     file = ROOT / "ros_ws/src/planetary_twin/config/twin.yaml"

@@ -1,4 +1,4 @@
-"""A twin that cannot keep up gives up tolerance, then waveform, then real time, and tells it."""
+"""An overloaded twin gives up tolerance, then waveform, then real time, and reports it."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ from planetary_twin_py.tolerance import LADDER
 
 from .conftest import Start
 from .peer import LATCHED, LONG, TWIN, Peer
-from .told import assert_simulated_again, figures, settings_told
+from .reported import assert_simulated_again, figures, reported_settings
 
 NODE = f"{TWIN}/simulation"
 SAMPLE_RATE = 50e3
@@ -28,7 +28,7 @@ FLOOR = SAMPLE_RATE / 2**HALVINGS
 
 @contextlib.contextmanager
 def slow_machine(pid: int, run: float = 0.008, stop: float = 0.192) -> Iterator[None]:
-    """Let a process run for `run` [s] and stand for `stop` [s], again and again."""
+    """Run a process for `run` [s] and stop it for `stop` [s], repeatedly."""
     over = threading.Event()
 
     def throttle() -> None:
@@ -47,7 +47,7 @@ def slow_machine(pid: int, run: float = 0.008, stop: float = 0.192) -> Iterator[
         thread.join()
 
 
-def test_what_is_too_much_is_given_up_in_order_told_and_simulated_again(
+def test_an_overloaded_twin_degrades_in_order_and_its_reports_reproduce_it(
     peer: Peer, start: Start
 ) -> None:
     options = ("autostart:=false", "rate_factor:=100", "publish_rate:=10")
@@ -65,23 +65,23 @@ def test_what_is_too_much_is_given_up_in_order_told_and_simulated_again(
     process.terminate()
     _, log = process.communicate(timeout=LONG)
 
-    told = figures(reports)
-    settings = list(settings_told(told).values())
+    reported = figures(reports)
+    settings = list(reported_settings(reported).values())
     assert settings[-1] == (LADDER[0], FLOOR)
     given_up = [(-setting.tolerance, setting.sample_rate) for setting in settings]
     assert given_up == sorted(given_up, reverse=True)
-    assert int(told["tolerance_changes"]) >= 1 and int(told["sample_rate_changes"]) >= 1
-    assert told["waveform"] == "thinned"
-    assert int(told["overruns"]) > 0
-    # The first report may come before the first interval is over.
+    assert int(reported["tolerance_changes"]) >= 1 and int(reported["sample_rate_changes"]) >= 1
+    assert reported["waveform"] == "thinned"
+    assert int(reported["overruns"]) > 0
+    # The first report may precede the end of the first interval.
     late = [s for report in reports for s in report.status if "behind: real time x " in s.message]
     assert late and {s.level for s in late} <= {DiagnosticStatus.WARN, DiagnosticStatus.ERROR}
     assert log.count("waveform at") == len(settings) - 1
     assert 1 <= log.count("behind: ") <= len(reports)
 
-    told_in = {wave.sequence: wave for wave in waves}
-    pairs = [(state, told_in[state.sequence]) for state in states if state.sequence in told_in]
-    assert len(pairs) > len(waves) - 3  # the two topics need not be found at the same message
+    by_number = {wave.sequence: wave for wave in waves}
+    pairs = [(state, by_number[state.sequence]) for state in states if state.sequence in by_number]
+    assert len(pairs) > len(waves) - 3  # the first messages of the two topics may differ
     for state, wave in pairs:
         begin, end = state.simulated_time - state.interval, state.simulated_time
         numbers = [round(time / wave.sample_period, 6) for time in (begin, end)]
@@ -89,14 +89,14 @@ def test_what_is_too_much_is_given_up_in_order_told_and_simulated_again(
         assert wave.samples == numbers[1] // 1 - numbers[0] // 1
     for before, after in itertools.pairwise(waves):
         assert after.sequence == before.sequence + 1
-    assert_simulated_again(waves, points, told, SAMPLE_RATE)
+    assert_simulated_again(waves, points, reported, SAMPLE_RATE)
 
 
 @pytest.mark.exhaustive
-def test_the_waveform_is_full_again_once_the_machine_is_quick_again(
+def test_the_waveform_is_full_again_once_the_machine_is_fast_again(
     peer: Peer, start: Start
 ) -> None:
-    # A quarter of the time that the same takes in real time: there is enough on a busy machine.
+    # A quarter of the real time that the same work takes: enough on a busy machine.
     process = start("planetary_twin.simulation", "--ros-args", "-p", "rate_factor:=0.25")
     waves = peer.listen(MeshWaveform, f"{TWIN}/mesh_waveform", 1000)
     reports = peer.listen(DiagnosticArray, "/diagnostics")

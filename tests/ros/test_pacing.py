@@ -1,4 +1,4 @@
-"""Simulated time follows the steady clock, and falling behind is told, never made up."""
+"""Simulated time follows the steady clock; a delay is reported, never made up."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ PERIOD = 0.01
 
 
 class Clock:
-    """A steady clock that moves by what is slept, `late` [s] more each time."""
+    """A steady clock that advances by each sleep, plus `late` [s]."""
 
     def __init__(self, late: float = 0.0) -> None:
         self.now = 0
@@ -27,7 +27,7 @@ class Clock:
 
 @pytest.fixture
 def clock(monkeypatch: pytest.MonkeyPatch) -> Clock:
-    """In the place of the machine's."""
+    """A replacement for the machine's clock."""
     clock = Clock()
     monkeypatch.setattr(pacing, "time", clock)
     return clock
@@ -39,7 +39,7 @@ def test_many_periods_add_up_without_drift(clock: Clock) -> None:
     pace.start()
     for _ in range(100):
         pace.wait()
-    # The last wake-up is late; a hundred of them do not add up.
+    # The last wake-up is late; the delays of a hundred do not accumulate.
     assert clock.now * 1e-9 == pytest.approx(100.3 * PERIOD)
     assert pace.overruns == 0
 

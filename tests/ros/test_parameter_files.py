@@ -1,4 +1,4 @@
-"""A file that `ros2 param dump` wrote gives its values back, at start and while the twin runs."""
+"""A file written by `ros2 param dump` restores its values, at the start and at run time."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ from .conftest import Start
 from .peer import LONG, TWIN, Peer
 
 NODE = f"{TWIN}/simulation"
-# As users type them: an exponent without a point is text to ROS, a number without one an integer.
+# As users type them: ROS reads an exponent without a point as text, a whole number as an integer.
 TYPED = {"backlash": "3e-7", "lambda_ratio": "2", "tolerance": "1e-4", "publish_rate": "50"}
 OTHERS = {"backlash": 1e-7, "lambda_ratio": 1.0, "tolerance": 1e-3, "input_torque": 20.0}
 
@@ -50,7 +50,7 @@ def dump(peer: Peer, file: Path) -> dict[str, Any]:
 
 
 def as_loaded(file: Path) -> list[Parameter]:
-    """What `ros2 param load` sends, which is rclpy's reading of the file."""
+    """The parameters that `ros2 param load` sends, as rclpy reads the file."""
     return list(parameter_dict_from_yaml_file(str(file), True).values())
 
 
@@ -59,7 +59,7 @@ def set_all(peer: Peer, parameters: list[Parameter]) -> SetParametersResult:
     return peer.call(SetParametersAtomically, f"{NODE}/set_parameters_atomically", request).result
 
 
-def test_a_dumped_file_gives_its_values_back(peer: Peer, start: Start, tmp_path: Path) -> None:
+def test_a_dumped_file_restores_its_values(peer: Peer, start: Start, tmp_path: Path) -> None:
     typed = [word for name, value in TYPED.items() for word in ("-p", f"{name}:={value}")]
     first = start("planetary_twin.simulation", "--ros-args", *typed)
     file = tmp_path / "dumped.yaml"
@@ -106,10 +106,8 @@ def test_a_dumped_file_gives_its_values_back(peer: Peer, start: Start, tmp_path:
         assert values(peer) == changed
 
 
-def test_a_start_parameter_that_no_node_has_is_warned_of_and_no_other(
-    peer: Peer, start: Start
-) -> None:
-    """Those of the packaged file are all known."""
+def test_only_unknown_start_parameters_cause_a_warning(peer: Peer, start: Start) -> None:
+    """All parameters of the packaged file are known."""
     config = Path(get_package_share_directory("planetary_twin")) / "config" / "paper.yaml"
     given = ("--ros-args", "--params-file", str(config), "-p", "backlsh:=3e-7")
     process = start("planetary_twin.composed", *given, "-p", "zzz:=1")
@@ -117,7 +115,7 @@ def test_a_start_parameter_that_no_node_has_is_warned_of_and_no_other(
     peer.until(lambda: states)
     process.terminate()
     _, log = process.communicate(timeout=LONG)
-    told = [line for line in log.splitlines() if "no such parameter" in line]
-    assert len(told) == 2
-    assert told[0].endswith("backlsh: no such parameter; did you mean backlash?")
-    assert told[1].endswith("zzz: no such parameter")
+    warnings = [line for line in log.splitlines() if "no such parameter" in line]
+    assert len(warnings) == 2
+    assert warnings[0].endswith("backlsh: no such parameter; did you mean backlash?")
+    assert warnings[1].endswith("zzz: no such parameter")

@@ -1,4 +1,4 @@
-"""Every quantity tells what it is and what it may be; geometry can be read and not be set."""
+"""Every quantity has a description and a range; the geometry is read-only."""
 
 from __future__ import annotations
 
@@ -16,8 +16,8 @@ from .conftest import Start
 from .peer import LONG, TWIN, Peer
 
 NODE = f"{TWIN}/simulation"
-BEFORE = ("autostart", "scene")  # on which the others depend
-ROS = ("use_sim_time", "start_type_description_service")  # what rclpy itself declares
+BEFORE = ("autostart", "scene")  # the others depend on these
+ROS = ("use_sim_time", "start_type_description_service")  # declared by rclpy
 
 
 def leaves(prefix: str, section: BaseModel) -> dict[str, object]:
@@ -36,13 +36,15 @@ def described(peer: Peer) -> dict[str, ParameterDescriptor]:
     return dict(zip(names.result.names, answer.descriptors, strict=True))
 
 
-def test_every_parameter_says_what_it_is_and_what_it_may_be(
+def test_every_parameter_has_a_description_and_constraints(
     user: Peer, points: list[OperatingPoint]
 ) -> None:
-    own = {name: told for name, told in described(user).items() if name not in ROS}
-    for name, told in own.items():
-        assert told.name == name and told.description and told.additional_constraints, name
-    settable = {name for name, told in own.items() if not told.read_only}
+    own = {name: descriptor for name, descriptor in described(user).items() if name not in ROS}
+    for name, descriptor in own.items():
+        assert (
+            descriptor.name == name and descriptor.description and descriptor.additional_constraints
+        ), name
+    settable = {name for name, descriptor in own.items() if not descriptor.read_only}
     assert settable == {*pt.TUNABLES, "tolerance"}
     for name, tunable in pt.load_scene("paper").tunables.items():
         (limits,) = own[name].floating_point_range
@@ -50,10 +52,12 @@ def test_every_parameter_says_what_it_is_and_what_it_may_be(
         assert f"[{tunable.unit or '-'}]" in own[name].description
 
 
-def test_what_may_change_is_listed_first(user: Peer, points: list[OperatingPoint]) -> None:
+def test_changeable_parameters_are_listed_first(user: Peer, points: list[OperatingPoint]) -> None:
     """Tools such as rqt_reconfigure show parameters in the order in which a node lists them."""
-    own = [told for name, told in described(user).items() if name not in (*ROS, *BEFORE)]
-    changing = [not told.read_only for told in own]
+    own = [
+        descriptor for name, descriptor in described(user).items() if name not in (*ROS, *BEFORE)
+    ]
+    changing = [not descriptor.read_only for descriptor in own]
     assert changing == sorted(changing, reverse=True) and changing[0] and not changing[-1]
 
 
@@ -61,14 +65,14 @@ def test_geometry_is_that_of_the_scene_and_cannot_be_set(
     user: Peer, points: list[OperatingPoint]
 ) -> None:
     geometry = leaves("gearset", pt.load_scene("paper").gearset)
-    told = described(user)
-    assert {name for name in told if name.startswith("gearset.")} == set(geometry)
+    descriptors = described(user)
+    assert {name for name in descriptors if name.startswith("gearset.")} == set(geometry)
     request = GetParameters.Request(names=list(geometry))
     values = user.call(GetParameters, f"{NODE}/get_parameters", request).values
     for (name, expected), value in zip(geometry.items(), values, strict=True):
         given = parameter_value_to_python(value)
         assert (tuple(given) if isinstance(expected, tuple) else given) == expected
-        assert told[name].read_only
+        assert descriptors[name].read_only
         result = user.set(NODE, **{name: "other" if isinstance(expected, str) else 0.123})
         assert not result.successful
         assert result.reason.startswith(f"{name} = ")
@@ -106,7 +110,7 @@ def test_a_refusal_names_field_value_and_range_and_changes_nothing(
     assert points[-1].changed == "torque_ripple"
 
 
-def test_a_start_value_of_the_geometry_must_be_the_scenes(start: Start) -> None:
+def test_a_start_value_of_the_geometry_must_equal_that_of_the_scene(start: Start) -> None:
     process = start("planetary_twin.simulation", "--ros-args", "-p", "gearset.teeth.sun:=31")
     _, errors = process.communicate(timeout=LONG)
     assert process.returncode == 1

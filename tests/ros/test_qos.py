@@ -1,4 +1,4 @@
-"""Which subscribers hear which topics, and that none is left out in silence."""
+"""Every subscriber receives the topics that its QoS allows, or the incompatibility is logged."""
 
 from __future__ import annotations
 
@@ -33,18 +33,18 @@ VOLATILE = {
     "keep all": QoSProfile(history=HistoryPolicy.KEEP_ALL),
     "depth 1": QoSProfile(depth=1),
 }
-# A best-effort subscriber gets nothing that was published before it: only the reliable are served.
+# Best-effort subscribers receive no latched messages: only reliable ones do.
 KEPT = {"latched": QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)}
 
 
 class Audience:
-    """Subscribers of every profile to topics."""
+    """Subscribers with every profile to topics."""
 
     def __init__(
         self, peer: Peer, topics: dict[str, type], profiles: dict[str, QoSProfile]
     ) -> None:
         self.seats = {(topic, name) for topic in topics for name in profiles}
-        self.hear: set[tuple[str, str]] = set()
+        self.received: set[tuple[str, str]] = set()
         self.refused: set[tuple[str, str]] = set()
         for topic, kind in topics.items():
             for name, profile in profiles.items():
@@ -52,7 +52,7 @@ class Audience:
                 peer.node.create_subscription(
                     kind,
                     topic,
-                    lambda _, seat=seat: self.hear.add(seat),
+                    lambda _, seat=seat: self.received.add(seat),
                     profile,
                     event_callbacks=SubscriptionEventCallbacks(
                         incompatible_qos=lambda _, seat=seat: self.refused.add(seat)
@@ -60,29 +60,29 @@ class Audience:
                 )
 
 
-def test_every_subscriber_hears_or_is_told_why_not(peer: Peer, start: Start) -> None:
+def test_every_subscriber_receives_messages_or_the_reason_why_not(peer: Peer, start: Start) -> None:
     process = start("planetary_twin.simulation", "--ros-args", "-p", "clock:=true")
     states = peer.listen(GearboxState, f"{TWIN}/gearbox_state")
     peer.until(lambda: len(states) > 10)
     streams = Audience(peer, STREAMS, VOLATILE)
     late = Audience(peer, LATCHED, KEPT)
     wrong = Audience(peer, STREAMS, KEPT)
-    peer.until(lambda: streams.hear == streams.seats)
-    peer.until(lambda: late.hear == late.seats)
+    peer.until(lambda: streams.received == streams.seats)
+    peer.until(lambda: late.received == late.seats)
     peer.until(lambda: wrong.refused == wrong.seats)
-    assert not (streams.refused or late.refused or wrong.hear)
-    # A late subscriber that keeps nothing hears of the next change.
+    assert not (streams.refused or late.refused or wrong.received)
+    # A late volatile subscriber receives the next change.
     changes = Audience(peer, {f"{TWIN}/operating_point": OperatingPoint}, VOLATILE)
     values = itertools.cycle((1.1, 1.2))
 
     def changed() -> bool:
         assert peer.set(f"{TWIN}/simulation", lambda_ratio=next(values)).successful
-        return changes.hear == changes.seats
+        return changes.received == changes.seats
 
     peer.until(changed)
     process.send_signal(signal.SIGINT)
     _, errors = process.communicate(timeout=LONG)
     assert process.returncode == 0
-    told = [line for line in errors.splitlines() if "incompatible QoS" in line]
+    warnings = [line for line in errors.splitlines() if "incompatible QoS" in line]
     for topic in STREAMS:
-        assert any(f"'{topic.removeprefix(TWIN + '/')}'" in line for line in told)
+        assert any(f"'{topic.removeprefix(TWIN + '/')}'" in line for line in warnings)

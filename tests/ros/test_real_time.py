@@ -1,4 +1,4 @@
-"""What /diagnostics says of a live twin, from where it stands at each report."""
+"""The real-time report in /diagnostics, from the progress of a live twin."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from planetary_twin.real_time import RealTimeReport
 import planetary_twin_py as pt
 from planetary_twin_py.quality_control import QualityControl, Setting, settings_of
 
-from .told import figures
+from .reported import figures
 
 PERIOD, FULL = 0.01, 50e3
 POINT = pt.load_scene("paper").operating_point
@@ -21,13 +21,13 @@ AFFORDABLE = QualityControl(settings_of((1e-3,), FULL), 0.4, PERIOD, Setting(1e-
 
 
 class Reports:
-    """Of a twin that stood at simulated time 0 s ten seconds ago."""
+    """Reports of a twin that was at simulated time 0 s ten seconds ago."""
 
     def __init__(self) -> None:
         self.log = [pt.Change(0.0, POINT, 1e-3, FULL)]
         self._now = time.monotonic()
-        begun = Progress(0.0, self._now - 10.0, 0.0, 0.0, 0.0, 0, False, State.RUNNING)
-        self._report = RealTimeReport("/twin", 1.0, PERIOD, self.log, begun)
+        started = Progress(0.0, self._now - 10.0, 0.0, 0.0, 0.0, 0, False, State.RUNNING)
+        self._report = RealTimeReport("/twin", 1.0, PERIOD, self.log, started)
 
     def __call__(
         self,
@@ -54,11 +54,11 @@ class Reports:
         (4.0, 0.0, {}, DiagnosticStatus.ERROR, "falls far behind: real time x 0.400"),
         (4.0, 0.0, {"state": State.PAUSED}, DiagnosticStatus.OK, "paused"),
         (4.0, 3.0, {"state": State.FAILED}, DiagnosticStatus.ERROR, "failed: "),
-        (7.0, 3.0, {}, DiagnosticStatus.STALE, "stands still: the interval in progress has"),
+        (7.0, 3.0, {}, DiagnosticStatus.STALE, "stalled: the interval in progress has"),
         (7.0, 3.0, {"last": True}, DiagnosticStatus.OK, "keeps up"),
     ],
 )
-def test_the_level_says_how_far_behind_it_is(
+def test_the_level_says_how_far_behind_the_twin_is(
     simulated: float, ago: float, more: dict[str, Any], level: bytes, text: str
 ) -> None:
     status = Reports()(simulated, ago, **more).status[0]
@@ -66,7 +66,7 @@ def test_the_level_says_how_far_behind_it_is(
     assert status.message.startswith(text)
 
 
-def test_who_waits_from_one_report_to_the_next_is_warned_of() -> None:
+def test_a_wait_from_one_report_to_the_next_is_a_warning() -> None:
     reports = Reports()
     at_start = reports(0.0, 0.0, state=State.WAITING).status[0]
     assert at_start.level == DiagnosticStatus.OK and at_start.message == "waits"
@@ -76,8 +76,8 @@ def test_who_waits_from_one_report_to_the_next_is_warned_of() -> None:
     assert reports(10.0, 0.0).status[0].level == DiagnosticStatus.OK
 
 
-def test_where_two_looks_fall_within_an_interval_is_no_lag() -> None:
-    """Of a second between them, one shows 98 intervals and another 102."""
+def test_the_phase_of_reports_within_an_interval_is_no_lag() -> None:
+    """In reports one second apart, one counts 98 intervals and another 102."""
     reports = Reports()
     reports(0.0, 1.0)
     assert reports(0.985, 0.0).status[0].level == DiagnosticStatus.OK
@@ -86,14 +86,14 @@ def test_where_two_looks_fall_within_an_interval_is_no_lag() -> None:
     assert reports(0.97, 0.0).status[0].level == DiagnosticStatus.WARN
 
 
-def test_a_twin_that_stands_still_has_no_speed() -> None:
+def test_a_halted_twin_has_no_speed() -> None:
     reports = Reports()
     for ago in (5.0, 6.0):
-        told = figures([reports(5.0, ago)])
-    assert float(told["real_time_factor"]) == 0.0
+        reported = figures([reports(5.0, ago)])
+    assert float(reported["real_time_factor"]) == 0.0
 
 
-def test_time_that_stood_is_no_part_of_the_mean() -> None:
+def test_pauses_are_no_part_of_the_mean() -> None:
     """Nine seconds of waiting, or of a pause, and one at half the rate."""
     report = Reports()._report
     now = Progress(0.5, time.monotonic(), 0.5, 1.0, 0.0, 0, False, State.RUNNING)
@@ -111,21 +111,21 @@ def test_a_thinned_waveform_is_a_warning_though_it_keeps_up() -> None:
     assert message.status[0].message == "keeps up with a thinned waveform: 12500 of 50000 Hz"
 
 
-def test_each_change_is_told_once_and_then_forgotten() -> None:
+def test_each_change_is_reported_once_and_then_removed() -> None:
     reports = Reports()
     reports.log.append(pt.Change(0.5, POINT, 1e-2, FULL))
     reports.log.append(pt.Change(0.5, POINT, 1e-2, 25e3))
-    told = figures([reports(9.0, 1.0)])
-    since = {key: value for key, value in told.items() if "_from." in key}
+    reported = figures([reports(9.0, 1.0)])
+    since = {key: value for key, value in reported.items() if "_from." in key}
     assert since == {
         "tolerance_from.0.0": "0.001",
         "sample_rate_from.0.0": "50000.0",
         "tolerance_from.0.5": "0.01",
         "sample_rate_from.0.5": "25000.0",
     }
-    assert (told["tolerance_changes"], told["sample_rate_changes"]) == ("1", "1")
+    assert (reported["tolerance_changes"], reported["sample_rate_changes"]) == ("1", "1")
     assert len(reports.log) == 1
     reports.log.append(pt.Change(9.5, POINT, 1e-2, FULL))
-    told = figures([reports(10.0, 0.0)])
-    assert {key for key in told if "_from." in key} == {"sample_rate_from.9.5"}
-    assert (told["tolerance_changes"], told["sample_rate_changes"]) == ("1", "2")
+    reported = figures([reports(10.0, 0.0)])
+    assert {key for key in reported if "_from." in key} == {"sample_rate_from.9.5"}
+    assert (reported["tolerance_changes"], reported["sample_rate_changes"]) == ("1", "2")

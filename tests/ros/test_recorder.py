@@ -1,4 +1,4 @@
-"""A logger's recordings: begun, split and ended on demand, on a disk that fails, under overload."""
+"""Recordings of a logger: on request, on a failing disk, and under overload."""
 
 from __future__ import annotations
 
@@ -55,7 +55,7 @@ def count(domain: int) -> Iterator[Count]:
 
 
 class Logger:
-    """A logger that records the numbers, and what it tells."""
+    """A logger that records the numbers, and its reports."""
 
     def __init__(self, peer: Peer, start: Start, *settings: str) -> None:
         self.peer = peer
@@ -87,7 +87,7 @@ class Logger:
         assert "\n" not in answer.message
 
     def ends_with(self, reason: str) -> None:
-        """It ends by itself, with one line and an exit code that is not zero."""
+        """It ends with one line and a non-zero exit code."""
         _, errors = self.process.communicate(timeout=LONG)
         assert self.process.returncode == 1
         lines = [line for line in errors.splitlines() if line.startswith("logger: ")]
@@ -96,7 +96,7 @@ class Logger:
 
 
 class Ticker:
-    """Publishes numbers while the peer spins; a latched description, too."""
+    """Publishes numbers while the peer spins, and a latched description."""
 
     def __init__(self, peer: Peer) -> None:
         self.sent = 0
@@ -124,26 +124,28 @@ def numbers_in(path: Path) -> list[int]:
     return found
 
 
-def test_what_was_published_before_a_recording_began_is_no_loss_to_warn_of(
+def test_messages_before_the_start_of_a_recording_are_no_loss_to_warn_of(
     peer: Peer, start: Start
 ) -> None:
     logger = Logger(peer, start, "name:=bag")
     ticker = Ticker(peer)
     peer.until(lambda: logger.recorded() > 50)
     assert logger.ask("stop").success
-    heard = ticker.sent
+    received = ticker.sent
     started = logger.ask("start")
     assert started.success
     peer.until(lambda: logger.status[-1].file == started.message and logger.recorded())
     status = logger.status[-1]
     before = status.before[list(status.topics).index(TOPIC)]
-    assert before == logger.lost() >= heard
+    assert before == logger.lost() >= received
     seen = len(logger.reports)
     peer.until(lambda: len(logger.reports) > seen + 1)
     assert all(report.level == DiagnosticStatus.OK for report in logger.reports)
 
 
-def test_recordings_begin_split_and_end_on_demand(peer: Peer, start: Start, tmp_path: Path) -> None:
+def test_recordings_start_split_and_end_on_request(
+    peer: Peer, start: Start, tmp_path: Path
+) -> None:
     logger = Logger(peer, start, "name:=bag", "compression:=lz4")
     ticker = Ticker(peer)
     peer.until(lambda: logger.recorded() > 50)
@@ -176,18 +178,18 @@ def test_recordings_begin_split_and_end_on_demand(peer: Peer, start: Start, tmp_
         assert {"python", "mcap", "planetary_twin"} <= set(noted["planetary_twin_software"])
         assert DESCRIPTION in topics
 
-    begun = logger.ask("start")
-    assert begun.success
+    started = logger.ask("start")
+    assert started.success
     peer.until(lambda: logger.recorded() > 20)
     logger.process.terminate()
     assert logger.process.wait(LONG) == 0
-    second = Path(tmp_path / begun.message)
+    second = Path(tmp_path / started.message)
     assert second.parent != folder
     assert len(numbers_in(second.parent)) > 20
     assert counts(second.parent)[DESCRIPTION] == 1
 
 
-def test_a_snapshot_writes_the_last_seconds_and_goes_on(
+def test_a_snapshot_writes_the_last_seconds_and_the_logger_continues(
     peer: Peer, start: Start, tmp_path: Path
 ) -> None:
     logger = Logger(peer, start, "name:=bag", "snapshot_duration:=0.5")
@@ -212,7 +214,7 @@ def test_a_snapshot_writes_the_last_seconds_and_goes_on(
     assert files[0].parent != files[1].parent
 
 
-def test_a_folder_that_vanishes_ends_the_logger_in_one_line(
+def test_a_deleted_folder_ends_the_logger_with_one_line(
     peer: Peer, start: Start, tmp_path: Path
 ) -> None:
     logger = Logger(peer, start, "name:=bag", "flush_period:=0.1")
@@ -225,7 +227,7 @@ def test_a_folder_that_vanishes_ends_the_logger_in_one_line(
     assert len(numbers_in(tmp_path / "elsewhere")) > 20
 
 
-def test_a_managed_logger_goes_to_its_error_state_and_is_mended(
+def test_a_managed_logger_goes_to_its_error_state_and_recovers(
     peer: Peer, start: Start, tmp_path: Path
 ) -> None:
     logger = Logger(peer, start, "autostart:=false", "flush_period:=0.1")
@@ -247,14 +249,14 @@ def test_a_managed_logger_goes_to_its_error_state_and_is_mended(
     assert len(numbers_in(folder)) > 20
 
 
-def test_a_full_disk_ends_the_logger_in_one_line_and_what_was_flushed_is_readable(
+def test_a_full_disk_ends_the_logger_with_one_line_and_flushed_data_is_readable(
     peer: Peer, start: Start, small_disk: Path, count: Count
 ) -> None:
     setting = f"directory:={small_disk}"
     logger = Logger(peer, start, setting, "compression:=none", "flush_period:=0.05")
     count(200.0, 10_000, 10_000, 100)
     peer.until(lambda: logger.process.poll() is not None)
-    logger.ends_with("No space left on device; what was flushed is readable")
+    logger.ends_with("No space left on device; flushed messages are readable")
     (folder,) = small_disk.iterdir()
     numbers = numbers_in(folder)
     assert numbers == list(range(1, len(numbers) + 1))
@@ -264,18 +266,18 @@ def test_a_full_disk_ends_the_logger_in_one_line_and_what_was_flushed_is_readabl
 @pytest.mark.parametrize(
     "reliability", ["RELIABLE", pytest.param("BEST_EFFORT", marks=pytest.mark.exhaustive)]
 )
-def test_recorded_and_lost_are_what_was_published_under_overload(
+def test_recorded_plus_lost_equals_published_under_overload(
     peer: Peer, start: Start, tmp_path: Path, count: Count, reliability: str
 ) -> None:
     logger = Logger(peer, start, "name:=bag", f"topics:=['{TOPIC}']")
     sender = count(4000.0, 20_000, 100, 1, reliability)
     assert sender.stdin and sender.stdout
     peer.until(logger.recorded)
-    logger.process.send_signal(signal.SIGSTOP)  # as a machine does that has too much to do
+    logger.process.send_signal(signal.SIGSTOP)  # as an overloaded machine does
     assert sender.stdout.readline() == "sent\n"
     logger.process.send_signal(signal.SIGCONT)
-    told = len(logger.status)
-    peer.until(lambda: len(logger.status) > told + 2 and logger.recorded())
+    reported = len(logger.status)
+    peer.until(lambda: len(logger.status) > reported + 2 and logger.recorded())
     before = logger.recorded()
     sender.stdin.write("\n")
     sender.stdin.flush()
@@ -291,16 +293,16 @@ def test_recorded_and_lost_are_what_was_published_under_overload(
     numbers = numbers_in(tmp_path / "recordings/bag")
     assert len(numbers) == len(set(numbers)) == recorded
     assert numbers[-1] == 20_001
-    told = read_info(tmp_path / "recordings/bag").topics[TOPIC]
-    assert (told.recorded, told.lost) == (recorded, lost)
+    reported = read_info(tmp_path / "recordings/bag").topics[TOPIC]
+    assert (reported.recorded, reported.lost) == (recorded, lost)
 
 
-def test_a_publisher_that_offers_less_than_the_one_before_is_heard(
+def test_a_publisher_with_weaker_qos_than_the_one_before_is_recorded(
     peer: Peer, start: Start
 ) -> None:
     logger = Logger(peer, start, "name:=bag", f"topics:=['{TOPIC}']")
 
-    def publish_until_heard(qos: QoSProfile) -> None:
+    def publish_until_received(qos: QoSProfile) -> None:
         publisher = peer.node.create_publisher(String, TOPIC, qos)
         timer = peer.node.create_timer(0.01, lambda: publisher.publish(String(data="1 ")))
         before = logger.recorded()
@@ -308,5 +310,5 @@ def test_a_publisher_that_offers_less_than_the_one_before_is_heard(
         peer.node.destroy_timer(timer)
         peer.node.destroy_publisher(publisher)
 
-    publish_until_heard(QoSProfile(depth=10))
-    publish_until_heard(QoSProfile(depth=10, reliability=ReliabilityPolicy.BEST_EFFORT))
+    publish_until_received(QoSProfile(depth=10))
+    publish_until_received(QoSProfile(depth=10, reliability=ReliabilityPolicy.BEST_EFFORT))

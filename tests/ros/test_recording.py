@@ -1,4 +1,4 @@
-"""The logger finishes its file however it is ended, and accounts for every message."""
+"""The logger finishes its file at any end, and counts every message."""
 
 from __future__ import annotations
 
@@ -13,8 +13,8 @@ from planetary_twin_msgs.msg import GearboxState, RecorderStatus
 
 from .conftest import Start
 from .peer import LONG, TWIN, Peer
-from .recordings import counts, torn_states
-from .told import figures, listen_to_reports
+from .recordings import counts, unfinished_states
+from .reported import figures, listen_to_reports
 
 TOPICS = {
     "/diagnostics",
@@ -64,24 +64,24 @@ def test_a_signal_finishes_the_file(
     assert recorded[f"{TWIN}/gearbox_state"] >= 100
 
 
-def test_kill_minus_nine_loses_nothing_that_is_older_than_the_flush_period(
+def test_sigkill_loses_nothing_older_than_the_flush_period(
     peer: Peer, start: Start, logger: subprocess.Popen[str], tmp_path: Path
 ) -> None:
     states = _record(peer, start, 200)
-    heard = states[-1].simulated_time
-    # The status comes once a second, from the thread that flushes.
+    received = states[-1].simulated_time
+    # The thread that flushes also publishes the status once a second.
     assert peer.get(f"{TWIN}/logger", "flush_period") <= 0.5
     status = peer.listen(RecorderStatus, f"{TWIN}/logger/status")
     peer.until(lambda: len(status) >= 3)
     logger.kill()
     logger.wait(LONG)
-    kept = torn_states(tmp_path / "recordings/bag/bag_0.mcap")
-    assert kept[-1].simulated_time >= heard
+    kept = unfinished_states(tmp_path / "recordings/bag/bag_0.mcap")
+    assert kept[-1].simulated_time >= received
     first = kept[0].sequence
     assert [state.sequence for state in kept] == list(range(first, first + len(kept)))
 
 
-def test_recorded_and_lost_are_what_was_published(
+def test_recorded_plus_lost_equals_published(
     peer: Peer, start: Start, logger: subprocess.Popen[str], tmp_path: Path
 ) -> None:
     status = peer.listen(RecorderStatus, f"{TWIN}/logger/status")
@@ -91,7 +91,7 @@ def test_recorded_and_lost_are_what_was_published(
     assert peer.call(ChangeState, f"{TWIN}/simulation/change_state", stop).success
 
     def published() -> dict[str, int]:
-        if not reports:  # they come once a second
+        if not reports:  # reports arrive once a second
             return {}
         values = figures(reports[-1:])
         if values.get("state") != "stopped":
@@ -121,7 +121,7 @@ def test_an_existing_recording_is_refused_in_one_line(
     _refused(start("planetary_twin.logger", "--ros-args", "-p", "name:=bag"), "bag exists")
 
 
-def test_a_folder_that_cannot_be_made_ends_in_one_line(start: Start, tmp_path: Path) -> None:
+def test_a_folder_that_cannot_be_created_ends_in_one_line(start: Start, tmp_path: Path) -> None:
     (tmp_path / "file").write_text("in the way")
     process = start("planetary_twin.logger", "--ros-args", "-p", f"directory:={tmp_path}/file/x")
     _refused(process, "Not a directory")
@@ -141,29 +141,29 @@ def test_two_twins_run_side_by_side(peer: Peer, start: Start, tmp_path: Path) ->
         place = ("--ros-args", "-r", f"__ns:=/{name}")
         start("planetary_twin.logger", *place, "-p", f"name:={name}")
         start("planetary_twin.simulation", *place)
-    heard = {
+    received = {
         name: peer.listen(GearboxState, f"/{name}/gearbox_state") for name in ("left", "right")
     }
-    peer.until(lambda: all(heard.values()))
+    peer.until(lambda: all(received.values()))
     assert peer.set("/left/simulation", lambda_ratio=2).successful
-    peer.until(lambda: abs(heard["left"][-1].sun_planet_lambda_ratio[0] - 2.0) < 1e-6)
-    assert abs(heard["right"][-1].sun_planet_lambda_ratio[0] - 1.0) < 1e-6
+    peer.until(lambda: abs(received["left"][-1].sun_planet_lambda_ratio[0] - 2.0) < 1e-6)
+    assert abs(received["right"][-1].sun_planet_lambda_ratio[0] - 1.0) < 1e-6
 
 
 def test_the_simulation_ends_on_a_signal_without_a_traceback(peer: Peer, start: Start) -> None:
     for number in (signal.SIGINT, signal.SIGTERM):
         process = start("planetary_twin.simulation")
         states = peer.listen(GearboxState, f"{TWIN}/gearbox_state")
-        peer.until(lambda heard=states: len(heard) > 10)
+        peer.until(lambda received=states: len(received) > 10)
         process.send_signal(number)
         _, errors = process.communicate(timeout=LONG)
         assert process.returncode == 0, errors
         assert "Traceback" not in errors
 
 
-def test_a_logger_that_is_held_up_for_a_moment_misses_nothing(peer: Peer, start: Start) -> None:
+def test_a_logger_that_stalls_briefly_misses_nothing(peer: Peer, start: Start) -> None:
     logger = start("planetary_twin.logger", "--ros-args", "-p", "name:=bag")
-    # Slow, so that a busy machine publishes no more meanwhile than a publisher keeps.
+    # Slow, so that a publisher keeps all messages of the pause on a busy machine.
     slow = ("-p", "wait_for:=logger", "-p", "rate_factor:=0.25")
     start("planetary_twin.simulation", "--ros-args", *slow)
     status = peer.listen(RecorderStatus, f"{TWIN}/logger/status")
@@ -175,6 +175,6 @@ def test_a_logger_that_is_held_up_for_a_moment_misses_nothing(peer: Peer, start:
         peer.until(lambda count=count: len(states) > count + 30)
         logger.send_signal(signal.SIGCONT)
         peer.until(lambda count=count: len(states) > count + 50)
-    told = len(status)
-    peer.until(lambda: len(status) > told + 1)
+    reported = len(status)
+    peer.until(lambda: len(status) > reported + 1)
     assert dict(zip(status[-1].topics, status[-1].lost, strict=True)) == dict.fromkeys(TOPICS, 0)

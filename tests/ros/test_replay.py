@@ -1,4 +1,4 @@
-"""A replay is the recording again: every byte, in order, at its instant, to whoever listens."""
+"""A replay publishes a recording again: every byte, in order and in time, to all subscribers."""
 
 from __future__ import annotations
 
@@ -43,7 +43,7 @@ Play = Callable[..., "subprocess.Popen[str]"]
 
 @pytest.fixture(scope="module")
 def bag(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """A recording of one second, made by the real thing."""
+    """A recording of one second, made by the nodes."""
     place = tmp_path_factory.mktemp("replay")
     command = [COMMAND, "run", "--duration", "1", "--record", "bag"]
     with private_domain() as number:
@@ -69,7 +69,7 @@ def play(domain: int, tmp_path: Path) -> Play:
 
 
 def _recorded(file: Path) -> dict[str, list[tuple[int, bytes]]]:
-    """Log times and bytes by topic, as MCAP's own reader sees them."""
+    """Log times and bytes by topic, read by MCAP's own reader."""
     recorded: dict[str, list[tuple[int, bytes]]] = {}
     with file.open("rb") as stream:
         for _, channel, message in make_reader(stream).iter_messages():
@@ -77,43 +77,43 @@ def _recorded(file: Path) -> dict[str, list[tuple[int, bytes]]]:
     return recorded
 
 
-def _whole(torn: Path, topic: str) -> list[bytes]:
-    """A topic's messages before the tear, as MCAP's own reader sees them."""
+def _whole(truncated: Path, topic: str) -> list[bytes]:
+    """A topic's messages before the truncation, read by MCAP's own reader."""
     whole = []
-    with torn.open("rb") as stream, contextlib.suppress(EndOfFile):
+    with truncated.open("rb") as stream, contextlib.suppress(EndOfFile):
         for _, _, message in NonSeekingReader(stream).iter_messages(topic, log_time_order=False):
             whole.append(message.data)
     return whole
 
 
-def _tear(file: Path, torn: Path, topic: str) -> None:
-    """Cut a recording within the second chunk that holds a topic, however large chunks are."""
+def _truncate(file: Path, truncated: Path, topic: str) -> None:
+    """Truncate a recording within the second chunk that contains a topic."""
     with file.open("rb") as stream:
         summary = make_reader(stream).get_summary()
     assert summary is not None
     number = next(n for n, channel in summary.channels.items() if channel.topic == topic)
     chunks = [c for c in summary.chunk_indexes if number in c.message_index_offsets]
     end = chunks[1].chunk_start_offset + chunks[1].chunk_length // 2
-    torn.write_bytes(file.read_bytes()[:end])
+    truncated.write_bytes(file.read_bytes()[:end])
 
 
-def _hear(peer: Peer, bag: Path) -> dict[str, list[tuple[int, bytes]]]:
-    """Reception times and bytes by topic, filling while the peer runs."""
-    heard: dict[str, list[tuple[int, bytes]]] = {}
+def _receive(peer: Peer, bag: Path) -> dict[str, list[tuple[int, bytes]]]:
+    """Reception times and bytes by topic, appended while the peer runs."""
+    received: dict[str, list[tuple[int, bytes]]] = {}
     with Reader(bag) as reader:
         kinds = {connection.topic: connection.msgtype for connection in reader.connections}
     for topic, kind in kinds.items():
-        got = heard[topic] = []
+        got = received[topic] = []
 
         def take(raw: bytes, info: dict[str, Any], got: list[tuple[int, bytes]] = got) -> None:
             got.append((info["received_timestamp"], raw))
 
         peer.node.create_subscription(message_class(kind), topic, take, 1000, raw=True)
-    return heard
+    return received
 
 
 def _end(process: subprocess.Popen[str], peer: Peer, seconds: float = 30.0) -> tuple[str, str]:
-    """What it has printed; the peer goes on listening while it ends."""
+    """Its output; the peer continues to receive while it ends."""
     peer.until(lambda: process.poll() is not None, seconds)
     output, errors = process.communicate()
     assert process.returncode == 0, errors
@@ -129,27 +129,27 @@ def _refused(process: subprocess.Popen[str], *reasons: str) -> None:
 
 
 @pytest.mark.parametrize("rate_factor", [1.0, pytest.param(4.0, marks=pytest.mark.exhaustive)])
-def test_every_message_comes_again_in_order_byte_by_byte_and_in_time(
+def test_every_message_is_replayed_in_order_byte_for_byte_and_in_time(
     peer: Peer, play: Play, bag: Path, rate_factor: float
 ) -> None:
     recorded = _recorded(bag / "bag_0.mcap")
-    heard = _hear(peer, bag)
+    received = _receive(peer, bag)
     process = play(bag, "--rate-factor", str(rate_factor))
     output, _ = _end(process, peer)
     late = float(output.partition("at most ")[2].partition(" ms late")[0]) * 1e-3
-    peer.until(lambda: all(len(heard[name]) == len(recorded[name]) for name in recorded))
+    peer.until(lambda: all(len(received[name]) == len(recorded[name]) for name in recorded))
     for name, messages in recorded.items():
-        assert [data for _, data in heard[name]] == [data for _, data in messages]
+        assert [data for _, data in received[name]] == [data for _, data in messages]
     names = [name for name in recorded if len(recorded[name]) > 50]
     assert len(names) == 4
     for name in names:
-        then, now = (np.array([t for t, _ in source[name]]) for source in (recorded, heard))
+        then, now = (np.array([t for t, _ in source[name]]) for source in (recorded, received))
         off = (now - now[0]) * 1e-9 - (then - then[0]) * 1e-9 / rate_factor
-        # None comes early; how late they come depends on the machine.
+        # No message is early; the delay depends on the machine.
         assert off.min() > -late - 0.01
 
 
-def test_a_late_subscriber_still_gets_what_was_latched(peer: Peer, play: Play, bag: Path) -> None:
+def test_a_late_subscriber_receives_latched_messages(peer: Peer, play: Play, bag: Path) -> None:
     topic = f"{TWIN}/operating_point"
     recorded = [data for _, data in _recorded(bag / "bag_0.mcap")[topic]]
     process = play(bag, "--rate-factor", "0.2")
@@ -159,16 +159,18 @@ def test_a_late_subscriber_still_gets_what_was_latched(peer: Peer, play: Play, b
     late, before = [], len(played)
     peer.node.create_subscription(OperatingPoint, topic, late.append, LATCHED, raw=True)
     peer.until(lambda: late)
-    assert late[0] in recorded[before - 1 :]  # the depth is not recorded: the newest is kept
+    assert (
+        late[0] in recorded[before - 1 :]
+    )  # the depth is not recorded: the newest message is kept
     process.send_signal(signal.SIGINT)
     _end(process, peer)
 
 
-def test_a_stretch_begins_with_what_was_latched_before_it(
+def test_an_excerpt_starts_with_the_messages_latched_before_it(
     peer: Peer, play: Play, bag: Path
 ) -> None:
     recorded = _recorded(bag / "bag_0.mcap")
-    heard = _hear(peer, bag)
+    received = _receive(peer, bag)
     output, _ = _end(play(bag, "--start", "0.5", "--duration", "0.2"), peer)
     assert "replaying 0.20 s" in output
     first = min(time for messages in recorded.values() for time, _ in messages)
@@ -177,12 +179,12 @@ def test_a_stretch_begins_with_what_was_latched_before_it(
         stretch = [data for time, data in messages if begin <= time <= end]
         if topic in LATCHED_TOPICS:
             stretch = [data for time, data in messages if time < begin][-1:] + stretch
-        got = heard[topic]
+        got = received[topic]
         peer.until(lambda got=got, stretch=stretch: len(got) >= len(stretch))
         assert [data for _, data in got] == stretch
 
 
-def test_a_loop_goes_on_until_it_is_told_to_end(peer: Peer, play: Play, bag: Path) -> None:
+def test_a_loop_runs_until_a_signal_ends_it(peer: Peer, play: Play, bag: Path) -> None:
     states = peer.listen(GearboxState, f"{TWIN}/gearbox_state", 1000)
     process = play(bag, "--loop", "--rate-factor", "5")
 
@@ -204,35 +206,35 @@ def test_a_signal_ends_it_cleanly_at_any_moment(
     peer: Peer, play: Play, bag: Path, number: int, seconds: float
 ) -> None:
     process = play(bag, "--rate-factor", "0.1")
-    # Before, Python is still to learn which command there is.
+    # Earlier, Python has not read the command yet.
     peer.until(lambda: holding(process.pid, "_rclpy"))
-    time.sleep(seconds)  # the very thing under test: an arbitrary moment
+    time.sleep(seconds)  # the subject of the test: an arbitrary moment
     process.send_signal(number)
     _end(process, peer)
 
 
-def test_a_torn_file_is_played_up_to_the_tear(
+def test_a_truncated_file_is_played_up_to_its_end(
     peer: Peer, play: Play, bag: Path, tmp_path: Path
 ) -> None:
-    torn = tmp_path / "torn.mcap"
-    _tear(bag / "bag_0.mcap", torn, f"{TWIN}/gearbox_state")
+    truncated = tmp_path / "truncated.mcap"
+    _truncate(bag / "bag_0.mcap", truncated, f"{TWIN}/gearbox_state")
     states = peer.listen(GearboxState, f"{TWIN}/gearbox_state", 1000)
-    output, _ = _end(play(torn), peer)
+    output, _ = _end(play(truncated), peer)
     assert "is truncated" in output
-    expected = _whole(torn, f"{TWIN}/gearbox_state")
+    expected = _whole(truncated, f"{TWIN}/gearbox_state")
     assert expected
     peer.until(lambda: len(states) == len(expected))
     assert [state.sequence for state in states] == list(range(1, len(expected) + 1))
 
 
-def test_a_live_twin_on_the_same_topics_is_warned_of(peer: Peer, play: Play, bag: Path) -> None:
+def test_a_live_twin_on_the_same_topics_causes_a_warning(peer: Peer, play: Play, bag: Path) -> None:
     other = peer.node.create_publisher(GearboxState, f"{TWIN}/gearbox_state", 10)
     output, _ = _end(play(bag, "--rate-factor", "10"), peer)
     peer.node.destroy_publisher(other)
-    assert f"others publish too, subscribers hear both: {TWIN}/gearbox_state\n" in output
+    assert f"other publishers exist, subscribers receive both: {TWIN}/gearbox_state\n" in output
 
 
-def test_the_node_runs_on_its_own_and_pauses(peer: Peer, start: Play, bag: Path) -> None:
+def test_the_node_runs_without_the_command_and_pauses(peer: Peer, start: Play, bag: Path) -> None:
     states = peer.listen(GearboxState, f"{TWIN}/gearbox_state", 1000)
     arguments = ("--ros-args", "-p", f"file:={bag}", "-p", "rate_factor:=0.25")
     process = start("planetary_twin.replay", *arguments)
@@ -254,12 +256,12 @@ def test_the_node_runs_on_its_own_and_pauses(peer: Peer, start: Play, bag: Path)
 
 def test_a_bag_of_another_recorder_is_played(peer: Peer, play: Play, tmp_path: Path) -> None:
     _foreign(tmp_path / "bag", "std_msgs/msg/String", "string data")
-    heard = peer.listen(String, "/chatter")
+    received = peer.listen(String, "/chatter")
     _end(play(tmp_path / "bag"), peer)
-    peer.until(lambda: len(heard) == 3)
+    peer.until(lambda: len(received) == 3)
 
 
-def test_what_cannot_be_played_ends_in_one_line(play: Play, bag: Path, tmp_path: Path) -> None:
+def test_unplayable_recordings_end_in_one_line(play: Play, bag: Path, tmp_path: Path) -> None:
     (tmp_path / "text").write_text("no recording")
     (tmp_path / "empty").mkdir()
     _refused(play("nowhere"), "nowhere: no such file")
@@ -282,7 +284,7 @@ def test_another_version_of_a_message_type_ends_in_one_line(play: Play, tmp_path
 
 
 def _foreign(folder: Path, kind: str, definition: str) -> None:
-    """A bag that rosbags writes, with three messages of the given type."""
+    """A bag written by rosbags, with three messages of the given type."""
     types = get_typestore(Stores.EMPTY)
     types.register(get_types_from_msg(definition, kind))
     with Writer(folder, version=9, storage_plugin=StoragePlugin.MCAP) as writer:

@@ -1,4 +1,4 @@
-"""A replay is held, stepped, moved and changed in rate while it plays; its clock goes with it."""
+"""A replay is paused, stepped, moved and changed in rate; its clock follows."""
 
 from __future__ import annotations
 
@@ -33,10 +33,10 @@ COMMAND = Path(sys.executable).with_name("planetary-twin")
 NODE = f"{TWIN}/replay"
 PERIOD = 10_000_000  # [ns] between two states
 BEGIN = 1_790_000_000_000_000_000  # log time of the first message
-STAMPED = 1_000_000_000_000  # its stamp: of another clock
+STAMPED = 1_000_000_000_000  # its stamp, from another clock
 LENGTH = 2000  # states, in two files
 POINTS = 500  # states between two operating points
-DEPTH = 200  # states that are kept for a subscriber which a busy machine holds up
+DEPTH = 200  # states kept for a subscriber that a busy machine delays
 Play = Callable[..., "subprocess.Popen[str]"]
 
 
@@ -78,7 +78,7 @@ def _topic(name: str, kind: str, qos: QoSProfile) -> Topic:
 
 @pytest.fixture
 def play(domain: int, tmp_path: Path) -> Iterator[Play]:
-    """Start `planetary-twin replay` with arguments; what still runs at the end is killed."""
+    """Start `planetary-twin replay` with arguments; a running process is killed at the end."""
     started: list[subprocess.Popen[str]] = []
 
     def run(*arguments: str | Path) -> subprocess.Popen[str]:
@@ -113,13 +113,13 @@ def numbers(states: list[GearboxState]) -> list[int]:
 
 
 def expect(peer: Peer, states: list[GearboxState], first: int, last: int) -> None:
-    """These and no others have come, and are forgotten."""
+    """Exactly these messages have been received; the list is then cleared."""
     peer.until(lambda: len(states) > last - first)
     assert numbers(states) == list(range(first, last + 1))
     states.clear()
 
 
-def test_a_paused_replay_plays_just_what_it_is_told_to(
+def test_a_paused_replay_plays_exactly_the_requested_messages(
     peer: Peer, start: Start, split: Path
 ) -> None:
     states = peer.listen(GearboxState, f"{TWIN}/gearbox_state", 5000)
@@ -136,10 +136,10 @@ def test_a_paused_replay_plays_just_what_it_is_told_to(
     assert reached.stamp == Time(sec=BEGIN // 10**9, nanosec=500_000_000)
     expect(peer, states, 2, 51)
     peer.until(lambda: len(clock) == 51)
-    told = [t.clock.sec * 10**9 + t.clock.nanosec for t in clock]
-    assert told == [STAMPED + k * PERIOD for k in range(51)]
+    times = [t.clock.sec * 10**9 + t.clock.nanosec for t in clock]
+    assert times == [STAMPED + k * PERIOD for k in range(51)]
 
-    # Forward, over the seam of the files, with what is latched there.
+    # Forward, across the boundary of the files, with the messages latched there.
     points.clear()
     moved = seek(peer, 9.8)
     assert moved.success and moved.time == 9.8
@@ -166,7 +166,7 @@ def test_a_paused_replay_plays_just_what_it_is_told_to(
     assert not peer.set(NODE, rate_factor=0.001).successful
     assert pause(peer, True) == "paused from 4 s"
 
-    # To the end, where it stands until it may go on.
+    # To the end, where it waits until it is resumed.
     assert seek(peer, 19.9).success
     assert step(peer, 1.0).simulated_time == pytest.approx(19.99)
     expect(peer, states, 1991, 2000)
@@ -179,56 +179,56 @@ def test_a_paused_replay_plays_just_what_it_is_told_to(
     assert not states
 
 
-def test_a_running_replay_changes_its_rate_and_place_without_a_jump(
+def test_a_running_replay_changes_its_rate_and_position_without_a_jump(
     peer: Peer, play: Play, split: Path
 ) -> None:
-    heard: list[tuple[float, float]] = []  # recorded and received [s]
+    received: list[tuple[float, float]] = []  # recorded and received [s]
     clock = peer.listen(Clock, "/clock", 5000)
     peer.node.create_subscription(
         GearboxState,
         "/other/gearbox_state",
-        lambda message, info: heard.append(
+        lambda message, info: received.append(
             (message.simulated_time, info["received_timestamp"] * 1e-9)
         ),
         5000,
     )
     arguments = ("--namespace", "other", "--topics", f"{TWIN}/gearbox_state", "--clock", "50")
     process = play(split, "--start-offset", "1", "--loop", *arguments)
-    peer.until(lambda: len(heard) > 50)
+    peer.until(lambda: len(received) > 50)
     assert "the replay runs; pause it first" in step(peer, 0.1).message
     for rate in (1.0, 4.0, 0.5):
         assert peer.set(NODE, rate_factor=rate).successful
-        settled = len(heard) + 20
-        peer.until(lambda n=settled, r=rate: _pace(heard[n:]) == pytest.approx(r, rel=0.05))
-    recorded = [time for time, _ in heard]
+        settled = len(received) + 20
+        peer.until(lambda n=settled, r=rate: _pace(received[n:]) == pytest.approx(r, rel=0.05))
+    recorded = [time for time, _ in received]
     assert recorded == pytest.approx(1.0 + 0.01 * (np.arange(len(recorded)) % (LENGTH - 100)))
-    told = [t.clock.sec * 10**9 + t.clock.nanosec for t in clock]
-    steps = np.diff(told)
+    times = [t.clock.sec * 10**9 + t.clock.nanosec for t in clock]
+    steps = np.diff(times)
     assert steps[steps > 0] == pytest.approx(2 * PERIOD)
-    assert np.sum(steps <= 0) <= len(recorded) // (LENGTH - 100)  # where the loop begins again
+    assert np.sum(steps <= 0) <= len(recorded) // (LENGTH - 100)  # where the loop starts again
 
-    # A pause keeps the place, a seek changes it, also from one turn of the loop to the next.
+    # A pause keeps the position; a seek changes it, also between passes of the loop.
     held = float(pause(peer, True).split()[-2])
-    peer.until(lambda: held - 0.0101 <= heard[-1][0] <= held + 1e-9)
-    count = len(heard)
+    peer.until(lambda: held - 0.0101 <= received[-1][0] <= held + 1e-9)
+    count = len(received)
     pause(peer, False)
-    peer.until(lambda: len(heard) > count)
-    assert heard[count][0] == pytest.approx(heard[count - 1][0] + 0.01)
-    count = len(heard)
+    peer.until(lambda: len(received) > count)
+    assert received[count][0] == pytest.approx(received[count - 1][0] + 0.01)
+    count = len(received)
     assert seek(peer, 19.8).success
-    peer.until(lambda: any(b < a for (a, _), (b, _) in itertools.pairwise(heard[count:])))
-    recorded = [time for time, _ in heard[count:]]
+    peer.until(lambda: any(b < a for (a, _), (b, _) in itertools.pairwise(received[count:])))
+    recorded = [time for time, _ in received[count:]]
     place = recorded.index(pytest.approx(19.8))
     after = np.array(recorded[place : place + 21])
     assert np.round(100 * after[:21]) == pytest.approx([*range(1980, 2000), 100])
 
-    # As fast as it goes, and back to a pace.
+    # As fast as possible, and back to a pace.
     assert peer.set(NODE, rate_factor=0).successful
-    count = len(heard)
-    peer.until(lambda: len(heard) > count + 3000)
+    count = len(received)
+    peer.until(lambda: len(received) > count + 3000)
     assert peer.set(NODE, rate_factor="1").successful
-    # Once what was on its way has come.
-    peer.until(lambda: _pace(heard[-200:]) == pytest.approx(1.0, rel=0.1))
+    # After the messages in transit.
+    peer.until(lambda: _pace(received[-200:]) == pytest.approx(1.0, rel=0.1))
     process.send_signal(signal.SIGINT)
     peer.until(lambda: process.poll() is not None)
     output, errors = process.communicate()
@@ -236,15 +236,15 @@ def test_a_running_replay_changes_its_rate_and_place_without_a_jump(
     assert "replayed" in output and "Traceback" not in errors
 
 
-def _pace(heard: list[tuple[float, float]]) -> float:
-    """Recorded seconds per second of what was heard, NaN where that is little."""
-    if len(heard) < 100:
+def _pace(messages: list[tuple[float, float]]) -> float:
+    """Recorded seconds per second of received messages; NaN for few messages."""
+    if len(messages) < 100:
         return math.nan
-    recorded, received = np.array(heard).T
+    recorded, received = np.array(messages).T
     return float(np.polyfit(received, np.unwrap(recorded, period=LENGTH * 0.01 - 1.01), 1)[0])
 
 
-def test_as_fast_as_it_goes_every_message_reaches_a_reliable_subscriber(
+def test_as_fast_as_possible_every_message_reaches_a_reliable_subscriber(
     peer: Peer, play: Play, tmp_path: Path
 ) -> None:
     file = _write(tmp_path / "shallow", range(LENGTH), depth=5)
@@ -265,12 +265,12 @@ def test_a_recorded_clock_is_played_alone(peer: Peer, play: Play, tmp_path: Path
     clock = peer.listen(Clock, "/clock")
     process = play("bag", "--clock", "100")
     peer.until(lambda: process.poll() is not None)
-    assert "clock = 100: bag holds /clock" in process.communicate()[0]
+    assert "clock = 100: bag contains /clock" in process.communicate()[0]
     peer.until(lambda: len(clock) >= 5)
     assert [message.clock.sec for message in clock] == [0, 1, 2, 3, 4]
 
 
-def test_what_cannot_be_renamed_or_chosen_ends_in_one_line(play: Play, split: Path) -> None:
+def test_invalid_names_of_topics_end_in_one_line(play: Play, split: Path) -> None:
     _refused(play(split, "--topics", "/odd"), "topics: /odd: ", "has /planetary_twin/gearbox_")
     _refused(play(split, "--namespace", "9 lives"), "/9 lives/gearbox_state: ")
     _refused(play(split, "--rate", "0.001"), "rate_factor = 0.001: must be within 0.01")
@@ -285,7 +285,7 @@ def _refused(process: subprocess.Popen[str], *reasons: str, code: int = 1) -> No
 
 
 @pytest.mark.exhaustive
-def test_recorded_played_and_recorded_again_it_is_the_same(
+def test_a_recording_of_a_replay_equals_the_original(
     peer: Peer, start: Start, play: Play, tmp_path: Path
 ) -> None:
     twin = subprocess.run(

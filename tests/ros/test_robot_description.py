@@ -1,4 +1,4 @@
-"""What the simulation publishes is what robot_state_publisher and RViz need to draw it."""
+"""The simulation publishes what robot_state_publisher and RViz need to draw it."""
 
 from __future__ import annotations
 
@@ -19,13 +19,13 @@ from .peer import TWIN, Peer
 
 PREFIX = "left/"
 BODIES = ("sun", "planet_1", "planet_2", "planet_3", "ring", "carrier")
-# As `ros2 topic info -v /tf` tells it in Jazzy: the type is built here, and must be that of ROS.
+# As `ros2 topic info -v /tf` prints it in Jazzy: the type built here must equal that of ROS.
 HASH_OF_TF = "RIHS01_e369d0f05a23ae52508854b66f6aa0437f3449d652e8cbf22d5abe85d020f087"
 LATCHED = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
 
 
 class Pose(NamedTuple):
-    """Of a frame in the plane: x + iy [m], and a unit number that turns."""
+    """Pose of a frame in the plane: position x + iy [m], and rotation as a unit complex number."""
 
     at: complex
     turn: complex
@@ -66,14 +66,14 @@ def poses_by_tf(message: TFMessage) -> dict[tuple[str, str], Pose]:
 
 
 def in_base(poses: dict[tuple[str, str], Pose], frame: str) -> Pose:
-    """Where `frame` stands in the root of the tree."""
+    """Pose of `frame` in the root of the tree."""
     for (parent, child), pose in poses.items():
         if child == frame:
             return in_base(poses, parent).of(pose)
     return Pose(0.0, 1.0)
 
 
-def test_a_late_subscriber_gets_the_gearbox_and_its_frames_as_its_joints_say(
+def test_a_late_subscriber_receives_a_description_whose_frames_follow_the_joints(
     peer: Peer, start: Start
 ) -> None:
     options = ("frame_id:=gearbox_base", f"frame_prefix:={PREFIX}")
@@ -83,8 +83,8 @@ def test_a_late_subscriber_gets_the_gearbox_and_its_frames_as_its_joints_say(
     transforms = peer.listen(TFMessage, "/tf")
     gearbox = peer.listen(GearboxState, f"{TWIN}/gearbox_state")
     peer.until(lambda: len(states) > 100 and transforms and gearbox)
-    heard = peer.listen(String, f"{TWIN}/robot_description", LATCHED)
-    robot = ElementTree.fromstring(peer.until(lambda: heard)[0].data)
+    received = peer.listen(String, f"{TWIN}/robot_description", LATCHED)
+    robot = ElementTree.fromstring(peer.until(lambda: received)[0].data)
     joints = {joint.attrib["name"] for joint in robot.iter("joint") if "name" in joint.attrib} - {
         joint.attrib["name"] for joint in robot.iter("joint") if joint.find("mimic") is not None
     }
@@ -99,9 +99,9 @@ def test_a_late_subscriber_gets_the_gearbox_and_its_frames_as_its_joints_say(
     (publisher,) = peer.node.get_publishers_info_by_topic("/tf")
     assert str(publisher.topic_type_hash) == HASH_OF_TF
     stamped = {str(state.header.stamp): state for state in states}
-    told = [tf for tf in transforms if str(tf.transforms[0].header.stamp) in stamped]
-    assert len(told) > 90
-    for message in told:
+    matching = [tf for tf in transforms if str(tf.transforms[0].header.stamp) in stamped]
+    assert len(matching) > 90
+    for message in matching:
         (stamp,) = {str(transform.header.stamp) for transform in message.transforms}
         by_urdf, by_tf = poses_by_urdf(robot, stamped[stamp]), poses_by_tf(message)
         assert by_urdf.keys() == by_tf.keys()
@@ -109,4 +109,4 @@ def test_a_late_subscriber_gets_the_gearbox_and_its_frames_as_its_joints_say(
             wanted, found = in_base(by_urdf, link), in_base(by_tf, link)
             assert abs(found.at - wanted.at) < 1e-9 and abs(found.turn - wanted.turn) < 1e-9
     angles = [state.position[list(state.name).index("sun_joint")] for state in states]
-    assert max(angles) - min(angles) > 1.0  # it has turned meanwhile
+    assert max(angles) - min(angles) > 1.0  # it has turned in the meantime

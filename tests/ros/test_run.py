@@ -1,4 +1,4 @@
-"""One command runs, records, shows and accounts; it ends cleanly at any moment."""
+"""One command runs, records, shows and counts; it ends cleanly at any moment."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ from planetary_twin_py.scene import load_scene, parse_scene
 
 from .peer import LONG, TWIN, Peer
 from .processes import holding, working_in
-from .recordings import counts, disorder, torn_states
+from .recordings import counts, disorder, unfinished_states
 
 COMMAND = (
     "-c", "import typer; from planetary_twin.commands import run; app = typer.Typer(); "
@@ -52,7 +52,7 @@ def run(domain: int, tmp_path: Path) -> Callable[..., subprocess.Popen[str]]:
 
 
 def _line(process: subprocess.Popen[str], text: str) -> None:
-    """Read the output up to a line that holds `text`."""
+    """Read the output up to a line that contains `text`."""
     assert process.stdout is not None
     for line in process.stdout:
         if text in line:
@@ -83,7 +83,7 @@ def test_a_run_records_every_message_it_publishes(
 
 
 @pytest.mark.exhaustive
-def test_messages_stand_in_the_order_in_which_they_were_received_while_it_keeps_up(
+def test_messages_are_in_the_order_of_reception_while_the_run_keeps_up(
     run: Callable[..., subprocess.Popen[str]], tmp_path: Path
 ) -> None:
     # Slow enough for any machine to keep up.
@@ -93,12 +93,12 @@ def test_messages_stand_in_the_order_in_which_they_were_received_while_it_keeps_
     assert disorder(tmp_path / "recordings/bag/bag_0.mcap") < 0.1
 
 
-def test_a_run_without_end_is_shown_around_as_a_usual_one() -> None:
+def test_an_endless_run_has_the_usual_tour() -> None:
     assert tour_of("paper", math.inf) == tour_of("paper", LENGTH)
 
 
 @pytest.mark.exhaustive
-def test_a_recording_that_was_split_on_the_way_is_counted_as_a_whole(
+def test_a_recording_split_during_the_run_is_counted_as_a_whole(
     run: Callable[..., subprocess.Popen[str]], peer: Peer, tmp_path: Path
 ) -> None:
     process = run("--duration", "600", "--no-tour", "--record", "bag", "--json", "figures.json")
@@ -113,7 +113,7 @@ def test_a_recording_that_was_split_on_the_way_is_counted_as_a_whole(
 
 
 @pytest.mark.exhaustive
-def test_what_came_while_the_logger_was_stopped_is_told_and_both_recordings_are_counted(
+def test_losses_while_the_logger_was_stopped_are_reported_and_both_recordings_counted(
     run: Callable[..., subprocess.Popen[str]], peer: Peer, tmp_path: Path
 ) -> None:
     process = run("--duration", "600", "--no-tour", "--record", "bag", "--json", "figures.json")
@@ -140,7 +140,7 @@ def _logger_of(folder: Path) -> int:
 
 
 @pytest.mark.exhaustive
-def test_a_run_whose_logger_stands_for_longer_than_messages_are_kept_fails_and_says_what_is_lost(
+def test_a_run_whose_logger_stalls_longer_than_messages_are_kept_fails_and_reports_the_losses(
     run: Callable[..., subprocess.Popen[str]], peer: Peer, tmp_path: Path
 ) -> None:
     process = run("--duration", "600", "--no-tour", "--record", "bag", "--json", "figures.json")
@@ -157,11 +157,16 @@ def test_a_run_whose_logger_stands_for_longer_than_messages_are_kept_fails_and_s
     process.send_signal(signal.SIGINT)
     _, errors = process.communicate(timeout=LONG)
     assert process.returncode == 1
-    told = json.loads((tmp_path / "figures.json").read_text())["topics"][f"{TWIN}/gearbox_state"]
+    reported = json.loads((tmp_path / "figures.json").read_text())["topics"][
+        f"{TWIN}/gearbox_state"
+    ]
     recorded = counts(tmp_path / "recordings/bag")[f"{TWIN}/gearbox_state"]
-    assert told["lost"] > 0 and told["recorded"] == recorded == told["published"] - told["lost"]
+    assert (
+        reported["lost"] > 0
+        and reported["recorded"] == recorded == reported["published"] - reported["lost"]
+    )
     (line,) = [line for line in errors.splitlines() if line.startswith("planetary-twin: ")]
-    assert f"{told['lost']} of {TWIN}/gearbox_state" in line
+    assert f"{reported['lost']} of {TWIN}/gearbox_state" in line
 
 
 def test_ctrl_c_leaves_a_readable_recording_and_the_table(
@@ -181,20 +186,20 @@ def test_ctrl_c_leaves_a_readable_recording_and_the_table(
 @pytest.mark.parametrize(
     "seconds", [0.0, *(pytest.param(s, marks=pytest.mark.exhaustive) for s in (0.9, 1.8))]
 )
-def test_ctrl_c_while_it_starts_leaves_nothing_running(
+def test_ctrl_c_during_the_start_leaves_nothing_running(
     run: Callable[..., subprocess.Popen[str]], tmp_path: Path, seconds: float
 ) -> None:
     process = run("--duration", "600")
     deadline = time.monotonic() + LONG
-    while not holding(process.pid, "_rclpy"):  # before, Python is still to learn what to run
+    while not holding(process.pid, "_rclpy"):  # earlier, Python has not read the command yet
         assert time.monotonic() < deadline and process.poll() is None
-    time.sleep(seconds)  # the very thing under test: an arbitrary moment
+    time.sleep(seconds)  # the subject of the test: an arbitrary moment
     process.send_signal(signal.SIGINT)
     _, errors = process.communicate(timeout=LONG)
     assert process.returncode == 0, errors
     assert "Traceback" not in errors
     assert working_in(tmp_path) == []
-    # Either there is a recording of a twin that ran, or nothing.
+    # Either there is a recording of a twin that ran, or no recording.
     assert all(counts(bag)[f"{TWIN}/gearbox_state"] for bag in tmp_path.glob("recordings/*"))
 
 
@@ -215,18 +220,18 @@ def test_the_death_of_a_node_ends_the_run_with_one_line(
     _, errors = process.communicate(timeout=LONG)
     assert process.returncode == 1
     assert len(errors.strip().splitlines()) == 1
-    assert f"{node}: ended by SIGKILL; what was recorded is in recordings/" in errors
+    assert f"{node}: ended by SIGKILL; the recording is in recordings/" in errors
     assert working_in(tmp_path) == []
 
 
-def test_kill_minus_nine_of_the_run_takes_its_nodes_along(
+def test_sigkill_of_the_run_ends_its_nodes(
     run: Callable[..., subprocess.Popen[str]], tmp_path: Path
 ) -> None:
     process = run("--duration", "600", "--record", "bag")
     _line(process, "rpm")
     bag = tmp_path / "recordings/bag"
     deadline = time.monotonic() + LONG
-    while not torn_states(bag / "bag_0.mcap"):  # until the first flush
+    while not unfinished_states(bag / "bag_0.mcap"):  # until the first flush
         assert time.monotonic() < deadline
         time.sleep(0.1)
     process.kill()
@@ -248,7 +253,7 @@ def test_kill_minus_nine_of_the_run_takes_its_nodes_along(
         (["--record", "../x"], "--record"),
     ],
 )
-def test_a_mistake_ends_in_one_line_before_anything_starts(
+def test_an_invalid_option_ends_in_one_line_before_any_process_starts(
     run: Callable[..., subprocess.Popen[str]], tmp_path: Path, options: list[str], reason: str
 ) -> None:
     process = run(*options)
@@ -273,7 +278,7 @@ def test_a_second_run_on_the_same_domain_is_refused_and_leaves_the_first_alone(r
     assert "efficiency" in output
 
 
-def test_a_run_does_not_begin_where_something_else_publishes_a_twin(
+def test_a_run_does_not_start_beside_another_publisher_of_a_twin(
     run: Callable[..., subprocess.Popen[str]], peer: Peer, tmp_path: Path
 ) -> None:
     peer.node.create_publisher(GearboxState, f"{TWIN}/gearbox_state", 10)
@@ -285,24 +290,24 @@ def test_a_run_does_not_begin_where_something_else_publishes_a_twin(
 
 
 @pytest.mark.exhaustive
-def test_a_pause_however_long_and_a_reset_are_no_failure_of_a_run(
+def test_a_long_pause_and_a_reset_do_not_fail_a_run(
     run: Callable[..., subprocess.Popen[str]], peer: Peer
 ) -> None:
     process = run("--duration", "3", "--no-tour", "--record", "bag")
     _line(process, "rpm")
     assert peer.call(SetBool, f"{TWIN}/simulation/pause", SetBool.Request(data=True)).success
     _line(process, "paused")
-    time.sleep(SILENCE + 2.0)  # the very thing under test
+    time.sleep(SILENCE + 2.0)  # the subject of the test
     assert peer.call(SetBool, f"{TWIN}/simulation/pause", SetBool.Request(data=False)).success
     assert peer.call(Trigger, f"{TWIN}/simulation/reset", Trigger.Request()).success
     output, errors = process.communicate(timeout=LONG)
     assert process.returncode == 0, errors
-    assert re.search(r"^ +1\.\d\d s .*rpm", output, re.MULTILINE)  # of the run that began anew
+    assert re.search(r"^ +1\.\d\d s .*rpm", output, re.MULTILINE)  # of the run after the reset
     assert "efficiency" in output
 
 
 @pytest.mark.exhaustive
-def test_a_run_whose_simulation_is_shut_down_says_so(
+def test_a_run_whose_simulation_is_shut_down_reports_it(
     run: Callable[..., subprocess.Popen[str]], peer: Peer, tmp_path: Path
 ) -> None:
     process = run("--duration", "60", "--no-tour", "--record", "bag")
@@ -311,17 +316,17 @@ def test_a_run_whose_simulation_is_shut_down_says_so(
     assert peer.call(ChangeState, f"{TWIN}/simulation/change_state", request, 20.0).success
     _, errors = process.communicate(timeout=LONG)
     assert process.returncode == 1
-    assert "was made finalized by a request to its life cycle; what was recorded is in" in errors
+    assert "is finalized after a lifecycle request; the recording is in" in errors
     assert counts(tmp_path / "recordings/bag")[f"{TWIN}/gearbox_state"] > 0
 
 
 @pytest.mark.exhaustive
-def test_a_recording_that_others_make_under_the_name_meanwhile_is_left_alone(
+def test_a_recording_that_another_process_creates_under_the_name_is_left_alone(
     run: Callable[..., subprocess.Popen[str]], tmp_path: Path
 ) -> None:
     process = run("--duration", "60", "--record", "bag")
     deadline = time.monotonic() + LONG
-    while len(working_in(tmp_path)) < 2:  # from when on the name has been seen free
+    while len(working_in(tmp_path)) < 2:  # from then on, the name has been checked
         assert time.monotonic() < deadline
     theirs = tmp_path / "recordings/bag/theirs.mcap"
     theirs.parent.mkdir(parents=True)

@@ -1,4 +1,4 @@
-"""A twin that leaves all sense stops with an error, and can be started again."""
+"""A diverging twin stops with an error, and can be started again."""
 
 from __future__ import annotations
 
@@ -16,8 +16,8 @@ from planetary_twin_py.recording.runs.verify import verify
 
 from .conftest import Start
 from .peer import TWIN, Peer
+from .reported import figures, listen_to_reports
 from .test_run import COMMAND
-from .told import figures, listen_to_reports
 
 NODE = f"{TWIN}/simulation"
 # 63 N m press the teeth 0.94 mm into one another, 300 N m 4.5 mm; a base pitch is 2.34 mm.
@@ -32,7 +32,7 @@ def scene(tmp_path: Path) -> Path:
     return path
 
 
-def test_a_runaway_pauses_the_twin_with_an_error_and_the_recording_is_whole(
+def test_a_runaway_pauses_the_twin_with_an_error_and_the_recording_is_complete(
     peer: Peer, start: Start, scene: Path, tmp_path: Path
 ) -> None:
     logger = start("planetary_twin.logger", "--ros-args", "-p", "name:=bag")
@@ -66,7 +66,7 @@ def test_a_runaway_pauses_the_twin_with_an_error_and_the_recording_is_whole(
     assert verify(tmp_path / "recordings/bag", TWIN).first_difference is None
 
 
-def test_a_loop_that_is_not_stable_ends_the_node_in_one_line(start: Start, scene: Path) -> None:
+def test_an_unstable_speed_loop_ends_the_node_with_one_line(start: Start, scene: Path) -> None:
     scene.write_text("base: paper\ndrive: {speed_control: {bandwidth: 60 Hz}}\n")
     node = start("planetary_twin.simulation", "--ros-args", "-p", f"scene:={scene}")
     _, errors = node.communicate(timeout=60)
@@ -78,10 +78,10 @@ def test_a_loop_that_is_not_stable_ends_the_node_in_one_line(start: Start, scene
     ("change", "reason"),
     [
         ("input_torque: 300 N m", "refuses to configure: the run stops near 0 s"),
-        ("torque_ripple: 300 N m", "what was recorded is in"),
+        ("torque_ripple: 300 N m", "the recording is in"),
     ],
 )
-def test_a_run_that_fails_says_why_and_where_the_recording_is(
+def test_a_run_that_fails_reports_the_reason_and_the_recording(
     domain: int, scene: Path, tmp_path: Path, change: str, reason: str
 ) -> None:
     scene.write_text(f"{SOFT}operating_point: {{{change}}}\n")

@@ -1,4 +1,4 @@
-"""Numbers have no gaps and stamps only rise, whatever is done to a running simulation."""
+"""Sequence numbers have no gaps and stamps increase under any sequence of requests."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from .conftest import Start
 from .peer import LATCHED, TWIN, Peer
 
 NODE = f"{TWIN}/simulation"
-STORM = 300  # parameter sets, as fast as they go
+STORM = 300  # parameter changes, as fast as possible
 
 
 def change_state(peer: Peer, label: str) -> None:
@@ -30,7 +30,7 @@ def pause(peer: Peer, paused: bool) -> None:
 
 
 def storm(peer: Peer) -> None:
-    """Set a parameter again and again without waiting for an answer."""
+    """Set a parameter repeatedly without waiting for responses."""
     client = peer.node.create_client(SetParameters, f"{NODE}/set_parameters")
     peer.until(client.service_is_ready)
     for k in range(STORM):
@@ -39,19 +39,19 @@ def storm(peer: Peer) -> None:
         )
         parameter = Parameter(name="lambda_ratio", value=number)
         client.call_async(SetParameters.Request(parameters=[parameter]))
-    # How many of them a service takes up at once is the middleware's: the last counts.
+    # The middleware decides how many of them a service accepts at once: the last one counts.
     assert peer.set(NODE, lambda_ratio=1.6).successful
     peer.node.destroy_client(client)
 
 
-def test_nothing_that_is_done_to_it_breaks_numbers_or_stamps(peer: Peer, start: Start) -> None:
+def test_no_sequence_of_requests_breaks_numbers_or_stamps(peer: Peer, start: Start) -> None:
     start("planetary_twin.simulation")
     topics = {"gearbox_state": GearboxState, "mesh_waveform": MeshWaveform}
-    heard = {name: peer.listen(kind, f"{TWIN}/{name}", 1000) for name, kind in topics.items()}
-    points = heard["operating_point"] = peer.listen(
+    received = {name: peer.listen(kind, f"{TWIN}/{name}", 1000) for name, kind in topics.items()}
+    points = received["operating_point"] = peer.listen(
         OperatingPoint, f"{TWIN}/operating_point", LATCHED
     )
-    states = heard["gearbox_state"]
+    states = received["gearbox_state"]
 
     def run() -> None:
         count = len(states)
@@ -76,11 +76,11 @@ def test_nothing_that_is_done_to_it_breaks_numbers_or_stamps(peer: Peer, start: 
     run()
     for label in ("deactivate", "cleanup", "configure"):
         change_state(peer, label)
-    # Publishers are new, and their first messages are for whom they have found.
-    peer.until(lambda: all(peer.node.count_publishers(f"{TWIN}/{name}") for name in heard))
+    # Publishers are new, and send their first messages to the subscribers found so far.
+    peer.until(lambda: all(peer.node.count_publishers(f"{TWIN}/{name}") for name in received))
     change_state(peer, "activate")
     run()
-    for messages in heard.values():
+    for messages in received.values():
         for before, after in itertools.pairwise(messages):
             assert after.sequence == before.sequence + 1
             assert Time.from_msg(after.header.stamp) > Time.from_msg(before.header.stamp)

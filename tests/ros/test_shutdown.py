@@ -1,4 +1,4 @@
-"""However a node is told to end, and whatever it does just then, it ends well; its peers go on."""
+"""A node ends cleanly at any signal and during any work, and its peers continue."""
 
 from __future__ import annotations
 
@@ -19,15 +19,15 @@ from std_srvs.srv import SetBool
 from .conftest import Start
 from .peer import TWIN, Peer
 from .processes import holding
-from .recordings import counts, torn_states
+from .recordings import counts, unfinished_states
 
 NODE = f"{TWIN}/simulation"
 STATES = f"{TWIN}/gearbox_state"
-QUICK = 60.0  # [s] on a busy machine; less than an interval, a step or a build would take
+QUICK = 60.0  # [s] on a busy machine; shorter than an interval, a step or a build
 
 
 def ended_well(process: subprocess.Popen[str]) -> str:
-    """What it printed, once it has ended in time, with exit code 0 and no traceback."""
+    """Its output, after it has ended in time, with exit code 0 and no traceback."""
     _, errors = process.communicate(timeout=QUICK)
     assert process.returncode == 0, errors
     assert "Traceback" not in errors
@@ -35,14 +35,14 @@ def ended_well(process: subprocess.Popen[str]) -> str:
 
 
 def twice(process: subprocess.Popen[str], number: signal.Signals) -> None:
-    """As one who presses Ctrl-C twice."""
+    """Send a signal twice, as a user who presses Ctrl-C twice."""
     process.send_signal(number)
     process.send_signal(number)
 
 
 @pytest.fixture
 def start(execute: Start) -> Start:
-    """As users do: what happens while the interpreter starts and ends is of concern."""
+    """Start nodes as users do: the start and the end of the interpreter matter here."""
     return execute
 
 
@@ -55,14 +55,14 @@ def running(peer: Peer, start: Start, *options: str) -> subprocess.Popen[str]:
 
 
 def recorded(status: list[RecorderStatus]) -> int:
-    """States in the recording, as far as told."""
+    """Number of recorded states in the newest status."""
     if not status or STATES not in status[-1].topics:
         return 0
     return status[-1].recorded[list(status[-1].topics).index(STATES)]
 
 
 def ask(peer: Peer, kind: type, service: str, request: object) -> None:
-    """Send a request whose answer may never come."""
+    """Send a request whose response may never arrive."""
     client = peer.node.create_client(kind, service)
     peer.until(client.service_is_ready)
     client.call_async(request)
@@ -86,7 +86,7 @@ def test_a_signal_while_the_model_is_built_ends_the_node_at_once(
 
 
 @pytest.mark.parametrize("name", ["simulation", "logger"])
-def test_a_signal_while_a_node_loads_ends_it_without_a_word(
+def test_a_signal_while_a_node_loads_ends_it_without_output(
     domain: int, tmp_path: Path, name: str
 ) -> None:
     for library in ("numpy", "_rclpy", "fastrtps"):
@@ -105,14 +105,14 @@ def test_a_signal_while_a_node_loads_ends_it_without_a_word(
             ended_well(process)
 
 
-def test_two_signals_at_any_moment_of_a_node_that_runs(peer: Peer, start: Start) -> None:
+def test_two_signals_at_any_moment_end_a_running_node_cleanly(peer: Peer, start: Start) -> None:
     for number in (signal.SIGINT, signal.SIGTERM):
         process = running(peer, start)
         twice(process, number)
         ended_well(process)
 
 
-def test_a_signal_to_a_slow_or_paused_twin_need_not_wait(peer: Peer, start: Start) -> None:
+def test_a_signal_ends_a_slow_or_paused_twin_without_delay(peer: Peer, start: Start) -> None:
     slow = ("--ros-args", "-p", "rate_factor:=0.01", "-p", "publish_rate:=10.0")
     process = start("planetary_twin.simulation", *slow)
     client = peer.node.create_client(SetBool, f"{NODE}/pause")
@@ -126,7 +126,9 @@ def test_a_signal_to_a_slow_or_paused_twin_need_not_wait(peer: Peer, start: Star
 
 
 @pytest.mark.exhaustive
-def test_a_signal_while_a_service_waits_or_a_transition_is_made(peer: Peer, start: Start) -> None:
+def test_a_signal_during_a_service_call_or_a_transition_ends_the_node(
+    peer: Peer, start: Start
+) -> None:
     process = running(peer, start)
     assert peer.call(SetBool, f"{NODE}/pause", SetBool.Request(data=True)).success
     states = peer.listen(GearboxState, STATES)
@@ -145,7 +147,7 @@ def test_a_signal_while_a_service_waits_or_a_transition_is_made(peer: Peer, star
         ended_well(process)
 
 
-def test_both_nodes_end_on_one_ctrl_c_and_the_recording_is_whole(
+def test_both_nodes_end_on_one_ctrl_c_and_the_recording_is_complete(
     peer: Peer, start: Start, tmp_path: Path
 ) -> None:
     logger = start("planetary_twin.logger", "--ros-args", "-p", "name:=bag")
@@ -160,7 +162,7 @@ def test_both_nodes_end_on_one_ctrl_c_and_the_recording_is_whole(
 
 
 @pytest.mark.exhaustive
-def test_each_node_may_be_killed_and_come_back_while_the_other_goes_on(
+def test_each_node_may_be_killed_and_restarted_while_the_other_continues(
     peer: Peer, start: Start, tmp_path: Path
 ) -> None:
     states = peer.listen(GearboxState, STATES)
@@ -176,15 +178,15 @@ def test_each_node_may_be_killed_and_come_back_while_the_other_goes_on(
     assert [b.sequence - a.sequence for a, b in itertools.pairwise(states)] == [1] * (
         len(states) - 1
     )
-    assert len(torn_states(tmp_path / "recordings/first/first_0.mcap")) > 50
+    assert len(unfinished_states(tmp_path / "recordings/first/first_0.mcap")) > 50
 
     simulation.kill()
     simulation.wait(QUICK)
     before = recorded(status)
-    heard = len(states)
+    received = len(states)
     running(peer, start)
     peer.until(lambda: recorded(status) > before + 50)
-    assert any(state.sequence < states[heard - 1].sequence for state in states[heard:])
+    assert any(state.sequence < states[received - 1].sequence for state in states[received:])
     second.terminate()
     ended_well(second)
     assert counts(tmp_path / "recordings/second")[STATES] > before + 50

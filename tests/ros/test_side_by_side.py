@@ -1,4 +1,4 @@
-"""Twins beside one another: in namespaces of their own they differ, in one namespace they warn."""
+"""Twins in separate namespaces are independent; in one namespace they warn."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from .conftest import Start
 from .peer import LONG, TWIN, Peer
 
 
-def test_statuses_of_twins_have_names_of_their_own(peer: Peer, start: Start) -> None:
+def test_statuses_of_twins_have_distinct_names(peer: Peer, start: Start) -> None:
     for side in ("left", "right"):
         start("planetary_twin.simulation", "--ros-args", "-r", f"__ns:=/{side}")
         start("planetary_twin.logger", "--ros-args", "-r", f"__ns:=/{side}")
@@ -26,7 +26,7 @@ def test_statuses_of_twins_have_names_of_their_own(peer: Peer, start: Start) -> 
         assert names(side) == {f"{side}/{task}" for task in tasks}
 
 
-def test_two_twins_of_one_name_both_warn_and_say_what_to_do(peer: Peer, start: Start) -> None:
+def test_two_twins_of_one_name_both_warn_and_give_the_remedy(peer: Peer, start: Start) -> None:
     twins = [start("planetary_twin.simulation") for _ in range(2)]
     own = ("simulation", TWIN)
     peer.until(lambda: peer.node.get_node_names_and_namespaces().count(own) == 2)
@@ -36,7 +36,7 @@ def test_two_twins_of_one_name_both_warn_and_say_what_to_do(peer: Peer, start: S
         twin.terminate()
     for twin in twins:
         _, log = twin.communicate(timeout=LONG)
-        warned = [line for line in log.splitlines() if "another node is called" in line]
+        warned = [line for line in log.splitlines() if "another node is named" in line]
         assert len(warned) == 1 and "[WARN]" in warned[0]
         assert f"{TWIN}/simulation" in warned[0] and "-r __ns:=" in warned[0]
         assert "gearbox_state has another publisher" in log

@@ -1,4 +1,4 @@
-"""A twin is driven as any simulator is, where the package simulation_interfaces is installed."""
+"""The services of simulation_interfaces control a twin, if that package is installed."""
 
 from __future__ import annotations
 
@@ -59,10 +59,10 @@ def test_time_is_paused_stepped_reset_and_played(peer: Peer, start: Start) -> No
     already = SetSimulationState.Response.ALREADY_IN_TARGET_STATE
     assert bring(peer, PAUSED).result == already
 
-    heard, stood = len(states), states[-1].simulated_time
+    received, stood = len(states), states[-1].simulated_time
     assert step(peer, 3).result == OK
     peer.until(lambda: states[-1].simulated_time > stood + 0.05)
-    assert len(states) == heard + 3
+    assert len(states) == received + 3
     assert states[-1].simulated_time == pytest.approx(stood + 3 / 50)
 
     assert bring(peer, STOPPED).result == OK
@@ -86,7 +86,7 @@ def test_time_is_paused_stepped_reset_and_played(peer: Peer, start: Start) -> No
     assert bring(peer, PLAYING).result == Result.RESULT_INCORRECT_STATE
 
 
-def test_its_features_are_those_it_serves(peer: Peer, start: Start) -> None:
+def test_the_reported_features_are_those_offered(peer: Peer, start: Start) -> None:
     start("planetary_twin.simulation")
     kind = GetSimulatorFeatures
     answer = peer.call(kind, f"{NODE}/get_simulator_features", kind.Request())

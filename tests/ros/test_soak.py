@@ -1,6 +1,6 @@
-"""Minutes of running while someone turns a knob: nothing grows, nothing is lost, all is told.
+"""Minutes of running with parameter changes: nothing grows, nothing is lost, all is reported.
 
-A minute by default; `make soak DURATION=3600` for as long as one likes.
+One minute by default; `make soak DURATION=3600` for longer runs.
 """
 
 from __future__ import annotations
@@ -19,19 +19,19 @@ from rosbags.rosbag2 import Reader
 
 from .conftest import Start
 from .peer import LONG, TWIN, Peer
-from .told import figures, listen_to_reports
+from .reported import figures, listen_to_reports
 
 DURATION = float(os.environ.get("SOAK_DURATION", "60"))  # [s]
-SETTLING = 120.0  # [s] after which whatever is loaded or allocated once is so
+SETTLING = 120.0  # [s] after which everything that is loaded or allocated once has been
 NODE = f"{TWIN}/simulation"
-PERIOD = 10  # [s] of the knob
-GROWTH = 1.0  # [MB] histories of parameter events and log lines are filled once, a kB an entry
+PERIOD = 10  # [s] of the parameter
+GROWTH = 1.0  # [MB] histories of parameter events and log lines are filled once, 1 kB per entry
 SLOPE = 1.0  # [MB/h]
 
 
-def published(told: dict[str, str]) -> dict[str, int]:
+def published(reported: dict[str, str]) -> dict[str, int]:
     prefix = "published."
-    return {k.removeprefix(prefix): int(v) for k, v in told.items() if k.startswith(prefix)}
+    return {k.removeprefix(prefix): int(v) for k, v in reported.items() if k.startswith(prefix)}
 
 
 def accounted(status: RecorderStatus) -> dict[str, int]:
@@ -39,12 +39,12 @@ def accounted(status: RecorderStatus) -> dict[str, int]:
     return {name: recorded + lost for name, recorded, lost in totals}
 
 
-def check_recording(folder: Path, told: dict[str, str], lost: dict[str, int]) -> None:
-    """It holds all that was published but what is told as lost, in order, stamps only rising."""
+def check_recording(folder: Path, reported: dict[str, str], lost: dict[str, int]) -> None:
+    """It contains all published messages except those reported as lost, in order."""
     numbers: dict[str, list[int]] = {}
     stamps: dict[str, list[int]] = {}
     kinds = {f"{TWIN}/gearbox_state": GearboxState, f"{TWIN}/mesh_waveform": MeshWaveform}
-    recorded = dict.fromkeys(published(told), 0)
+    recorded = dict.fromkeys(published(reported), 0)
     with Reader(folder) as reader:
         for connection, _, raw in reader.messages():
             name = connection.topic
@@ -54,9 +54,9 @@ def check_recording(folder: Path, told: dict[str, str], lost: dict[str, int]) ->
                 stamp = message.header.stamp
                 numbers.setdefault(name, []).append(message.sequence)
                 stamps.setdefault(name, []).append(stamp.sec * 1_000_000_000 + stamp.nanosec)
-    assert {name: count + lost[name] for name, count in recorded.items()} == published(told)
+    assert {name: count + lost[name] for name, count in recorded.items()} == published(reported)
     for name in kinds:
-        assert numbers[name][-1] <= published(told)[name]
+        assert numbers[name][-1] <= published(reported)[name]
         assert all(a < b for a, b in itertools.pairwise(numbers[name]))
         assert all(a < b for a, b in itertools.pairwise(stamps[name]))
 
@@ -73,12 +73,12 @@ def test_a_long_run_neither_grows_nor_loses_nor_falls_behind_by_itself(
     topics = {f"{TWIN}/gearbox_state", f"{TWIN}/mesh_waveform", "/diagnostics"}
     peer.until(lambda: status and topics <= set(status[-1].topics))
     peer.change_state(NODE, "activate")
-    begun, waited = time.monotonic(), waited_for_processor(process.pid)
+    started, waited = time.monotonic(), waited_for_processor(process.pid)
 
     times: list[float] = []
     sizes: dict[str, list[float]] = {"simulation": [], "logger": []}
     for second in itertools.count():
-        end = begun + second
+        end = started + second
         peer.until(lambda end=end: time.monotonic() >= end)
         if second > DURATION:
             break
@@ -95,23 +95,23 @@ def test_a_long_run_neither_grows_nor_loses_nor_falls_behind_by_itself(
         del reports[:-1], status[:-1]
 
     waited = waited_for_processor(process.pid) - waited
-    elapsed = time.monotonic() - begun
+    elapsed = time.monotonic() - started
     peer.change_state(NODE, "deactivate")
     peer.until(lambda: figures(reports[-1:])["state"] == "stopped")
-    told = figures(reports[-1:])
-    peer.until(lambda: accounted(status[-1]) == published(told))
+    reported = figures(reports[-1:])
+    peer.until(lambda: accounted(status[-1]) == published(reported))
     lost = dict(zip(status[-1].topics, status[-1].lost, strict=True))
     logger.terminate()
     assert logger.wait(LONG) == 0
     process.terminate()
     assert process.wait(LONG) == 0
-    check_recording(tmp_path / "recordings/bag", told, lost)
+    check_recording(tmp_path / "recordings/bag", reported, lost)
 
     span = times[-1] - times[0]
     slopes = {node: Slope.of(times, sizes[node]) for node in sizes}
-    behind = elapsed - float(told["simulated_time"])
+    behind = elapsed - float(reported["simulated_time"])
     for name, value in {
-        "elapsed_s": elapsed, "overruns": int(told["overruns"]), "behind_s": behind,
+        "elapsed_s": elapsed, "overruns": int(reported["overruns"]), "behind_s": behind,
         "lost": sum(lost.values()), "waited_for_processor_s": waited,
         **{f"{node}_memory_mb": sizes[node][-1] for node in sizes},
         **{f"{node}_slope_mb_per_h": slope.value for node, slope in slopes.items()},
@@ -122,5 +122,5 @@ def test_a_long_run_neither_grows_nor_loses_nor_falls_behind_by_itself(
     assert not any(lost.values())
     for node, slope in slopes.items():
         assert slope.value * span < GROWTH + SLOPE * span, node
-    # What the machine gave to others explains what the twin is late by.
+    # The time that the machine gave to other processes explains the delay of the twin.
     assert behind < waited + 0.05

@@ -1,11 +1,11 @@
-"""Stamps move with the system clock where that is set forward, and only rise."""
+"""Stamps follow a system clock that is set forward, and always increase."""
 
 from __future__ import annotations
 
 import itertools
 
 import pytest
-from planetary_twin.stamps import Rising, Stamps
+from planetary_twin.stamps import Stamps, StrictClock
 from rclpy.clock import ROSClock
 from rclpy.duration import Duration
 from rclpy.time import Time
@@ -15,7 +15,7 @@ INTERVAL = 0.01  # [s]
 
 
 class Settable:
-    """The system clock, as if somebody had set it by `ahead` [s]."""
+    """The system clock after somebody has set it by `ahead` [s]."""
 
     ros_time_is_active = False
 
@@ -28,7 +28,7 @@ class Settable:
 
 
 class Course:
-    """Stamps [s after the first] of one interval after the other."""
+    """Stamps [s after the first] of successive intervals."""
 
     def __init__(self, *, source: bool = False) -> None:
         self.clock = Settable()
@@ -36,21 +36,21 @@ class Course:
         self._stamps.begin(0.0)
         self._first = self._stamps.of(0.0)
         self._count = 0
-        self.told = [0.0]
+        self.stamps = [0.0]
 
     def go(self, intervals: int = 3) -> float:
-        """How far stamps get."""
-        before = self.told[-1]
+        """Time [s] by which the stamps advance."""
+        before = self.stamps[-1]
         for _ in range(intervals):
             self._count += 1
             self._stamps.reach(self._count * INTERVAL)
             stamp = self._stamps.of(self._count * INTERVAL)
-            assert self._first + round(self.told[-1] * 1e9) < stamp
-            self.told.append((stamp - self._first) * 1e-9)
-        return self.told[-1] - before
+            assert self._first + round(self.stamps[-1] * 1e9) < stamp
+            self.stamps.append((stamp - self._first) * 1e-9)
+        return self.stamps[-1] - before
 
 
-def test_they_run_with_simulated_time_as_long_as_nobody_sets_the_clock() -> None:
+def test_they_run_with_simulated_time_unless_the_clock_is_set() -> None:
     course = Course()
     assert course.go(1000) == pytest.approx(10.0, abs=1e-6)
 
@@ -67,15 +67,15 @@ def test_they_follow_a_clock_set_forward_and_wait_for_one_set_back() -> None:
     assert course.go() == pytest.approx(HOUR, abs=2.0)
 
 
-def test_a_source_of_time_asks_no_other_clock() -> None:
+def test_a_source_of_time_reads_no_other_clock() -> None:
     course = Course(source=True)
     course.clock.ahead = HOUR
     assert course.go() == pytest.approx(3 * INTERVAL, abs=1e-6)
 
 
-def test_a_clock_that_is_set_back_still_rises() -> None:
+def test_the_time_of_a_clock_set_back_still_increases() -> None:
     clock = Settable()
-    rising = Rising(clock)
+    rising = StrictClock(clock)
     stamps = [rising.now()]
     for ahead in (-HOUR, 0.0, HOUR, -HOUR):
         clock.ahead = ahead

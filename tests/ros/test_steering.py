@@ -1,4 +1,4 @@
-"""A twin is asked, changed and watched from a machine that has no `ros2` command."""
+"""A twin is read, changed and watched on a machine without the `ros2` command."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ COMMANDS = (
 
 
 def command(*arguments: str) -> subprocess.CompletedProcess[str]:
-    """What a command prints; it must not take long."""
+    """The result of a command, which must not take long."""
     return subprocess.run(
         [sys.executable, "-c", COMMANDS, *arguments],
         capture_output=True,
@@ -34,7 +34,7 @@ def command(*arguments: str) -> subprocess.CompletedProcess[str]:
     )
 
 
-def test_values_may_have_units_and_what_was_set_is_told(
+def test_values_may_have_units_and_the_result_is_printed(
     user: Peer, points: list[OperatingPoint]
 ) -> None:
     answer = command("param", "set", "backlash", "0.3 um")
@@ -51,14 +51,14 @@ def test_values_may_have_units_and_what_was_set_is_told(
     assert answer.stderr.strip() == "planetary-twin: input_speed = 100 rad/s (954.9 rpm)"
 
 
-def test_where_there_is_no_twin_those_elsewhere_are_named(points: list[OperatingPoint]) -> None:
+def test_without_a_twin_in_the_namespace_others_are_named(points: list[OperatingPoint]) -> None:
     assert points
     answer = command("param", "get", "backlash", "--namespace", "/elsewhere")
     assert answer.returncode != 0 and answer.stderr.count("\n") == 1
-    assert "there is one in /planetary_twin: --namespace chooses" in answer.stderr
+    assert "there is one in /planetary_twin: choose with --namespace" in answer.stderr
 
 
-def test_a_mistyped_name_is_told_with_the_one_it_is_near_to(points: list[OperatingPoint]) -> None:
+def test_a_mistyped_name_is_refused_with_a_similar_one(points: list[OperatingPoint]) -> None:
     assert points
     answer = command("param", "set", "backlas", "1")
     assert answer.returncode != 0 and answer.stderr.count("\n") == 1
@@ -81,8 +81,8 @@ def test_every_parameter_is_listed_with_its_range(points: list[OperatingPoint]) 
     assert "0 to 0.001" in line and line.rstrip().endswith("[m]")
 
 
-def test_nonsense_ends_in_one_line(points: list[OperatingPoint]) -> None:
-    for arguments, told in (
+def test_invalid_arguments_end_in_one_line(points: list[OperatingPoint]) -> None:
+    for arguments, reason in (
         (("param", "set", "backlash", "3"), "backlash"),
         (("param", "set", "backlash", "-1"), "backlash = -1.0 m: must be a number within 0 and"),
         (("param", "set", "backlash", "3 kg"), "backlash"),
@@ -94,11 +94,11 @@ def test_nonsense_ends_in_one_line(points: list[OperatingPoint]) -> None:
     ):
         answer = command(*arguments)
         assert answer.returncode == 2, answer.stdout
-        assert len(answer.stderr.strip().splitlines()) == 1 and told in answer.stderr
+        assert len(answer.stderr.strip().splitlines()) == 1 and reason in answer.stderr
     assert len(points) == 1
 
 
-def test_where_no_twin_runs_a_command_says_so(domain: int) -> None:
+def test_a_command_reports_that_no_twin_runs(domain: int) -> None:
     for arguments in (("param", "list"), ("monitor",)):
         answer = command(*arguments)
         assert answer.returncode == 1 and "no twin" in answer.stderr, answer.stderr
@@ -113,13 +113,13 @@ def test_the_monitor_shows_every_figure(points: list[OperatingPoint]) -> None:
     assert "1000 " in answer.stdout and "mesh cycles" in answer.stdout
 
 
-def test_a_sparkline_rises_with_its_values_and_leaves_out_what_is_none() -> None:
+def test_a_sparkline_rises_with_its_values_and_is_blank_for_nan() -> None:
     assert sparkline([0.0, 7.0, math.nan, 3.5]) == "▁█ ▅"
     assert sparkline([2.0, 2.0]) == "▁▁"
     assert sparkline([math.nan]) == ""
 
 
-def test_figures_are_numbers_also_where_a_gearset_has_few_planets() -> None:
+def test_figures_are_numbers_also_for_gearsets_with_few_planets() -> None:
     state = GearboxState(planets=2)
     for name, kind in state.get_fields_and_field_types().items():
         if kind == "double[7]":
@@ -127,7 +127,7 @@ def test_figures_are_numbers_also_where_a_gearset_has_few_planets() -> None:
     assert all(math.isfinite(figure.value(state)) for figure in FIGURES)
 
 
-def test_every_figure_of_one_kind_of_mesh_says_which() -> None:
+def test_every_figure_of_one_kind_of_mesh_names_it() -> None:
     for kind in ("sun_planet", "planet_ring"):
         states = []
         for level in (1.0, 2.0):

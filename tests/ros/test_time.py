@@ -1,4 +1,4 @@
-"""Simulated time stands still, goes step by step, begins anew, and never confuses who listens."""
+"""Simulated time is paused, stepped and reset, and subscribers can follow it."""
 
 from __future__ import annotations
 
@@ -27,8 +27,8 @@ def nanoseconds(stamp) -> int:
     return stamp.sec * 1_000_000_000 + stamp.nanosec
 
 
-class Heard:
-    """What a running simulation has published since it was heard first."""
+class Received:
+    """Messages of a running simulation since the first one."""
 
     def __init__(self, peer: Peer) -> None:
         self.states = peer.listen(GearboxState, f"{TWIN}/gearbox_state")
@@ -37,7 +37,7 @@ class Heard:
         peer.until(lambda: self.states and self.points)
 
     def check(self) -> None:
-        """Numbers without gaps, stamps that only rise."""
+        """Sequence numbers have no gaps, and stamps increase."""
         for messages in (self.states, self.waves):
             for before, after in itertools.pairwise(messages):
                 assert after.sequence == before.sequence + 1
@@ -45,7 +45,7 @@ class Heard:
 
 
 class Follower:
-    """A node with `use_sim_time`, and when it saw its clock change."""
+    """A node with `use_sim_time`, and the times at which its clock changed."""
 
     def __init__(self, peer: Peer) -> None:
         peer.node.set_parameters([Parameter("use_sim_time", value=True)])
@@ -53,7 +53,7 @@ class Follower:
         self._seen: dict[int, float] = {}
 
     def pace(self, ticks: int = 40) -> float:
-        """Seconds of its clock per second, over the newest `ticks`; NaN before there are any."""
+        """Seconds of its clock per second over the newest `ticks`; NaN before there are any."""
         now = self._clock.now().nanoseconds
         if now:  # before the first /clock there is no time
             self._seen.setdefault(now, time.monotonic())
@@ -65,9 +65,9 @@ class Follower:
 
 
 @pytest.fixture
-def heard(peer: Peer, start: Start) -> Heard:
+def received(peer: Peer, start: Start) -> Received:
     start("planetary_twin.simulation")
-    return Heard(peer)
+    return Received(peer)
 
 
 def pause(peer: Peer, paused: bool) -> str:
@@ -81,7 +81,7 @@ def step(peer: Peer, duration: float) -> Step.Response:
 
 
 def stand(peer: Peer, states: list[GearboxState]) -> float:
-    """Pause; returns the simulated time [s] of that, once all before it has arrived."""
+    """Pause; returns the simulated time [s] after all earlier messages have arrived."""
     word, *_, instant, unit = pause(peer, True).split()
     assert (word, unit) == ("paused", "s")
     held = float(instant)
@@ -89,41 +89,41 @@ def stand(peer: Peer, states: list[GearboxState]) -> float:
     return held
 
 
-def test_a_paused_twin_publishes_nothing_and_goes_on_where_it_stood(
-    peer: Peer, heard: Heard
+def test_a_paused_twin_publishes_nothing_and_resumes_at_the_same_time(
+    peer: Peer, received: Received
 ) -> None:
-    stand(peer, heard.states)
-    stood = len(heard.states)
+    stand(peer, received.states)
+    stood = len(received.states)
     reports = peer.listen(DiagnosticArray, "/diagnostics")
 
     def paused() -> list[DiagnosticArray]:
         return [r for r in reports if any(v.value == "paused" for v in r.status[0].values)]
 
     peer.until(lambda: len(paused()) >= 2)  # a second apart
-    assert len(heard.states) == stood
+    assert len(received.states) == stood
     assert all(ord(report.status[0].level) == 0 for report in paused())
     pause(peer, False)
-    peer.until(lambda: len(heard.states) > stood + 20)
-    times = [state.simulated_time for state in heard.states]
+    peer.until(lambda: len(received.states) > stood + 20)
+    times = [state.simulated_time for state in received.states]
     assert all(math.isclose(b - a, INTERVAL, abs_tol=1e-9) for a, b in itertools.pairwise(times))
-    heard.check()
+    received.check()
 
 
-def test_a_paused_twin_makes_steps_of_just_the_time_asked_for(peer: Peer, heard: Heard) -> None:
-    before, count = stand(peer, heard.states), len(heard.states)
+def test_a_step_of_a_paused_twin_has_the_requested_duration(peer: Peer, received: Received) -> None:
+    before, count = stand(peer, received.states), len(received.states)
     for duration, messages in ((INTERVAL, 1), (0.025, 3), (1e-6, 1)):
         answer = step(peer, duration)
         assert answer.success, answer.message
         assert answer.simulated_time == pytest.approx(before + duration, abs=1e-9)
         count += messages
-        peer.until(lambda n=count: len(heard.states) == n)
-        assert heard.states[-1].simulated_time == answer.simulated_time
-        assert heard.states[-1].header.stamp == answer.stamp
+        peer.until(lambda n=count: len(received.states) == n)
+        assert received.states[-1].simulated_time == answer.simulated_time
+        assert received.states[-1].header.stamp == answer.stamp
         before = answer.simulated_time
-    heard.check()
+    received.check()
 
 
-def test_a_step_that_cannot_be_is_refused(peer: Peer, heard: Heard) -> None:
+def test_an_invalid_step_is_refused(peer: Peer, received: Received) -> None:
     pause(peer, True)
     for duration in (0.0, -1.0, math.nan, 1e9):
         answer = step(peer, duration)
@@ -131,54 +131,54 @@ def test_a_step_that_cannot_be_is_refused(peer: Peer, heard: Heard) -> None:
         assert answer.message.startswith("duration = ")
 
 
-def test_a_running_twin_makes_no_steps(peer: Peer, heard: Heard) -> None:
+def test_a_running_twin_refuses_steps(peer: Peer, received: Received) -> None:
     answer = step(peer, 0.1)
     assert not answer.success and "pause it first" in answer.message
 
 
-def test_reset_begins_anew_with_the_parameters_in_force(peer: Peer, heard: Heard) -> None:
+def test_a_reset_starts_again_with_the_parameters_in_force(peer: Peer, received: Received) -> None:
     assert peer.set(NODE, backlash=3e-7).successful
-    peer.until(lambda: len(heard.points) == 2 and heard.states[-1].simulated_time > 0.3)
+    peer.until(lambda: len(received.points) == 2 and received.states[-1].simulated_time > 0.3)
     assert peer.call(Trigger, f"{NODE}/reset", Trigger.Request()).success
-    peer.until(lambda: len(heard.points) == 3)
-    assert heard.points[-1].simulated_time == 0.0 and heard.points[-1].backlash == 3e-7
+    peer.until(lambda: len(received.points) == 3)
+    assert received.points[-1].simulated_time == 0.0 and received.points[-1].backlash == 3e-7
     peer.until(
         lambda: any(
-            a.simulated_time > b.simulated_time for a, b in itertools.pairwise(heard.states)
+            a.simulated_time > b.simulated_time for a, b in itertools.pairwise(received.states)
         )
     )
     first = next(
-        b for a, b in itertools.pairwise(heard.states) if a.simulated_time > b.simulated_time
+        b for a, b in itertools.pairwise(received.states) if a.simulated_time > b.simulated_time
     )
     assert first.simulated_time == pytest.approx(INTERVAL)
-    heard.check()
+    received.check()
     assert peer.set(NODE, backlash=2e-7).successful
-    peer.until(lambda: heard.points[-1].backlash == 2e-7)
+    peer.until(lambda: received.points[-1].backlash == 2e-7)
 
 
-def test_the_clock_tells_the_time_of_the_messages(peer: Peer, start: Start) -> None:
-    # `use_sim_time` is what launch files give to all nodes: the source must not wait for itself.
+def test_the_clock_has_the_time_of_the_messages(peer: Peer, start: Start) -> None:
+    # Launch files set `use_sim_time` for all nodes: the source must not wait for itself.
     options = ("clock:=true", "use_sim_time:=true", "rate_factor:=0.1")
     given = itertools.chain.from_iterable(("-p", option) for option in options)
     start("planetary_twin.simulation", "--ros-args", *given)
     clocks = peer.listen(Clock, "/clock")
     states = peer.listen(GearboxState, f"{TWIN}/gearbox_state")
     follower = Follower(peer)
-    # A loaded machine may hold the twin up for a while.
+    # A loaded machine may delay the twin for a while.
     peer.until(lambda: follower.pace() == pytest.approx(0.1, rel=0.05))
     stand(peer, states)
     pause(peer, False)
     stood = len(clocks)
     peer.until(lambda: len(clocks) > stood + 2)
     stamps = {nanoseconds(state.header.stamp) for state in states}
-    told = [nanoseconds(clock.clock) for clock in clocks]
-    # Simulated time does not jump where it stood.
-    for before, after in itertools.pairwise(told):
+    times_of_clock = [nanoseconds(clock.clock) for clock in clocks]
+    # Simulated time does not jump after a pause.
+    for before, after in itertools.pairwise(times_of_clock):
         assert (after - before) * 1e-9 == pytest.approx(INTERVAL, abs=1e-6)
-    assert len(stamps & set(told)) >= 20
+    assert len(stamps & set(times_of_clock)) >= 20
 
 
-def test_natural_modes_are_those_of_the_scene(peer: Peer, heard: Heard) -> None:
+def test_natural_modes_are_those_of_the_scene(peer: Peer, received: Received) -> None:
     answer = peer.call(NaturalModes, f"{NODE}/natural_modes", NaturalModes.Request())
     modes = pt.natural_modes(pt.load_scene("paper"))
     assert list(answer.frequencies) == pytest.approx(list(modes.frequencies))

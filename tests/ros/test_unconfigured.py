@@ -1,4 +1,4 @@
-"""Until a node is configured it has no topics, and takes every parameter that a start gives it."""
+"""An unconfigured node has no topics, and accepts every parameter of the start."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ SIMULATION = f"{TWIN}/simulation"
 
 
 def topics(peer: Peer) -> set[str]:
-    """What the node, alone but for the peer, publishes beyond what every node does."""
+    """Topics that the node publishes, except the peer's and those of every node."""
     found = {topic for topic, _ in peer.node.get_topic_names_and_types()}
     published = {topic for topic in found if peer.node.count_publishers(topic)}
     return {topic for topic in published - OF_ROS if not topic.endswith("/transition_event")}
@@ -41,9 +41,7 @@ def read_only(peer: Peer, name: str) -> bool:
     return bool(peer.call(DescribeParameters, service, request).descriptors[0].read_only)
 
 
-def test_a_simulation_becomes_what_was_set_before_it_is_configured(
-    peer: Peer, start: Start
-) -> None:
+def test_a_simulation_uses_parameters_set_before_it_is_configured(peer: Peer, start: Start) -> None:
     start("planetary_twin.simulation", *UNCONFIGURED)
     assert peer.state(SIMULATION) == "unconfigured"
     assert topics(peer) == set()
@@ -58,7 +56,7 @@ def test_a_simulation_becomes_what_was_set_before_it_is_configured(
         assert answer.successful, answer.reason
     assert values(peer, "input_torque", "backlash", "gearset.teeth.sun", "gearset.module") == [
         torque,
-        4e-7,  # was chosen, and stays
+        4e-7,  # was set, and is kept
         own.gearset.teeth.sun,
         own.gearset.module,
     ]
@@ -72,7 +70,7 @@ def test_a_simulation_becomes_what_was_set_before_it_is_configured(
         answer = peer.set(SIMULATION, **given)
         assert not answer.successful and "fixed" in answer.reason, answer.reason
     assert read_only(peer, "publish_rate") and read_only(peer, "gearset.teeth.sun")
-    assert peer.set(SIMULATION, publish_rate=50).successful  # what it is
+    assert peer.set(SIMULATION, publish_rate=50).successful  # its present value
 
     peer.change_state(SIMULATION, "activate")
     peer.until(lambda: states and origins)
@@ -88,7 +86,7 @@ def test_a_simulation_becomes_what_was_set_before_it_is_configured(
     assert peer.set(SIMULATION, publish_rate=20).successful
 
 
-def test_a_scene_that_cannot_be_is_refused_and_changes_nothing(peer: Peer, start: Start) -> None:
+def test_an_invalid_scene_is_refused_and_changes_nothing(peer: Peer, start: Start) -> None:
     start("planetary_twin.simulation", *UNCONFIGURED, "-p", "input_torque:=80")
     before = values(peer, "scene", "input_torque", "gearset.teeth.sun")
     for given in (

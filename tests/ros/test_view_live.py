@@ -1,4 +1,4 @@
-"""A running twin is looked at as it runs."""
+"""A running twin is drawn live."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ def _view(*options: str) -> subprocess.Popen[str]:
     )
 
 
-def test_a_running_twin_is_drawn_and_where_there_is_none_one_line_says_so(
+def test_a_running_twin_is_drawn_and_its_absence_is_reported_in_one_line(
     user: Peer, points: list[OperatingPoint], tmp_path: Path
 ) -> None:
     states = user.listen(GearboxState, f"{TWIN}/gearbox_state")
@@ -42,9 +42,9 @@ def test_a_running_twin_is_drawn_and_where_there_is_none_one_line_says_so(
             times += chunk.to_record_batch().column("simulated_time").cast("int64").to_pylist()
     assert "/gears/carrier/pin_1/planet_1" in static
     user.until(lambda: states[-1].simulated_time >= 1e-9 * max(times) - 1e-6)
-    heard = np.rint(1e9 * np.array([state.simulated_time for state in states]))
+    received = np.rint(1e9 * np.array([state.simulated_time for state in states]))
     assert np.all(np.diff(times) > 0)
-    assert len(times) >= 10 and np.isin(times, heard).all()
+    assert len(times) >= 10 and np.isin(times, received).all()
     assert nobody.returncode == 2
     _, errors = nobody.communicate()
     assert errors == (

@@ -1,4 +1,4 @@
-"""What spins ends at a signal, whether ROS is shut down before or after it wakes."""
+"""Executors end at a signal, whether ROS is shut down before or after they wake."""
 
 import subprocess
 import sys
@@ -18,7 +18,7 @@ def as_rclpy_does(executor):
     time.sleep(0.2)  # in which it goes back to waiting
     rclpy.get_default_context().handle.shutdown()
 
-SIGNALS.listen()
+SIGNALS.install()
 rclpy.init(signal_handler_options=SignalHandlerOptions.NO)
 executor = SingleThreadedExecutor()
 threading.Thread(target=as_rclpy_does, args=[executor]).start()

@@ -1,4 +1,4 @@
-"""What nodes import and load at their start, in the process that those of tests are forked from."""
+"""Imports and loads what nodes need at their start, in the process from which tests fork them."""
 
 import planetary_twin.composed
 import planetary_twin.logger

@@ -24,7 +24,7 @@ def test_executables_are_found(ros2: Ros2) -> None:
 
 def test_the_simulation_is_found_with_its_topics_and_services(ros2: Ros2, twin: str) -> None:
     assert twin in ros2("node", "list").split()
-    told = ros2("node", "info", twin)
+    answer = ros2("node", "info", twin)
     for name in (
         "/planetary_twin/gearbox_state: planetary_twin_msgs/msg/GearboxState",
         "/planetary_twin/joint_states: sensor_msgs/msg/JointState",
@@ -32,7 +32,7 @@ def test_the_simulation_is_found_with_its_topics_and_services(ros2: Ros2, twin: 
         f"{twin}/set_operating_point: planetary_twin_msgs/srv/SetOperatingPoint",
         f"{twin}/step: planetary_twin_msgs/srv/Step",
     ):
-        assert name in told
+        assert name in answer
 
 
 def test_a_message_and_a_field_of_it_are_shown(ros2: Ros2, twin: str) -> None:
@@ -43,12 +43,12 @@ def test_a_message_and_a_field_of_it_are_shown(ros2: Ros2, twin: str) -> None:
     assert "frame_id: gearbox" in shown
 
 
-def test_a_late_joiner_gets_what_is_latched(ros2: Ros2, twin: str) -> None:
+def test_a_late_subscriber_receives_latched_messages(ros2: Ros2, twin: str) -> None:
     assert ros2.echo("/planetary_twin/operating_point")["input_torque"] == 63.0
     printed = ros2("topic", "echo", "--once", "/planetary_twin/robot_description", "--full-length")
     assert "<robot name=" in printed
-    told = ros2("topic", "info", "-v", "/planetary_twin/operating_point")
-    assert "Reliability: RELIABLE" in told and "Durability: TRANSIENT_LOCAL" in told
+    answer = ros2("topic", "info", "-v", "/planetary_twin/operating_point")
+    assert "Reliability: RELIABLE" in answer and "Durability: TRANSIENT_LOCAL" in answer
 
 
 @pytest.mark.parametrize("interface", INTERFACES)

@@ -16,9 +16,9 @@ ARGUMENTS = (
 
 
 def test_every_argument_is_described(ros2: Ros2) -> None:
-    told = ros2(*LAUNCH, "-s")
+    output = ros2(*LAUNCH, "-s")
     for name in ARGUMENTS:
-        _, _, after = told.partition(f"'{name}':\n")
+        _, _, after = output.partition(f"'{name}':\n")
         description, default = after.splitlines()[:2]
         assert len(description.strip()) > 10 and "(default: " in default, name
 
@@ -47,7 +47,7 @@ def test_twins_of_two_namespaces_run_and_record_side_by_side(ros2: Ros2) -> None
         assert not any(topic.startswith(f"/{other}/") for topic in topics)
 
 
-def test_a_twin_of_another_domain_and_scene_is_not_met(ros2: Ros2) -> None:
+def test_a_twin_in_another_domain_is_not_discovered(ros2: Ros2) -> None:
     params = ros2.folder / "params.yaml"
     params.write_text("/**:\n  ros__parameters:\n    backlash: 1.5e-7\n", encoding="utf-8")
     options = ("domain:=230", "namespace:=far", "scene:=run_up", "record:=false")
@@ -65,7 +65,7 @@ def test_a_twin_of_another_domain_and_scene_is_not_met(ros2: Ros2) -> None:
     assert "[DEBUG]" in ros2.output(far)
 
 
-def test_older_names_of_arguments_work_and_a_clock_is_followed(ros2: Ros2) -> None:
+def test_deprecated_names_of_arguments_work_and_a_clock_is_followed(ros2: Ros2) -> None:
     params = ros2.folder / "older.yaml"
     params.write_text("/**:\n  ros__parameters:\n    backlash: 1.5e-7\n", encoding="utf-8")
     older = ("composed:=true", f"params:={params}")
@@ -74,8 +74,8 @@ def test_older_names_of_arguments_work_and_a_clock_is_followed(ros2: Ros2) -> No
     assert ros2.value("/older/simulation", "backlash") == "1.5e-07"
     assert ros2.value("/older/simulation", "use_sim_time") == "True"
     assert ros2.interrupt(process) == 0
-    told = ros2.output(process)
-    assert "[twin-" in told and "use_sim_time: waits for the first message on /clock" in told
+    output = ros2.output(process)
+    assert "[twin-" in output and "use_sim_time: waits for the first message on /clock" in output
 
 
 def test_a_scene_keeps_its_operating_point(ros2: Ros2) -> None:
@@ -89,7 +89,7 @@ def test_a_scene_keeps_its_operating_point(ros2: Ros2) -> None:
 def test_a_simulation_that_cannot_start_ends_the_launch_with_the_reason(ros2: Ros2) -> None:
     process = ros2.start(*LAUNCH, "namespace:=wrong", "rate_factor:=1000.0")
     process.wait(60)
-    told = ros2.output(process)
-    assert "simulation: " in told and "rate_factor" in told
-    assert "Traceback" not in told
+    output = ros2.output(process)
+    assert "simulation: " in output and "rate_factor" in output
+    assert "Traceback" not in output
     assert "/wrong/logger" not in ros2("node", "list").split()

@@ -19,7 +19,7 @@ from .command import Ros2
         ("tolerance", "1e-3", "0.001"),
     ],
 )
-def test_numbers_are_taken_as_typed(
+def test_numbers_are_accepted_as_typed(
     ros2: Ros2, twin: str, name: str, typed: str, shown: str
 ) -> None:
     assert ros2("param", "set", twin, name, typed).strip() == "Set parameter successful"
@@ -27,7 +27,7 @@ def test_numbers_are_taken_as_typed(
 
 
 @pytest.mark.parametrize(
-    ("name", "typed", "told"),
+    ("name", "typed", "expected"),
     [
         ("backlash", "nan", ("backlash", "nan", "0.001")),
         ("input_speed", ".inf", ("input_speed", "inf", "1100")),
@@ -45,12 +45,12 @@ def test_numbers_are_taken_as_typed(
     ],
 )
 def test_a_refusal_names_field_value_and_range(
-    ros2: Ros2, twin: str, name: str, typed: str, told: tuple[str, ...]
+    ros2: Ros2, twin: str, name: str, typed: str, expected: tuple[str, ...]
 ) -> None:
     before = ros2("param", "dump", twin)
     answer = ros2("param", "set", twin, name, typed)
     assert answer.startswith("Setting parameter failed: ") and len(answer.splitlines()) == 1
-    assert all(words in answer for words in told), answer
+    assert all(words in answer for words in expected), answer
     assert ros2("param", "dump", twin) == before
 
 
@@ -63,7 +63,7 @@ def test_every_parameter_is_described(ros2: Ros2, twin: str) -> None:
         assert words in listed
 
 
-def test_what_was_dumped_loads_and_starts(ros2: Ros2, twin: str) -> None:
+def test_a_dumped_file_loads_and_starts(ros2: Ros2, twin: str) -> None:
     for name, value in (("backlash", "3e-7"), ("lambda_ratio", "2"), ("tolerance", "1e-4")):
         ros2("param", "set", twin, name, value)
     dumped = ros2("param", "dump", twin)

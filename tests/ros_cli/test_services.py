@@ -7,14 +7,14 @@ from .command import Ros2
 MESSAGES = "planetary_twin_msgs/srv"
 
 
-def test_time_stops_steps_and_begins_anew(ros2: Ros2, twin: str) -> None:
+def test_time_pauses_steps_and_starts_again(ros2: Ros2, twin: str) -> None:
     assert "paused from " in ros2.call(f"{twin}/pause", "std_srvs/srv/SetBool", "{data: true}")
     step = ros2.call(f"{twin}/step", f"{MESSAGES}/Step", "{duration: 0.01}")
     assert "success=True" in step and "simulated_time=" in step
     refused = ros2.call(f"{twin}/step", f"{MESSAGES}/Step", "{duration: .nan}")
     assert "success=False" in refused and "duration = nan s: must be above 0" in refused
     assert "runs from " in ros2.call(f"{twin}/pause", "std_srvs/srv/SetBool", "{data: false}")
-    assert "begins anew at 0 s" in ros2.call(f"{twin}/reset", "std_srvs/srv/Trigger")
+    assert "starts again at 0 s" in ros2.call(f"{twin}/reset", "std_srvs/srv/Trigger")
 
 
 def test_the_operating_point_changes_as_a_whole(ros2: Ros2, twin: str) -> None:
@@ -27,12 +27,12 @@ def test_the_operating_point_changes_as_a_whole(ros2: Ros2, twin: str) -> None:
     assert ros2.value(twin, "backlash") == "3e-07"
 
 
-def test_natural_modes_are_told(ros2: Ros2, twin: str) -> None:
+def test_natural_modes_are_returned(ros2: Ros2, twin: str) -> None:
     modes = ros2.call(f"{twin}/natural_modes", f"{MESSAGES}/NaturalModes")
     assert "frequencies=[0.0, " in modes and "'rotational'" in modes
 
 
-def test_the_life_cycle_goes_round(ros2: Ros2, twin: str) -> None:
+def test_the_life_cycle_is_completed(ros2: Ros2, twin: str) -> None:
     assert twin in ros2("lifecycle", "nodes").split()
     assert "- deactivate [4]" in ros2("lifecycle", "list", twin)
     for transition, state in (

@@ -1,4 +1,4 @@
-"""The fields in words against pydantic's own JSON schema, and against what a scene takes."""
+"""Descriptions of fields agree with pydantic's JSON schema and with the values a scene accepts."""
 
 import math
 from types import SimpleNamespace
@@ -19,7 +19,7 @@ def resolved(schema):
 
 
 def one_of(schema):
-    """What a field may be besides null; and that with what stands beside it."""
+    """The schema of a field without null, and with its other keys."""
     return [
         resolved(part)
         for part in schema.get("anyOf", schema.get("oneOf", [schema]))
@@ -28,7 +28,7 @@ def one_of(schema):
 
 
 def walk(schema, name="", kind=""):
-    """Kind, dotted name, what stands at the field and the schema of its value, of every field."""
+    """Kind, dotted name, keys of the field and schema of its value, for every field."""
     for own, field in schema["properties"].items():
         dotted = f"{name}.{own}".lstrip(".")
         values = one_of(field)
@@ -45,17 +45,17 @@ def walk(schema, name="", kind=""):
 ALL = {(kind, name): SimpleNamespace(at=at, value=value) for kind, name, at, value in walk(SCHEMA)}
 
 
-def test_every_field_of_the_schema_is_there_and_no_other():
+def test_the_fields_are_exactly_those_of_the_schema():
     assert len(ALL) > 120
     assert list(FIELDS) and set(FIELDS) == set(ALL)
 
 
 @pytest.mark.parametrize("key", ALL, ids=lambda key: key[1])
 def test_unit_choices_and_meaning_are_those_of_the_schema(key):
-    shown, told = FIELDS[key], ALL[key]
-    assert shown.meaning == told.at["description"] and shown.meaning
-    assert shown.unit == (told.at.get("unit", "") or ("-" if is_number(told.value) else ""))
-    choices = told.value.get("enum", [told.value["const"]] if "const" in told.value else [])
+    shown, entry = FIELDS[key], ALL[key]
+    assert shown.meaning == entry.at["description"] and shown.meaning
+    assert shown.unit == (entry.at.get("unit", "") or ("-" if is_number(entry.value) else ""))
+    choices = entry.value.get("enum", [entry.value["const"]] if "const" in entry.value else [])
     if choices:
         assert shown.range == ", ".join(choices)
 
@@ -98,7 +98,7 @@ def test_defaults_are_those_of_the_schema(key):
         ("drive.input.inertia", (math.nextafter(0.0, 1.0), 1e9), (0.0,)),
     ],
 )
-def test_a_scene_takes_what_lies_in_the_range_and_no_more(name, inside, outside):
+def test_a_scene_accepts_values_in_the_range_only(name, inside, outside):
     scene, shown = pt.load_scene("paper"), FIELDS["", name].range
     assert (
         shown
@@ -115,7 +115,7 @@ def test_a_scene_takes_what_lies_in_the_range_and_no_more(name, inside, outside)
             scene.replace(**{name: value})
 
 
-def test_which_way_an_error_of_form_counts_is_told():
+def test_the_sign_of_a_form_error_is_documented():
     section = next(s for s in scene_sections() if s.name == "mesh.sun_planet_error")
     assert "positive e" in section.meaning and "missing" in section.meaning
     assert "positive e: missing material" in FIELDS["", "mesh.sun_planet_error.amplitudes"].meaning

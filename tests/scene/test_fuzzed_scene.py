@@ -1,4 +1,4 @@
-"""Scenes made of sound ones by chance: each is read, or refused in one line."""
+"""Randomly altered scenes are read, or refused in one line."""
 
 import pytest
 import yaml
@@ -51,7 +51,7 @@ def places(value, path=()):
 
 @st.composite
 def changed(draw):
-    """A packaged scene with up to three values replaced, left out, or moved to another key."""
+    """A packaged scene with up to three values replaced, removed, or moved to another key."""
     scene = yaml.safe_load(yaml.safe_dump(draw(st.sampled_from(SOUND))))
     for _ in range(draw(st.integers(1, 3))):
         *above, last = draw(st.sampled_from(list(places(scene))))
@@ -91,6 +91,6 @@ def test_a_scene_with_other_bytes_is_read_or_refused(file, data):
 
 @searching
 @given(text=st.text(alphabet="ab:-[]{}&*!<>|?#%@`'\", \n\t0123456789.~e_xb", max_size=60))
-def test_a_text_of_the_signs_of_yaml_is_read_or_refused(file, text):
+def test_a_text_of_yaml_characters_is_read_or_refused(file, text):
     file.write_text(text, "utf-8")
     read(file)

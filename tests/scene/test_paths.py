@@ -13,7 +13,7 @@ CRACKED = pt.load_scene("cracked_tooth")
 BEARING = {"losses.planet_bearing.mean_diameter": "10 mm"}
 
 
-def test_a_field_of_an_entry_of_a_list_is_replaced_and_the_others_stay():
+def test_a_field_of_an_entry_of_a_list_is_replaced_and_the_others_are_kept():
     scene = CRACKED.replace(**{"faults.0.depth": "0.5 mm", "faults.0.tooth": "7"})
     (crack,) = scene.faults
     assert (crack.depth, crack.tooth, crack.gear) == (pytest.approx(5e-4), 7, "sun")
@@ -28,7 +28,7 @@ def test_a_value_in_a_list_is_replaced():
     assert scene.gearset.planet_angles == (angles[0], angles[1] + step, angles[2])
 
 
-def test_an_optional_section_that_is_not_given_begins_with_its_defaults():
+def test_an_optional_section_that_is_not_given_starts_with_its_defaults():
     bearing = PAPER.replace(**BEARING, **{"losses.planet_bearing.f0": 3}).losses.planet_bearing
     assert (bearing.mean_diameter, bearing.f0, bearing.f1) == (pytest.approx(0.01), 3.0, 5e-4)
 
@@ -54,7 +54,7 @@ def test_an_optional_section_that_is_left_incomplete_is_refused_with_what_is_mis
         (PAPER, "mesh.", "no such field"),
     ],
 )
-def test_a_path_that_leads_nowhere_is_refused_with_the_reason(scene, name, reason):
+def test_an_invalid_path_is_refused_with_the_reason(scene, name, reason):
     with pytest.raises(pt.SceneError) as refusal:
         scene.replace(**{name: 1.0})
     assert str(refusal.value).startswith(f"{name}: {reason}")
@@ -65,8 +65,8 @@ def test_a_text_for_a_list_is_refused_as_such():
         PAPER.replace(**{"gearset.planet_angles": "0 deg,1 deg"})
 
 
-def test_every_field_that_is_listed_leads_somewhere():
-    """Of a scene with everything that may be there; the paths are those of the reference."""
+def test_every_listed_field_has_a_valid_path():
+    """For a scene with every optional part; the paths are those of the reference."""
     bearings = {
         f"losses.{body}_bearing": {"mean_diameter": 0.01}
         for body in ("planet", "sun", "ring", "carrier")

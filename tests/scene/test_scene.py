@@ -1,4 +1,4 @@
-"""Scenes from YAML: units at the edge, and errors in one line that name the field."""
+"""Scenes from YAML: units in texts, and errors in one line that name the field."""
 
 import math
 
@@ -30,7 +30,7 @@ def test_the_packaged_scene_is_the_papers_gearbox():
     assert PAPER.operating_point.input_speed == pytest.approx(1000 * 2 * math.pi / 60)
 
 
-def test_a_scene_survives_its_own_yaml():
+def test_a_scene_is_unchanged_by_a_round_trip_through_yaml():
     assert pt.parse_scene(text()) == PAPER
 
 
@@ -44,7 +44,7 @@ def test_quantities_are_read_in_their_units(written, meant):
 
 
 @pytest.mark.parametrize("written", ["1000 1/min", "16 Hz", "1000 m", "fast"])
-def test_a_speed_says_whether_it_counts_turns_or_radians(written):
+def test_a_speed_needs_a_unit_that_distinguishes_turns_and_radians(written):
     with pytest.raises(pt.SceneError, match="input_speed") as refusal:
         pt.load_scene("paper").replace(input_speed=written)
     assert repr(written) in str(refusal.value) and "\n" not in str(refusal.value)
@@ -101,7 +101,7 @@ CRACK = {"kind": "crack", "gear": "sun", "tooth": 0, "stiffness_loss": 0.2}
     ],
     ids=str,
 )
-def test_a_scene_that_cannot_be_is_refused_in_one_line(changes, words):
+def test_an_invalid_scene_is_refused_in_one_line(changes, words):
     with pytest.raises(pt.SceneError) as error:
         pt.parse_scene(text(**changes))
     message = str(error.value)
@@ -150,7 +150,7 @@ def test_all_errors_of_a_scene_are_listed_at_once_a_line_each():
     )
 
 
-def test_what_contradicts_other_fields_is_listed_at_once_too():
+def test_contradictions_between_fields_are_listed_at_once_too():
     with pytest.raises(pt.SceneError) as refusal:
         PAPER.replace(input_speed=2e3, second_input_speed=1.0, faults=[CRACK | {"tooth": 30}])
     assert str(refusal.value) == (
@@ -161,7 +161,7 @@ def test_what_contradicts_other_fields_is_listed_at_once_too():
     )
 
 
-def test_a_mistyped_name_is_told_rather_than_the_right_one_it_leaves_out():
+def test_a_mistyped_name_is_reported_instead_of_the_missing_one():
     data = yaml.safe_load(text())
     data["gearset"]["modul"] = data["gearset"].pop("module")
     with pytest.raises(pt.SceneError) as refusal:
@@ -185,14 +185,14 @@ def test_a_mistyped_name_is_told_rather_than_the_right_one_it_leaves_out():
         ("x", ""),
     ],
 )
-def test_a_name_that_is_not_a_fields_is_told_with_the_nearest_if_one_is_near(name, meant):
+def test_an_unknown_field_is_reported_with_the_most_similar_one_if_any(name, meant):
     with pytest.raises(pt.SceneError) as refusal:
         PAPER.replace(**{name: 1.0})
     assert str(refusal.value) == f"{name}: no such field{meant}"
 
 
 @pytest.mark.parametrize(("name", "end"), [("papr", "; did you mean paper?"), ("zzz", "_stage")])
-def test_a_scene_that_there_is_not_is_told_with_the_nearest_if_one_is_near(name, end):
+def test_an_unknown_scene_is_reported_with_the_most_similar_one_if_any(name, end):
     with pytest.raises(pt.SceneError, match="'" + name) as refusal:
         pt.load_scene(name)
     assert str(refusal.value).endswith(end)
@@ -202,7 +202,7 @@ def test_a_scene_that_there_is_not_is_told_with_the_nearest_if_one_is_near(name,
 
 
 @pytest.mark.parametrize("name", ["colour", "mesh.colour", "mesh.ramp.colour", "nothing.here"])
-def test_replacing_what_there_is_not_is_refused(name):
+def test_replacing_an_unknown_field_is_refused(name):
     with pytest.raises(pt.SceneError, match="no such field"):
         PAPER.replace(**{name: 1.0})
 

@@ -44,7 +44,7 @@ def test_first_mode_is_that_of_rotor_and_generator_on_the_published_spring():
 def loss_coefficients(traction):
     """Mean friction coefficient by its definition, loss = mu H_v power of the mesh, and losses [W].
 
-    Of both kinds of mesh, without vibration.
+    For both kinds of mesh, without vibration.
     """
     scene = SCENE.replace(**{"dynamics": "quasi_static", "lubrication.traction": traction})
     meshes = describe_meshes(scene)
@@ -87,8 +87,8 @@ def test_schlenks_regression_pair_by_pair_is_near_its_value_at_the_pitch_point()
 
 
 def test_default_law_is_near_schlenks_in_the_sun_meshes_and_below_it_in_the_ring_meshes():
-    """At 0.9 GPa in the sun meshes both hold. At 0.4 GPa in the ring meshes the film shears almost
-    as a Newtonian one, for which the regression of heavily loaded test gears has no term."""
+    """At 0.9 GPa in the sun meshes, both apply. At 0.4 GPa in the ring meshes, the film shears
+    almost as a Newtonian fluid, for which the regression of loaded test gears has no term."""
     found = loss_coefficients("eyring")
     assert found["sun_planet"][0] == pytest.approx(PITCH_POINT["sun_planet"], rel=0.3)
     assert 0.5 < found["planet_ring"][0] / PITCH_POINT["planet_ring"] < 0.7

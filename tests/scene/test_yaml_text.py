@@ -1,4 +1,4 @@
-"""YAML of a scene: a key that stands twice is refused, with both of its lines."""
+"""YAML of a scene: a duplicate key is refused, with both of its lines."""
 
 from itertools import pairwise
 
@@ -15,12 +15,12 @@ def refusal(text):
     return str(error.value)
 
 
-def test_a_key_that_stands_twice_is_refused_with_both_lines():
+def test_a_duplicate_key_is_refused_with_both_lines():
     text = "base: paper\nmesh:\n  ramp: 0.01\n  backlash: dead_zone\n  ramp: 0.02\n"
     assert refusal(text) == "mesh.ramp: given twice, in line 3 and in line 5"
 
 
-def test_every_key_that_stands_twice_is_listed():
+def test_every_duplicate_key_is_listed():
     text = "base: paper\nfaults:\n- {kind: crack, kind: wear}\nmesh: {}\nmesh: {}\n"
     assert refusal(text) == (
         "the scene has 2 errors:\n"
@@ -29,7 +29,7 @@ def test_every_key_that_stands_twice_is_listed():
     )
 
 
-def test_the_same_key_in_different_sections_is_none_that_stands_twice():
+def test_the_same_key_in_different_sections_is_no_duplicate():
     scene = pt.parse_scene(
         "base: paper\nmesh: {backlash: dead_zone}\noperating_point: {backlash: 0}"
     )
@@ -86,14 +86,14 @@ def test_aliases_of_a_scene_that_is_not_large_are_followed():
 
 
 @pytest.mark.parametrize(
-    ("text", "told"),
+    ("text", "reason"),
     [
         ("operating_point: {input_torque: yes}", "input_torque = True: must be a number within"),
         ("gearset: {planet_angles: [yes, no]}", "gearset.planet_angles = [True, False]"),
         ("faults: [{kind: wear, gear: sun, depth: 1e-6, tooth: on}]", "faults.0.tooth = True"),
     ],
 )
-def test_yes_is_no_number(text, told):
-    assert told in refusal(f"base: paper\n{text}")
+def test_yes_is_no_number(text, reason):
+    assert reason in refusal(f"base: paper\n{text}")
     with pytest.raises(pt.SceneError, match="input_torque = True"):
         pt.load_scene("paper").replace(input_torque=True)

@@ -1,4 +1,4 @@
-"""A study small enough to be run again and again."""
+"""A study small enough to be run repeatedly."""
 
 import planetary_twin_py as pt
 from planetary_twin_py.studies.axes import Axis

@@ -1,4 +1,4 @@
-"""What the command line says of a field becomes the values that a scene takes."""
+"""Texts on the command line become values of scene fields."""
 
 import numpy as np
 import pytest
@@ -27,7 +27,7 @@ def test_lists_grids_and_equal_ratios_are_read_with_their_units(field, text, val
     assert axis.values == pytest.approx(values, rel=1e-12)
 
 
-def test_ends_of_a_grid_are_those_given_to_the_last_bit():
+def test_ends_of_a_grid_equal_the_given_values_bit_for_bit():
     values = read_axis(PAPER, "lubrication.viscosity", "0.013:0.97:7:log").values
     assert (values[0], values[-1]) == (0.013, 0.97)
 
@@ -39,14 +39,14 @@ def test_words_are_values_too():
     )
 
 
-def test_a_range_without_a_count_is_one_to_draw_from():
+def test_a_range_without_a_count_is_sampled():
     assert read_axis(PAPER, "backlash", "1e-7:1e-6:log") == Span("backlash", 1e-7, 1e-6, True)
     span = read_axis(PAPER, "input_torque", "10:30")
     assert span.at(np.array([0.0, 0.25, 1.0])) == pytest.approx([10.0, 15.0, 30.0])
 
 
 @pytest.mark.parametrize(
-    ("field", "text", "told"),
+    ("field", "text", "reason"),
     [
         ("nosuch", "1:2:3", "nosuch: no such field"),
         ("backlash", "1:2:3", r"backlash = 1\.0: must be a number within 0 and 0\.001 m"),
@@ -75,7 +75,7 @@ def test_a_range_without_a_count_is_one_to_draw_from():
         ("input_torque", "40,5 N m:50 N m:3", r"'40,5 N m': write a decimal point"),
     ],
 )
-def test_what_cannot_be_is_refused_in_one_line_that_names_the_field(field, text, told):
-    with pytest.raises(ValueError, match=told) as refusal:
+def test_an_invalid_axis_is_refused_in_one_line_that_names_the_field(field, text, reason):
+    with pytest.raises(ValueError, match=reason) as refusal:
         read_axis(PAPER, field, text)
     assert "\n" not in str(refusal.value) and field in str(refusal.value)

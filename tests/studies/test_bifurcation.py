@@ -1,4 +1,4 @@
-"""Ways up and down: one motion where one is possible, two where flanks may part or stay."""
+"""Directions up and down: one motion if only one is possible, two where flanks may separate."""
 
 import json
 import math
@@ -13,7 +13,7 @@ from planetary_twin_py.studies.bifurcation import DOWN, UP, Dwell, bifurcation
 from planetary_twin_py.studies.section import Section
 
 PAPER = pt.load_scene("paper")
-# Lightly loaded and damped, with play: near the first natural frequency the flanks may part.
+# Lightly loaded and damped, with backlash: near the first natural frequency flanks may separate.
 LOOSE = PAPER.replace(
     **{
         "input_torque": 10.0,
@@ -27,7 +27,7 @@ DTE = "sun_planet_1_dte"
 
 
 def seen(table, direction, speed):
-    """DTE of the first mesh at one speed of one way [m]."""
+    """DTE of the first mesh at one speed in one direction [m]."""
     rows = zip(table["direction"], table["input_speed"], table[DTE], strict=True)
     found = [
         dte.as_py()
@@ -37,11 +37,11 @@ def seen(table, direction, speed):
     return np.array(found)
 
 
-def test_where_one_motion_is_possible_both_ways_find_it():
+def test_both_directions_find_the_only_possible_motion():
     speeds = [pt.rpm(speed) for speed in (4000, 4050, 4100)]
-    heard = []
-    table = bifurcation(PAPER, speeds, Dwell(0.3, cycles=10), heard.append)
-    assert heard == [None] * 6 and len(table) == 6 * 10
+    failures = []
+    table = bifurcation(PAPER, speeds, Dwell(0.3, cycles=10), failures.append)
+    assert failures == [None] * 6 and len(table) == 6 * 10
     swing = np.ptp(pt.simulate(PAPER.replace(input_speed=speeds[1]), 0.05).dte[:, 0])
     for speed in speeds:
         up, down = seen(table, UP, speed), seen(table, DOWN, speed)
@@ -49,7 +49,7 @@ def test_where_one_motion_is_possible_both_ways_find_it():
 
 
 def independent(start_speed, settling):
-    """Sections of a run of its own at TWICE, begun at another speed: by interpolation [m]."""
+    """Sections of a separate run at TWICE, started at another speed: by interpolation [m]."""
     scene = LOOSE.replace(
         input_speed=TWICE,
         **{"drive.speed_control.start_speed": start_speed},
@@ -62,8 +62,8 @@ def independent(start_speed, settling):
 
 
 @pytest.mark.exhaustive
-def test_where_two_motions_are_possible_each_way_keeps_its_own():
-    """Both repeat with the meshing; their sections lie 1.2 um apart."""
+def test_each_direction_keeps_its_motion_if_two_are_possible():
+    """Both repeat with the meshing; their sections are 1.2 um apart."""
     speeds = [pt.rpm(speed) for speed in (10_000, 10_070, 10_140, 10_210, 10_280, 10_380, 10_480)]
     table = bifurcation(LOOSE, speeds, Dwell(0.2, cycles=60))
     together, parting = seen(table, UP, TWICE), seen(table, DOWN, TWICE)
@@ -75,7 +75,7 @@ def test_where_two_motions_are_possible_each_way_keeps_its_own():
     assert independent(None, 1.0) == pytest.approx(parting.mean(), abs=smeared)
 
 
-def test_the_table_says_units_and_what_it_follows_from():
+def test_the_table_contains_units_and_provenance():
     table = bifurcation(PAPER, pt.rpm(3000) * np.array([1.0, 1.1]), Dwell(0.01, cycles=2))
     assert table.schema.field(DTE).metadata[b"unit"] == b"m"
     assert table.schema.metadata[b"study"] == b"bifurcation"
@@ -94,7 +94,7 @@ def test_the_table_says_units_and_what_it_follows_from():
         ),
     ],
 )
-def test_speeds_at_which_vibration_stops_gears_are_warned_of(changes, speed, warned, tmp_path):
+def test_speeds_at_which_vibration_stops_gears_cause_a_warning(changes, speed, warned, tmp_path):
     options = [word for change in changes.split() for word in ("--set", change)]
     speeds = f"{speed}rpm:{1.1 * speed}rpm:2"
     out = ["--settling", "0.05", "--cycles", "2", "--out", str(tmp_path / "jumps.csv")]
@@ -104,7 +104,7 @@ def test_speeds_at_which_vibration_stops_gears_are_warned_of(changes, speed, war
     assert ("points (reversals), at worst: vibration stops gears" in done.stderr) == warned
 
 
-def test_a_way_that_fails_ends_there_and_says_why(monkeypatch):
+def test_a_direction_that_fails_ends_there_with_the_reason(monkeypatch):
     real = Section.hold
 
     def hold(self, speed, duration):
@@ -134,7 +134,7 @@ def test_a_way_that_fails_ends_there_and_says_why(monkeypatch):
         (PAPER, [100.0, 200.0], Dwell(tolerance=1.0), "tolerance = 1.0"),
     ],
 )
-def test_what_cannot_be_is_refused_in_one_line(scene, speeds, dwell, message):
+def test_invalid_input_is_refused_in_one_line(scene, speeds, dwell, message):
     with pytest.raises(ValueError, match=message) as refusal:
         bifurcation(scene, speeds, dwell)
     assert "\n" not in str(refusal.value)

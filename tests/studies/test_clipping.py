@@ -1,4 +1,4 @@
-"""Viscous friction that is clipped to zero stands in the table of a study, and is told."""
+"""Viscous friction that is clipped to zero is counted in the table of a study, and reported."""
 
 import pyarrow.parquet
 import pytest
@@ -40,7 +40,7 @@ def warnings(done):
     return [line for line in done.stderr.splitlines() if "warning" in line]
 
 
-def test_the_share_that_is_clipped_is_that_of_a_run_of_its_own():
+def test_the_clipped_share_is_that_of_a_separate_run():
     scene = pt.parse_scene(SCENE)
     settings = Settings(duration=0.02, settling=0.0)
     table = sweep(grid(scene, [Axis("input_torque", TORQUES)], settings), Threads())
@@ -62,7 +62,9 @@ def test_nothing_is_clipped_without_friction():
 
 
 @pytest.mark.parametrize("out", ["study.parquet", "study.png"])
-def test_a_sweep_tells_once_at_how_many_points_and_in_the_words_of_simulate(thick, tmp_path, out):
+def test_a_sweep_warns_once_with_the_number_of_points_in_the_words_of_simulate(
+    thick, tmp_path, out
+):
     torques = ["--input-torque", "0.3,3,63", "--duration", 0.02, "--settling", 0]
     (line,) = warnings(run("sweep", thick, *torques, "--out", tmp_path / out))
     assert line.endswith("; at 2 of 3 points")
@@ -71,16 +73,16 @@ def test_a_sweep_tells_once_at_how_many_points_and_in_the_words_of_simulate(thic
     assert line == alone.replace("100 %", "up to 100 %") + "; at 2 of 3 points"
 
 
-def test_a_stribeck_curve_tells_it_too(thick, tmp_path):
-    def told(torque):
+def test_a_stribeck_curve_warns_of_it_too(thick, tmp_path):
+    def warned(torque):
         out = ["--input-speed", "1000rpm:5000rpm:3:log", "--out", tmp_path / "curve.parquet"]
         return warnings(run("stribeck", thick, "--set", f"input_torque={torque}", *out))
 
-    (line,) = told(0.3)
+    (line,) = warned(0.3)
     assert "viscous friction is clipped to zero" in line and "at 3 of 3 points" in line
     table = pyarrow.parquet.read_table(tmp_path / "curve.parquet")
     assert table["sun_planet_viscous_friction_clipped"].to_pylist() == [1.0] * 3
-    assert told(63) == []
+    assert warned(63) == []
 
 
 def test_points_that_failed_are_not_counted(thick, tmp_path):
@@ -92,7 +94,7 @@ def test_points_that_failed_are_not_counted(thick, tmp_path):
     assert line.endswith("; at 1 of 2 points")
 
 
-def test_a_journal_of_other_figures_is_left_alone(tmp_path, monkeypatch):
+def test_a_journal_with_other_quantities_is_left_unchanged(tmp_path, monkeypatch):
     """One of an earlier version, whose rows lack a column."""
     study = grid(PAPER, [Axis("input_torque", (20.0,))], Settings(duration=0.005, settling=0.0))
     journal = tmp_path / "journal"

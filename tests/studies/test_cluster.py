@@ -70,14 +70,14 @@ def test_points_of_a_killed_worker_are_run_by_another(scheduler):
     cluster = Cluster(address)
     done = []
 
-    def hear(count, failure):
+    def on_point(count, failure):
         done.append((count, failure))
         if sum(count for count, _ in done) == 5:
             os.kill(workers[0].pid, signal.SIGKILL)
 
     try:
         until(lambda: len(cluster._client.nthreads()) == 2)
-        table = sweep(study, cluster, report=hear)
+        table = sweep(study, cluster, report=on_point)
     finally:
         cluster.close()
     assert workers[0].wait(10) == -signal.SIGKILL
@@ -85,7 +85,7 @@ def test_points_of_a_killed_worker_are_run_by_another(scheduler):
     assert table.equals(sweep(study, Threads()), check_metadata=True)
 
 
-def test_an_address_without_a_scheduler_is_told_in_one_line(monkeypatch):
+def test_an_address_without_a_scheduler_is_refused_in_one_line(monkeypatch):
     monkeypatch.setattr("planetary_twin_py.studies.cluster._TIMEOUT", 0.5)
     with pytest.raises(ValueError, match=r"scheduler = 'tcp://127\.0\.0\.1:1'") as refusal:
         Cluster("tcp://127.0.0.1:1")

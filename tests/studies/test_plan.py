@@ -1,4 +1,4 @@
-"""Grids hold every combination; Latin hypercubes fill every stratum; keys know what matters."""
+"""Grids contain every combination; Latin hypercubes fill every stratum; keys depend on inputs."""
 
 import numpy as np
 import pytest
@@ -12,14 +12,14 @@ TORQUES = Axis("input_torque", (10.0, 20.0, 30.0))
 FILMS = Axis("lambda_ratio", (1.0, 2.0))
 
 
-def test_a_grid_holds_every_combination_once_the_last_axis_varying_quickest():
+def test_a_grid_contains_every_combination_once_and_the_last_axis_varies_fastest():
     study = grid(PAPER, [TORQUES, FILMS])
     found = [tuple(point.changes.values()) for point in study.points]
     assert found == [(t, f) for t in TORQUES.values for f in FILMS.values]
     assert [point.place for point in study.points] == list(range(6))
 
 
-def test_each_point_of_a_latin_hypercube_has_a_stratum_of_its_own_along_every_axis():
+def test_each_point_of_a_latin_hypercube_has_its_own_stratum_on_every_axis():
     spans = [Span("input_torque", 10.0, 30.0), Span("backlash", 1e-7, 1e-5, logarithmic=True)]
     study = latin_hypercube(PAPER, [*spans, FILMS], samples=20, seed=3)
     torque, backlash, film = (
@@ -41,7 +41,7 @@ def test_whole_numbers_stay_whole_when_drawn():
     assert all(isinstance(order, int) for order in orders) and set(orders) == set(range(1, 10))
 
 
-def test_a_key_changes_with_whatever_the_figures_follow_from_and_with_nothing_else():
+def test_a_key_depends_on_all_inputs_of_the_figures_and_on_nothing_else():
     study = grid(PAPER, [TORQUES])
     first, second, _ = study.points
     keys = {
@@ -57,7 +57,7 @@ def test_a_key_changes_with_whatever_the_figures_follow_from_and_with_nothing_el
 
 
 @pytest.mark.parametrize(
-    ("make", "told"),
+    ("make", "reason"),
     [
         (lambda: grid(PAPER, []), "no field varies"),
         (lambda: grid(PAPER, [TORQUES, TORQUES]), "input_torque: given twice"),
@@ -69,7 +69,7 @@ def test_a_key_changes_with_whatever_the_figures_follow_from_and_with_nothing_el
         (lambda: latin_hypercube(PAPER, [FILMS], 0), "samples = 0"),
     ],
 )
-def test_a_plan_that_cannot_be_is_refused_in_one_line(make, told):
-    with pytest.raises(ValueError, match=told) as refusal:
+def test_an_invalid_plan_is_refused_in_one_line(make, reason):
+    with pytest.raises(ValueError, match=reason) as refusal:
         make()
     assert "\n" not in str(refusal.value)

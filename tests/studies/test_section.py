@@ -1,4 +1,4 @@
-"""The section shows meshes at one phase: a point if motion repeats, the closed form if linear."""
+"""The section shows meshes at one phase: a point for periodic motion, a closed form if linear."""
 
 import math
 
@@ -10,7 +10,7 @@ from stability.sound import PLAIN, static_force
 import planetary_twin_py as pt
 from planetary_twin_py.studies.section import Section
 
-AMPLITUDE = 3e-7  # [m] bends teeth less than the load does: flanks stay together
+AMPLITUDE = 3e-7  # [m] bends teeth less than the load does: flanks stay in contact
 LINEAR = PLAIN.replace(**{"mesh.sun_planet_error": {"amplitudes": [AMPLITUDE]}})
 SPEED = pt.rpm(4000)
 
@@ -38,7 +38,7 @@ def settled(scene, phase, settling=1.0):
 
 
 @pytest.mark.parametrize("phase", [0.0, 0.3])
-def test_a_linear_train_forced_by_errors_of_form_is_seen_as_its_frequency_response(phase):
+def test_sections_of_a_linear_train_forced_by_form_errors_equal_its_frequency_response(phase):
     scene = LINEAR.replace(input_speed=SPEED)
     seen, expected = settled(scene, phase), closed_form(scene, phase)
     swing = np.ptp([closed_form(scene, cycle) for cycle in np.linspace(0.0, 1.0, 100)], axis=0)
@@ -53,6 +53,6 @@ def test_steady_running_is_one_point_for_each_mesh():
     assert np.ptp(seen, axis=0).max() < 1e-3 * np.ptp(run.dte, axis=0).min()
 
 
-def test_without_vibration_there_is_nothing_to_see():
+def test_a_section_needs_the_torsional_model():
     with pytest.raises(ValueError, match="dynamics = 'quasi_static': must be torsional"):
         Section(PLAIN.replace(dynamics="quasi_static"), 1e-4)

@@ -1,4 +1,4 @@
-"""The Stribeck curve of a scene with the default laws, from standstill on."""
+"""The Stribeck curve of a scene with the default laws, starting at standstill."""
 
 import numpy as np
 import pytest
@@ -27,7 +27,7 @@ def test_friction_rises_as_the_film_vanishes_down_to_a_thousandth_of_a_turn_a_mi
 
 
 @pytest.mark.parametrize("boundary, lines", [("greenwood_tripp", 1), ("load_sharing", 0)])
-def test_the_command_says_where_asperities_have_no_boundary_regime(boundary, lines, tmp_path):
+def test_the_command_reports_where_asperities_have_no_boundary_regime(boundary, lines, tmp_path):
     arguments = ["stribeck", "paper", "--set", f"lubrication.boundary={boundary}"]
     out = ["--input-speed", "10rpm,100rpm", "--out", str(tmp_path / "curve.csv")]
     done = CliRunner().invoke(build_app(), [*arguments, *out])

@@ -1,4 +1,4 @@
-"""A study gives the same table whoever runs it; what is done survives; failures are told."""
+"""A study gives the same table with any workers; finished points survive; failures are reported."""
 
 import threading
 
@@ -20,13 +20,13 @@ from planetary_twin_py.studies.sweep import sweep
 from planetary_twin_py.studies.table import write
 from planetary_twin_py.studies.work import Failure
 
-# So small an addendum that a tooth pair leaves before the next one comes.
+# So small an addendum that a tooth pair leaves before the next one enters.
 BROKEN = grid(PAPER, [Axis("gearset.addendum", (0.3, 1.0))], QUICK)
 
 
 @pytest.fixture
 def measured(monkeypatch):
-    """What was really run."""
+    """The points that were actually run."""
     scenes = []
 
     def counted(scene, settings):
@@ -44,11 +44,11 @@ def test_one_worker_and_several_give_the_same_table_to_the_last_bit():
         assert sweep(STUDY, Threads(count)).equals(alone, check_metadata=True)
 
 
-def test_figures_are_those_of_a_run_of_its_own_over_the_measured_part():
+def test_figures_are_those_of_a_separate_run_over_the_measured_part():
     table = sweep(STUDY, Threads())
     scene = PAPER.replace(**STUDY.points[3].changes)
     whole = pt.simulate(scene, 0.03, 1e6, tolerance=1e-3)
-    part = whole.time > 0.01 - 1e-9  # from the instant at which it begins
+    part = whole.time > 0.01 - 1e-9  # from the instant at which it starts
     planets = len(whole.meshes) // 2
     rows = table.to_pylist()[3]
     time, dte, force = whole.time[part], whole.dte[part], whole.mesh_force[part]
@@ -62,11 +62,11 @@ def test_figures_are_those_of_a_run_of_its_own_over_the_measured_part():
     assert rows["sun_planet_mesh_force_peak"] == pytest.approx(
         np.abs(force[:, :planets]).max(), rel=1e-3
     )
-    # Of whole steps, which end a little after the samples they hold.
+    # Of whole steps, which end slightly after the samples that they contain.
     assert rows["power_loss"] == pytest.approx(whole.total_power_loss[part].mean(), rel=5e-3)
 
 
-def test_the_table_says_units_meanings_and_what_it_follows_from(tmp_path):
+def test_the_table_contains_units_meanings_and_provenance(tmp_path):
     table = sweep(STUDY, Threads())
     write(table, tmp_path / "study.parquet")
     back = pyarrow.parquet.read_table(tmp_path / "study.parquet")
@@ -90,7 +90,7 @@ def test_finished_points_are_not_run_again(tmp_path, measured):
     assert sweep(STUDY, Threads()).equals(table, check_metadata=True)
 
 
-def test_a_line_torn_by_a_kill_costs_its_point_alone(tmp_path, measured):
+def test_a_line_truncated_by_a_kill_costs_its_point_only(tmp_path, measured):
     journal = tmp_path / "journal"
     table = sweep(STUDY, Threads(1), journal)
     text = journal.read_bytes()
@@ -102,32 +102,32 @@ def test_a_line_torn_by_a_kill_costs_its_point_alone(tmp_path, measured):
         assert len(Journal(journal).done) == len(STUDY.points)
 
 
-def test_a_point_that_fails_is_told_and_stops_no_other(tmp_path, measured):
-    told = []
-    for _ in range(2):  # it is tried again: what made it fail may have been mended
-        table = sweep(BROKEN, Threads(), tmp_path / "journal", lambda n, why: told.append(why))
-    assert [isinstance(why, Failure) for why in told if why] == [True, True]
+def test_a_point_that_fails_is_reported_and_stops_no_other(tmp_path, measured):
+    reasons = []
+    for _ in range(2):  # a failed point is tried again: its cause may have been removed
+        table = sweep(BROKEN, Threads(), tmp_path / "journal", lambda n, why: reasons.append(why))
+    assert [isinstance(why, Failure) for why in reasons if why] == [True, True]
     assert len(measured) == 3
     bad, good = table.to_pylist()
     assert bad["failure"].startswith("gearset.addendum = 0.3: ") and bad["efficiency"] is None
     assert good["failure"] is None and 0.9 < good["efficiency"] < 1.0
 
 
-def test_a_defect_of_ours_is_not_taken_for_a_point_that_fails(monkeypatch):
+def test_a_defect_of_the_program_is_not_reported_as_a_failed_point(monkeypatch):
     monkeypatch.setattr(work, "measure", lambda *_: {}["defect"])
     with pytest.raises(KeyError):
         sweep(STUDY, Threads())
 
 
-def test_only_a_few_points_are_ahead_of_who_takes_them():
-    begun = threading.Semaphore(0)
+def test_only_a_few_points_are_computed_ahead():
+    started = threading.Semaphore(0)
     asked = iter(range(1000))
-    found = Threads(2).do(lambda point: begun.release(), (next(asked) for _ in range(1000)))
+    found = Threads(2).do(lambda point: started.release(), (next(asked) for _ in range(1000)))
     next(found)
     assert next(asked) <= AHEAD * 2 + 1
     found.close()
 
 
-def test_no_worker_at_all_is_refused():
+def test_zero_workers_are_refused():
     with pytest.raises(ValueError, match="workers = 0: must be at least 1"):
         Threads(0)

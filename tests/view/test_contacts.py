@@ -1,4 +1,4 @@
-"""Tooth pairs in contact stand where both flanks and the line of action meet."""
+"""Tooth pairs in contact are where both flanks and the line of action meet."""
 
 import math
 
@@ -47,26 +47,26 @@ def gears_of_mesh(scene, mesh):
     """First and second gear of a mesh: teeth, angle seen from the carrier, and centre."""
     gearset = scene.gearset
     ring, i = divmod(mesh, gearset.planets)
-    stand = mount(gearset.tooth_numbers, gearset.planet_angles)
+    mounted = mount(gearset.tooth_numbers, gearset.planet_angles)
     psi = gearset.planet_angles[i]
     centre = carrier_radius(gearset) * np.array([math.cos(psi), math.sin(psi)])
     angle = turned(scene)
-    sun = gear_of(gearset, gearset.teeth.sun), stand.sun + angle["sun"], np.zeros(2)
+    sun = gear_of(gearset, gearset.teeth.sun), mounted.sun + angle["sun"], np.zeros(2)
     planet = (
         gear_of(gearset, gearset.teeth.planet),
-        stand.planets[i] + angle[f"planet_{i + 1}"],
+        mounted.planets[i] + angle[f"planet_{i + 1}"],
         centre,
     )
     annulus = (
-        gear_of(gearset, gearset.teeth.ring, True), stand.ring + angle["ring"], np.zeros(2)
+        gear_of(gearset, gearset.teeth.ring, True), mounted.ring + angle["ring"], np.zeros(2)
     )  # fmt: skip
     return (planet, annulus) if ring else (sun, planet)
 
 
 @pytest.mark.parametrize("scene", [PAPER, FIVE, HELD_RING], ids=["paper", "five", "turbine"])
 @pytest.mark.parametrize("flank", [1.0, -1.0], ids=["drive", "coast"])
-def test_contacts_lie_on_the_flanks_of_both_gears_that_push_each_other(scene, flank):
-    """Sun and planet turn in opposite senses: both touch with flanks that face the same one."""
+def test_contacts_are_on_the_loaded_flanks_of_both_gears(scene, flank):
+    """Sun and planet turn in opposite senses: both touch with flanks that face the same way."""
     for mesh in range(2 * scene.gearset.planets):
         found = contacts(scene, mesh, turned(scene), np.full(len(SUN_ANGLE), 1000.0 * flank))
         there = found.load > 0.0
@@ -81,8 +81,8 @@ def test_contacts_lie_on_the_flanks_of_both_gears_that_push_each_other(scene, fl
 
 
 @pytest.mark.parametrize("flank", [1.0, -1.0], ids=["drive", "coast"])
-def test_contacts_lie_on_the_line_of_action_within_the_path_of_contact(flank):
-    """It touches both base circles, so the push acts on each gear with its base radius as lever."""
+def test_contacts_are_on_the_line_of_action_within_the_path_of_contact(flank):
+    """It is tangent to both base circles, so the force acts on each gear with its base radius."""
     gearset = PAPER.gearset
     for mesh, path in ((1, sun_planet_path), (4, planet_ring_path)):
         reach = path(gearset.tooth_numbers, gearset.pressure_angle, gearset.addendum)
@@ -113,8 +113,8 @@ def test_pairs_share_the_whole_force_and_an_open_mesh_has_none():
     assert pairs[force > 0].mean() == pytest.approx(reach.contact_ratio, abs=0.05)
 
 
-def test_a_cracked_tooth_is_drawn_with_the_smaller_load_that_it_has_in_the_model():
-    """The crack takes a share of the tooth's stiffness; the pair beside it takes over."""
+def test_a_cracked_tooth_is_drawn_with_its_smaller_load_in_the_model():
+    """The crack reduces the tooth's stiffness; the adjacent pair takes over."""
     crack = {"kind": "crack", "gear": "sun", "tooth": 0, "stiffness_loss": 0.5}
     force = np.full(len(SUN_ANGLE), 1000.0)
     healthy, cracked = (
@@ -129,8 +129,8 @@ def test_a_cracked_tooth_is_drawn_with_the_smaller_load_that_it_has_in_the_model
     assert np.array_equal(healthy.load[far], cracked.load[far])
 
 
-def test_load_torque_follows_from_the_pushes_on_the_sun():
-    """The moment of all pushes about the sun's axis is that of the forces on its base circle."""
+def test_load_torque_follows_from_the_contact_forces_on_the_sun():
+    """The contact forces have the moment about the sun's axis of forces on its base circle."""
     force = np.full(len(SUN_ANGLE), 1000.0)
     moment = 0.0
     for mesh in range(3):
@@ -154,5 +154,5 @@ def test_forces_are_samples_of_the_waveform_and_means_where_it_has_a_gap(tmp_pat
     assert np.all(forces(recording, np.array([0.01, 0.04])) > 0.0)
 
 
-def test_loads_are_written_as_people_write_them():
+def test_loads_have_readable_labels():
     assert [newtons(f) for f in (900.0, 2e3, 3e4, 1e6)] == ["900 N", "2 kN", "30 kN", "1 MN"]

@@ -1,4 +1,4 @@
-"""A long recording: an overview of the whole, and detail where something happens."""
+"""A long recording has an overview of the whole, and details where something happens."""
 
 from itertools import pairwise
 
@@ -15,14 +15,12 @@ def recording(tmp_path_factory):
     return read_recording(write_recording(tmp_path_factory.mktemp("bag") / "a.mcap", 1.0))
 
 
-def test_a_short_recording_is_shown_whole(recording):
+def test_a_short_recording_is_shown_completely(recording):
     assert detail.detailed_spans(recording) == [(0.0, 1.0)]
     assert len(detail.overview(recording, [(0.0, 1.0)]).state) == 100
 
 
-def test_samples_are_spent_on_the_start_and_on_changes_and_are_not_more_than_allowed(
-    recording, monkeypatch
-):
+def test_samples_are_used_for_the_start_and_for_changes_within_the_limit(recording, monkeypatch):
     monkeypatch.setattr(detail, "MOST_SAMPLES", 20_000)
     found = detail.detailed_spans(recording)
     assert [begin <= time < end for (begin, end), (time, *_) in zip(found, TOUR, strict=True)]
@@ -32,7 +30,7 @@ def test_samples_are_spent_on_the_start_and_on_changes_and_are_not_more_than_all
     assert [begin for begin, _ in detail.detailed_spans(recording)] == pytest.approx([0.0, 0.2375])
 
 
-def test_stretches_that_meet_are_one(recording, monkeypatch):
+def test_adjoining_intervals_are_merged(recording, monkeypatch):
     monkeypatch.setattr(detail, "MOST_SAMPLES", 48_000)
     found = detail.detailed_spans(recording)
     assert all(before[1] < after[0] for before, after in pairwise(found))
@@ -56,7 +54,7 @@ def test_an_overview_keeps_peaks_and_means_and_every_row_in_detail(recording, mo
     assert seen["interval"].sum() == pytest.approx(1.0)
 
 
-def test_every_sample_of_a_stretch_is_logged_once(recording, monkeypatch):
+def test_every_sample_of_an_interval_is_logged_once(recording, monkeypatch):
     logged = {"range/dte": [], "waveform/dte": []}
     monkeypatch.setattr(waveform.timeline, "columns", lambda time, stamp: time)
     monkeypatch.setattr(

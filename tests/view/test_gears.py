@@ -1,4 +1,4 @@
-"""Every part of the gearbox stands in the scene as a solid, where it belongs."""
+"""Every part of the gearbox is a solid in the scene, at its position."""
 
 from rerun.chunk import RrdReader
 
@@ -8,20 +8,20 @@ from planetary_twin_py.view.layer import Layer
 from planetary_twin_py.view.show import to_file
 
 
-def test_every_part_is_a_solid_and_pins_have_their_places(tmp_path):
+def test_every_part_is_a_solid_and_pins_have_their_positions(tmp_path):
     stream = to_file(tmp_path / "gears.rrd")
     layer = Layer(stream)
-    for _ in range(2):  # a live view may tell them again
+    for _ in range(2):  # a live view may log them again
         log_gears(layer, load_scene("paper").gearset)
     stream.flush()
     stream.disconnect()
-    told = {}
+    logged = {}
     for chunk in RrdReader(tmp_path / "gears.rrd").stream():
         names = chunk.to_record_batch().schema.names
-        told.setdefault(chunk.entity_path, []).extend(names)
+        logged.setdefault(chunk.entity_path, []).extend(names)
     pins = [f"/gears/carrier/pin_{i}" for i in (1, 2, 3)]
     solids = ["/gears/sun", "/gears/ring", "/gears/carrier", *pins]
     for path in [*solids, *(f"{pin}/planet_{i + 1}" for i, pin in enumerate(pins))]:
-        assert told[path].count("Mesh3D:vertex_positions") == 1, path
+        assert logged[path].count("Mesh3D:vertex_positions") == 1, path
     for pin in pins:
-        assert "Transform3D:translation" in told[pin]
+        assert "Transform3D:translation" in logged[pin]

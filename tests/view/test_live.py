@@ -1,4 +1,4 @@
-"""What is drawn while a twin runs is what its recording shows."""
+"""A live view draws what the recording of the run shows."""
 
 import itertools
 
@@ -18,7 +18,7 @@ NAMESPACE = "/planetary_twin"
 
 @pytest.fixture(scope="module")
 def file(tmp_path_factory):
-    """Two runs: 0.3001 s with changes on the way, then 0.1 s."""
+    """Two runs: 0.3001 s with changes during the run, then 0.1 s."""
     return record(tmp_path_factory.mktemp("bag") / "runs")
 
 
@@ -62,14 +62,14 @@ def test_batches_of_any_size_draw_the_curves_of_the_recording(file, tmp_path, ba
     whole = columns(tmp_path / "all.rrd", "Scalars:scalars")
     assert whole.keys() == live[0].keys() == live[1].keys()
     for path, rows in whole.items():
-        if not path.startswith("/operating_point"):  # which is told to the end of each batch
+        if not path.startswith("/operating_point"):  # which is logged up to the end of each batch
             for shown, recorded in zip(live[0][path] + live[1][path], rows, strict=True):
                 assert shown[0] == recorded[0], path
                 np.testing.assert_array_equal(shown[1], recorded[1], path)
 
 
 @pytest.mark.parametrize("batch", [1, 7])
-def test_gears_turn_and_changes_are_told_once(file, tmp_path, batch):
+def test_gears_turn_and_changes_are_logged_once(file, tmp_path, batch):
     first, second = drawn(file, tmp_path, batch)
     for rrd, seconds in ((first, 0.3001), (second, 0.1)):
         sun = columns(rrd, "Transform3D:quaternion")["/gears/sun"]
@@ -77,5 +77,5 @@ def test_gears_turn_and_changes_are_told_once(file, tmp_path, batch):
         assert np.diff([time for time, _ in sun]).max() < 1e9 / 500.0 / 5.0
         static = {chunk.entity_path for chunk in RrdReader(rrd).stream() if chunk.is_static}
         assert "/gears/carrier/pin_3/planet_3" in static
-    told = [text for _, (text,) in columns(first, "TextLog:text")["/changes"]]
-    assert len(told) == 2
+    changes = [text for _, (text,) in columns(first, "TextLog:text")["/changes"]]
+    assert len(changes) == 2

@@ -1,4 +1,4 @@
-"""The gears' motion between recorded angles, and the mesh they keep."""
+"""The gears' motion between recorded angles, and their meshing."""
 
 import numpy as np
 from synthetic_recording import write_recording

@@ -1,4 +1,4 @@
-"""Several recordings over one another, and what one is more than another."""
+"""Several recordings in one view, and their differences."""
 
 import copy
 from dataclasses import replace
@@ -28,7 +28,7 @@ def altered(recording, name="other", start=0.0, more=1e-6):
     rows = wave.time >= start
     other.waveform = replace(
         wave,
-        time=wave.time[rows] * (1.0 + 1e-12),  # as another sum of the same steps
+        time=wave.time[rows] * (1.0 + 1e-12),  # as another order of summation gives
         stamp=wave.stamp[rows],
         block=np.unique(np.maximum(wave.block - np.argmax(rows), 0)),
         dte=wave.dte[rows] + np.float32(more),
@@ -49,7 +49,7 @@ def entities(rrd):
     return found
 
 
-def test_a_difference_is_taken_where_samples_are_of_one_instant(first):
+def test_a_difference_is_computed_for_samples_at_the_same_instant(first):
     other = altered(first, start=0.05)
     less = difference(first, other).waveform
     assert np.array_equal(less.time, other.waveform.time)
@@ -58,7 +58,7 @@ def test_a_difference_is_taken_where_samples_are_of_one_instant(first):
     assert np.array_equal(less.block, other.waveform.block)
 
 
-def test_samples_of_other_instants_are_left_out_of_the_difference(first):
+def test_samples_at_other_instants_are_excluded_from_the_difference(first):
     other = altered(first)
     other.waveform.time[: len(other.waveform.time) // 2] += 1e-5
     less = difference(first, other).waveform
@@ -69,7 +69,7 @@ def test_samples_of_other_instants_are_left_out_of_the_difference(first):
         difference(first, other)
 
 
-def test_recordings_are_called_by_what_tells_them_apart(first):
+def test_recordings_are_named_by_their_differences(first):
     assert names_of([first]) == [""]
     assert names_of([first, altered(first, "b/other.mcap")]) == ["first", "other"]
     same = altered(first, "b/first.mcap")

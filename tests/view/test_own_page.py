@@ -1,7 +1,7 @@
-"""The page that `view --serve` shows asks nothing of the internet.
+"""The page of `view --serve` loads nothing from the internet.
 
-What a browser loads by itself is read from the HTML; what the viewer's program asks for later is
-held back by the policy, which is read as the standard has it (W3C, Content Security Policy 3).
+What a browser loads by itself is read from the HTML; later requests of the viewer's program are
+blocked by the policy, which is interpreted by the standard (W3C, Content Security Policy 3).
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ from planetary_twin_py.view.viewer import Viewer, page
 
 
 class Loaded(HTMLParser):
-    """Addresses that a browser asks for as it reads a page: not those of links to click on."""
+    """Addresses that a browser loads with a page: not those of links to click on."""
 
     def __init__(self, text: str) -> None:
         super().__init__()
@@ -47,7 +47,7 @@ def fetched(viewer: Viewer, path: str) -> tuple[bytes, dict[str, str]]:
         return answer.read(), dict(answer.headers)
 
 
-def test_the_page_loads_its_program_from_this_server_and_nothing_from_others(
+def test_the_page_loads_its_program_from_this_server_only(
     served_page: Viewer,
 ) -> None:
     content, _ = fetched(served_page, "")
@@ -55,10 +55,10 @@ def test_the_page_loads_its_program_from_this_server_and_nothing_from_others(
     assert "re_viewer.js" in loaded.addresses
     assert loaded.hosts == {""}
     for address in loaded.addresses:
-        fetched(served_page, address)  # raises where there is no such file
+        fetched(served_page, address)  # raises if there is no such file
 
 
-def test_program_and_page_come_with_the_policy(served_page: Viewer) -> None:
+def test_program_and_page_are_served_with_the_policy(served_page: Viewer) -> None:
     for path in ("", "re_viewer.js", "re_viewer_bg.wasm"):
         content, headers = fetched(served_page, path)
         assert headers["Content-Security-Policy"] == policy(served_page.data)
@@ -83,7 +83,7 @@ def test_the_policy_names_no_host_but_this_machine() -> None:
         "<link rel=stylesheet href=//other.host/style.css>",
     ],
 )
-def test_references_to_other_hosts_are_taken_out_and_the_rest_stays(element: str) -> None:
+def test_references_to_other_hosts_are_removed_and_the_rest_is_kept(element: str) -> None:
     own = '<link rel="icon" href="favicon.ico" /><a href="https://rerun.io">to click on</a>'
     assert Loaded(element).hosts != {""}
     assert without_other_hosts(f"<head>{element}{own}</head>") == f"<head>{own}</head>"

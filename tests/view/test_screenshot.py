@@ -1,4 +1,4 @@
-"""Pictures without display and graphics card."""
+"""Pictures without a display or a graphics card."""
 
 import copy
 import os

@@ -1,4 +1,4 @@
-"""The Rerun file: sound by Rerun's own check, and it holds what the layout shows."""
+"""The Rerun file is valid by Rerun's own check, and contains what the layout shows."""
 
 import subprocess
 from pathlib import Path
@@ -58,7 +58,7 @@ def test_rerun_verifies_the_file_and_finds_gears_curves_and_changes(tmp_path):
     assert "ros_time" in printed
 
 
-def test_without_a_scene_curves_are_shown_and_the_missing_gears_are_told(tmp_path):
+def test_without_a_scene_curves_are_shown_and_missing_gears_are_reported(tmp_path):
     recording = read_recording(write_recording(tmp_path / "a.mcap", 0.05))
     scene, remark = scene_of(recording)
     assert scene is None
@@ -76,13 +76,13 @@ def test_a_scene_of_another_gearbox_is_refused(recording, tmp_path):
         save(recording, other, tmp_path / "a.rrd")
 
 
-def test_changes_are_told_with_old_and_new_value(recording):
+def test_changes_are_listed_with_old_and_new_value(recording):
     assert sentence(recording, 0).startswith("initial: backlash = 0.2 µm, lambda_ratio = 1.5")
     assert sentence(recording, 2) == "backlash = 0.35 µm, was 0.2"
     assert sentence(recording, 3) == "lambda_ratio = 2, was 1; input_speed = 2000 rpm, was 1000"
 
 
-def test_of_a_long_recording_detail_is_shown_where_something_happens(tmp_path, monkeypatch):
+def test_details_of_a_long_recording_are_shown_where_something_happens(tmp_path, monkeypatch):
     monkeypatch.setattr("planetary_twin_py.view.detail.MOST_SAMPLES", 20_000)  # 0.4 s
     recording = read_recording(write_recording(tmp_path / "a.mcap", 1.0))
     (remark,) = save(recording, None, tmp_path / "a.rrd")

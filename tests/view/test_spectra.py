@@ -1,4 +1,4 @@
-"""What is seen of windows of the DTE: spectrum, order map and phase portrait."""
+"""Views of windows of the DTE: spectrum, order map and phase portrait."""
 
 import subprocess
 import time
@@ -28,7 +28,7 @@ def recording(tmp_path):
     return read_recording(write_recording(tmp_path / "a.mcap", 1.0))
 
 
-def test_the_file_holds_spectrum_order_map_and_phase_portrait(recording, tmp_path):
+def test_the_file_contains_spectrum_order_map_and_phase_portrait(recording, tmp_path):
     (remark,) = save(recording, load_scene("paper"), tmp_path / "a.rrd")
     assert "do not carry this signal" in remark  # its DTE has lines next to 25 kHz
     printed = subprocess.run(
@@ -60,7 +60,7 @@ def test_the_order_map_keeps_the_meshing_at_its_order_at_any_speed(recording):
         assert levels.argmax() == pytest.approx(30 / reach * HEIGHT, abs=1.0)
 
 
-def test_near_a_gap_windows_move_aside_and_none_spans_it(recording):
+def test_windows_near_a_gap_are_shifted_and_none_spans_it(recording):
     wave = recording.waveform
     kept = np.r_[0 : 45 * BLOCK, 55 * BLOCK : 58 * BLOCK, 60 * BLOCK : 100 * BLOCK]
     wave.time, wave.stamp, wave.dte = wave.time[kept], wave.stamp[kept], wave.dte[kept]
@@ -77,7 +77,7 @@ def test_near_a_gap_windows_move_aside_and_none_spans_it(recording):
             assert np.isfinite(dte).all()
 
 
-def test_windows_of_slow_gears_last_as_many_mesh_cycles_as_there_are_samples_for(recording):
+def test_windows_of_slow_gears_have_as_many_mesh_cycles_as_samples_allow(recording):
     windows = frames(recording)
     assert windows.lasting(0.2, 64) == 0.2
     recording.state["mesh_frequency"][:] = 100.0
@@ -87,7 +87,7 @@ def test_windows_of_slow_gears_last_as_many_mesh_cycles_as_there_are_samples_for
     assert windows.lasting(0.2, 64) == 0.2
 
 
-def test_thinned_samples_are_told(recording):
+def test_thinned_samples_are_reported(recording):
     assert frames(recording).remark is None
     wave = recording.waveform
     kept = np.r_[0 : 50 * BLOCK, 50 * BLOCK : 100 * BLOCK : 8]
@@ -100,7 +100,7 @@ def test_without_samples_there_is_nothing_to_show(recording):
     assert frames(recording) is None
 
 
-def test_long_recordings_take_no_more_windows_than_half_a_minute_and_few_seconds(
+def test_long_recordings_have_no_more_windows_than_half_a_minute_and_take_few_seconds(
     recording, tmp_path
 ):
     wave, times = recording.waveform, 100
@@ -122,7 +122,7 @@ def test_long_recordings_take_no_more_windows_than_half_a_minute_and_few_seconds
     assert (tmp_path / "a.rrd").stat().st_size < 40e6
 
 
-def test_a_chart_puts_values_where_its_axes_say_and_cuts_at_its_frame():
+def test_a_chart_places_values_by_its_axes_and_clips_at_its_frame():
     chart = Chart("a", 200.0, 100.0, (0.0, 4.0), (-1.0, 1.0))
     places = chart.place(np.array([0.0, 1.0, 9.0]), np.array([-1.0, 0.0, 9.0]))
     assert places.tolist() == [[0.0, 0.0], [50.0, -50.0], [200.0, -100.0]]

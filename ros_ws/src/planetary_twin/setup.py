@@ -1,4 +1,4 @@
-"""The node package, for colcon (ament_python) and pip alike."""
+"""Package of the nodes, for colcon (ament_python) and for pip."""
 
 from glob import glob
 
@@ -9,7 +9,7 @@ NAME = "planetary_twin"
 setup(
     name=NAME,
     version="0.1.0",
-    description="Nodes of the planetary gearbox twin: simulation, logger and what starts them",
+    description="Nodes of the planetary gearbox twin: simulation, logger, replay and launch files",
     license="Apache-2.0",
     packages=find_packages(),
     data_files=[
@@ -18,8 +18,8 @@ setup(
         (f"share/{NAME}/launch", glob("launch/*.py")),
         (f"share/{NAME}/config", glob("config/*")),
         (f"share/{NAME}/layouts", glob("layouts/*")),
-        # Where `ros2 run` looks. pip would put console scripts on the path, where `logger` hides
-        # the program of the system.
+        # The folder of `ros2 run`. As console scripts, pip would put them on the path, where
+        # `logger` would hide the system's program.
         (f"lib/{NAME}", glob("scripts/*")),
     ],
     entry_points={

@@ -14,7 +14,7 @@ from planetary_twin_py.recording.container.chunk_indexes import ChunkIndexes
 from planetary_twin_py.recording.container.storage import Storage
 from planetary_twin_py.recording.ros2.mcap_file import McapFile
 
-WARM = 50  # chunks after which whatever is allocated once is so
+WARM = 50  # chunks after which everything that is allocated once has been
 CHUNKS = 500
 PER_CHUNK = 50.0  # bytes; a chunk index of mcap's list takes 1 kB
 
@@ -53,7 +53,7 @@ def test_memory_does_not_grow_with_the_chunks_and_each_is_in_the_index(
     assert starts == times
 
 
-def test_a_writer_that_keeps_its_indexes_elsewhere_is_refused(tmp_path: Path) -> None:
+def test_replacing_the_indexes_twice_is_refused(tmp_path: Path) -> None:
     with (tmp_path / "used.mcap").open("wb") as stream:
         writer = Writer(stream)
         ChunkIndexes.replace(writer, tmp_path).close()

@@ -1,4 +1,4 @@
-"""A file damaged anywhere: what is read of it is as it was written, or the damage is told."""
+"""A file damaged anywhere is read as it was written, or the damage is reported."""
 
 import os
 import shutil
@@ -30,7 +30,7 @@ CHUNK_HEAD = 8 + 8 + 8 + 4  # times, size and checksum, before the name of the c
 
 @pytest.fixture(scope="module")
 def sound(tmp_path_factory):
-    """Ten intervals in two chunks, on the topics that a run follows from."""
+    """Ten intervals in two chunks, on the topics that define a run."""
     bag = BagWriter(tmp_path_factory.mktemp("sound") / "bag")
     names = [f"{NAMESPACE}/{name}" for name in (ORIGIN, POINT, STATE)]
     topics = [topic for topic in topics_of(NAMESPACE) if topic.name in names]
@@ -49,7 +49,7 @@ def sound(tmp_path_factory):
 
 
 def records(data):
-    """Opcode, place and end of every record that stands in the file itself."""
+    """Opcode, offset and end of every record in the file itself."""
     place = len(MAGIC)
     while place < len(data) - len(MAGIC):
         opcode, length = struct.unpack_from("<BQ", data, place)
@@ -58,7 +58,7 @@ def records(data):
 
 
 def places(data):
-    """Bytes at which a file has a structure, above all each record's head, begin and end."""
+    """Offsets of the structure of a file, above all the head, start and end of each record."""
     found = {0, len(MAGIC) - 1, len(data) - len(MAGIC), len(data) - 1}
     for opcode, begin, end in records(data):
         content = begin + 9
@@ -79,7 +79,7 @@ def flipped(data, place, bit):
 
 
 def damages(data):
-    """Every damage that is tried, with its name."""
+    """Every damage that is tested, with its name."""
     for number, place in enumerate(places(data)):
         bit = (0, 5, 7)[number % 3]
         yield f"bit {bit} of byte {place}", flipped(data, place, bit)
@@ -87,10 +87,10 @@ def damages(data):
 
 
 def values(file, remarks=()):
-    """What the reader reads, value by value, and its remarks beside those there were before."""
+    """The values that the reader returns, and its remarks without those of the sound file."""
     recording = read_recording(file)
     remarks = [*remarks, *recording.remarks]
-    # Where the attachment is lost, and said to be, the scene is that of `run_origin`.
+    # If the attachment is reported as lost, the scene is that of `run_origin`.
     assert recording.scene_yaml in (SCENE, None) or remarks
     series = (recording.state, recording.operating_point)
     rows = [
@@ -107,7 +107,7 @@ def counted(file):
 
 
 def recovered(file):
-    """What the reader reads of what was recovered."""
+    """The values that the reader returns for the recovered file."""
     folder = file.with_name("saved")
     shutil.rmtree(folder, ignore_errors=True)
     saved = recover(file, folder)
@@ -124,8 +124,8 @@ def played(file):
 @pytest.mark.parametrize(
     "read", [values, counted, pytest.param(recovered, marks=pytest.mark.exhaustive), played]
 )
-def test_what_is_read_is_as_written_or_the_damage_is_told(sound, tmp_path, monkeypatch, read):
-    monkeypatch.setattr(os, "fsync", lambda file: None)  # hundreds of times, for no power cut
+def test_data_is_read_as_written_or_the_damage_is_reported(sound, tmp_path, monkeypatch, read):
+    monkeypatch.setattr(os, "fsync", lambda file: None)  # called too often
     whole, remarks = read(shutil.copy(sound, tmp_path / "whole.mcap"))
     assert remarks == []
     file, kept_silent, tried = tmp_path / "damaged.mcap", [], 0
@@ -145,7 +145,7 @@ def test_what_is_read_is_as_written_or_the_damage_is_told(sound, tmp_path, monke
     assert tried > 400
 
 
-def test_what_verify_calls_identical_is_whole(sound, tmp_path):
+def test_a_recording_that_verify_calls_identical_is_complete(sound, tmp_path):
     file = tmp_path / "damaged.mcap"
     assert verify(sound, NAMESPACE).identical
     for name, content in list(damages(sound.read_bytes()))[::29]:

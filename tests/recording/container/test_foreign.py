@@ -1,4 +1,4 @@
-"""Bags of other recorders: read where they can be, else converted as the refusal says."""
+"""Bags of other recorders are readable, or the refusal says how to convert them."""
 
 import shlex
 import shutil
@@ -31,7 +31,7 @@ def sound(tmp_path_factory):
 
 
 def stored(source, folder, plugin, mode=None):
-    """The messages of a recording in a bag of rosbags' own making, without attachments."""
+    """The messages of a recording in a bag written by rosbags, without attachments."""
     types = get_typestore(Stores.ROS2_JAZZY)
     bag = Writer(folder, version=9, storage_plugin=plugin)
     if mode is not None:
@@ -49,22 +49,22 @@ def stored(source, folder, plugin, mode=None):
 
 
 @pytest.mark.parametrize(
-    ("plugin", "mode", "told"),
+    ("plugin", "mode", "reason"),
     [
         (StoragePlugin.SQLITE3, None, "a bag in SQLite;"),
         (StoragePlugin.SQLITE3, "FILE", "a bag in SQLite, compressed by file;"),
         (StoragePlugin.MCAP, "FILE", "a bag compressed by file;"),
     ],
 )
-def test_a_bag_that_is_not_read_is_converted_as_the_refusal_says(
-    sound, tmp_path, monkeypatch, plugin, mode, told
+def test_the_conversion_that_a_refusal_suggests_makes_a_bag_readable(
+    sound, tmp_path, monkeypatch, plugin, mode, reason
 ):
     chosen = mode and CompressionMode[mode]
     folder = stored(sound, tmp_path / "bag", plugin, chosen)
     monkeypatch.chdir(tmp_path)
     with pytest.raises(RecordingError) as refusal:
         read_recording(Path("bag"))
-    assert f"bag: {told}" in str(refusal.value) and "\n" not in str(refusal.value)
+    assert f"bag: {reason}" in str(refusal.value) and "\n" not in str(refusal.value)
     command = str(refusal.value).partition("; to convert it: ")[2]
     name, *arguments = shlex.split(command)
     subprocess.run([Path(sys.executable).with_name(name), *arguments], check=True)
@@ -73,7 +73,7 @@ def test_a_bag_that_is_not_read_is_converted_as_the_refusal_says(
     assert how_stored(folder) is not None and how_stored(Path("bag_mcap")) is None
 
 
-def test_a_bag_compressed_by_message_is_read_and_so_is_its_file_alone(sound, tmp_path):
+def test_a_bag_compressed_by_message_is_readable_as_folder_and_as_file(sound, tmp_path):
     folder = stored(sound, tmp_path / "bag", StoragePlugin.MCAP, CompressionMode.MESSAGE)
     (file,) = folder.glob("*.mcap")
     alone = shutil.copy(file, tmp_path / "alone.mcap")
@@ -87,21 +87,21 @@ def test_a_bag_compressed_by_message_is_read_and_so_is_its_file_alone(sound, tmp
     assert verify(recovered.file, NAMESPACE).identical
 
 
-def test_messages_that_unpack_to_more_than_a_recording_holds_are_left_packed(sound, tmp_path):
+def test_messages_that_decompress_beyond_the_size_limit_are_refused(sound, tmp_path):
     bomb = zstandard.ZstdCompressor().compress(bytes(2**28))
     file = rewritten(sound, tmp_path / "bomb.mcap", messages_of("gearbox_state", lambda data: bomb))
     with pytest.raises(RecordingError, match="a message is compressed individually, and cannot"):
         read_recording(file)
 
 
-def test_a_bag_without_attachments_has_its_scene_from_the_origin_of_its_run(sound, tmp_path):
+def test_the_scene_of_a_bag_without_attachments_is_that_of_the_origin_of_its_run(sound, tmp_path):
     folder = stored(sound, tmp_path / "bag", StoragePlugin.MCAP)
     scene, remark = scene_of(read_recording(folder))
     assert remark is None
     assert scene == read_runs(sound, NAMESPACE, [])[-1].origin.scene
 
 
-def test_a_scene_that_cannot_be_read_of_an_origin_is_told(sound, tmp_path):
+def test_an_unreadable_scene_in_an_origin_is_reported(sound, tmp_path):
     without = rewritten(sound, tmp_path / "a.mcap", of(Attachment, "", name="another"))
     bad = messages_of("run_origin", lambda data: string("{"))
     recording = read_recording(rewritten(without, tmp_path / "b.mcap", bad))

@@ -1,4 +1,4 @@
-"""Losses follow from the numbers publishers give their messages."""
+"""Losses follow from the sequence numbers of the publishers."""
 
 from planetary_twin_py.recording.ros2.account import TopicAccount
 
@@ -30,15 +30,15 @@ def test_a_gap_on_a_latched_topic_is_a_loss() -> None:
     assert _account([7, 9], latched=True).lost == 1
 
 
-def test_two_publishers_are_counted_apart() -> None:
+def test_two_publishers_are_counted_separately() -> None:
     account = _account([1, 1, 2, 2, 3, 4, 3, 4], publishers=2)
     assert account.lost == 0
 
 
-def test_a_second_publisher_heard_late_is_not_taken_for_a_gap() -> None:
+def test_a_second_publisher_received_late_is_no_gap() -> None:
     account = _account([1, 50, 2, 51], publishers=2)
     assert (account.before, account.missed) == (49, 0)
 
 
-def test_a_restarted_publisher_begins_anew() -> None:
+def test_a_restarted_publisher_starts_a_new_sequence() -> None:
     assert _account([1, 2, 3, 1, 2]).lost == 0

@@ -1,4 +1,4 @@
-"""A bag folder is readable by others, never overwritten, and survives a torn end."""
+"""A bag folder is readable by other tools, never overwritten, and survives a truncated end."""
 
 from __future__ import annotations
 
@@ -40,7 +40,7 @@ def _write(bag: BagWriter, channel: int, values: range) -> None:
         bag.write(channel, _number(value), 1000 + value, 900 + value, value + 1)
 
 
-def test_a_definition_brings_every_type_it_refers_to() -> None:
+def test_a_definition_contains_every_type_it_refers_to() -> None:
     text = message_definition("demo_msgs/msg/Reading", _TYPES.__getitem__)
     headings = [line for line in text.splitlines() if line.startswith("MSG: ")]
     assert text.startswith(_TYPES["demo_msgs/msg/Reading"])
@@ -63,7 +63,7 @@ def test_an_independent_reader_finds_every_message(tmp_path: Path) -> None:
     assert [data for _, _, data in messages] == [_number(value) for value in range(100)]
 
 
-def test_the_file_holds_the_account_and_both_times(tmp_path: Path) -> None:
+def test_the_file_contains_the_message_counts_and_both_times(tmp_path: Path) -> None:
     bag = BagWriter(tmp_path / "bag")
     _write(bag, bag.add_topic(NUMBERS, TopicAccount(recorded=3, missed=2)), range(3))
     bag.close()
@@ -74,23 +74,23 @@ def test_the_file_holds_the_account_and_both_times(tmp_path: Path) -> None:
         assert reader.get_header().profile == "ros2"
     assert (first.log_time, first.publish_time, first.sequence) == (1000, 900, 1)
     assert records[ACCOUNT_RECORD]["lost"] == "2"
-    # rosbag2 decodes this at once, and opens no file in which it finds another mapping.
-    told = yaml.safe_load(records["rosbag2"]["serialized_metadata"])
-    assert told["version"] == 9 and told["message_count"] == 3
+    # rosbag2 decodes this at once, and refuses a file with another mapping.
+    metadata = yaml.safe_load(records["rosbag2"]["serialized_metadata"])
+    assert metadata["version"] == 9 and metadata["message_count"] == 3
     written = yaml.safe_load((tmp_path / "bag" / "metadata.yaml").read_text())
-    assert written == {"rosbag2_bagfile_information": told}
+    assert written == {"rosbag2_bagfile_information": metadata}
 
 
-def test_what_was_flushed_is_readable_from_a_torn_file(tmp_path: Path) -> None:
+def test_flushed_messages_are_readable_from_a_truncated_file(tmp_path: Path) -> None:
     bag = BagWriter(tmp_path / "bag")
     channel = bag.add_topic(NUMBERS)
     _write(bag, channel, range(50))
     bag.flush()
-    torn = bag.file.read_bytes()
+    truncated = bag.file.read_bytes()
     _write(bag, channel, range(50, 60))
     bag.close()
-    copy = tmp_path / "torn.mcap"
-    copy.write_bytes(torn)
+    copy = tmp_path / "truncated.mcap"
+    copy.write_bytes(truncated)
     messages = 0
     with copy.open("rb") as stream, pytest.raises((McapError, EOFError)):
         for record in StreamReader(stream).records:
@@ -115,7 +115,7 @@ def test_a_free_folder_is_found_beside_an_existing_one(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     "name", ["", ".", "..", "a/b", "/a", "../a", "a/", "a\0b", "a\nb", "\u00e9" * 101]
 )
-def test_a_name_that_is_no_plain_one_leads_nowhere(tmp_path: Path, name: str) -> None:
+def test_a_name_that_is_not_plain_is_refused(tmp_path: Path, name: str) -> None:
     with pytest.raises(ValueError, match="must be a plain name"):
         named_folder(tmp_path, name)
     assert named_folder(tmp_path, "ein Lauf.1") == tmp_path / "ein Lauf.1"

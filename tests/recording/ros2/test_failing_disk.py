@@ -1,4 +1,4 @@
-"""A disk that takes no more costs what was not flushed, and is told as the system tells it."""
+"""A failing disk loses only unflushed messages, and is reported with the system's error."""
 
 import os
 import resource
@@ -17,7 +17,7 @@ LIMIT = 200_000  # bytes
 
 
 def write_until_it_fails(numbered: Numbered) -> tuple[int, OSError]:
-    """How many messages were flushed before it failed, and why."""
+    """Number of messages flushed before the failure, and its error."""
     flushed = 0
     try:
         while numbered.written < 100_000:
@@ -49,7 +49,7 @@ def test_a_full_disk(tmp_path, compression):
 
 
 def test_a_file_that_may_not_grow(tmp_path):
-    """As on a full disk, where nothing can be mounted: a quota of a child process."""
+    """As on a full disk, if nothing can be mounted: a quota of a child process."""
     read, write = os.pipe()
     child = os.fork()
     if child == 0:
@@ -58,7 +58,7 @@ def test_a_file_that_may_not_grow(tmp_path):
             resource.setrlimit(resource.RLIMIT_FSIZE, (LIMIT, LIMIT))
             flushed, reason = write_until_it_fails(Numbered(tmp_path / "bag", Storage("none")))
             os.write(write, f"{flushed} {reason.strerror}".encode())
-        finally:  # whatever happens, no second test runner goes on
+        finally:  # in any case, no second test runner continues
             os._exit(0)
     os.waitpid(child, 0)
     flushed, reason = os.read(read, 100).decode().split(" ", 1)
@@ -68,7 +68,7 @@ def test_a_file_that_may_not_grow(tmp_path):
     check_what_is_left(tmp_path / "bag/bag_0.mcap", int(flushed), tmp_path / "saved")
 
 
-def test_a_read_only_disk_is_not_begun_on(tmp_path):
+def test_a_read_only_disk_is_refused_at_the_start(tmp_path):
     with mounted(tmp_path / "disk") as disk:
         make_read_only(disk)
         with pytest.raises(OSError, match="Read-only file system"):

@@ -1,7 +1,7 @@
-"""Whatever moment a writer is killed at, all that was flushed is there, nothing wrong or doubled.
+"""After a kill at any moment, all flushed messages are present, none wrong or duplicated.
 
 `PYTHONPATH=tests python tests/recording/ros2/test_kill.py TRIES` makes as many tries and prints
-what they have cost.
+their losses.
 """
 
 import itertools
@@ -33,15 +33,15 @@ _COUNTS = struct.Struct("<QQ")  # written, flushed
 
 
 class Lost(NamedTuple):
-    """What a kill has cost: of `written` messages, one each millisecond, `kept` are there."""
+    """Losses of a kill: of `written` messages, one each millisecond, `kept` are present."""
 
     written: int
     flushed: int
     kept: int
 
 
-def write_until_killed(folder: Path, storage: Storage, period: float, told: mmap.mmap) -> None:
-    """One message each millisecond, flushed every `period` [s]; the counts are told in memory."""
+def write_until_killed(folder: Path, storage: Storage, period: float, counts: mmap.mmap) -> None:
+    """Write a message each millisecond, flushed every `period` [s]; count them in `counts`."""
     numbered = Numbered(folder, storage, size=100)
     numbered.settle(1)
     begin = last = time.monotonic()
@@ -52,27 +52,27 @@ def write_until_killed(folder: Path, storage: Storage, period: float, told: mmap
         if now - last >= period:
             numbered.bag.flush()
             last, flushed = time.monotonic(), numbered.written
-        _COUNTS.pack_into(told, 0, numbered.written, flushed)
+        _COUNTS.pack_into(counts, 0, numbered.written, flushed)
         time.sleep(max(begin + numbered.written * 1e-3 - time.monotonic(), 0.0))
 
 
 def kill_amid_writing(folder: Path, case: tuple, lifetime: float) -> Lost:
-    """Kill a writer `lifetime` [s] after its first flush; check all that is left."""
+    """Kill a writer `lifetime` [s] after its first flush, and check the files."""
     compression, period, chunk_size, split = case
-    told = mmap.mmap(-1, _COUNTS.size)
+    counts = mmap.mmap(-1, _COUNTS.size)
     child = os.fork()
     if child == 0:
         try:
-            write_until_killed(folder, Storage(compression, chunk_size, split), period, told)
-        finally:  # whatever happens, no second test runner goes on
+            write_until_killed(folder, Storage(compression, chunk_size, split), period, counts)
+        finally:  # in any case, no second test runner continues
             os._exit(1)
-    while _COUNTS.unpack_from(told)[1] == 0:
+    while _COUNTS.unpack_from(counts)[1] == 0:
         assert os.waitpid(child, os.WNOHANG) == (0, 0)
         time.sleep(0.001)
-    time.sleep(lifetime)  # the very thing under test: an arbitrary moment
+    time.sleep(lifetime)  # the subject of the test: an arbitrary moment
     os.kill(child, signal.SIGKILL)
     os.waitpid(child, 0)
-    written, flushed = _COUNTS.unpack_from(told)
+    written, flushed = _COUNTS.unpack_from(counts)
 
     kept = [number for file in files_of(folder) for number in read_numbers(file)]
     assert kept == list(range(1, len(kept) + 1))
@@ -84,19 +84,19 @@ def kill_amid_writing(folder: Path, case: tuple, lifetime: float) -> Lost:
 
 
 def cases(tries: int, seed: int) -> list[tuple[tuple, float]]:
-    """Every combination in turn, in random order, each with a random lifetime [s]."""
+    """Every combination in random order, each with a random lifetime [s]."""
     generator = random.Random(seed)
     order = itertools.cycle(generator.sample(CASES, len(CASES)))
     return [(case, generator.uniform(0.0, 0.3)) for case in itertools.islice(order, tries)]
 
 
 @pytest.mark.parametrize(("case", "lifetime"), cases(20, seed=1))
-def test_what_was_flushed_survives_a_kill(tmp_path, case, lifetime):
+def test_flushed_messages_survive_a_kill(tmp_path, case, lifetime):
     kill_amid_writing(tmp_path / "bag", case, lifetime)
 
 
 def main(tries: int) -> None:
-    """Print each try, and the most that any has cost for each flush period."""
+    """Print each try, and the largest loss for each flush period."""
     cost = dict.fromkeys(FLUSH_PERIODS, 0)
     for number, (case, lifetime) in enumerate(cases(tries, seed=2), start=1):
         with tempfile.TemporaryDirectory() as place:

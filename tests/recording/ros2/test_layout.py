@@ -1,4 +1,4 @@
-"""Where the fields of a message lie: the same values as rosbags decodes, of every type."""
+"""The fields of a message are read as rosbags decodes them, for every type."""
 
 import dataclasses
 
@@ -44,7 +44,7 @@ def number(name):
         return st.booleans()
     if name.startswith("float"):
         return st.floats(width=int(name[5:]))
-    # rosbags takes a byte for a signed number, as its arrays of them are not.
+    # rosbags takes a byte for a signed number, unlike arrays of bytes.
     low, high = (
         (0, {"byte": 127, "char": 255}[name])
         if name in ("byte", "char")
@@ -95,7 +95,7 @@ def diagnostics(names):
     )
 
 
-def test_messages_of_the_same_size_that_lie_otherwise_are_told_apart():
+def test_messages_of_the_same_size_with_another_layout_are_distinguished():
     kind = "diagnostic_msgs/msg/DiagnosticArray"
     order = [("ab", "abcdef"), ("ab", "abcdef"), ("abcdef", "ab"), ("cd", "ghijkl"), ("a",)]
     raw = [bytes(TYPES.serialize_cdr(diagnostics(names), kind)) for names in order]
@@ -108,7 +108,7 @@ def test_messages_of_the_same_size_that_lie_otherwise_are_told_apart():
     assert found == [list(names) for names in order]
 
 
-def test_no_message_is_read_beyond_its_end_or_with_something_behind_it():
+def test_no_message_is_read_beyond_its_end_or_with_trailing_bytes():
     kind = "sensor_msgs/msg/JointState"
     numbers = np.arange(3.0)
     header = diagnostics(()).header

@@ -1,4 +1,4 @@
-"""metadata.yaml of a split bag holds each field that rosbag2 reads, of the type it reads it as.
+"""metadata.yaml of a split bag has each field that rosbag2 reads, with the type that it expects.
 
 Types, names and words are those of the decoders in rosbag2 0.29 (rosbag2_storage: yaml.hpp,
 qos.cpp, metadata_io.cpp; rosbag2_cpp: sequential_reader.cpp). rosbag2 itself is not run here.
@@ -98,7 +98,7 @@ def split(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 @pytest.fixture(scope="module")
 def metadata(split: Path) -> dict[str, Any]:
-    # metadata_io.cpp: the whole stands below this name.
+    # metadata_io.cpp: everything is below this name.
     return dict(
         yaml.safe_load((split / "metadata.yaml").read_text())["rosbag2_bagfile_information"]
     )
@@ -113,14 +113,14 @@ def test_each_field_of_a_split_bag_is_as_rosbag2_reads_it(
 
 @pytest.mark.parametrize("name", FIELDS)
 def test_each_field_of_a_file_alone_is_as_rosbag2_reads_it(split: Path, name: str) -> None:
-    """Where metadata.yaml is missing, it asks the file."""
+    """Without metadata.yaml, it reads the file."""
     for file in split.glob("*.mcap"):
         with file.open("rb") as stream:
             (found,) = [r for r in make_reader(stream).iter_metadata() if r.name == "rosbag2"]
         assert FIELDS[name](yaml.safe_load(found.metadata["serialized_metadata"])[name])
 
 
-def test_the_files_are_there_and_their_counts_make_up_the_whole(
+def test_the_files_exist_and_their_counts_add_up_to_the_total(
     split: Path, metadata: dict[str, Any]
 ) -> None:
     """It opens them in this order, below the folder."""

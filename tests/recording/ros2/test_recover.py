@@ -1,4 +1,4 @@
-"""What is sound of a damaged recording becomes a whole one."""
+"""The valid part of a damaged recording becomes a complete recording."""
 
 import random
 import re
@@ -38,7 +38,7 @@ def lost_chunks(file, begin, end):
 
 
 def keys(records):
-    """What tells messages of a recording apart."""
+    """Keys that identify the messages of a recording."""
     return [(m.log_time, m.sequence, m.data) for m in records if isinstance(m, Message)]
 
 
@@ -58,7 +58,7 @@ def damaged(whole, kind, place, bit):
 
 
 def messages(file):
-    """Topic, times, number and bytes of every message, by a reader that goes by the index."""
+    """Topic, time, number and bytes of every message, by a reader that uses the index."""
     with file.open("rb") as stream:
         return [
             (channel.topic, m.log_time, m.publish_time, m.sequence, m.data)
@@ -67,11 +67,11 @@ def messages(file):
 
 
 @pytest.mark.parametrize("share", [0.4, 0.6, 0.95])
-def test_a_torn_file_becomes_whole_with_all_that_was_sound(sound, tmp_path, share):
+def test_a_truncated_file_is_recovered_with_all_its_valid_messages(sound, tmp_path, share):
     whole = sound.read_bytes()
-    torn = tmp_path / "torn.mcap"
-    torn.write_bytes(whole[: int(share * len(whole))])
-    saved = recover(torn, tmp_path / "saved")
+    truncated = tmp_path / "truncated.mcap"
+    truncated.write_bytes(whole[: int(share * len(whole))])
+    saved = recover(truncated, tmp_path / "saved")
     assert list(records_of(saved.file, remarks := [])) and remarks == []
     kept = messages(saved.file)
     assert len(kept) == sum(saved.messages.values()) > 30
@@ -82,7 +82,7 @@ def test_a_torn_file_becomes_whole_with_all_that_was_sound(sound, tmp_path, shar
 
 
 @pytest.mark.parametrize("count", [60, pytest.param(500, marks=pytest.mark.exhaustive)])
-def test_a_bit_flipped_or_a_byte_cut_costs_its_own_chunk_and_nothing_is_invented(
+def test_a_flipped_bit_or_a_removed_byte_costs_its_chunk_only_and_adds_nothing(
     sound, tmp_path, count
 ):
     whole = sound.read_bytes()
@@ -101,15 +101,15 @@ def test_a_bit_flipped_or_a_byte_cut_costs_its_own_chunk_and_nothing_is_invented
         assert remarks and not any("\n" in line for line in remarks), (kind, place, bit)
 
 
-def test_damage_in_the_middle_is_left_out_and_told_with_its_time_and_number_of_messages(
+def test_damage_in_the_middle_is_left_out_and_reported_with_its_time_and_number_of_messages(
     sound, tmp_path
 ):
     with sound.open("rb") as stream:
         first, _, index, *_, last = make_reader(stream).get_summary().chunk_indexes
-    torn = tmp_path / "torn.mcap"
+    truncated = tmp_path / "truncated.mcap"
     place = index.chunk_start_offset + index.chunk_length // 2
-    torn.write_bytes(damaged(sound.read_bytes(), "flip", place, 3))
-    saved = recover(torn, tmp_path / "saved")
+    truncated.write_bytes(damaged(sound.read_bytes(), "flip", place, 3))
+    saved = recover(truncated, tmp_path / "saved")
     lost = lost_chunks(sound, place, place + 1)
     kept = messages(saved.file)
     assert kept == [m for m in messages(sound) if (m[1], m[3], m[4]) not in lost]
@@ -123,34 +123,34 @@ def test_damage_in_the_middle_is_left_out_and_told_with_its_time_and_number_of_m
     assert end >= (index.message_end_time - start) * 1e-9 - 5e-4
 
 
-def test_what_is_whole_stays_as_it_is(sound, tmp_path):
+def test_an_undamaged_recording_is_left_unchanged(sound, tmp_path):
     saved = recover(sound.parent, tmp_path / "saved")
     assert messages(saved.file) == messages(sound)
     assert saved.remarks == []
 
 
-def test_nothing_is_made_of_nothing(sound, tmp_path):
-    torn = tmp_path / "torn.mcap"
-    torn.write_bytes(sound.read_bytes()[:60])
+def test_a_file_without_messages_is_not_recovered(sound, tmp_path):
+    truncated = tmp_path / "truncated.mcap"
+    truncated.write_bytes(sound.read_bytes()[:60])
     with pytest.raises(RecordingError):
-        recover(torn, tmp_path / "saved")
+        recover(truncated, tmp_path / "saved")
     assert not (tmp_path / "saved").exists()
 
 
-def test_the_command_says_what_is_lost_and_overwrites_nothing(sound, tmp_path):
-    torn = tmp_path / "torn.mcap"
-    torn.write_bytes(sound.read_bytes()[:-5000])
-    answer = CliRunner().invoke(build_app(), ["recover", str(torn)])
+def test_the_command_reports_losses_and_overwrites_nothing(sound, tmp_path):
+    truncated = tmp_path / "truncated.mcap"
+    truncated.write_bytes(sound.read_bytes()[:-5000])
+    answer = CliRunner().invoke(build_app(), ["recover", str(truncated)])
     assert answer.exit_code == 0
     assert "unreadable" in answer.output
     assert "gearbox_state" in answer.output
     elsewhere = tmp_path / "elsewhere"
-    chosen = CliRunner().invoke(build_app(), ["recover", str(torn), "--out", str(elsewhere)])
+    chosen = CliRunner().invoke(build_app(), ["recover", str(truncated), "--out", str(elsewhere)])
     assert chosen.exit_code == 0
     assert messages(next(elsewhere.glob("*.mcap"))) == messages(
-        next(tmp_path.glob("torn_*/*.mcap"))
+        next(tmp_path.glob("truncated_*/*.mcap"))
     )
-    again = CliRunner().invoke(build_app(), ["recover", str(torn)])
+    again = CliRunner().invoke(build_app(), ["recover", str(truncated)])
     assert again.exit_code == 2
     assert len(again.output.strip().splitlines()) == 1
     assert "exists" in again.output

@@ -41,7 +41,7 @@ def _files(folder: Path) -> list[Path]:
 
 
 def _split(folder: Path, storage: Storage | None = None) -> Path:
-    """Three files, with a setting that holds in all of them and another from the second on."""
+    """Three files, with one setting in all of them and another from the second on."""
     numbered = Numbered(folder, storage)
     numbered.bag.attach("scene.yaml", b"paper", "application/yaml")
     numbered.bag.describe("software", {"python": "3"})
@@ -57,7 +57,7 @@ def _split(folder: Path, storage: Storage | None = None) -> Path:
 
 
 @pytest.mark.parametrize("compression", COMPRESSIONS)
-def test_each_file_is_whole_and_enough_for_itself(tmp_path, compression):
+def test_each_file_is_complete_and_self_contained(tmp_path, compression):
     folder = _split(tmp_path / "bag", Storage(compression=compression))
     numbers, settings = [], []
     for file in _files(folder):
@@ -76,14 +76,14 @@ def test_each_file_is_whole_and_enough_for_itself(tmp_path, compression):
 
 def test_the_folder_lists_its_files_as_rosbag2_does(tmp_path):
     folder = _split(tmp_path / "bag")
-    told = yaml.safe_load((folder / "metadata.yaml").read_text())["rosbag2_bagfile_information"]
-    assert told["relative_file_paths"] == [file.name for file in _files(folder)]
-    assert [file["message_count"] for file in told["files"]] == [101, 52, 11]
-    begins = [file["starting_time"]["nanoseconds_since_epoch"] for file in told["files"]]
-    spans = [file["duration"]["nanoseconds"] for file in told["files"]]
+    metadata = yaml.safe_load((folder / "metadata.yaml").read_text())["rosbag2_bagfile_information"]
+    assert metadata["relative_file_paths"] == [file.name for file in _files(folder)]
+    assert [file["message_count"] for file in metadata["files"]] == [101, 52, 11]
+    begins = [file["starting_time"]["nanoseconds_since_epoch"] for file in metadata["files"]]
+    spans = [file["duration"]["nanoseconds"] for file in metadata["files"]]
     assert begins == [START, START + 100 * PERIOD, START + 150 * PERIOD]
     assert spans == [100 * PERIOD, 50 * PERIOD, 10 * PERIOD]
-    assert told["duration"]["nanoseconds"] == 160 * PERIOD
+    assert metadata["duration"]["nanoseconds"] == 160 * PERIOD
     with Reader(folder) as reader:
         messages = list(reader.messages())
         assert reader.message_count == len(messages) == 164
@@ -93,12 +93,12 @@ def test_the_folder_lists_its_files_as_rosbag2_does(tmp_path):
         }
 
 
-def test_rerun_finds_nothing_to_complain_of(tmp_path):
+def test_rerun_accepts_every_file(tmp_path):
     for file in _files(_split(tmp_path / "bag")):
         subprocess.run([RERUN, "mcap", "check", file], check=True, capture_output=True)
 
 
-def test_who_reads_the_whole_bag_gets_each_message_once(tmp_path):
+def test_reading_the_whole_bag_gives_each_message_once(tmp_path):
     folder = _split(tmp_path / "bag")
     info = read_info(folder)
     assert {name: topic.recorded for name, topic in info.topics.items()} == {
@@ -124,7 +124,7 @@ def test_a_killed_logger_s_last_file_is_read_with_those_before(tmp_path):
 
 
 @pytest.mark.parametrize("written", [0, 5])
-def test_a_file_that_was_just_begun_when_its_logger_was_killed_does_no_harm(tmp_path, written):
+def test_a_file_that_was_just_started_when_its_logger_was_killed_does_no_harm(tmp_path, written):
     folder = _split(tmp_path / "bag")
     (folder / "metadata.yaml").unlink()
     last = _files(folder)[-1]
@@ -160,7 +160,7 @@ def test_files_end_at_their_limit(tmp_path, limit, count):
         ("split_duration", float("nan")),
     ],
 )
-def test_a_layout_that_cannot_be_is_refused(field, value):
+def test_an_invalid_storage_setting_is_refused(field, value):
     with pytest.raises(ValueError, match=f"^{field} = "):
         Storage(**{field: value})
 
@@ -186,7 +186,7 @@ def test_accounts_of_all_files_add_up(tmp_path):
     assert read_info(tmp_path / "bag").topics["/numbers"].lost == 4
 
 
-def test_a_split_twin_is_verified_shown_and_told_as_a_whole_one(tmp_path):
+def test_a_split_recording_is_verified_shown_and_described_as_a_whole(tmp_path):
     split = record(tmp_path / "split", storage=Storage(split_duration=0.1)).parent
     whole = record(tmp_path / "whole").parent
     assert len(_files(split)) > 3
@@ -198,11 +198,11 @@ def test_a_split_twin_is_verified_shown_and_told_as_a_whole_one(tmp_path):
     assert len(shown.waveform.time) == len(expected.waveform.time)
     answers = [CliRunner().invoke(build_app(), ["info", str(path)]) for path in (split, whole)]
     assert all(answer.exit_code == 0 for answer in answers)
-    # The latest operating point comes with every file.
+    # Every file contains the latest operating point.
     assert len(read_recording(_files(split)[2]).operating_point) >= 1
 
 
-def test_a_snapshot_holds_the_last_seconds_and_what_is_latched(tmp_path):
+def test_a_snapshot_contains_the_last_seconds_and_latched_messages(tmp_path):
     ring = Ring(0.1)
     ring.attach("scene.yaml", b"paper", "application/yaml")
     numbers, settings = (ring.add_topic(t, TopicAccount()) for t in (NUMBERS, SETTINGS))

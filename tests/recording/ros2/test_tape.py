@@ -1,4 +1,4 @@
-"""A tape gives the same messages from any instant, however its files are laid out."""
+"""A tape gives the same messages from any instant, for every layout of its files."""
 
 import struct
 
@@ -22,7 +22,7 @@ def stamped(time):
 
 
 def write(folder, steps, pace=1.0):
-    """Ten chunks a second; `pace` stamped seconds per recorded second, of another epoch."""
+    """Ten chunks per second; `pace` stamped seconds per recorded second, with another epoch."""
     bag = BagWriter(folder)
     kinds = [("/twin/state", HEADER, []), ("/twin/point", "float64 x\n", LATCHED)]
     kinds += [("/twin/model", "string data\n", LATCHED), ("/diagnostics", HEADER, [])]
@@ -50,13 +50,13 @@ def whole(tmp_path_factory):
     return write(tmp_path_factory.mktemp("tape") / "bag", range(301))
 
 
-@pytest.fixture(params=["indexed", "torn", "split", "split and torn"])
+@pytest.fixture(params=["indexed", "truncated", "split", "split and truncated"])
 def tape(request, whole, tmp_path):
-    """The same messages in several layouts; of a torn one the last chunk's are missing."""
+    """The same messages in several layouts; a truncated one lacks those of the last chunk."""
     if request.param == "indexed":
         return Tape(whole)
-    if request.param == "torn":
-        file = tmp_path / "torn.mcap"
+    if request.param == "truncated":
+        file = tmp_path / "truncated.mcap"
         file.write_bytes(whole.read_bytes()[:-2000])
         return Tape(file)
     folder = tmp_path / "split"
@@ -64,13 +64,13 @@ def tape(request, whole, tmp_path):
     for n, steps in enumerate([range(100), range(100, 200), range(200, 301)]):
         file = write(tmp_path / f"part_{n}", steps)
         data = file.read_bytes()
-        torn = n == 2 and "torn" in request.param
-        (folder / f"split_{9 + n}.mcap").write_bytes(data[:-2000] if torn else data)
+        truncated = n == 2 and "truncated" in request.param
+        (folder / f"split_{9 + n}.mcap").write_bytes(data[:-2000] if truncated else data)
     return Tape(folder)
 
 
 @pytest.mark.parametrize("begin", [0, 1, 25, 26, 100, 251, 270])
-def test_it_begins_anywhere_with_what_is_latched_there(tape, begin):
+def test_it_starts_at_any_instant_with_the_messages_latched_there(tape, begin):
     cues = list(tape.cues(begin * STEP, 275 * STEP))
     latched = [cue for cue in cues if cue.time == begin * STEP and cue.data[:1] in b"mp"]
     newest = 25 * ((begin - 1) // 25)
@@ -84,20 +84,20 @@ def test_it_begins_anywhere_with_what_is_latched_there(tape, begin):
     assert [cue.time for cue in cues] == sorted(cue.time for cue in cues)
 
 
-def test_only_what_is_damaged_in_the_middle_is_missing(whole, tmp_path):
+def test_only_the_damaged_chunk_is_missing(whole, tmp_path):
     data = bytearray(whole.read_bytes())
     data[len(data) // 3] ^= 1
     file = tmp_path / "damaged.mcap"
     file.write_bytes(data)
     tape = Tape(file)
-    heard = {int(cue.data[12:]) for cue in tape.cues() if cue.topic == "/twin/state"}
-    missing = sorted(set(range(301)) - heard)
+    received = {int(cue.data[12:]) for cue in tape.cues() if cue.topic == "/twin/state"}
+    missing = sorted(set(range(301)) - received)
     assert missing == list(range(missing[0], missing[0] + 10))
     remark = f"damaged from {missing[0] * 0.01:.3f} to {missing[-1] * 0.01:.3f} s"
     assert len(tape.remarks) == 1 and remark in tape.remarks[0]
 
 
-def test_a_damaged_index_is_not_gone_by(whole, tmp_path):
+def test_a_damaged_index_is_ignored(whole, tmp_path):
     data = bytearray(whole.read_bytes())
     data[-700] ^= 1
     file = tmp_path / "damaged.mcap"
@@ -107,7 +107,7 @@ def test_a_damaged_index_is_not_gone_by(whole, tmp_path):
     assert "its summary is damaged" in tape.remarks[0]
 
 
-def test_topics_are_chosen(whole):
+def test_topics_can_be_selected(whole):
     tape = Tape(whole, ["/twin/point"])
     assert {cue.topic for cue in tape.cues()} == set(tape.topics) == {"/twin/point"}
     assert tape.length == 300 * STEP
@@ -116,23 +116,23 @@ def test_topics_are_chosen(whole):
 
 
 @pytest.mark.parametrize("pace", [0.5, 1.0, 3.0])
-def test_the_clock_tells_what_messages_are_stamped_with(tmp_path, pace):
+def test_the_clock_has_the_stamps_of_the_messages(tmp_path, pace):
     tape = Tape(write(tmp_path / "bag", range(301), pace))
-    told, newest, off = [], 0, []
+    times, newest, off = [], 0, []
     for cue in with_clock(tape, 0, tape.length, 200.0):
         if cue.topic == CLOCK.name:
             seconds, nanoseconds = struct.unpack("<4xiI", cue.data)
-            told.append(seconds * 10**9 + nanoseconds)
-            off.append(told[-1] - newest)
+            times.append(seconds * 10**9 + nanoseconds)
+            off.append(times[-1] - newest)
         elif cue.topic == "/twin/state":
             seconds, nanoseconds = struct.unpack_from("<4xiI", cue.data)
             newest = seconds * 10**9 + nanoseconds
-    assert told == sorted(told)
-    assert len(told) == 601
+    assert times == sorted(times)
+    assert len(times) == 601
     assert min(off) >= 0 and max(off) <= STEP
 
 
-def test_without_stamps_the_clock_tells_the_recorders_time(whole):
+def test_without_stamps_the_clock_has_the_time_of_the_recorder(whole):
     cues = list(with_clock(Tape(whole, ["/twin/point"]), STEP, 2 * STEP, 1000.0))
     ticks = [cue for cue in cues if cue.topic == CLOCK.name]
     assert [cue.time for cue in ticks] == [STEP + k * 1_000_000 for k in range(11)]

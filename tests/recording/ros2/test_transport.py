@@ -1,4 +1,4 @@
-"""A tape stands where its rate has taken it, and nothing makes it jump but a seek."""
+"""The position of a tape follows its rate; only a seek makes it jump."""
 
 import math
 
@@ -6,7 +6,7 @@ import pytest
 
 from planetary_twin_py.recording.ros2.transport import AS_FAST_AS_IT_GOES, Transport
 
-FAR = 10**18  # [ns] what comes next is never reached
+FAR = 10**18  # [ns] of a next message that is never reached
 
 
 def running(rate_factor=1.0, position=0):
@@ -22,7 +22,7 @@ def test_it_runs_at_its_rate(rate_factor):
     assert transport.remaining(5_000 + 10**9, 100.0) == pytest.approx(1 / rate_factor)
 
 
-def test_held_it_stands_and_nothing_is_ever_due():
+def test_on_hold_the_position_is_constant_and_nothing_is_due():
     transport = running()
     transport.hold(101.0, FAR)
     assert transport.position(500.0, FAR) == 10**9
@@ -32,34 +32,34 @@ def test_held_it_stands_and_nothing_is_ever_due():
     assert transport.position(700.5, FAR) == 1_500_000_000
 
 
-def test_going_on_while_it_runs_changes_nothing():
+def test_resuming_while_it_runs_changes_nothing():
     transport = running()
     transport.go(101.0)
     assert transport.position(102.0, FAR) == 2 * 10**9
 
 
-def test_another_rate_holds_from_where_it_is():
+def test_another_rate_applies_from_the_present_position():
     transport = running()
     transport.set_rate(10.0, 101.0, FAR)
     assert transport.position(101.0, FAR) == 10**9
     assert transport.position(102.0, FAR) == 11 * 10**9
 
 
-def test_what_is_late_has_not_been_reached():
+def test_a_late_message_has_not_been_reached():
     transport = running(100.0)
     late = 5 * 10**9  # due at 100.05
     transport.set_rate(1.0, 101.0, late)
     assert transport.position(101.5, FAR) == late + 500_000_000
 
 
-def test_without_limit_all_is_due_at_once():
+def test_without_a_limit_everything_is_due_at_once():
     transport = running(AS_FAST_AS_IT_GOES)
     assert transport.remaining(FAR, 100.0) == 0.0
     transport.set_rate(1.0, 101.0, 7)
     assert transport.position(101.0, FAR) == 7
 
 
-def test_moved_while_held_it_stays_held():
+def test_a_seek_while_on_hold_keeps_the_hold():
     transport = Transport(0, 1.0)
     transport.place(50, 10.0)
     assert transport.position(99.0, FAR) == 50
@@ -67,7 +67,7 @@ def test_moved_while_held_it_stays_held():
     assert transport.position(99.0, FAR) == 50
 
 
-def test_a_turn_of_a_loop_takes_no_time_of_its_own():
+def test_the_jump_of_a_loop_takes_no_time():
     transport = running(2.0)
     due = transport.remaining(10**9, 100.7)
     transport.shift(-(10**9))

@@ -1,6 +1,4 @@
-"""Recordings made of a sound one by chance: each is read as far as it is sound, or refused in one
-line.
-"""
+"""Randomly altered recordings are read as far as they are valid, or refused in one line."""
 
 import shutil
 from dataclasses import replace
@@ -42,7 +40,7 @@ FIELDS = {
 
 @pytest.fixture(scope="module")
 def sound(tmp_path_factory):
-    """Four intervals in two chunks, uncompressed so that what is altered is not only a chunk."""
+    """Four intervals in two chunks, uncompressed so that alterations reach the messages."""
     folder = tmp_path_factory.mktemp("sound")
     bag = BagWriter(folder / "bag")
     composer = Composer(bag, topics_of(NAMESPACE), NAMESPACE)
@@ -61,7 +59,7 @@ def sound(tmp_path_factory):
 
 
 def read_all(file):
-    """Let every reader read `file`."""
+    """Read `file` with every reader."""
     out = file.parent / "out"
     readers = {
         "info": lambda: read_info(file).figures(),
@@ -78,7 +76,7 @@ def read_all(file):
 
 
 def used(recording):
-    """What the views ask of a recording."""
+    """Evaluate what views use of a recording."""
     return recording.ranges, recording.waveform, recording.per_mesh("dte_mean"), recording.meshes
 
 
@@ -93,7 +91,7 @@ def test_a_recording_with_other_bytes_is_read_or_refused(sound, data):
 @searching
 @given(data=st.data())
 def test_a_recording_with_other_contents_is_read_or_refused(sound, data):
-    """Whole by every checksum: the contents of one to three records are others."""
+    """All checksums are valid: the contents of one to three records differ."""
     with sound.open("rb") as stream:
         records = [r for r in StreamReader(stream).records if type(r) in FIELDS]
     chosen = data.draw(st.lists(st.sampled_from(range(len(records))), min_size=1, max_size=3))

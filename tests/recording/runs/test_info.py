@@ -1,4 +1,4 @@
-"""A recording tells what it holds, what it lacks, and what was changed when."""
+"""The description of a recording: its contents, its gaps and the changes during the run."""
 
 import json
 
@@ -23,7 +23,7 @@ def sound(tmp_path_factory):
     return record(tmp_path_factory.mktemp("sound") / "bag")
 
 
-def test_topics_rates_and_gaps_are_those_that_were_written(sound):
+def test_topics_rates_and_gaps_are_those_written(sound):
     info = read_info(sound.parent)
     state = info.topics[f"{NAMESPACE}/gearbox_state"]
     assert (state.type, state.recorded) == ("planetary_twin_msgs/msg/GearboxState", 41)
@@ -34,7 +34,7 @@ def test_topics_rates_and_gaps_are_those_that_were_written(sound):
     assert info.remarks == []
 
 
-def test_a_pipe_gets_a_line_for_every_topic(sound, monkeypatch):
+def test_a_pipe_receives_a_line_for_every_topic(sound, monkeypatch):
     def lines():
         printed = CliRunner().invoke(build_app(), ["info", str(sound)]).output
         return [line for line in printed.splitlines() if f"{NAMESPACE}/operating_point" in line]
@@ -46,7 +46,7 @@ def test_a_pipe_gets_a_line_for_every_topic(sound, monkeypatch):
     assert max(map(len, lines())) <= 80
 
 
-def test_changes_are_told_with_their_instants(sound):
+def test_changes_are_listed_with_their_instants(sound):
     first, second, third = read_info(sound).changes
     assert first.time == 0.0 and len(first.values) == 7
     assert second.time == pytest.approx(0.1)
@@ -65,7 +65,7 @@ def test_the_command_prints_them_and_its_figures_are_those_of_a_run(sound, tmp_p
     assert figures["topics"][f"{NAMESPACE}/joint_states"]["recorded"] == 41
 
 
-def test_what_is_no_recording_is_refused_in_one_line(tmp_path):
+def test_a_file_that_is_no_recording_is_refused_in_one_line(tmp_path):
     answer = CliRunner().invoke(build_app(), ["info", str(tmp_path)])
     assert answer.exit_code == 2
     assert len(answer.output.strip().splitlines()) == 1
@@ -75,7 +75,7 @@ def without_index(file):
     raise ValueError("no index")
 
 
-def test_the_index_of_a_file_tells_the_same_as_all_its_records(tmp_path, monkeypatch):
+def test_the_index_of_a_file_agrees_with_all_its_records(tmp_path, monkeypatch):
     def lose(topic, number, row):
         return None if topic == "gearbox_state" and number in (7, 8, 20) else row
 
@@ -99,12 +99,12 @@ def test_the_index_leads_to_every_message(sound):
             assert index.message(channel, number) == message
 
 
-def test_a_file_without_a_sound_index_or_with_a_damaged_chunk_is_read_whole(sound, tmp_path):
+def test_a_file_without_a_valid_index_or_with_a_damaged_chunk_is_read_completely(sound, tmp_path):
     whole = sound.read_bytes()
     flipped = bytearray(whole)
-    flipped[whole.index(b"zstd") + 100] ^= 1  # in the first chunk, which tells the operating point
+    flipped[whole.index(b"zstd") + 100] ^= 1  # in the first chunk, with the operating point
     for name, data, remarks in (
-        ("torn", whole[: len(whole) // 2], 1),
+        ("truncated", whole[: len(whole) // 2], 1),
         ("cut", whole[:20], 1),
         ("damaged", bytes(flipped), 1),
         ("unsummed", whole[:-300] + bytes([whole[-300] ^ 1]) + whole[-299:], 1),
@@ -114,7 +114,7 @@ def test_a_file_without_a_sound_index_or_with_a_damaged_chunk_is_read_whole(soun
         assert len(read_info(file).remarks) == remarks
 
 
-def test_the_command_tells_what_happened(sound, tmp_path):
+def test_the_command_lists_the_events(sound, tmp_path):
     file = tmp_path / "figures.json"
     answer = CliRunner().invoke(build_app(), ["info", str(sound), "--events", "--json", str(file)])
     assert answer.exit_code == 0, answer.output
@@ -137,15 +137,15 @@ def test_the_command_tells_what_happened(sound, tmp_path):
     assert state["longest_gap_s"] == pytest.approx(0.7099)
 
 
-def test_contact_that_is_lost_and_messages_that_are_missing_are_told(tmp_path):
+def test_contact_loss_and_missing_messages_are_reported(tmp_path):
     def alter(topic, number, row):
         if topic != "gearbox_state" or number not in (4, 5, 8):
             return {**row} if topic != "gearbox_state" else {**row, **_kept(row)}
         return None if number == 8 else {**row, **_kept(row), "sun_planet_contact_fraction": APART}
 
     file = record(tmp_path / "bag", alter)
-    told = [(round(e.time, 9), e.text) for e in read_events(file, NAMESPACE, []) if e.run == 1]
-    assert told[3:6] == [
+    events = [(round(e.time, 9), e.text) for e in read_events(file, NAMESPACE, []) if e.run == 1]
+    assert events[3:6] == [
         (0.03, "teeth separate in sun_planet_2"),
         (0.05, "teeth remain in contact in every mesh"),
         (0.08, "1 messages of gearbox_state are missing before"),
@@ -175,7 +175,7 @@ def ramped(folder, *legs):
     return recording.file
 
 
-def changes_told(file):
+def listed_changes(file):
     printed = CliRunner().invoke(build_app(), ["info", str(file)]).output.splitlines()
     lines = printed[[line.startswith("changes") for line in printed].index(True) :]
     return [line.removeprefix("changes").strip() for line in lines]
@@ -183,7 +183,7 @@ def changes_told(file):
 
 def test_a_ramp_is_one_line(tmp_path):
     legs = (50, {"input_torque": 30.0}), (20, {"backlash": 4e-7, "lambda_ratio": 2.0})
-    start, *ways = changes_told(ramped(tmp_path / "bag", *legs))
+    start, *ways = listed_changes(ramped(tmp_path / "bag", *legs))
     assert start.startswith("0.0000 s  backlash = 2e-07 m")
     assert ways == [
         "0.0000 s  input_torque from 63 to 30 N m in 50 steps over 0.5 s",
@@ -191,8 +191,8 @@ def test_a_ramp_is_one_line(tmp_path):
     ]
 
 
-def test_a_ramp_to_where_it_begins_is_at_most_one_line(tmp_path):
-    assert len(changes_told(ramped(tmp_path / "bag", (50, {"input_torque": 63.0})))) <= 2
+def test_a_ramp_to_its_initial_value_is_at_most_one_line(tmp_path):
+    assert len(listed_changes(ramped(tmp_path / "bag", (50, {"input_torque": 63.0})))) <= 2
 
 
 def test_the_figures_of_a_ramp_are_still_those_of_every_step(tmp_path):
@@ -205,8 +205,8 @@ def turned(*points, name="input_torque", namespace="/one"):
     return [Changed(time, namespace, {name: value}) for time, value in points]
 
 
-def test_only_what_goes_on_at_the_same_pace_is_one_ramp():
-    """What turns back, pauses, begins anew or is of another field or gearbox is told on its own."""
+def test_only_changes_at_a_constant_rate_are_one_ramp():
+    """Reversals, pauses, restarts, and changes of other fields or gearboxes are separate."""
     begin = turned((0.0, 1.0))
     up = turned((1.0, 2.0), (1.01, 3.0), (1.02, 4.0))
     assert [len(ramp.times) for ramp in ramps(begin + up)] == [1, 3]

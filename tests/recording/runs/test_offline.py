@@ -40,7 +40,7 @@ def test_a_run_is_written_as_file_or_folder(tmp_path, name):
     assert simulate("paper", "--duration", "0.045", "--out", tmp_path / name).exit_code == 2
 
 
-def test_the_topics_are_those_of_the_interfaces_that_are_built():
+def test_the_topics_are_those_of_the_built_interfaces():
     for topic in topics_of(NAMESPACE):
         package, _, name = topic.type.split("/")
         installed = Path(sys.prefix, "share", package, "msg", f"{name}.json").read_text()

@@ -1,4 +1,4 @@
-"""Recordings of other versions, whose messages have fewer fields or more."""
+"""Recordings of other versions, whose messages have fewer or more fields."""
 
 import re
 
@@ -34,7 +34,7 @@ def types_of(definition, kind):
 
 
 def as_of(sound, target, kind, define):
-    """The recording as a version writes it that defines messages of `kind` otherwise."""
+    """The recording as written by a version that defines messages of `kind` differently."""
     with sound.open("rb") as stream:
         records = list(StreamReader(stream).records)
     schema = next(r for r in records if isinstance(r, Schema) and r.name == kind)
@@ -65,29 +65,29 @@ def without(field):
     return lambda text: re.sub(rf"^\S+ +{field} .*\n", "", text, flags=re.MULTILINE)
 
 
-def test_a_field_that_a_recording_lacks_is_not_a_number_and_told(sound, tmp_path):
+def test_a_field_that_a_recording_lacks_is_nan_and_reported(sound, tmp_path):
     file = as_of(sound, tmp_path / "old.mcap", STATE, without("sun_planet_film_thickness"))
     old, new = read_recording(file), read_recording(sound)
     assert np.isnan(old.per_mesh("film_thickness")[:, :3]).all()
     np.testing.assert_array_equal(old.per_mesh("dte_mean"), new.per_mesh("dte_mean"))
-    told = f"{NAMESPACE}/gearbox_state: recorded by another version, without "
-    assert old.remarks == [f"{told}sun_planet_film_thickness"] and new.remarks == []
+    prefix = f"{NAMESPACE}/gearbox_state: recorded by another version, without "
+    assert old.remarks == [f"{prefix}sun_planet_film_thickness"] and new.remarks == []
 
 
-def test_what_a_recording_of_fewer_fields_has_is_verified(sound, tmp_path):
+def test_the_fields_of_an_older_recording_are_verified(sound, tmp_path):
     file = as_of(sound, tmp_path / "old.mcap", STATE, without("efficiency"))
     verdict = verify(file, NAMESPACE)
     assert verdict.identical and verdict.values == verify(sound, NAMESPACE).values - 41
 
 
-def test_a_table_of_fewer_fields_has_no_column_for_those_missing(sound, tmp_path):
+def test_a_table_has_no_column_for_a_missing_field(sound, tmp_path):
     file = as_of(sound, tmp_path / "old.mcap", STATE, without("efficiency"))
     (table,) = export(file, Export(tmp_path / "table.csv", topics=["gearbox_state"])).rows
     heading = table.read_text().partition("\n")[0]
     assert "power_loss" in heading and "efficiency" not in heading
 
 
-def test_a_parameter_that_did_not_exist_stays_as_its_scene_has_it(sound, tmp_path):
+def test_a_parameter_that_did_not_exist_keeps_the_value_of_the_scene(sound, tmp_path):
     file = as_of(sound, tmp_path / "old.mcap", POINT, without("oil_temperature"))
     assert verify(file, NAMESPACE).identical
     assert all("oil_temperature" not in change.values for change in read_info(file).changes)
@@ -95,20 +95,20 @@ def test_a_parameter_that_did_not_exist_stays_as_its_scene_has_it(sound, tmp_pat
     assert verify(made.file, NAMESPACE).identical
 
 
-def test_what_needs_a_field_that_is_missing_says_so(sound, tmp_path):
+def test_a_command_that_needs_a_missing_field_names_it(sound, tmp_path):
     file = as_of(sound, tmp_path / "old.mcap", STATE, without("tolerance"))
     assert read_info(file).simulated == read_info(sound).simulated
     with pytest.raises(RecordingError, match="gearbox_state has no field tolerance in this"):
         verify(file, NAMESPACE)
 
 
-def test_a_recording_that_cannot_be_placed_in_time_is_refused(sound, tmp_path):
+def test_a_recording_without_simulated_time_is_refused(sound, tmp_path):
     file = as_of(sound, tmp_path / "old.mcap", STATE, without("simulated_time"))
     with pytest.raises(RecordingError, match=r"GearboxState.simulated_time is missing"):
         read_recording(file)
 
 
-def test_a_field_more_is_kept_and_harms_nothing(sound, tmp_path):
+def test_an_additional_field_is_kept_and_does_no_harm(sound, tmp_path):
     file = as_of(sound, tmp_path / "new.mcap", STATE, lambda text: "float64 later\n" + text)
     recording = read_recording(file)
     assert (recording.state["later"] == 7.0).all() and not recording.remarks

@@ -1,4 +1,4 @@
-"""A recording becomes arrays; a torn one keeps its sound part; what is none says so in one line."""
+"""A recording becomes arrays; the valid part of a damaged one is kept, other files are refused."""
 
 import numpy as np
 import pytest
@@ -19,7 +19,7 @@ def sound(tmp_path_factory):
     return write_recording(tmp_path_factory.mktemp("bag") / "bag_0.mcap", DURATION)
 
 
-def test_arrays_hold_what_was_written(sound):
+def test_arrays_contain_the_written_values(sound):
     recording = read_recording(sound)
     assert recording.remarks == []
     assert recording.namespace == "/planetary_twin"
@@ -50,8 +50,8 @@ def test_waveform_is_one_gapless_grid_with_ros_time_beside_it(sound):
 
 
 def test_a_logger_that_never_finished_its_file_loses_only_the_open_chunk(tmp_path):
-    torn = write_recording(tmp_path / "torn.mcap", DURATION, finish=False)
-    recording = read_recording(torn)
+    truncated = write_recording(tmp_path / "truncated.mcap", DURATION, finish=False)
+    recording = read_recording(truncated)
     assert 20 <= len(recording.state) < 30
     assert np.allclose(recording.state.time, 0.01 * np.arange(1, len(recording.state) + 1))
 
@@ -59,9 +59,9 @@ def test_a_logger_that_never_finished_its_file_loses_only_the_open_chunk(tmp_pat
 @pytest.mark.parametrize("share", [0.3, 0.5, 0.77, 0.999])
 def test_a_file_cut_anywhere_opens_with_what_is_before_the_cut(sound, tmp_path, share):
     whole = sound.read_bytes()
-    torn = tmp_path / "torn.mcap"
-    torn.write_bytes(whole[: int(share * len(whole))])
-    recording = read_recording(torn)
+    truncated = tmp_path / "truncated.mcap"
+    truncated.write_bytes(whole[: int(share * len(whole))])
+    recording = read_recording(truncated)
     count = len(recording.state)
     assert 0 < count <= 30
     assert np.array_equal(recording.state.time, read_recording(sound).state.time[:count])
@@ -70,7 +70,7 @@ def test_a_file_cut_anywhere_opens_with_what_is_before_the_cut(sound, tmp_path, 
     assert "\n" not in recording.remarks[0]
 
 
-def test_a_damaged_chunk_is_told_and_not_shown(sound, tmp_path):
+def test_a_damaged_chunk_is_reported_and_left_out(sound, tmp_path):
     data = bytearray(sound.read_bytes())
     data[len(data) // 2] ^= 0xFF
     damaged = tmp_path / "damaged.mcap"
@@ -84,16 +84,16 @@ def test_a_damaged_chunk_is_told_and_not_shown(sound, tmp_path):
     assert np.array_equal(recording.state["ring_angle"], whole["ring_angle"][kept])
 
 
-def test_the_folder_of_a_bag_opens_like_its_file(sound):
+def test_the_folder_of_a_bag_can_be_opened_like_its_file(sound):
     assert len(read_recording(sound.parent).state) == len(read_recording(sound).state)
 
 
-def test_the_scene_travels_with_the_recording(tmp_path):
+def test_the_scene_is_stored_in_the_recording(tmp_path):
     file = write_recording(tmp_path / "a.mcap", 0.02, scene_yaml="name: x\n")
     assert read_recording(file).scene_yaml == "name: x\n"
 
 
-def test_the_namespace_is_found_or_must_be_one_that_is_there(tmp_path):
+def test_the_namespace_is_found_or_must_exist(tmp_path):
     file = write_recording(tmp_path / "a.mcap", 0.02, namespace="/left/gearbox")
     assert read_recording(file).namespace == "/left/gearbox"
     assert read_recording(file, "left/gearbox").namespace == "/left/gearbox"
@@ -104,7 +104,7 @@ def test_the_namespace_is_found_or_must_be_one_that_is_there(tmp_path):
         read_recording(tmp_path)
 
 
-def test_what_is_no_recording_says_so_in_one_line(tmp_path):
+def test_a_file_that_is_no_recording_is_named_in_one_line(tmp_path):
     text = tmp_path / "notes.txt"
     text.write_text("not a recording")
     empty = tmp_path / "empty"
@@ -121,7 +121,7 @@ def test_what_is_no_recording_says_so_in_one_line(tmp_path):
         assert "\n" not in str(caught.value)
 
 
-def test_samples_of_a_stretch_are_those_of_the_blocks_it_touches(sound):
+def test_samples_of_a_time_span_are_those_of_the_blocks_it_overlaps(sound):
     recording = read_recording(sound)
     whole = recording.waveform
     part = recording.samples(0.105, 0.12)
@@ -144,7 +144,7 @@ def test_ranges_are_those_of_the_samples(sound):
         assert np.array_equal(ranges.highest[name], np.fmax.reduceat(samples, whole.block))
 
 
-def test_records_of_a_damaged_file_go_on_where_mcap_stops_and_none_is_invented(sound, tmp_path):
+def test_records_of_a_damaged_file_continue_where_mcap_stops_and_none_is_invented(sound, tmp_path):
     whole, original = sound.read_bytes(), list(records_of(sound, []))
     damaged = tmp_path / "damaged.mcap"
     kinds = (Schema, Channel, Message, Attachment, Metadata)
@@ -158,7 +158,7 @@ def test_records_of_a_damaged_file_go_on_where_mcap_stops_and_none_is_invented(s
         with damaged.open("rb") as stream:
             try:
                 for record in StreamReader(stream, validate_crcs=True).records:
-                    in_data &= not isinstance(record, DataEnd)  # what follows only repeats
+                    in_data &= not isinstance(record, DataEnd)  # the following records repeat
                     if in_data and isinstance(record, kinds):
                         expected.append(record)
             except DAMAGED:
@@ -166,6 +166,6 @@ def test_records_of_a_damaged_file_go_on_where_mcap_stops_and_none_is_invented(s
         assert all(record in original for record in found)
         rest = iter(original)
         assert all(record in rest for record in found if isinstance(record, Message))  # in order
-        if place >= 60:  # before is the length of the first record, which mcap goes by or not
+        if place >= 60:  # the length of the first record precedes
             assert found[: len(expected)] == expected
             assert (remarks == []) == sound_end

@@ -1,4 +1,4 @@
-"""The recording that is kept in git is sound, complete, and still what the model computes."""
+"""The sample recording in the repository is valid, complete, and agrees with the model."""
 
 import os
 import re
@@ -50,7 +50,7 @@ def test_two_readers_find_the_same_messages_in_it():
 
 
 def test_its_time_bar_is_as_long_as_its_gearbox_ran():
-    """Tools show messages over the time at which they were received; it is recorded live."""
+    """Tools show messages by the time of reception; the sample was recorded in real time."""
     (file,) = SAMPLE.glob("*.mcap")
     with file.open("rb") as stream:
         topics = [f"{NAMESPACE}/{name}" for name in ("gearbox_state", "mesh_waveform")]
@@ -65,7 +65,7 @@ def test_its_waveform_has_one_sample_rate():
 
 
 def without_a_cache(tmp_path):
-    """The environment of a machine on which no twin has ever run."""
+    """The environment of a machine on which no twin has run."""
     return os.environ | {"HOME": str(tmp_path), "XDG_CACHE_HOME": str(tmp_path / "cache")}
 
 
@@ -97,14 +97,14 @@ def test_view_draws_its_gears_on_another_machine(tmp_path):
 
 
 @pytest.mark.slow
-def test_it_simulates_again_to_what_it_says():
+def test_its_simulation_gives_the_recorded_values():
     verdict = verify(SAMPLE, NAMESPACE)
     assert verdict.remarks == []
     assert verdict.values > 250_000
     assert verdict.identical or (not verdict.same_makers and verdict.within_bound)
 
 
-def test_it_opens_with_its_scene():
+def test_it_is_opened_with_its_scene():
     recording = read_recording(SAMPLE)
     assert recording.scene_yaml and recording.planets == 3
     assert recording.waveform is not None

@@ -1,4 +1,4 @@
-"""A recording that was altered is found; one that was not is the same to the last bit."""
+"""An altered recording is detected; an unaltered one is identical bit for bit."""
 
 import json
 import struct
@@ -28,12 +28,12 @@ def altering(topic, number, field, change):
 
 
 def without(topic, numbers):
-    """Leave messages out."""
+    """Omit messages."""
     return lambda at, count, row: None if at == topic and count in numbers else row
 
 
 def next_bit(value):
-    """The nearest other number, in the third place of an array."""
+    """The next representable number, in the third element of an array."""
     if isinstance(value, np.ndarray):
         changed = value.copy()
         changed[2] = np.nextafter(value[2], np.array(np.inf, value.dtype))
@@ -42,7 +42,7 @@ def next_bit(value):
 
 
 def end_of_data(file):
-    """Where a recorder that was killed between two records would have stopped at the latest."""
+    """The last possible end of a file whose recorder was killed between two records."""
     *_, last = (section.place for section in sections_of(file, []))
     with file.open("rb") as stream:
         stream.seek(last)
@@ -55,7 +55,7 @@ def sound(tmp_path_factory):
     return record(tmp_path_factory.mktemp("sound") / "bag")
 
 
-def test_what_was_not_altered_is_the_same_to_the_last_bit(sound):
+def test_an_unaltered_recording_is_identical_bit_for_bit(sound):
     verdict = verify(sound, NAMESPACE)
     assert verdict.identical and verdict.same_makers
     assert verdict.remarks == []
@@ -93,20 +93,22 @@ def test_one_altered_bit_is_found_where_it_is(tmp_path, topic, field, change, pl
         ("run_origin", 1, "data", lambda text: text.replace("torque: 63.0", "torque: 64.0")),
     ],
 )
-def test_an_altered_input_shows_in_what_follows_from_it(tmp_path, topic, number, field, change):
+def test_an_altered_input_shows_in_the_quantities_that_depend_on_it(
+    tmp_path, topic, number, field, change
+):
     verdict = verify(record(tmp_path / "a", altering(topic, number, field, change)), NAMESPACE)
     assert not verdict.identical
     assert verdict.first_difference is not None
 
 
-def test_a_block_at_a_time_that_never_was_is_told(tmp_path):
+def test_a_block_at_an_impossible_time_is_reported(tmp_path):
     file = record(tmp_path / "a", altering("mesh_waveform", 25, "start_time", next_bit))
     assert verify(file, NAMESPACE).remarks == [
         "1 messages of mesh_waveform belong to no interval that is simulated again"
     ]
 
 
-def test_what_is_missing_is_bridged_while_nothing_changes(tmp_path):
+def test_missing_messages_are_bridged_while_nothing_changes(tmp_path):
     verdict = verify(record(tmp_path / "a", without("gearbox_state", {5, 6})), NAMESPACE)
     assert verdict.first_difference is None
     assert verdict.messages["gearbox_state"] == 39
@@ -114,7 +116,7 @@ def test_what_is_missing_is_bridged_while_nothing_changes(tmp_path):
     assert [remark.split()[0] for remark in verdict.remarks] == ["2", "2"]  # joints, waveform
 
 
-def test_no_more_is_claimed_than_is_known(tmp_path):
+def test_messages_after_a_lost_change_are_not_compared(tmp_path):
     lost_change = without("operating_point", {2})
     verdict = verify(record(tmp_path / "a", lost_change), NAMESPACE)
     assert "1 messages of operating_point are missing" in verdict.remarks[0]
@@ -130,26 +132,26 @@ def test_without_a_start_nothing_can_be_simulated_again(tmp_path, left_out):
         verify(record(tmp_path / "a", left_out), NAMESPACE)
 
 
-def test_a_torn_file_is_the_same_up_to_its_end(sound, tmp_path):
+def test_a_truncated_file_is_identical_up_to_its_end(sound, tmp_path):
     whole = sound.read_bytes()
-    torn = tmp_path / "torn.mcap"
-    torn.write_bytes(whole[: len(whole) // 2])
-    verdict = verify(torn, NAMESPACE)
+    truncated = tmp_path / "truncated.mcap"
+    truncated.write_bytes(whole[: len(whole) // 2])
+    verdict = verify(truncated, NAMESPACE)
     assert verdict.first_difference is None
     assert 10 <= verdict.messages["gearbox_state"] < 41
     assert any("is truncated" in remark for remark in verdict.remarks)
 
 
-def test_of_a_file_without_an_end_all_that_was_read_is_compared(sound, tmp_path):
-    torn = tmp_path / "torn.mcap"
-    torn.write_bytes(sound.read_bytes()[: end_of_data(sound)])
-    code, output = invoke(torn)
+def test_all_messages_of_an_unfinished_file_are_compared(sound, tmp_path):
+    truncated = tmp_path / "truncated.mcap"
+    truncated.write_bytes(sound.read_bytes()[: end_of_data(sound)])
+    code, output = invoke(truncated)
     assert code == 1
-    assert "torn.mcap: has no end record, the recorder was killed" in output
+    assert "truncated.mcap: has no end record, the recorder was killed" in output
     assert "122 messages read, all identical bit for bit" in output
 
 
-def test_how_many_messages_could_not_be_compared_is_told(tmp_path):
+def test_the_number_of_messages_not_compared_is_reported(tmp_path):
     file = record(tmp_path / "a", altering("mesh_waveform", 25, "start_time", next_bit))
     code, output = invoke(file)
     assert code == 1
@@ -158,7 +160,7 @@ def test_how_many_messages_could_not_be_compared_is_told(tmp_path):
 
 @pytest.mark.exhaustive
 @pytest.mark.slow
-def test_any_bit_that_is_turned_in_the_file_is_found(sound, tmp_path):
+def test_any_bit_flip_in_the_file_is_found(sound, tmp_path):
     whole = sound.read_bytes()
     places = np.random.default_rng(1).integers(0, 8 * len(whole), 60).tolist()
     ends = range(8 * (len(whole) - 40), 8 * len(whole), 13)  # footer and magic
@@ -189,7 +191,7 @@ def test_other_machines_may_differ_within_the_bound(tmp_path):
         assert invoke(file)[0] == code
 
 
-def test_the_command_says_what_it_found(sound, tmp_path):
+def test_the_command_prints_its_findings(sound, tmp_path):
     code, output = invoke(sound, "--json", tmp_path / "figures.json")
     assert code == 0, output
     assert "identical bit for bit" in output
@@ -203,7 +205,7 @@ def test_the_command_says_what_it_found(sound, tmp_path):
     assert json.loads((tmp_path / "figures.json").read_text())["first_difference"]["time"] == 0.25
 
 
-def test_the_command_refuses_in_one_line_what_it_cannot_compare(tmp_path):
+def test_the_command_refuses_recordings_it_cannot_compare_in_one_line(tmp_path):
     code, output = invoke(write_recording(tmp_path / "bag_0.mcap", 0.1))
     assert code == 2
     assert len(output.strip().splitlines()) == 1

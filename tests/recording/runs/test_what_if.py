@@ -1,4 +1,4 @@
-"""What-if: as recorded up to the branch, from then on as a twin does that is set so."""
+"""A what-if run equals the recording up to the branch, then a twin with the new settings."""
 
 import math
 
@@ -41,7 +41,7 @@ def messages(file):
         ]
 
 
-def test_up_to_the_branch_it_is_the_same_to_the_last_bit(sound, branched):
+def test_up_to_the_branch_it_is_identical_bit_for_bit(sound, branched):
     assert branched.begins == 0.05
     before, after = messages(sound), messages(branched.file)
     same = next(n for n, (old, new) in enumerate(zip(before, after, strict=False)) if old != new)
@@ -50,7 +50,7 @@ def test_up_to_the_branch_it_is_the_same_to_the_last_bit(sound, branched):
     assert after[same][0] == f"{NAMESPACE}/operating_point"
 
 
-def test_from_then_on_it_is_what_a_twin_does_that_is_set_so(branched):
+def test_from_the_branch_on_it_equals_a_twin_with_these_settings(branched):
     recording = read_recording(branched.file)
     twin = pt.Twin(pt.load_scene("paper"), 10_000.0, 1e-3)
     for number in range(31):
@@ -67,7 +67,7 @@ def test_from_then_on_it_is_what_a_twin_does_that_is_set_so(branched):
         assert np.array_equal(recording.per_mesh("dte_rms")[number], window.mesh["dte_rms"], True)
 
 
-def test_what_is_set_stays_and_everything_else_changes_as_recorded(branched):
+def test_settings_are_kept_and_all_other_quantities_change_as_recorded(branched):
     point = read_recording(branched.file).operating_point
     assert np.array_equal(point.time, [0.0, 0.05, 0.1])
     assert list(point["changed"])[1:] == ["lambda_ratio", "backlash"]
@@ -75,7 +75,7 @@ def test_what_is_set_stays_and_everything_else_changes_as_recorded(branched):
     assert np.array_equal(point["backlash"], [2e-7, 2e-7, 3e-7])
 
 
-def test_the_second_recording_is_one_like_any_other(sound, branched):
+def test_the_branch_is_a_recording_like_any_other(sound, branched):
     verdict = verify(branched.file.parent, NAMESPACE)
     assert verdict.identical and verdict.same_makers
     assert verdict.messages == {"gearbox_state": 31, "joint_states": 31, "mesh_waveform": 30}
@@ -89,7 +89,7 @@ def test_the_second_recording_is_one_like_any_other(sound, branched):
     assert remark is None and scene == pt.load_scene("paper")
 
 
-def test_from_the_start_on_the_model_itself_may_differ(sound, tmp_path):
+def test_a_branch_at_the_start_may_change_the_model(sound, tmp_path):
     branch = Branch({"gearset.planet_angles": FOUR, "input_torque": "30 N m"}, duration=0.05)
     made = resimulate(sound, NAMESPACE, branch, tmp_path / "bag")
     assert made.remarks == ["has 2 runs, the last is simulated; use --run to select"]
@@ -103,7 +103,7 @@ def test_from_the_start_on_the_model_itself_may_differ(sound, tmp_path):
     assert verify(made.file, NAMESPACE).identical
 
 
-def test_a_run_can_go_on_beyond_its_end(sound, tmp_path):
+def test_a_run_can_be_continued_beyond_its_end(sound, tmp_path):
     branch = Branch({"lambda_ratio": 2.0}, 0.1, duration=0.125)
     made = resimulate(sound, NAMESPACE, branch, tmp_path / "bag")
     state = read_recording(made.file).state
@@ -113,7 +113,7 @@ def test_a_run_can_go_on_beyond_its_end(sound, tmp_path):
     assert verify(made.file, NAMESPACE).identical
 
 
-def test_what_was_lost_in_recording_is_there_again(sound, tmp_path):
+def test_messages_lost_in_recording_are_computed_again(sound, tmp_path):
     def losing(topic, number, row):
         return None if topic in ("gearbox_state", "joint_states") and number in (5, 6) else row
 
@@ -140,7 +140,7 @@ def test_what_was_lost_in_recording_is_there_again(sound, tmp_path):
         (("--out", "."), ["--out = '.'", "exists"]),
     ],
 )
-def test_what_cannot_be_ends_in_one_line_and_leaves_nothing(sound, tmp_path, arguments, words):
+def test_invalid_arguments_end_in_one_line_and_leave_no_file(sound, tmp_path, arguments, words):
     folder = tmp_path / "bag"
     given = ["resimulate", str(sound), "--out", str(folder), *arguments]
     answer = CliRunner().invoke(build_app(), given)
@@ -150,7 +150,7 @@ def test_what_cannot_be_ends_in_one_line_and_leaves_nothing(sound, tmp_path, arg
     assert not folder.exists()
 
 
-def test_the_command_says_from_when_on_it_differs(sound, tmp_path):
+def test_the_command_prints_the_instant_of_the_branch(sound, tmp_path):
     given = ["--run", "1", "--set", "backlash=0.4 um", "--from", "0.3", "--out", tmp_path / "bag"]
     answer = CliRunner().invoke(build_app(), ["resimulate", *map(str, [sound.parent, *given])])
     assert answer.exit_code == 0, answer.output

@@ -1,4 +1,4 @@
-"""Tables hold what another reader of the same file reads, to the last bit, with units."""
+"""Exported tables contain the values that another reader finds, bit for bit, with units."""
 
 import csv
 import json
@@ -23,7 +23,7 @@ def sound(tmp_path_factory):
 
 @pytest.fixture(scope="module")
 def messages(sound):
-    """By topic, as rosbags decodes them."""
+    """Messages by topic, decoded by rosbags."""
     found = {}
     with AnyReader([sound.parent]) as bag:
         for connection, _, raw in bag.messages():
@@ -60,17 +60,17 @@ READ = {"parquet": read_parquet, "csv": read_csv, "npz": read_npz}
 
 
 def same(column, expected):
-    """Whether a column holds these very values; of texts, whether they read as these."""
+    """Whether a column has exactly these values; texts are converted first."""
     expected = np.asarray(expected)
     found = np.array(column).astype(expected.dtype)
-    if isinstance(column, list) and expected.dtype.kind == "f":  # a text has but one NaN
+    if isinstance(column, list) and expected.dtype.kind == "f":  # a text has only one NaN
         expected = np.where(np.isnan(expected), found.dtype.type(np.nan), expected)
     return found.tobytes() == expected.tobytes()
 
 
 @pytest.mark.parametrize("kind", READ)
 def test_values_are_the_recorded_ones_to_the_last_bit(sound, messages, tmp_path, monkeypatch, kind):
-    monkeypatch.setattr(tables, "MESSAGES", 7)  # of a batch, so that there are several
+    monkeypatch.setattr(tables, "MESSAGES", 7)  # per batch, so that there are several
     answer = export(sound, "--out", tmp_path / "tables", "--format", kind)
     assert answer.exit_code == 0, answer.output
     state, units = READ[kind](tmp_path / "tables" / f"gearbox_state.{kind}")
@@ -113,11 +113,11 @@ def test_one_topic_can_be_one_file(sound, tmp_path):
     assert len(read_csv(file)[0]["backlash"]) == 3
 
 
-def test_a_torn_file_gives_what_is_sound(sound, tmp_path):
-    torn = tmp_path / "torn.mcap"
+def test_the_valid_part_of_a_truncated_file_is_exported(sound, tmp_path):
+    truncated = tmp_path / "truncated.mcap"
     whole = sound.read_bytes()
-    torn.write_bytes(whole[: len(whole) // 2])
-    answer = export(torn, "--out", tmp_path / "tables")
+    truncated.write_bytes(whole[: len(whole) // 2])
+    answer = export(truncated, "--out", tmp_path / "tables")
     assert answer.exit_code == 0 and "is truncated" in answer.stderr
     state, _ = read_parquet(tmp_path / "tables" / "gearbox_state.parquet")
     assert 10 <= len(state["stamp"]) < 41
@@ -135,7 +135,7 @@ def test_a_torn_file_gives_what_is_sound(sound, tmp_path):
         (("--namespace", "other"), ["namespace = /other"]),
     ],
 )
-def test_what_cannot_be_ends_in_one_line(sound, tmp_path, monkeypatch, arguments, words):
+def test_invalid_arguments_end_in_one_line(sound, tmp_path, monkeypatch, arguments, words):
     monkeypatch.chdir(tmp_path)
     (tmp_path / "there").mkdir()
     (tmp_path / "there" / "gearbox_state.parquet").touch()

@@ -1,4 +1,4 @@
-"""Tables made by chance: each is imported, or refused in one line."""
+"""Random tables are imported, or refused in one line."""
 
 import shutil
 

@@ -1,4 +1,4 @@
-"""A table from a rig becomes a recording that says so, or is refused in one line."""
+"""A table from a test rig becomes a recording marked as measured, or is refused in one line."""
 
 import json
 
@@ -44,7 +44,7 @@ def bring_in(folder, columns, *more, name="rig.csv"):
 
 
 @pytest.mark.parametrize("name", ["rig.csv", "rig.parquet"])
-def test_columns_become_fields_in_si_and_what_was_not_measured_is_no_number(tmp_path, name):
+def test_columns_become_fields_in_si_and_unmeasured_quantities_are_nan(tmp_path, name):
     done = bring_in(tmp_path, SOUND, name=name)
     assert done.exit_code == 0, done.output
     assert "3 rows, one every 0.1 s" in done.output
@@ -67,7 +67,7 @@ def test_columns_become_fields_in_si_and_what_was_not_measured_is_no_number(tmp_
     assert all(np.isnan([s.output_torque, s.tolerance, s.sun_angle]).all() for s in states)
 
 
-def test_the_operating_point_is_the_mean_of_its_rows_and_the_scene_where_nothing_is_measured(
+def test_the_operating_point_is_the_mean_of_its_rows_or_that_of_the_scene_if_unmeasured(
     tmp_path,
 ):
     bring_in(tmp_path, SOUND, "--set", "backlash=0.3um")
@@ -95,7 +95,7 @@ def test_rows_with_another_label_are_another_operating_point(tmp_path):
     assert "from 0.02 s: input_torque = 60 N m" in done.output
 
 
-def test_time_stamps_may_be_those_of_a_calendar(tmp_path):
+def test_time_stamps_may_be_calendar_dates(tmp_path):
     stamps = np.datetime64("2026-11-22T10:00:00", "ms") + 20 * np.arange(4).astype("m8[ms]")
     done = bring_in(tmp_path, {"time": stamps, "power_loss": np.ones(4)})
     assert done.exit_code == 0 and "4 rows, one every 0.02 s" in done.output, done.output
@@ -123,7 +123,7 @@ def test_semicolons_tabulators_and_decimal_commas_are_read(tmp_path, text):
     assert measured.columns["power_loss"] == pytest.approx([0.0, 250.0])
 
 
-def test_verify_says_that_it_was_measured_and_does_not_compare(tmp_path):
+def test_verify_reports_a_measurement_and_does_not_compare(tmp_path):
     bring_in(tmp_path, SOUND)
     done = run("verify", tmp_path / "rig", "--json", tmp_path / "out.json")
     assert done.exit_code == 2 and done.output.count("\n") == 1
@@ -131,7 +131,7 @@ def test_verify_says_that_it_was_measured_and_does_not_compare(tmp_path):
     assert not (tmp_path / "out.json").exists()
 
 
-def test_what_is_simulated_from_it_is_a_simulation(tmp_path):
+def test_a_simulation_based_on_it_is_marked_as_a_simulation(tmp_path):
     bring_in(tmp_path, SOUND)
     done = run("resimulate", tmp_path / "rig", "--from", 0.1, "--out", tmp_path / "twin")
     assert done.exit_code == 0, done.output
@@ -140,7 +140,7 @@ def test_what_is_simulated_from_it_is_a_simulation(tmp_path):
     assert verdict.exit_code == 0 and json.loads(verdict.stdout)["identical"]
 
 
-def test_it_is_read_and_tells_no_tolerance(tmp_path):
+def test_it_is_readable_and_has_no_tolerance(tmp_path):
     bring_in(tmp_path, SOUND)
     recording = read_recording(tmp_path / "rig")
     assert len(recording.state.time) == 3
@@ -164,7 +164,7 @@ def with_time(*time):
 
 
 @pytest.mark.parametrize(
-    ("columns", "told"),
+    ("columns", "reason"),
     [
         (with_time(1.0, 1.1, 1.05), "row 3: time = 1.05 s: must be later than 1.1 s"),
         (with_time(1.0, 1.0, 1.1), "row 2: time = 1 s: must be later than 1 s"),
@@ -196,14 +196,14 @@ def with_time(*time):
         ({"time": [1.0], "power_loss": [1.0]}, "1 rows: must be at least 2"),
     ],
 )
-def test_what_cannot_be_is_refused_in_one_line_and_nothing_is_written(tmp_path, columns, told):
+def test_an_invalid_table_is_refused_in_one_line_and_nothing_is_written(tmp_path, columns, reason):
     done = bring_in(tmp_path, columns)
     assert done.exit_code == 2, done.output
-    assert told in done.output and done.output.count("\n") == 1
+    assert reason in done.output and done.output.count("\n") == 1
     assert not (tmp_path / "rig").exists()
 
 
-def test_a_missing_row_is_told_with_its_place(tmp_path):
+def test_a_missing_row_is_reported_with_its_position(tmp_path):
     time = np.delete(np.arange(100) / 100.0, 40)
     done = bring_in(tmp_path, {"time": time, "power_loss": np.ones(99)})
     assert done.exit_code == 2
@@ -212,18 +212,18 @@ def test_a_missing_row_is_told_with_its_place(tmp_path):
 
 def test_a_file_that_is_no_table_is_refused(tmp_path):
     (tmp_path / "rig.txt").write_text("time\n")
-    (tmp_path / "torn.parquet").write_bytes(b"PAR1")
+    (tmp_path / "truncated.parquet").write_bytes(b"PAR1")
     (tmp_path / "latin.csv").write_bytes(
         "time,oil_temperature [°C]\n1,60\n2,60\n".encode("latin-1")
     )
-    for name, told in (
+    for name, reason in (
         ("rig.txt", "must end in"),
-        ("torn.parquet", "torn.parquet"),
+        ("truncated.parquet", "truncated.parquet"),
         ("no.csv", "no.csv: No such file"),
         ("latin.csv", "latin.csv: must be in UTF-8"),
     ):
         done = run("import", tmp_path / name, "--out", tmp_path / "rig")
-        assert done.exit_code == 2 and told in done.output and done.output.count("\n") == 1
+        assert done.exit_code == 2 and reason in done.output and done.output.count("\n") == 1
 
 
 @pytest.mark.parametrize(

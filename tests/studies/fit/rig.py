@@ -1,4 +1,4 @@
-"""Recordings of a test rig whose truth is known: a twin, and noise of its sensors."""
+"""Recordings of a simulated test rig with known parameters: a twin with sensor noise."""
 
 from pathlib import Path
 
@@ -31,7 +31,7 @@ def noisy(seed: int, share: float):
 
 
 def record(folder: Path, scene: pt.Scene, duration=0.3, seed=0, share=0.0, changes=()) -> Path:
-    """A run of intervals of 10 ms; `changes` are pairs of an instant and what is set then."""
+    """A run of intervals of 10 ms; `changes` are pairs of an instant and the values set then."""
     twin = pt.Twin(scene, 20_000.0, 1e-3)
     recording = TwinRecording(folder, noisy(seed, share))
     recording.begin(twin, START_NS)

@@ -1,4 +1,4 @@
-"""Parameters from recordings whose truth is known."""
+"""Identification of known parameters from recordings."""
 
 import numpy as np
 import pytest
@@ -18,7 +18,7 @@ def find(path, *free, begin=None, end=None, **search):
 
 
 @pytest.mark.slow
-def test_rattle_tells_the_backlash(tmp_path):
+def test_rattle_identifies_the_backlash(tmp_path):
     errors = []
     for seed in range(3):
         path = record(tmp_path / str(seed), LIGHT, 0.1, seed, share=0.01)
@@ -31,23 +31,25 @@ def test_rattle_tells_the_backlash(tmp_path):
 
 
 @pytest.mark.slow
-def test_steady_load_tells_torque_and_film_and_says_that_it_does_not_tell_backlash(tmp_path):
+def test_steady_load_identifies_torque_and_film_and_reports_that_backlash_is_not_identifiable(
+    tmp_path,
+):
     path = record(tmp_path / "bag", PAPER, 0.1, 0, share=0.003)
     found = find(path, "backlash", "lambda_ratio", "input_torque", confidence=0.999)
     assert found.estimate.not_identifiable == ((0,),)
     for place, truth in ((1, 1.0), (2, 63.0)):
         low, high, _ = found.estimate.intervals[place]
         assert low < truth < high
-    told = list(remarks(found))
-    assert len(told) == 1
-    assert told[0].startswith(
+    warnings = list(remarks(found))
+    assert len(warnings) == 1
+    assert warnings[0].startswith(
         "backlash: not identifiable from this excerpt: teeth never separate (contact_fraction = 1)"
         "; all values from 0 to "
     )
     assert np.isnan(found.estimate.correlation[0]).all()
 
 
-def test_the_zero_of_the_encoders_would_tell_it(tmp_path):
+def test_the_zero_of_the_encoders_would_identify_it(tmp_path):
     path = record(tmp_path / "bag", PAPER, 0.1, 0, share=0.001)
     found = find(path, "backlash", observe=("dte_mean",), confidence=0.999)
     low, high, _ = found.estimate.intervals[0]
@@ -65,7 +67,7 @@ def test_without_noise_the_truth_is_found_through_a_change_that_still_rings(tmp_
 
 
 @pytest.mark.slow
-def test_the_waveform_tells_more_than_its_rms(tmp_path):
+def test_the_waveform_identifies_more_than_its_rms(tmp_path):
     path = record(tmp_path / "bag", PAPER, 0.1, 0, share=0.05)
     widths = []
     for observe in (("dte_waveform",), ("dte_rms",)):
@@ -76,7 +78,7 @@ def test_the_waveform_tells_more_than_its_rms(tmp_path):
     assert widths[0] < widths[1]
 
 
-def test_the_longest_stretch_without_a_change_is_looked_at(tmp_path):
+def test_the_longest_interval_without_a_change_is_used(tmp_path):
     changes = [(0.08, {"lambda_ratio": 1.5}), (0.09, {"lambda_ratio": 1.2})]
     path = record(tmp_path / "bag", PAPER, 0.2, changes=changes)
     found = read_excerpt(path)
@@ -86,7 +88,7 @@ def test_the_longest_stretch_without_a_change_is_looked_at(tmp_path):
     assert found.segments == pytest.approx((0.08, 0.09))
 
 
-def test_far_into_a_run_the_simulation_begins_at_the_recorded_angles(tmp_path, monkeypatch):
+def test_late_in_a_run_the_simulation_starts_at_the_recorded_angles(tmp_path, monkeypatch):
     path = record(tmp_path / "bag", PAPER.replace(input_speed=91.0), 0.3)
     monkeypatch.setattr(excerpt, "HISTORY", 0.1)
     found = find(path, "lambda_ratio", begin=0.2, end=0.3, observe=("power_loss", "dte_waveform"))
@@ -96,7 +98,7 @@ def test_far_into_a_run_the_simulation_begins_at_the_recorded_angles(tmp_path, m
 
 
 @pytest.mark.parametrize(
-    ("search", "told"),
+    ("search", "reason"),
     [
         (Search(()), "no free parameter"),
         (Search(("nosuch",)), "nosuch: no such field"),
@@ -123,10 +125,10 @@ def test_far_into_a_run_the_simulation_begins_at_the_recorded_angles(tmp_path, m
         ),
     ],
 )
-def test_what_cannot_be_estimated_is_refused_in_one_line(short, search, told):
+def test_an_impossible_estimate_is_refused_in_one_line(short, search, reason):
     with pytest.raises(ValueError) as refusal:
         identify(short, search)
-    assert told in str(refusal.value) and "\n" not in str(refusal.value)
+    assert reason in str(refusal.value) and "\n" not in str(refusal.value)
 
 
 @pytest.fixture(scope="module")

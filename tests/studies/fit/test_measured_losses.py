@@ -1,4 +1,4 @@
-"""Losses measured on a rig of others: see tests/data/compact/README.md."""
+"""Losses measured on an external rig: see tests/data/compact/README.md."""
 
 from pathlib import Path
 
@@ -22,7 +22,7 @@ def rig(tmp_path_factory):
 
 
 def drag_by_regression():
-    """c of loss/w = c + b (T - c), over all rows: a torque that is lost before the teeth."""
+    """c of loss/w = c + b (T - c), over all rows: a torque lost before the teeth."""
     _, _, rpm, torque, loss = np.loadtxt(
         DATA / "losses.csv", delimiter=",", skiprows=1, dtype=str
     ).T
@@ -32,7 +32,7 @@ def drag_by_regression():
 
 
 @pytest.mark.exhaustive
-def test_friction_alone_runs_into_the_end_of_its_range_and_the_drag_it_lacks_is_named(rig):
+def test_friction_alone_reaches_the_end_of_its_range_and_the_missing_drag_is_named(rig):
     found = identify(rig, Search((FRICTION,), ("power_loss",)), begin=0.0, end=22.5)
     assert found.estimate.at_bound == (True,) and found.estimate.unbounded[0] > 1.0
     assert found.missing_loss.field == DRAG
@@ -51,7 +51,7 @@ def test_with_a_load_independent_drag_friction_stays_within_its_range(rig):
     assert low < drag_by_regression() < high and high - low < 0.03
 
 
-def test_one_of_several_operating_points_is_not_looked_at_silently(rig):
+def test_one_of_several_operating_points_is_not_chosen_silently(rig):
     found = identify(rig, Search((DRAG,), ("power_loss",)))
     assert any(
         line.startswith("only 1 of 9 operating points is used, 0 to 2.5 s of 22.5 s")

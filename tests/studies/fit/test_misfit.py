@@ -1,4 +1,4 @@
-"""Noise of means, against the scatter of many of them."""
+"""The noise of means, compared with the scatter of many of them."""
 
 import numpy as np
 import pytest
@@ -31,6 +31,6 @@ def test_the_noise_of_a_mean_is_the_scatter_of_many_means(correlation):
     assert found == pytest.approx(runs.mean(axis=1).std(), rel=0.15)
 
 
-def test_independent_readings_are_not_said_to_correlate_and_others_are():
+def test_only_correlated_readings_are_reported_as_correlated():
     assert sum(noise_of(run).correlation > 0.0 for run in runs_of(0.0)) <= 3
     assert all(0.3 < noise_of(run).correlation < 0.7 for run in runs_of(0.5))

@@ -1,4 +1,4 @@
-"""What a model leaves out, from residuals of lines whose truth is known."""
+"""Losses that a model lacks, from residuals of known lines."""
 
 import numpy as np
 import pytest
@@ -18,7 +18,7 @@ FRICTION = Parameter("friction", "", 0.0, 0.5, 0.1)
 
 
 def residuals(lost, friction, **drag):
-    """Torques of a loss `friction` times the torque, and the drag, less what was measured."""
+    """Torques of a loss `friction` times the torque, plus the drag, minus the measured torque."""
     return (friction * TORQUE + sum(EFFECT[k] * v for k, v in drag.items()) - lost) / 1e-3
 
 
@@ -31,8 +31,8 @@ def missing_loss(lost, scene=PAPER):
 
 @pytest.mark.parametrize("name", EFFECT)
 @pytest.mark.parametrize("friction", [0.2, 0.48])
-def test_the_drag_that_is_there_is_named_with_its_value(name, friction):
-    """With a friction of 0.48 the search ends at the end of the range, and comes back off it."""
+def test_an_existing_drag_is_named_with_its_value(name, friction):
+    """With a friction of 0.48, the search reaches the end of the range and returns from it."""
     found = missing_loss(friction * TORQUE + 0.7 * EFFECT[name])
     assert found.field == name
     assert found.value == pytest.approx(0.7, rel=1e-6) and found.sum < 1e-6
@@ -46,6 +46,6 @@ def test_less_loss_than_the_model_has_is_no_drag():
     assert missing_loss(0.2 * TORQUE - 0.7) is None
 
 
-def test_a_drag_that_the_scene_has_is_not_lacking():
+def test_a_drag_that_the_scene_has_is_not_missing():
     both = PAPER.replace(**{"losses.sun_drag": {"coulomb": 0.1, "viscous": 0.1}})
     assert missing_loss(0.2 * TORQUE + 0.7, both) is None

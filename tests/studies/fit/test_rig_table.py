@@ -1,4 +1,4 @@
-"""Parameters from tables as a rig writes them, whose truth is known."""
+"""Identification of known parameters from tables in the format of a rig."""
 
 import numpy as np
 import pyarrow as pa
@@ -26,7 +26,7 @@ def assert_identified(found, **truth):
 
 @pytest.fixture(scope="module")
 def exported(tmp_path_factory):
-    """Of a gearbox whose film is thinner than that of the scene, with sensors of 0.3 %."""
+    """A gearbox whose film is thinner than that of the scene, with sensors of 0.3 %."""
     folder = tmp_path_factory.mktemp("exported")
     truth = PAPER.replace(lambda_ratio=0.7)
     path = record(folder / "bag", truth, 0.3, seed=1, share=0.003)
@@ -34,7 +34,7 @@ def exported(tmp_path_factory):
     return folder / "rig.parquet"
 
 
-def test_what_is_exported_imported_and_fitted_is_the_truth(exported, tmp_path):
+def test_a_fit_of_an_exported_and_imported_recording_finds_the_truth(exported, tmp_path):
     write_measured(exported, PAPER, tmp_path / "rig")
     found = identify(tmp_path / "rig", Search(FREE, start=ELSEWHERE, confidence=0.999))
     assert_identified(found, lambda_ratio=0.7, input_torque=63.0)
@@ -53,23 +53,23 @@ def test_readings_of_one_mesh_are_enough(exported, tmp_path):
 
 
 @pytest.mark.parametrize(
-    ("observe", "told"),
+    ("observe", "reason"),
     [
         ("dte_peak", "observe = dte_peak: was not recorded in this excerpt"),
         ("dte_waveform", "observe = dte_waveform: no waveform was recorded in this excerpt"),
         ("power_loss", "observe = power_loss: has NaN or infinite values in this excerpt"),
     ],
 )
-def test_what_was_not_measured_cannot_be_observed(tmp_path, observe, told):
+def test_an_unmeasured_quantity_cannot_be_observed(tmp_path, observe, reason):
     loss = np.append(np.full(9, 75.0), np.nan)
     table = pa.table({"time": np.arange(10) / 100.0, "power_loss": loss})
     csv.write_csv(table, tmp_path / "rig.csv")
     write_measured(tmp_path / "rig.csv", PAPER, tmp_path / "rig")
-    with pytest.raises(ValueError, match=told):
+    with pytest.raises(ValueError, match=reason):
         identify(tmp_path / "rig", Search(("lambda_ratio",), (observe,)))
 
 
-def test_without_angles_a_late_stretch_begins_in_steady_running(exported, tmp_path, monkeypatch):
+def test_without_angles_a_late_interval_starts_in_steady_running(exported, tmp_path, monkeypatch):
     monkeypatch.setattr(excerpt, "HISTORY", 0.1)
     table = parquet.read_table(exported).select(["simulated_time", "power_loss", "input_torque"])
     parquet.write_table(table, tmp_path / "rig.parquet")
@@ -82,7 +82,7 @@ def test_without_angles_a_late_stretch_begins_in_steady_running(exported, tmp_pa
     assert_identified(found, lambda_ratio=0.7)
 
 
-def test_of_slow_readings_as_many_are_looked_at_as_tell_their_noise(tmp_path):
+def test_enough_slow_readings_are_used_to_estimate_their_noise(tmp_path):
     table = pa.table({"time": np.arange(60.0), "power_loss": np.full(60, 75.0)})
     csv.write_csv(table, tmp_path / "rig.csv")
     write_measured(tmp_path / "rig.csv", pt.load_scene("paper"), tmp_path / "rig")

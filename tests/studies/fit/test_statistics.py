@@ -1,4 +1,4 @@
-"""Estimates and intervals from residuals alone, with a known truth: a decaying exponential."""
+"""Estimates and intervals from residuals of a known model: a decaying exponential."""
 
 import numpy as np
 import pytest
@@ -30,7 +30,7 @@ def noise_of(seed):
     return NOISE * np.random.default_rng(seed).standard_normal(len(TIME))
 
 
-def test_intervals_hold_the_truth_as_often_as_they_say_and_estimates_are_not_biased():
+def test_intervals_contain_the_truth_as_often_as_they_state_and_estimates_are_unbiased():
     runs = 300
     found = [estimate(decay, decay(TRUTH) + noise_of(seed)) for seed in range(runs)]
     values = np.array([e.values for e in found])
@@ -55,7 +55,7 @@ def test_noise_known_to_few_degrees_of_freedom_widens_the_intervals():
     )
 
 
-def test_a_parameter_that_changes_nothing_is_not_told_and_spoils_no_other():
+def test_a_parameter_without_effect_is_not_identifiable_and_affects_no_other():
     found = estimate(lambda v: decay([v[0], TRUTH[1]]), decay(TRUTH) + noise_of(2))
     assert found.not_identifiable == ((1,),)
     assert found.identifiable(0) and not found.identifiable(1)
@@ -64,7 +64,7 @@ def test_a_parameter_that_changes_nothing_is_not_told_and_spoils_no_other():
     assert found.intervals[0] == pytest.approx(alone.intervals[0], rel=1e-4)
 
 
-def test_parameters_that_act_alike_are_named_together():
+def test_parameters_with_the_same_effect_are_named_together():
     found = estimate(lambda v: decay([v[0] * v[1], TRUTH[1]]), decay(TRUTH) + noise_of(3))
     assert found.not_identifiable == ((0, 1),)
 
@@ -79,10 +79,10 @@ def test_at_its_bound_an_interval_ends_there_and_follows_the_profile():
         at_bound += found.at_bound[1]
         assert low >= 0.0 and (profiled or low > 0.0)
     assert held >= 34
-    assert 10 <= at_bound <= 30  # half of the noise pulls beyond it
+    assert 10 <= at_bound <= 30  # half of the noise points beyond it
 
 
-def test_a_second_minimum_does_not_catch_the_search():
+def test_a_second_minimum_does_not_trap_the_search():
     def waves(values):
         return np.sin(2.0 * np.pi * values[0] * TIME)
 
@@ -91,7 +91,7 @@ def test_a_second_minimum_does_not_catch_the_search():
     assert found.values == pytest.approx([0.5], rel=1e-4)
 
 
-def test_a_model_that_cannot_follow_is_told_and_widens_the_intervals():
+def test_a_model_that_does_not_fit_is_reported_and_widens_the_intervals():
     data = decay(TRUTH) + 0.3 * np.sin(4.0 * TIME)
     found = estimate(decay, data)
     assert found.excess > 10.0
@@ -101,7 +101,7 @@ def test_a_model_that_cannot_follow_is_told_and_widens_the_intervals():
 
 
 @pytest.mark.parametrize("truth", [3e-4, 40.0])
-def test_a_search_that_begins_at_zero_finds_the_magnitude(truth):
+def test_a_search_that_starts_at_zero_finds_the_magnitude(truth):
     free = (Parameter("height", "m", 0.0, 1e6, 0.0),)
     data = decay([truth, 0.7])
     residuals = residuals_of(lambda v: decay([v[0], 0.7]), data, 1e-3 * truth)
@@ -111,7 +111,7 @@ def test_a_search_that_begins_at_zero_finds_the_magnitude(truth):
     assert found.values == pytest.approx([truth], rel=1e-5)
 
 
-def test_what_is_zero_stays_within_what_noise_hides():
+def test_a_zero_parameter_stays_within_the_noise():
     free = (Parameter("height", "m", 0.0, 1e6, 0.0),)
     residuals = residuals_of(lambda v: decay([v[0], 0.7]), noise_of(0))
     free = with_initial_magnitudes(residuals, free)

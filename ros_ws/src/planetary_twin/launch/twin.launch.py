@@ -1,4 +1,4 @@
-"""Starts a twin: the simulation, and the logger unless told not to."""
+"""Starts a twin: the simulation, and the logger unless `record` is false."""
 
 from launch import LaunchDescription
 from launch.actions import DeclareLaunchArgument, Shutdown
@@ -18,23 +18,23 @@ from launch_ros.substitutions import FindPackageShare
 
 _CONFIG = PathJoinSubstitution([FindPackageShare("planetary_twin"), "config", "twin.yaml"])
 _DOMAIN = EnvironmentVariable("ROS_DOMAIN_ID", default_value="0")
-# An older name stands before the one that takes its value as a default.
+# A deprecated name precedes the name that replaces it and takes its value as the default.
 _ARGUMENTS = (
     ("scene", "paper", "packaged scene, or path of a YAML file"),
-    ("namespace", "planetary_twin", "one per twin, so that several run side by side"),
-    ("frame_prefix", "", "before the names of all frames of /tf, which several twins share"),
-    ("record", "true", "whether the logger records, into recordings/ of the working directory"),
+    ("namespace", "planetary_twin", "namespace of the nodes, one for each twin"),
+    ("frame_prefix", "", "prefix of all frame names in /tf, one for each twin"),
+    ("record", "true", "record with the logger, into recordings/ of the working directory"),
     ("rate_factor", "1.0", "simulated seconds per second"),
-    ("params", _CONFIG, "older name of params_file"),
+    ("params", _CONFIG, "deprecated name of params_file"),
     ("params_file", LaunchConfiguration("params"), "YAML file with parameters of both nodes"),
     ("use_sim_time", "false", "stamp with the time on /clock, which another node publishes"),
-    ("log_level", "info", "of both nodes: debug, info, warn, error or fatal"),
-    ("domain", _DOMAIN, "ROS_DOMAIN_ID of the nodes: twins of different domains never meet"),
-    ("composed", "false", "older name of use_composition"),
+    ("log_level", "info", "log level of both nodes: debug, info, warn, error or fatal"),
+    ("domain", _DOMAIN, "ROS_DOMAIN_ID of the nodes: twins in different domains are isolated"),
+    ("composed", "false", "deprecated name of use_composition"),
     (
         "use_composition",
         LaunchConfiguration("composed"),
-        "simulation and logger in one process, for up to some 100 messages/s",
+        "run simulation and logger in one process, for up to some 100 messages/s",
     ),
 )
 
@@ -42,7 +42,7 @@ _RECORDED_BY = IfElseSubstitution(LaunchConfiguration("record"), "logger", "")
 
 
 def generate_launch_description() -> LaunchDescription:
-    """Arguments and nodes; all ends with the simulation."""
+    """Return the arguments and nodes; the launch ends with the simulation."""
     arguments = [
         DeclareLaunchArgument(name, default_value=default, description=description)
         for name, default, description in _ARGUMENTS

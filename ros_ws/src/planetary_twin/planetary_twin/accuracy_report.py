@@ -1,4 +1,4 @@
-"""Reports in /diagnostics whether figures of the twin are as accurate as its tolerance says."""
+"""Reports in /diagnostics whether the results of the twin are as accurate as its tolerance."""
 
 from __future__ import annotations
 
@@ -15,9 +15,10 @@ ACCURACY = "simulation: accuracy"
 
 class AccuracyReport:
     """
-    Judges the intervals since the last report as one run.
+    Checks the intervals since the last report as one run.
 
-    The twin's thread adds intervals, the node's thread takes reports.
+    The twin's thread adds intervals; the node's thread takes reports. `hardware` is the namespace
+    of the twin, the `hardware_id` of the status.
     """
 
     def __init__(self, hardware: str) -> None:
@@ -31,14 +32,14 @@ class AccuracyReport:
             self._course = self._course.joined(window.course)
 
     def status(self) -> DiagnosticStatus:
-        """Return the report of what was added since the last one."""
+        """Return the report on the intervals added since the last report."""
         with self._lock:
             course, self._course = self._course, Course()
         warnings = list(course_warnings(course))
         return DiagnosticStatus(
             level=DiagnosticStatus.WARN if warnings else DiagnosticStatus.OK,
             name=status_name(ACCURACY, self._hardware),
-            message="; also: ".join(warnings) or "as the tolerance says",
+            message="; also: ".join(warnings) or "consistent with the tolerance",
             hardware_id=self._hardware,
             values=[
                 KeyValue(key=name, value=f"{getattr(course, name):.6g}")

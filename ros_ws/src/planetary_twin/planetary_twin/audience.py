@@ -1,4 +1,4 @@
-"""Waits for a node that is to hear a twin from its first message on."""
+"""Waits until a node has subscribed, so that it receives a twin's first message."""
 
 from __future__ import annotations
 
@@ -9,66 +9,66 @@ from rclpy.node import Node
 from .topics import UNKNOWN_NODE
 
 PATIENCE = 10.0  # [s]
-_SETTLED = 0.5  # [s] without a further subscription, after which there is none to come
-_UNNAMED = 3.0  # [s] the same where the nodes of subscriptions are not known
+_SETTLED = 0.5  # [s] without a new subscription, after which no more are expected
+_UNNAMED = 3.0  # [s] the same if the nodes of the subscriptions are unknown
 _POLL = 0.05  # [s]
 
 
 class Audience:
     """
-    Whether the node `name` beside `node` has subscribed to what it wants of `node`'s topics.
+    Reports whether the node `name`, in the namespace of `node`, has subscribed to `node`'s topics.
 
-    Nodes that start together find one another after some tenths of a second, or, where a message
-    of the middleware's discovery gets lost, after three. To which node a subscription belongs is
-    another message, which may never come: after three seconds a subscription of an unknown node
-    counts as one of that node. A `name` that is empty is no one.
+    Nodes that start together discover each other after some tenths of a second, or after three
+    seconds if a discovery message of the middleware is lost. The name of a subscription's node
+    arrives in a separate message, which may be lost for good: after three seconds, a subscription
+    of an unknown node counts as one of `name`. If `name` is empty, there is nothing to wait for.
     """
 
     def __init__(self, node: Node, name: str) -> None:
         self._node = node
         self._name = name
-        self._there = not name
+        self._present = not name
         self._since = 0.0
-        self._looked = 0.0
+        self._checked = 0.0
         self._changed = 0.0
         self._subscribed = (0, 0)
 
     def begin(self) -> None:
-        """Count patience from now on."""
+        """Start the timeout."""
         self._since = time.monotonic()
-        if not self._there:
+        if not self._present:
             self._node.get_logger().info(
                 f"wait_for = {self._name}: waits until it has subscribed, {PATIENCE:g} s at most"
             )
 
-    def there(self) -> bool:
-        """Whether it is there, has been before, or is waited for no longer."""
+    def present(self) -> bool:
+        """Return whether the node has subscribed, or the timeout has expired."""
         now = time.monotonic()
-        if self._there or now < self._looked + _POLL:
-            return self._there
-        self._looked = now
+        if self._present or now < self._checked + _POLL:
+            return self._present
+        self._checked = now
         before, self._subscribed = self._subscribed, self._subscriptions()
         if self._subscribed != before:
             self._changed = now
         named, unnamed = self._subscribed
         settled = now - self._changed
-        self._there = (named > 0 and settled > _SETTLED) or (unnamed > 0 and settled > _UNNAMED)
-        if not self._there and now > self._since + PATIENCE:
-            self._there = True
+        self._present = (named > 0 and settled > _SETTLED) or (unnamed > 0 and settled > _UNNAMED)
+        if not self._present and now > self._since + PATIENCE:
+            self._present = True
             self._node.get_logger().warning(
                 f"wait_for = {self._name}: has not subscribed within {PATIENCE:g} s; "
-                "begins without it"
+                "starts without it"
             )
-        return self._there
+        return self._present
 
     def _subscriptions(self) -> tuple[int, int]:
-        """Count the matched topics of `node` that it, and that an unknown node, subscribes to."""
+        """Count the matched topics of `node` to which `name`, or an unknown node, subscribes."""
         wanted = self._name, self._node.get_namespace()
         named = unnamed = 0
         for publisher in self._node.publishers:
             if not publisher.get_subscription_count():
                 continue
-            listeners = self._node.get_subscriptions_info_by_topic(publisher.topic_name)
-            named += any((one.node_name, one.node_namespace) == wanted for one in listeners)
-            unnamed += any(one.node_name == UNKNOWN_NODE for one in listeners)
+            subscribers = self._node.get_subscriptions_info_by_topic(publisher.topic_name)
+            named += any((one.node_name, one.node_namespace) == wanted for one in subscribers)
+            unnamed += any(one.node_name == UNKNOWN_NODE for one in subscribers)
         return named, unnamed

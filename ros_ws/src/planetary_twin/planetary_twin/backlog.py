@@ -1,4 +1,4 @@
-"""Keeps a twin from outrunning the node that records it."""
+"""Keeps a twin from publishing faster than the recorder writes."""
 
 from __future__ import annotations
 
@@ -14,26 +14,28 @@ from rclpy.node import Node
 from .audience import PATIENCE
 
 _NOW = Duration()
-_UNSEEN = 5  # messages of a topic; ROS's default subscription, rosbag2's too, has room for 10
+_UNSEEN = 5  # messages of a topic; the queue of a subscription holds 10 in ROS 2 and in rosbag2
 
 
-class _Taken(CallbackGroup):  # type: ignore[misc]
-    """Of a subscription that no executor touches: its messages are taken by who needs them."""
+class _Polled(CallbackGroup):  # type: ignore[misc]
+    """Excludes a subscription from the executor: `Backlog` polls it."""
 
     def can_execute(self, entity: object) -> bool:
-        """Never: the executor may be waiting for the answer of a twin that is held."""
+        """Return False: the executor may itself be waiting for a twin that is held."""
         return False
 
 
 class Backlog:
     """
-    What the node `name` beside `node` has still to record; a `name` that is empty is no one.
+    Messages that the node `name`, in the namespace of `node`, has not recorded yet.
 
-    A recorder that publishes `RecorderStatus` on `NAME/status` may be `room` messages of a topic
-    behind. Another one says nothing of what it has recorded: of a topic, 5 messages at most are
-    on their way until all reliable subscribers have acknowledged them, which is waited for 10 s.
+    A recorder that publishes `RecorderStatus` on `NAME/status` may lag by `room` messages per
+    topic. Other recorders do not report what they have recorded. For them, at most 5 messages per
+    topic are in transit until all reliable subscribers have acknowledged them, or 10 s have
+    passed. If `name` is empty, there is always room.
 
-    `published` counts, for each publisher that sends one message an interval, what it has sent.
+    `published` returns the number of messages that each publisher has sent, for the publishers
+    that send one message per interval.
     """
 
     def __init__(
@@ -47,56 +49,56 @@ class Backlog:
         self._name = name
         self._published = published
         self._room = room
-        self._heard: dict[str, int] = {}  # what the recorder has accounted for, by topic
-        self._others: dict[str, int] = {}  # of these, what other publishers must have sent
+        self._accounted: dict[str, int] = {}  # messages recorded or lost, by topic
+        self._others: dict[str, int] = {}  # of these, messages of other publishers
         self._recorded: dict[str, int] = {}  # the rest
         self._acknowledged: dict[LifecyclePublisher, int] = {}
-        self._since = time.monotonic()  # of the last acknowledgement
+        self._since = time.monotonic()  # time of the last acknowledgement
         self._given_up = False
         self._status = (
             node.create_subscription(
-                RecorderStatus, f"{name}/status", self._hear, 1, callback_group=_Taken()
+                RecorderStatus, f"{name}/status", self._on_status, 1, callback_group=_Polled()
             )
             if name
             else None
         )
 
     def close(self) -> None:
-        """Let the subscription go."""
+        """Destroy the subscription."""
         if self._status is not None:
             self._node.destroy_subscription(self._status)
             self._status = None
 
     def has_room(self) -> bool:
-        """Whether the messages of another interval may be published; from one thread."""
+        """Return whether another interval may be published; call it from one thread only."""
         if self._status is None:
             return True
         with self._status.handle:
             while taken := self._status.handle.take_message(RecorderStatus, False):
-                self._hear(taken[0])
+                self._on_status(taken[0])
         if self._recorded and self._status.get_publisher_count():
             return self._is_close()
         return self._is_acknowledged()
 
-    def _hear(self, status: RecorderStatus) -> None:
+    def _on_status(self, status: RecorderStatus) -> None:
         """
-        Take what the recorder has accounted for.
+        Update the counts of the recorder.
 
-        Its counts are of topics: what they exceed the twin's own by, others have published, such
-        as the twin that ran before this one.
+        It counts by topic. Any excess over the twin's own count comes from other publishers, such
+        as an earlier twin.
         """
         accounts = zip(status.topics, status.recorded, status.lost, strict=True)
-        heard = {topic: recorded + lost for topic, recorded, lost in accounts}
+        accounted = {topic: recorded + lost for topic, recorded, lost in accounts}
         recorded = {}
         for publisher, published in self._published().items():
             topic = publisher.topic_name
-            if topic not in heard:
+            if topic not in accounted:
                 continue
-            began_again = heard[topic] < self._heard.get(topic, 0)
-            others = 0 if began_again else self._others.get(topic, 0)
-            self._others[topic] = max(others, heard[topic] - published)
-            recorded[topic] = heard[topic] - self._others[topic]
-        self._heard, self._recorded = heard, recorded
+            restarted = accounted[topic] < self._accounted.get(topic, 0)
+            others = 0 if restarted else self._others.get(topic, 0)
+            self._others[topic] = max(others, accounted[topic] - published)
+            recorded[topic] = accounted[topic] - self._others[topic]
+        self._accounted, self._recorded = accounted, recorded
 
     def _is_close(self) -> bool:
         recorded = self._recorded
@@ -113,15 +115,15 @@ class Backlog:
             self._given_up = True
             self._node.get_logger().warning(
                 f"wait_for = {self._name}: subscribers have not acknowledged messages for "
-                f"{PATIENCE:g} s; goes on, and they may lose messages"
+                f"{PATIENCE:g} s; the twin continues, and they may lose messages"
             )
         return self._given_up or self._since == now
 
     def _arrived(self, publisher: LifecyclePublisher, published: int) -> bool:
-        """Whether few enough messages are on their way."""
+        """Return whether few enough messages are in transit."""
         if published - self._acknowledged.get(publisher, 0) < _UNSEEN:
             return True
-        # Only polled: while rclpy waits it holds the interpreter.
+        # Poll only: rclpy holds the interpreter lock while it waits.
         if publisher.wait_for_all_acked(_NOW):
             self._acknowledged[publisher] = published
             return True

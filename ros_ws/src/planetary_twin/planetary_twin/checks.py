@@ -1,4 +1,4 @@
-"""What `planetary-twin doctor` looks at where ROS 2 is: the middleware, and what it leaves."""
+"""Checks of `planetary-twin doctor` that need ROS 2: the middleware and its shared memory."""
 
 from __future__ import annotations
 
@@ -18,13 +18,13 @@ from planetary_twin_py.doctor.finding import Finding
 
 from .network import stay_on_this_machine
 
-_PATIENCE = 5.0  # [s] for two participants to find each other
+_PATIENCE = 5.0  # [s] for two participants to discover each other
 _SHARED_MEMORY = Path("/dev/shm")
 _SWEEP = "rm /dev/shm/*fastrtps_*"
 
 
 def check() -> Iterator[Finding]:
-    """ROS 2 itself, a message from one participant to another, and shared memory."""
+    """Check ROS 2 itself, the transport between two participants, and shared memory."""
     stay_on_this_machine()
     domain = os.environ.get("ROS_DOMAIN_ID", "0")
     distribution = os.environ.get("ROS_DISTRO", "jazzy, from wheels")
@@ -35,62 +35,64 @@ def check() -> Iterator[Finding]:
 
 
 def _conversation() -> Finding:
-    """Send one message of ours between two participants of this domain."""
+    """Send a message of this project between two participants of this domain."""
     contexts = [Context(), Context()]
-    begun = time.monotonic()
+    start = time.monotonic()
     try:
         for context in contexts:
             rclpy.init(context=context)
-        speaker, hearer = (
+        sender, receiver = (
             Node(f"planetary_twin_doctor_{role}", context=context, enable_rosout=False)
-            for role, context in zip(("speaks", "hears"), contexts, strict=True)
+            for role, context in zip(("sender", "receiver"), contexts, strict=True)
         )
-        told = _carried(speaker, hearer, begun + _PATIENCE)
+        arrival = _arrival(sender, receiver, start + _PATIENCE)
     finally:
         for context in contexts:
             rclpy.try_shutdown(context=context)
-    if told:
+    if arrival:
         return Finding(
-            "middleware", "sound", f"a message arrived {told - begun:.1f} s after the start"
+            "middleware", "sound", f"a message arrived {arrival - start:.1f} s after the start"
         )
-    mend = (
+    remedy = (
         "check ROS_DOMAIN_ID, the firewall of the loopback interface, and RMW_IMPLEMENTATION; "
         f"with no node running: {_SWEEP}"
     )
-    return Finding("middleware", "broken", f"no message arrived within {_PATIENCE:g} s", mend)
+    return Finding("middleware", "broken", f"no message arrived within {_PATIENCE:g} s", remedy)
 
 
-def _carried(speaker: Node, hearer: Node, deadline: float) -> float | None:
-    """Instant at which a message of `speaker` has reached `hearer`, None if it has not."""
-    heard: list[float] = []
-    topic = f"planetary_twin_doctor/p{os.getpid()}"  # a doctor beside this one has its own
-    hearer.create_subscription(GearboxState, topic, lambda _: heard.append(time.monotonic()), 1)
-    publisher = speaker.create_publisher(GearboxState, topic, 1)
-    executor = SingleThreadedExecutor(context=hearer.context)
-    executor.add_node(hearer)
-    while not heard and time.monotonic() < deadline:
+def _arrival(sender: Node, receiver: Node, deadline: float) -> float | None:
+    """Return the time at which `receiver` gets a message of `sender`; None after `deadline`."""
+    arrivals: list[float] = []
+    topic = f"planetary_twin_doctor/p{os.getpid()}"  # checks in parallel use separate topics
+    receiver.create_subscription(
+        GearboxState, topic, lambda _: arrivals.append(time.monotonic()), 1
+    )
+    publisher = sender.create_publisher(GearboxState, topic, 1)
+    executor = SingleThreadedExecutor(context=receiver.context)
+    executor.add_node(receiver)
+    while not arrivals and time.monotonic() < deadline:
         publisher.publish(GearboxState())
         executor.spin_once(timeout_sec=0.05)
     executor.shutdown()
-    return heard[0] if heard else None
+    return arrivals[0] if arrivals else None
 
 
 def _leftovers() -> Finding:
-    """Look for shared memory that killed nodes left: later ones print errors about it."""
-    held = _mapped()
+    """Look for shared memory that killed nodes left: new nodes print errors about it."""
+    mapped = _mapped()
     left = [
         file
         for file in _SHARED_MEMORY.glob("fastrtps_*")
-        if "_el" not in file.name and str(file) not in held
+        if "_el" not in file.name and str(file) not in mapped
     ]
     if not left:
         return Finding("shared memory", "sound", "nothing left behind by killed nodes")
-    told = f"{len(left)} segments left behind by killed nodes"
-    return Finding("shared memory", "sound", told, f"with no node running: {_SWEEP}")
+    text = f"{len(left)} segments left behind by killed nodes"
+    return Finding("shared memory", "sound", text, f"with no node running: {_SWEEP}")
 
 
 def _mapped() -> set[str]:
-    """Shared memory that a process holds, as far as this user may see."""
+    """Return the shared memory files that processes map, as far as this user may see."""
     found = set()
     for maps in Path("/proc").glob("[0-9]*/maps"):
         try:

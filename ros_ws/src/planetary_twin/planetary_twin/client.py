@@ -1,4 +1,4 @@
-"""A node of its own beside a twin's, through which a command listens and asks."""
+"""A ROS node with which a command subscribes to a twin's topics and calls its services."""
 
 from __future__ import annotations
 
@@ -13,19 +13,24 @@ from rclpy.client import Client as Service
 from rclpy.executors import ExternalShutdownException, SingleThreadedExecutor
 from rclpy.signals import SignalHandlerOptions
 
-PATIENCE = 2.0  # [s] the answer to a first call after discovery may get lost: ask again
+PATIENCE = 2.0  # [s] then call again: the first response after discovery may be lost
 _POLL = 0.02  # [s]
 
 
 class Client:
-    """Spins in a thread of its own; `watch` is called while it waits."""
+    """
+    A node that spins in a separate thread.
+
+    `name` and `namespace` are those of the node. `watch` is called repeatedly while it waits;
+    what it raises ends the wait.
+    """
 
     def __init__(
         self, name: str, namespace: str, watch: Callable[[], None] = lambda: None
     ) -> None:
         self.watch = watch
         self._context = rclpy.Context()
-        # Signals stay Python's: they interrupt the waiting below, never a middleware call.
+        # Python handles signals: they interrupt the waits below, never a middleware call.
         rclpy.init(context=self._context, signal_handler_options=SignalHandlerOptions.NO)
         self.node = rclpy.create_node(name, namespace=namespace, context=self._context)
         self.namespace = self.node.get_namespace()
@@ -48,7 +53,7 @@ class Client:
         self.node.destroy_node()
 
     def wait(self, ready: Callable[[], Any], seconds: float) -> bool:
-        """Return True as soon as `ready`, False after `seconds`."""
+        """Return True as soon as `ready` returns a true value, False after `seconds`."""
         deadline = time.monotonic() + seconds
         while not ready():
             if time.monotonic() > deadline:
@@ -58,7 +63,7 @@ class Client:
         return True
 
     def call(self, service: Service, request: Any, patience: float = PATIENCE) -> Any:
-        """Return the answer of a service, or None where there is none in time."""
+        """Return the response of `service`, or None if there is none within `patience` [s]."""
         if not self.wait(service.service_is_ready, patience):
             return None
         future = service.call_async(request)
@@ -72,6 +77,6 @@ class Client:
             self._executor.spin()
         except ExternalShutdownException:
             pass
-        except RuntimeError:  # of rcl
-            if self._context.ok():  # else the shutdown fell between two waits
+        except RuntimeError:  # from rcl
+            if self._context.ok():  # otherwise the shutdown came between two waits
                 raise

@@ -19,13 +19,13 @@ from planetary_twin_py.cli._settings import changed_scene, settings
 from .pacing import check_rate_factor
 
 RECORDINGS = Path("recordings")
-SHORTEST = 0.1  # [s] of a run
+SHORTEST = 0.1  # [s] shortest run
 PointOption = Annotated[
     list[str] | None,
     typer.Option(
         "--set",
         metavar="NAME=VALUE",
-        help="Start at another operating point, in SI or with a unit: backlash=0.3um; repeatable.",
+        help="Value at the start, in SI or with a unit: backlash=0.3um; repeatable.",
     ),
 ]
 
@@ -33,25 +33,25 @@ PointOption = Annotated[
 def run(
     scene: SceneArgument = "paper",
     duration: Annotated[
-        float, typer.Option(help="Gearbox time; inf: until Ctrl-C.", **SECONDS)
+        float, typer.Option(help="Simulated time; inf: until Ctrl-C.", **SECONDS)
     ] = 12.0,
     record: Annotated[
         str | None, typer.Option(metavar="NAME", help="Folder in recordings/; must be free.")
     ] = None,
     set_: PointOption = None,
     rate_factor: Annotated[
-        float, typer.Option(help="Gearbox seconds per second; 0: as fast as it goes.")
+        float, typer.Option(help="Simulated seconds per second; 0: as fast as possible.")
     ] = 1.0,
     tolerance: Annotated[
         float, typer.Option(help="Relative error of a step; 0: the tightest that time allows.")
     ] = 0.0,
     tour: Annotated[
-        bool, typer.Option(help="Change the operating point on the way, to show what it does.")
+        bool, typer.Option(help="Change the operating point during the run, as a demonstration.")
     ] = True,
     json_: JsonOption = None,
 ) -> None:
     """
-    Run a gearbox live on ROS 2, change it while it runs, and record it.
+    Run a gearbox in real time on ROS 2, change its operating point, and record it.
 
     Example: planetary-twin run paper --duration 20 --record first --set backlash=0.3um
     """
@@ -68,7 +68,7 @@ def run(
     try:
         _run(options, record, set_ or [], tour, json_)
     except KeyboardInterrupt:
-        remark("interrupted before the recording began")
+        remark("interrupted before the recording started")
     except ValueError as mistake:
         fail(mistake)
     except (RuntimeError, OSError) as failure:
@@ -82,7 +82,7 @@ def _run(
     tour: bool,
     target: str | None,
 ) -> None:
-    # Loading ROS and the model takes a second in which Ctrl-C must end as cleanly as later.
+    # Imported here: ROS and the model take a second to load, and Ctrl-C must end that cleanly.
     from planetary_twin_py.tolerance import ladder_of
 
     from .running.outcome import print_outcome
@@ -90,7 +90,7 @@ def _run(
     from .running.tour import tour_of
 
     scene, duration = options["scene"], options["duration"]
-    # Refuse what cannot be before any process starts.
+    # Refuse invalid options before any process starts.
     ladder_of(options["tolerance"])
     check_rate_factor(options["rate_factor"])
     plan = Plan(
@@ -123,7 +123,7 @@ def _folder(record: str | None, scene: str) -> Path:
 
 
 def _values(scene: str, given: list[str]) -> dict[str, float]:
-    """Return the settings in SI, tried on the scene before any process starts."""
+    """Return the settings in SI, checked against the scene."""
     import planetary_twin_py as pt
 
     values = settings(given)
@@ -136,6 +136,6 @@ def _values(scene: str, given: list[str]) -> dict[str, float]:
 
 
 def interrupt_on_signals() -> None:
-    """Let SIGTERM and SIGHUP end a command as Ctrl-C does."""
+    """Make SIGTERM and SIGHUP end a command as Ctrl-C does."""
     for number in (signal.SIGTERM, signal.SIGHUP):
         signal.signal(number, interrupt)

@@ -10,7 +10,7 @@ from .simulation import Simulation
 
 
 def main(args: list[str] | None = None) -> int:
-    """Run both nodes until they are told to end; the logger first, so that it misses nothing."""
+    """Run both nodes until a signal; the logger starts first, so that it misses nothing."""
     return run_nodes({"logger": Logger, "simulation": Simulation}, args)
 
 

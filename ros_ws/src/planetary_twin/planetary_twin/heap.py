@@ -1,20 +1,20 @@
-"""Keeps a process that handles large blocks of changing size from growing."""
+"""Limits heap fragmentation in a process that allocates large blocks of varying size."""
 
 from __future__ import annotations
 
 import ctypes
 
 _M_TRIM_THRESHOLD, _M_MMAP_THRESHOLD = -1, -3  # of glibc's malloc.h
-_LARGE = 128 * 1024  # bytes; where the C library begins
+_LARGE = 128 * 1024  # bytes; the initial value of glibc
 
 
 def return_large_blocks() -> None:
     """
-    Have the C library map each block above 128 KiB by itself, and unmap it when it is freed.
+    Make the C library map each block above 128 KiB separately, and unmap it when it is freed.
 
     By default glibc raises this limit to the size of the largest block freed so far, up to 32 MiB
-    (mallopt(3)). The chunks of a recording, each of another size, then fragment the heap, which
-    grows for hours; once the limit is set, it stays. Without glibc nothing is changed.
+    (mallopt(3)). The chunks of a recording, whose sizes differ, then fragment the heap, which
+    grows for hours. Setting the limit disables this. Without glibc, the function does nothing.
     """
     mallopt = getattr(ctypes.CDLL(None), "mallopt", None)
     if mallopt is not None:

@@ -1,43 +1,43 @@
-"""How long a twin waits for its recorder."""
+"""Holds a twin until its recorder has caught up."""
 
 from __future__ import annotations
 
 import time
 from collections.abc import Callable
 
-_LONG = 1.0  # [s] after which waiting is a state that reports show
+_LONG = 1.0  # [s] after which reports show that the twin waits
 
 
 class Hold:
-    """Holds a twin while its recorder has, as `has_room` says, not kept up."""
+    """Holds a twin while `has_room` returns False: its recorder has not kept up."""
 
     def __init__(self, has_room: Callable[[], bool]) -> None:
         self._has_room = has_room
-        self._begun = self._looked = 0.0  # [s] of the hold in progress; 0: there is none
+        self._start = self._checked = 0.0  # [s] of the hold in progress; 0: none
         self.total = 0.0
-        """[s] that all holds together have lasted."""
+        """Total duration of all holds [s]."""
 
     @property
     def active(self) -> bool:
         """Whether the twin is held."""
-        return self._begun > 0.0
+        return self._start > 0.0
 
     @property
     def long(self) -> bool:
-        """Whether it has been for more than a second."""
-        return self.active and self._looked > self._begun + _LONG
+        """Whether the twin has been held for more than a second."""
+        return self.active and self._checked > self._start + _LONG
 
-    def look(self) -> None:
-        """Look whether the twin has to wait."""
+    def update(self) -> None:
+        """Check whether the twin has to wait."""
         now = time.monotonic()
         if self.active:
-            self.total += now - self._looked
-        self._looked = now
+            self.total += now - self._checked
+        self._checked = now
         if self._has_room():
-            self._begun = 0.0
+            self._start = 0.0
         elif not self.active:
-            self._begun = now
+            self._start = now
 
     def end(self) -> None:
-        """Hold it no longer: time stands for another reason."""
-        self._begun = 0.0
+        """End the hold: time is stopped for another reason."""
+        self._start = 0.0

@@ -17,7 +17,8 @@ class LedgerReport:
     """
     Checks the intervals since the last report as one run.
 
-    The twin's thread adds intervals, the node's thread takes reports.
+    The twin's thread adds intervals; the node's thread takes reports. `hardware` is the namespace
+    of the twin, the `hardware_id` of the status.
     """
 
     def __init__(self, hardware: str) -> None:
@@ -32,7 +33,7 @@ class LedgerReport:
             self._loosest = max(self._loosest, window.tolerance)
 
     def status(self) -> DiagnosticStatus:
-        """Return the report of what was added since the last one."""
+        """Return the report on the intervals added since the last report."""
         with self._lock:
             balance, loosest = self._balance, self._loosest
             self._balance, self._loosest = Balance(), 0.0

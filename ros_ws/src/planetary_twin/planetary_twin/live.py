@@ -1,4 +1,4 @@
-"""Runs a twin in real time, in a thread of its own, and gives it orders between two intervals."""
+"""Runs a twin in real time in a separate thread; commands take effect between two intervals."""
 
 from __future__ import annotations
 
@@ -14,49 +14,49 @@ from planetary_twin_py import OperatingPoint, Twin, Window
 from planetary_twin_py.quality_control import QualityControl, Setting
 from planetary_twin_py.runaway import RunawayError
 
+from .command_queue import CommandQueue
 from .hold import Hold
-from .orders import Orders
 from .pacing import Pace
 from .ramps import Ramps
 
-LONGEST_STEP = 10.0  # [s] that a paused twin makes at a time
-_ALERTNESS = 0.1  # [s] after which a paused twin looks whether it is to end
-_POLL = 2e-3  # [s] after which a twin looks again whether its recorder has caught up
+LONGEST_STEP = 10.0  # [s] simulated time of one step of a paused twin
+_STOP_POLL = 0.1  # [s] between two checks of a paused twin for a stop
+_ROOM_POLL = 2e-3  # [s] between two checks whether the recorder has caught up
 
 
 class Listener(Protocol):
-    """What hears of a live twin; called in its thread."""
+    """Callbacks of a live twin, called in its thread."""
 
     def prepare(self, window: Window) -> None:
-        """Take an interval that has been computed; its wall instant is still to come."""
+        """Receive a computed interval before the wall time of its end."""
 
     def publish(self) -> None:
-        """Publish the prepared interval, whose end is at this wall instant."""
+        """Publish the prepared interval; its end is at the present wall time."""
 
     def changed(self, point: OperatingPoint, instant: float) -> None:
-        """Take the operating point in force from simulated time `instant` [s] on."""
+        """Receive the operating point that applies from simulated time `instant` [s]."""
 
     def refused(self, reason: str) -> None:
-        """Hear why what was on its way to new values stays where it is."""
+        """Receive the reason why a ramp ended before its final values."""
 
     def retuned(self, instant: float, before: Setting, quality: QualityControl) -> None:
-        """From simulated time `instant` [s] on, `quality` sets what `before` did."""
+        """From simulated time `instant` [s], the setting of `quality` replaces `before`."""
 
     def ready(self) -> bool:
-        """Whether time can pass: what it waits for is there, such as a clock to follow."""
+        """Return whether time can pass: for example, the clock to follow is available."""
 
     def has_room(self) -> bool:
-        """Whether the recorder has kept up, so that the next interval may be published."""
+        """Return whether the recorder has kept up and the next interval may be published."""
 
-    def goes_on(self, twin: Twin) -> None:
-        """At the start, after a stop, and while time stands: the present time of `twin` is now."""
+    def resumed(self, twin: Twin) -> None:
+        """Map the present time of `twin` to the present ROS time, after a start or a halt."""
 
     def stopped(self, defect: Exception) -> None:
-        """Hear that the thread ends because of `defect`."""
+        """Receive the exception that ended the thread."""
 
 
 class State(StrEnum):
-    """Of simulated time."""
+    """State of simulated time."""
 
     RUNNING = "running"
     PAUSED = "paused"
@@ -65,29 +65,30 @@ class State(StrEnum):
 
 
 class Progress(NamedTuple):
-    """Where a live twin stands, taken at the end of an interval."""
+    """Times and counters of a live twin at the end of an interval."""
 
     simulated: float  # [s]
     wall: float  # [s] steady clock
-    ran: float  # [s] simulated by intervals, one after another
-    lasted: float  # [s] of wall time that these took; none passes while time stands
+    ran: float  # [s] simulated time of all intervals; steps of a paused twin do not count
+    lasted: float  # [s] wall time of these intervals; pauses do not count
     cpu: float  # [s] processor time of the thread
     overruns: int
-    repeats: bool  # steady running, which is not computed again
+    repeats: bool  # steady running: mesh cycles are repeated, not computed
     state: State
-    failure: str = ""  # why it has failed
-    held: float = 0.0  # [s] of wall time that the twin has waited for its recorder
+    failure: str = ""  # reason of the state FAILED
+    held: float = 0.0  # [s] wall time for which the twin has waited for its recorder
 
 
 class LiveTwin:
     """
     Advances `twin` by `interval` [s] at a time.
 
-    It makes `rate_factor` simulated seconds per second, or as fast as it goes where that is 0.
-    `quality` chooses the setting, and may be replaced at any time, from any thread. Orders
-    are carried out between two intervals; their futures give the simulated instant [s] of that.
+    It runs at `rate_factor` simulated seconds per second, or as fast as possible if that is 0.
+    `quality` chooses tolerance and sample rate; any thread may replace it at any time. Commands
+    are executed between two intervals; their futures return the simulated instant [s].
 
-    Above real time and in steps it waits for its recorder; at real time and below it never does.
+    Above real time and in steps, the twin waits for its recorder. At real time or below, it does
+    not.
     """
 
     def __init__(
@@ -105,92 +106,94 @@ class LiveTwin:
         self._hold = Hold(lambda: 0.0 < rate_factor <= 1.0 or listener.has_room())
         self.quality = quality
         self._listener = listener
-        self._orders = Orders(self._set)
+        self._commands = CommandQueue(self._set)
         self._ramps = Ramps()
         self._paused = False
-        self._failure = ""  # why the twin stays where it is until a restart
-        self._stands = True
-        self._untold = True  # an operating point that is in force
+        self._failure = ""  # why the twin is stopped until a restart
+        self._halted = True  # as of the last interval
+        self._unannounced = True  # the operating point in force has not been published
         self._thread = threading.Thread(target=self._run, name="twin", daemon=True)
         self._repeated = False
-        self._ran = self._lasted = self._mark = 0.0  # see `Progress`; where the last one ended
-        self.progress = self._standing()
+        self._ran = self._lasted = 0.0  # see `Progress`
+        self._mark = 0.0  # [s] wall time at which the last interval ended
+        self.progress = self._present()
 
     def start(self) -> Progress:
-        """Begin at the twin's present time; returns where that is."""
-        begun = self.progress = self._standing()._replace(cpu=0.0)
+        """Start at the twin's present time; returns the progress at the start."""
+        start = self.progress = self._present()._replace(cpu=0.0)
         self._thread.start()
-        return begun
+        return start
 
     def stop(self) -> None:
-        """End after the interval in progress, which is still published, if need be early."""
+        """Stop after the interval in progress, which is published at once."""
         self._stop.set()
         self._thread.join()
 
     def submit(self, values: Mapping[str, float]) -> Future[float]:
-        """Have `values` of the operating point set."""
-        return self._orders.change(values)
+        """Set `values` of the operating point."""
+        return self._commands.change(values)
 
     def ramp(self, values: Mapping[str, float], duration: float) -> Future[float]:
-        """Have `values` of the operating point reached in `duration` [s], interval by interval."""
-        return self._orders.give(lambda: self._ramp(values, duration))
+        """Change the operating point linearly to `values` within `duration` [s]."""
+        return self._commands.put(lambda: self._ramp(values, duration))
 
     def pause(self, paused: bool) -> Future[float]:
-        """Have simulated time stand still, or go on."""
-        return self._orders.give(lambda: self._pause(paused))
+        """Pause simulated time, or resume it."""
+        return self._commands.put(lambda: self._pause(paused))
 
     def step(self, duration: float) -> Future[float]:
-        """Have a paused twin make `duration` [s], as fast as it goes."""
-        return self._orders.give(lambda: self._step(duration))
+        """Advance a paused twin by `duration` [s], as fast as possible."""
+        return self._commands.put(lambda: self._step(duration))
 
     def restart(self, twin: Twin) -> Future[float]:
-        """Have another twin take the place of this one."""
-        return self._orders.give(lambda: self._restart(twin))
+        """Replace the twin by `twin`."""
+        return self._commands.put(lambda: self._restart(twin))
 
     def _run(self) -> None:
         try:
             while not self._stop.is_set():
-                answers = self._orders.carry_out(self._patience())
-                stood, self._stands = self._stands, self._halted()
-                if stood and not self._stands:
-                    self._listener.goes_on(self._twin)
+                answers = self._commands.execute(self._patience())
+                was_halted, self._halted = self._halted, self._must_halt()
+                if was_halted and not self._halted:
+                    self._listener.resumed(self._twin)
                     self._pace.start()
                     self._mark = time.monotonic()
-                going = not (self._stands or self._hold.active)
-                if going:
+                running = not (self._halted or self._hold.active)
+                if running:
                     self._follow_ramps()
                 self._announce()
-                if answers:  # who asked may look at once where it stands
-                    self.progress = self._standing()
+                if answers:  # the progress that a client reads next includes its command
+                    self.progress = self._present()
                 for answer in answers:
                     answer()
-                if going and self._pass(self._interval, self._pace.wait):
+                if running and self._advance(self._interval, self._pace.wait):
                     before, self._mark = self._mark, time.monotonic()
                     self._ran += self._interval
                     self._lasted += self._mark - before
-                self.progress = self._standing()
+                self.progress = self._present()
         except Exception as defect:
             self._listener.stopped(defect)
         finally:
-            self._orders.refuse("the simulation has stopped")
+            self._commands.refuse("the simulation has stopped")
 
     def _announce(self) -> None:
-        """Tell the operating point once for each instant from which there is another."""
-        if self._untold and self._listener.ready():
-            self._untold = False
-            if self._stands:
-                self._listener.goes_on(self._twin)
+        """Publish the operating point once for each instant at which it changes."""
+        if self._unannounced and self._listener.ready():
+            self._unannounced = False
+            if self._halted:
+                self._listener.resumed(self._twin)
             self._listener.changed(self._twin.operating_point, self._twin.time)
 
-    def _pass(self, duration: float, wait: Callable[[], None]) -> bool:
+    def _advance(self, duration: float, wait: Callable[[], None]) -> bool:
         """
-        Compute one interval, and publish it after `wait`; returns whether the twin could.
+        Compute one interval and publish it after `wait`; returns False if the twin fails.
 
-        The setting is that of the quality control so far; only the wait costs nothing.
+        The quality control chooses the setting beforehand and then observes the computing time,
+        which does not include the wait.
         """
         quality = self.quality
         self._tune(quality)
-        begin, idle = time.monotonic(), time.thread_time()
+        begin, cpu = time.monotonic(), time.thread_time()
         try:
             window = self._twin.advance(duration)
         except RunawayError as reason:  # nothing of the interval is published
@@ -201,7 +204,7 @@ class LiveTwin:
         wait()
         waited = time.monotonic() - prepared
         self._listener.publish()
-        work = time.thread_time() - idle
+        work = time.thread_time() - cpu
         quality.observe(time.monotonic() - begin - waited, work, window.repeated)
         self._repeated = window.repeated
         return True
@@ -222,7 +225,7 @@ class LiveTwin:
         self._refuse_after_failure()
         instant = self._twin.set(**values)
         self.quality.relearn()
-        self._untold = True
+        self._unannounced = True
         return instant
 
     def _ramp(self, values: Mapping[str, float], duration: float) -> float:
@@ -233,7 +236,7 @@ class LiveTwin:
         return self._twin.time
 
     def _follow_ramps(self) -> None:
-        """Set what is on its way to where it is at the end of the interval to come."""
+        """Set ramped quantities to their values at the end of the next interval."""
         values = self._ramps.values(self._twin.time + self._interval)
         if not values:
             return
@@ -260,24 +263,24 @@ class LiveTwin:
             raise ValueError(
                 f"duration = {duration:g} s: must be above 0 and at most {LONGEST_STEP:g}"
             )
-        self._listener.goes_on(self._twin)
+        self._listener.resumed(self._twin)
         count = math.ceil(duration / self._interval - 1e-9)
         for n in range(count):
             left = duration - n * self._interval
             self._follow_ramps()
             self._announce()
             self._wait_for_room()
-            self._pass(min(self._interval, left), lambda: None)
-            self.progress = self._standing()
+            self._advance(min(self._interval, left), lambda: None)
+            self.progress = self._present()
             self._refuse_after_failure()
         return self._twin.time
 
     def _wait_for_room(self) -> None:
-        """Wait until the recorder has kept up; steps go as fast as they can."""
+        """Wait until the recorder has caught up: steps are not paced."""
         while not self._listener.has_room():
-            if self._stop.wait(_POLL):
+            if self._stop.wait(_ROOM_POLL):
                 raise ValueError("the simulation stops before the end of the step")
-            self.progress = self._standing()
+            self.progress = self._present()
 
     def _restart(self, twin: Twin) -> float:
         self._ramps.clear()
@@ -285,29 +288,29 @@ class LiveTwin:
         twin.set_sample_rate(self._twin.sample_rate)
         self._twin = twin
         self._failure = ""
-        self._stands = self._untold = True
-        self.progress = self._standing()
+        self._halted = self._unannounced = True
+        self.progress = self._present()
         return twin.time
 
-    def _halted(self) -> bool:
+    def _must_halt(self) -> bool:
         return bool(self._failure) or self._paused or not self._listener.ready()
 
     def _patience(self) -> float:
-        """How long to wait for an order [s]."""
-        if self._halted():
+        """Return how long to wait for a command [s]."""
+        if self._must_halt():
             self._hold.end()
-            return _ALERTNESS
-        self._hold.look()
-        return _POLL if self._hold.active else 0.0
+            return _STOP_POLL
+        self._hold.update()
+        return _ROOM_POLL if self._hold.active else 0.0
 
     def _state(self) -> State:
         if self._failure:
             return State.FAILED
         if self._paused:
             return State.PAUSED
-        return State.WAITING if self._stands or self._hold.long else State.RUNNING
+        return State.WAITING if self._halted or self._hold.long else State.RUNNING
 
-    def _standing(self) -> Progress:
+    def _present(self) -> Progress:
         return Progress(
             self._twin.time,
             time.monotonic(),

@@ -1,4 +1,4 @@
-"""The logger node: records topics as they come, serialised, and accounts for each message."""
+"""The logger node: records serialised messages and counts recorded and lost ones by topic."""
 
 from __future__ import annotations
 
@@ -12,48 +12,46 @@ from rclpy.serialization import serialize_message
 from rclpy.timer import Timer
 
 from .heap import return_large_blocks
-from .logger_parameters import declare_wishes, wishes_of
+from .logger_parameters import declare_options, options_of
 from .managed import ManagedNode, NodeError, run_node
 from .messages import set_stamp
 from .parameters import brief
-from .recorder import Recorder, Refused
+from .recorder import Recorder, RecorderError
 from .recording_report import RecordingReport
 from .recording_services import RecordingServices
-from .stamps import STEADY, Rising
+from .stamps import STEADY, StrictClock
 
 _DISCOVERY_PERIOD = 0.1  # [s]
 _STATUS_PERIOD = 1.0  # [s]
-_OWN = 100  # reports that may be on their way to this node itself
+_OWN = 100  # newest reports of this node, which it does not record
 
 
 class Logger(ManagedNode):
-    """Records from activation to deactivation; the file is finished when the node closes."""
+    """Records while active; cleanup or shutdown finishes the file."""
 
     def __init__(self) -> None:
         super().__init__("logger")
         return_large_blocks()
-        declare_wishes(self)
-        self._wishes = wishes_of(self)
+        declare_options(self)
+        self._options = options_of(self)
         self._recorder: Recorder | None = None
         self._ticking: list[Timer] = []
         self._own: deque[bytes] = deque(maxlen=_OWN)
         self._status = RecorderStatus()
-        self._now = Rising(self.get_clock())
+        self._now = StrictClock(self.get_clock())
         self._report = RecordingReport(self.get_namespace())
         self._status_publisher: LifecyclePublisher | None = None
         self._diagnostics: LifecyclePublisher | None = None
         RecordingServices(self, self._active)
 
     def configure(self) -> None:
-        """Create the recording's folder and file, and offer the topics."""
-        self._wishes = wishes_of(self)
+        """Create the folder and file of the recording, and the publishers."""
+        self._options = options_of(self)
         self._check_topics()
-        recorder = Recorder(
-            self, self._wishes, self._own, self._cannot_go_on, self._publish_status
-        )
+        recorder = Recorder(self, self._options, self._own, self._on_failure, self._publish_status)
         try:
             recorder.begin()
-        except Refused as refusal:
+        except RecorderError as refusal:
             raise NodeError(str(refusal)) from None
         except ValueError as refusal:
             raise NodeError(f"name = {refusal}") from None
@@ -64,20 +62,20 @@ class Logger(ManagedNode):
         self._diagnostics = create(DiagnosticArray, "/diagnostics", 10)
 
     def activate(self) -> None:
-        """Subscribe to what there is, and to what appears later."""
+        """Subscribe to existing topics, and to topics that appear later."""
         self._ticking = [
             self.create_timer(_DISCOVERY_PERIOD, self._discover, clock=STEADY),
-            self.create_timer(self._wishes.flush_period, self._recorder.flush, clock=STEADY),
-            self.create_timer(_STATUS_PERIOD, self._tell, clock=STEADY),
+            self.create_timer(self._options.flush_period, self._recorder.flush, clock=STEADY),
+            self.create_timer(_STATUS_PERIOD, self._report_status, clock=STEADY),
         ]
 
     def deactivate(self) -> None:
-        """Stop recording; the file stays open and whole."""
+        """Stop recording; the file stays open, and what it contains is readable."""
         self._stop_ticking()
         self._recorder.pause()
 
     def close(self) -> None:
-        """Finish the file with its account."""
+        """Finish the file, with the message counts."""
         self._stop_ticking()
         for publisher in (self._status_publisher, self._diagnostics):
             if publisher is not None:
@@ -87,12 +85,12 @@ class Logger(ManagedNode):
         if recorder is not None:
             try:
                 recorder.close()
-            except Refused as refusal:
+            except RecorderError as refusal:
                 raise NodeError(str(refusal)) from None
 
     def _active(self) -> Recorder:
         if not self._ticking:
-            raise Refused("the logger is not active")
+            raise RecorderError("the logger is not active")
         return self._recorder
 
     def _stop_ticking(self) -> None:
@@ -101,10 +99,10 @@ class Logger(ManagedNode):
         self._ticking = []
 
     def _check_topics(self) -> None:
-        for name in self._wishes.topics:
+        for name in self._options.topics:
             try:
                 self.resolve_topic_name(name)
-            except RuntimeError as refusal:  # of rcl
+            except RuntimeError as refusal:  # from rcl
                 reason = str(refusal).partition(", at ")[0]
                 raise NodeError(f"topics: {brief(name)}: {reason}") from None
 
@@ -112,15 +110,15 @@ class Logger(ManagedNode):
         if self._recorder.discover() or self._status.file != self._recorder.file:
             self._publish_status()
 
-    def _cannot_go_on(self, reason: str) -> None:
+    def _on_failure(self, reason: str) -> None:
         self._stop_ticking()
         self._diagnose(self._report.failure(reason))
         self.fail(reason)
 
-    def _tell(self) -> None:
+    def _report_status(self) -> None:
         self._publish_status()
         recorder = self._recorder
-        self._diagnose(self._report.message(recorder.file, recorder.size, recorder.heard))
+        self._diagnose(self._report.message(recorder.file, recorder.size, recorder.matched))
 
     def _diagnose(self, message: DiagnosticArray) -> None:
         set_stamp(message.header.stamp, self._now.now())
@@ -129,7 +127,7 @@ class Logger(ManagedNode):
 
     def _publish_status(self) -> None:
         status, recorder = self._status, self._recorder
-        accounts = recorder.heard
+        accounts = recorder.matched
         set_stamp(status.header.stamp, self._now.now())
         status.sequence += 1
         status.file = recorder.file
@@ -143,7 +141,7 @@ class Logger(ManagedNode):
 
 
 def main(args: list[str] | None = None) -> int:
-    """Run the node until it is told to end."""
+    """Run the node until a signal ends it; returns the exit code."""
     return run_node(Logger, args)
 
 

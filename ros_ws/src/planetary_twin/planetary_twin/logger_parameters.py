@@ -1,4 +1,4 @@
-"""What a user chooses of a recording: the logger's parameters."""
+"""The parameters of the logger."""
 
 from __future__ import annotations
 
@@ -17,8 +17,8 @@ _LARGEST = 1e6  # [MB]
 
 
 @dataclass(frozen=True)
-class Wishes:
-    """Where to record, what, and how."""
+class LoggerOptions:
+    """What to record, where, and how."""
 
     directory: Path
     name: str
@@ -29,49 +29,49 @@ class Wishes:
     storage: Storage
 
 
-def declare_wishes(node: ParameterNode) -> None:
+def declare_options(node: ParameterNode) -> None:
     """
-    Declare the parameters, which may change until the node is configured.
+    Declare the parameters on `node`; they may change until the node is configured.
 
-    Raises `ValueError` for one that is given at the start and out of its range.
+    Raises `ValueError` if a value given at the start is out of its range.
     """
-    declare_fixed(node, "directory", "recordings", "where recordings land")
-    declare_fixed(node, "name", "", "folder of the recording; empty: a free one is found")
-    # rclpy knows the type of a list from an element.
+    declare_fixed(node, "directory", "recordings", "folder in which recordings are created")
+    declare_fixed(node, "name", "", "folder of the recording; empty: a free name is chosen")
+    # rclpy derives the type of a list from its first element.
     declare_fixed(node, "topics", [""], "topics to record; empty: those of the namespace")
     declare_fixed(
-        node, "scene", "", "scene to keep in the recording, so that viewers know the gears"
+        node, "scene", "", "scene to store in the recording, from which viewers draw the gears"
     )
     declare_bounded(
-        node, "flush_period", 0.5, (0.01, 60.0), "longest stretch that a kill can cost [s]"
+        node, "flush_period", 0.5, (0.01, 60.0), "time between writes; a kill loses no more [s]"
     )
     declare_bounded(
         node,
         "snapshot_duration",
         0.0,
         (0.0, 3600.0),
-        "keep so much in memory, written when ~/snapshot is called [s]; 0: record to disk",
+        "duration kept in memory, written when ~/snapshot is called [s]; 0: record to disk",
     )
     declare_fixed(node, "compression", "zstd", f"of chunks: {', '.join(COMPRESSIONS)}")
-    declare_bounded(node, "chunk_size", 1.0, CHUNK_SIZES, "of a chunk before compression [MB]")
+    declare_bounded(node, "chunk_size", 1.0, CHUNK_SIZES, "chunk size before compression [MB]")
     declare_bounded(
-        node, "split_duration", 0.0, (0.0, _LONGEST), "of a file, then the next [s]; 0: no limit"
+        node, "split_duration", 0.0, (0.0, _LONGEST), "longest duration of a file [s]; 0: no limit"
     )
     declare_bounded(
-        node, "split_size", 0.0, (0.0, _LARGEST), "of a file, then the next [MB]; 0: no limit"
+        node, "split_size", 0.0, (0.0, _LARGEST), "largest size of a file [MB]; 0: no limit"
     )
 
 
-def wishes_of(node: Node) -> Wishes:
+def options_of(node: Node) -> LoggerOptions:
     """
-    Return the values in force.
+    Return the values of the parameters of `node`.
 
-    Raises `ValueError` for one that cannot be.
+    Raises `ValueError` for an invalid value.
     """
     value = {
         name: parameter.value for name, parameter in node.get_parameters_by_prefix("").items()
     }
-    return Wishes(
+    return LoggerOptions(
         Path(value["directory"]).expanduser(),
         value["name"],
         [topic for topic in value["topics"] if topic],

@@ -1,4 +1,4 @@
-"""What the nodes share: a life cycle that starts by itself, and one way to end."""
+"""Base of the nodes: a life cycle that starts automatically, and a common way to end."""
 
 from __future__ import annotations
 
@@ -25,52 +25,52 @@ from .standard_error import never_waiting
 
 NAMESPACE = "planetary_twin"
 _SOON = 1e-3  # [s]
-_QUIET = 1.0  # [s] between two log lines that a client can cause
+_LOG_PERIOD = 1.0  # [s] between two log lines that a client can cause
 
 
 class NodeError(Exception):
-    """A node that cannot do its work; the message says why in one line."""
+    """A node cannot work; the message gives the reason in one line."""
 
 
 class ManagedNode(ParameterNode):
     """
     Lifecycle node that configures and activates itself unless `autostart` is false.
 
-    `given` are parameters as from the command line. Subclasses override `configure`, `activate`,
-    `deactivate` and `close`; what these raise is logged and fails the transition, where rclpy
-    alone would swallow it.
+    `given` contains start values of parameters, as from the command line. Subclasses override
+    `configure`, `activate`, `deactivate` and `close`. An exception in one of these is logged and
+    fails the transition; rclpy alone would discard it.
     """
 
     def __init__(self, name: str, given: Mapping[str, Any] | None = None) -> None:
         super().__init__(name, NAMESPACE, given or {})
         self.failure: str | None = None
-        """Why the process ends, if it is no good end."""
+        """Reason why the process ends with an error; None without one."""
         self._reason = ""
         self._broken = ""
         self._starting = False
         service = self.service_of(ChangeState)
         self._change_state, service.callback = service.callback, self._change_state_if_possible
         self._autostart = bool(
-            declare_at_start(self, "autostart", True, "configure and activate without being asked")
+            declare_at_start(self, "autostart", True, "configure and activate at the start")
         )
         self._namesakes = Namesakes(self)
 
     def configure(self) -> None:
-        """Acquire what running needs."""
+        """Acquire the resources of a run."""
 
     def activate(self) -> None:
-        """Begin."""
+        """Start the work of the node."""
 
     def deactivate(self) -> None:
-        """Pause."""
+        """Pause the work of the node."""
 
     def close(self) -> None:
-        """Let go of everything; called more than once."""
+        """Release all resources; may be called more than once."""
 
     def start(self) -> None:
-        """Go as far as the parameters say; raises `NodeError` where a step fails."""
+        """Configure and activate if `autostart` is true; raises `NodeError` if that fails."""
         if not self._autostart:
-            self.get_logger().info("unconfigured, for autostart is false: waits for transitions")
+            self.get_logger().info("autostart is false: the node waits for transitions")
             return
         self._starting = True
         for trigger in (self.trigger_configure, self.trigger_activate):
@@ -82,10 +82,10 @@ class ManagedNode(ParameterNode):
 
     def fail(self, reason: str) -> None:
         """
-        From any thread: let an active node go to the error state.
+        Move an active node to the error state; may be called from any thread.
 
-        One that has started by itself has nobody to mend it: its process ends, with an exit code
-        that is not zero.
+        If the node started automatically, no manager can recover it: its process ends with a
+        non-zero exit code.
         """
         if self._autostart:
             self.failure = reason
@@ -96,13 +96,13 @@ class ManagedNode(ParameterNode):
     def _break_down(self, reason: str) -> None:
         if self.state == "active":
             self._broken = reason
-            self.trigger_deactivate()  # the only way from there to the error state
+            self.trigger_deactivate()  # the only transition that leads to the error state
 
-    # Lifecycle publishers send from the beginning of `activate` to the end of `deactivate`.
+    # Lifecycle publishers are enabled from the start of `activate` to the end of `deactivate`.
 
     def on_configure(self, state: LifecycleState) -> TransitionCallbackReturn:
         """Lifecycle transition."""
-        with SIGNALS.interrupting():  # it may take long, and has nothing to lose
+        with SIGNALS.interrupting():  # it may take long, and there is no data to save
             outcome = self._attempt(self.configure)
         if outcome == TransitionCallbackReturn.FAILURE:
             self.close()
@@ -135,13 +135,13 @@ class ManagedNode(ParameterNode):
         return self._attempt(self.close)
 
     def on_error(self, state: LifecycleState) -> TransitionCallbackReturn:
-        """Let go of what is left, so that the node can be configured again."""
+        """Release all resources, so that the node can be configured again."""
         return self._attempt(self.close)
 
     def _change_state_if_possible(
         self, request: ChangeState.Request, response: ChangeState.Response
     ) -> ChangeState.Response:
-        """Rclpy's service, which raises for what is no transition of the present state."""
+        """Call rclpy's service, which raises for transitions that the present state lacks."""
         wanted = request.transition.label or request.transition.id
         offered = self.transitions()
         if any(wanted in transition for transition in offered.items()):
@@ -149,7 +149,7 @@ class ManagedNode(ParameterNode):
         known = ", ".join(offered.values()) or "none"
         self.get_logger().warning(
             f"{brief(wanted)}: no transition of the state {self.state}; there are: {known}",
-            throttle_duration_sec=_QUIET,
+            throttle_duration_sec=_LOG_PERIOD,
         )
         response.success = False
         return response
@@ -159,11 +159,11 @@ class ManagedNode(ParameterNode):
             step()
         except (NodeError, ValueError, OSError) as reason:
             self._reason = str(reason)
-            if not self._starting:  # else it is the last line the process prints
+            if not self._starting:  # otherwise it is the last line that the process prints
                 self.get_logger().error(self._reason)
             return TransitionCallbackReturn.FAILURE
         except Exception as defect:
-            if not self.context.ok():  # a signal has shut ROS down meanwhile
+            if not self.context.ok():  # a signal has shut down ROS
                 return TransitionCallbackReturn.FAILURE
             self._reason = f"{type(defect).__name__}: {defect}"
             self.get_logger().error(traceback.format_exc())
@@ -175,9 +175,10 @@ def run_node(
     make: Callable[[], ManagedNode], args: list[str] | None = None, title: str | None = None
 ) -> int:
     """
-    Run a node until SIGINT, SIGTERM or its own end; returns the exit code.
+    Run the node that `make` creates until SIGINT, SIGTERM or its own end.
 
-    Why it failed is printed in one line that begins with `title`, by default the node's class.
+    `args` are command-line arguments, by default those of the process. The reason of a failure is
+    printed in one line after `title`, by default the name of the class. Returns the exit code.
     """
     return run_nodes({title or make.__name__.lower(): make}, args)
 
@@ -186,10 +187,11 @@ def run_nodes(
     makes: Mapping[str, Callable[[], ManagedNode]], args: list[str] | None = None
 ) -> int:
     """
-    Start nodes in this order and run them until SIGINT, SIGTERM or the end of one of them.
+    Start the nodes that `makes` create, in order, and run them until a signal or one of them ends.
 
-    Each has an executor and a thread of its own, the last of them this one, so that none waits for
-    another's callbacks. Why one failed is printed in one line that begins with its key.
+    Each node has its own executor and thread, so that none waits for another's callbacks; the last
+    node runs in this thread. `args` are command-line arguments, by default those of the process.
+    The reason of a failure is printed in one line after the node's key. Returns the exit code.
     """
     with never_waiting():
         failures = _run_to_end(makes, args)
@@ -201,13 +203,13 @@ def run_nodes(
 def _run_to_end(
     makes: Mapping[str, Callable[[], ManagedNode]], args: list[str] | None
 ) -> dict[str, str]:
-    """Return why nodes failed, by their keys."""
+    """Return the reasons of failures by the keys of the nodes."""
     nodes: dict[str, ManagedNode] = {}
-    executors: list[SingleThreadedExecutor] = []  # which outlive what a signal still does to them
+    executors: list[SingleThreadedExecutor] = []  # kept: a signal may still wake one of them
     beside: list[threading.Thread] = []
     failures: dict[str, str] = {}
     name, *_ = makes
-    SIGNALS.listen()
+    SIGNALS.install()
     waker = threading.Thread(target=wake_after_shutdown, args=[executors], name="waker")
     waker.start()
     try:
@@ -215,7 +217,7 @@ def _run_to_end(
             _initialize(args)
         for name, make in makes.items():
             with SIGNALS.interrupting():
-                nodes[name] = node = _made(make)
+                nodes[name] = node = _create(make)
             node.start()
             executors.append(SingleThreadedExecutor())
             executors[-1].add_node(node)
@@ -229,14 +231,14 @@ def _run_to_end(
         pass
     except (NodeError, ParameterException, ValueError, OSError) as reason:
         failures[name] = str(reason)
-    except RuntimeError:  # of rcl
-        # A callback that publishes while a signal shuts ROS down is refused: that is the end.
+    except RuntimeError:  # from rcl
+        # rcl refuses to publish while a signal shuts down ROS: a normal end.
         if rclpy.ok():
             raise
     finally:
-        if rclpy.ok():  # else rclpy's signal thread is at it, and must not be met there
+        if rclpy.ok():  # otherwise rclpy's signal thread shuts down; two at once would collide
             rclpy.try_shutdown()
-        SIGNALS.told.set()
+        SIGNALS.stop.set()
         for thread in (waker, *beside):
             thread.join()
         for name, node in nodes.items():
@@ -249,12 +251,12 @@ def _run_to_end(
 
 def wake_after_shutdown(executors: list[SingleThreadedExecutor]) -> None:
     """
-    Wait for a signal, and wake what spins once ROS is shut down.
+    Wait for a signal, and wake `executors` once ROS is shut down.
 
-    rclpy wakes executors first and shuts ROS down then: one that is quick sees ROS still running,
-    and waits on, for nothing.
+    rclpy wakes executors before it shuts down ROS: an executor that wakes quickly finds ROS still
+    running, and would wait forever.
     """
-    SIGNALS.told.wait()
+    SIGNALS.stop.wait()
     while rclpy.ok():
         time.sleep(_SOON)
     for executor in list(executors):
@@ -262,7 +264,7 @@ def wake_after_shutdown(executors: list[SingleThreadedExecutor]) -> None:
 
 
 def _warn_of_unknown(nodes: Collection[ManagedNode]) -> None:
-    """Tell of parameters given at the start that no node here has: ROS ignores them silently."""
+    """Warn of start values for parameters that no node here has: ROS ignores them silently."""
     known = [name for node in nodes for name in node.get_parameters_by_prefix("")]
     unknown = {name: node for node in nodes for name in node.given}
     for name, node in sorted(unknown.items(), key=lambda item: item[0]):
@@ -272,13 +274,13 @@ def _warn_of_unknown(nodes: Collection[ManagedNode]) -> None:
 
 
 def _serve_beside(executor: SingleThreadedExecutor, node: ManagedNode) -> None:
-    """Answer `node`'s callbacks in a thread beside the main one; a defect ends the process."""
+    """Execute `node`'s callbacks in a second thread; an exception ends the process."""
     try:
         executor.spin()
     except ExternalShutdownException:
         pass
     except Exception as defect:
-        if rclpy.ok():  # else the callback was refused because ROS has been shut down
+        if rclpy.ok():  # otherwise rcl refused the callback because ROS has been shut down
             node.get_logger().error(traceback.format_exc())
             node.failure = f"{type(defect).__name__}: {defect}"
             rclpy.try_shutdown()
@@ -287,22 +289,22 @@ def _serve_beside(executor: SingleThreadedExecutor, node: ManagedNode) -> None:
 def _initialize(args: list[str] | None) -> None:
     try:
         rclpy.init(args=args)
-    except RuntimeError as refusal:  # of rcl, and what rclpy derives for options it does not know
+    except RuntimeError as refusal:  # from rcl, or from rclpy for unknown options
         raise NodeError(f"--ros-args: {str(refusal).split(', at ')[0]}") from None
 
 
-def _made(make: Callable[[], ManagedNode]) -> ManagedNode:
+def _create(make: Callable[[], ManagedNode]) -> ManagedNode:
     try:
         return make()
-    except RuntimeError as refusal:  # of rcl
-        if not rclpy.ok():  # a signal came between
+    except RuntimeError as refusal:  # from rcl
+        if not rclpy.ok():  # a signal has shut down ROS
             raise
         reason = " ".join(str(refusal).split(", at ")[0].split())
         raise NodeError(f"the middleware refuses the node: {reason}") from None
 
 
 def _end(node: ManagedNode) -> str | None:
-    """Close and destroy `node`; returns why it failed, if it did."""
+    """Close and destroy `node`; returns the reason if it failed."""
     try:
         node.close()
     except (NodeError, OSError) as reason:

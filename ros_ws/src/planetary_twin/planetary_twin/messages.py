@@ -1,5 +1,5 @@
 """
-Fills the twin's messages in place: making them anew would cost more than sending them.
+Fills the twin's messages in place: creating them each time would cost more than sending them.
 
 Stamps are set when a message is sent.
 """
@@ -27,7 +27,7 @@ def set_stamp(message: Time, stamp: int) -> None:
 
 
 class StateMessage:
-    """GearboxState; entries of planets the gearset does not have stay NaN."""
+    """GearboxState of `scene` in `frame`; entries beyond the number of planets stay NaN."""
 
     def __init__(self, scene: Scene, frame: str) -> None:
         self.message = msg.GearboxState(planets=scene.gearset.planets)
@@ -44,7 +44,7 @@ class StateMessage:
         ]
 
     def fill(self, window: Window) -> msg.GearboxState:
-        """Describe `window`."""
+        """Return the message for `window`."""
         message = self.message
         message.sequence += 1
         message.simulated_time = window.end
@@ -68,7 +68,7 @@ class StateMessage:
 
 
 class WaveformMessage:
-    """MeshWaveform, mesh after mesh."""
+    """MeshWaveform of `scene` in `frame`."""
 
     def __init__(self, scene: Scene, frame: str) -> None:
         planets = scene.gearset.planets
@@ -78,7 +78,7 @@ class WaveformMessage:
         self._views: list[NDArray[np.float32]] = []
 
     def fill(self, window: Window) -> msg.MeshWaveform:
-        """Describe `window`."""
+        """Return the message for `window`."""
         wave, message = window.waveform, self.message
         if message.samples != len(wave.time):
             self._allocate(len(wave.time))
@@ -95,17 +95,18 @@ class WaveformMessage:
         for name in WAVES:
             values = array("f", bytes(4 * self._meshes * samples))
             setattr(self.message, name, values)
-            # The view writes into the message's own memory.
+            # The view shares the memory of the message.
             view = np.frombuffer(getattr(self.message, name), dtype=np.float32)
             self._views.append(view.reshape(self._meshes, samples))
 
 
 class JointsMessage:
     """
-    JointState: a joint `<body>_joint` per body, its position the absolute angle of the body.
+    JointState with a joint `<body>_joint` for each body; positions are absolute angles.
 
-    Positions lie within a turn, or, if `continuous`, count whole turns from the start of the run.
-    The URDF in `robot_description` hangs the planets so that this also moves them rightly.
+    Positions are within one turn. If `continuous`, they count whole turns from the start of the
+    run. The URDF in `robot_description` attaches the planets such that absolute angles move them
+    correctly.
     """
 
     def __init__(self, bodies: tuple[str, ...], continuous: bool) -> None:
@@ -120,7 +121,7 @@ class JointsMessage:
         self._turns = WholeTurns() if continuous else None
 
     def fill(self, window: Window) -> JointState:
-        """Describe `window`."""
+        """Return the message for `window`."""
         turns = self._turns.after(window) if self._turns else 0.0
         self._position[:] = window.angle + TURN * turns
         self._velocity[:] = window.mean_speed
@@ -128,7 +129,7 @@ class JointsMessage:
 
 
 class OperatingPointMessage:
-    """OperatingPoint, with the names that differ from the one before."""
+    """OperatingPoint in `frame`, with the names that differ from the previous message."""
 
     def __init__(self, frame: str) -> None:
         self.message = msg.OperatingPoint()
@@ -136,7 +137,7 @@ class OperatingPointMessage:
         self._last: OperatingPoint | None = None
 
     def fill(self, point: OperatingPoint, instant: float) -> msg.OperatingPoint:
-        """Describe `point`, in force from simulated time `instant` [s]."""
+        """Return the message for `point`, which applies from simulated time `instant` [s]."""
         message, last = self.message, self._last
         message.sequence += 1
         message.simulated_time = instant

@@ -1,4 +1,4 @@
-"""A running twin as a table in the terminal, each figure with its recent course."""
+"""A running twin as a table in the terminal, each quantity with its recent history."""
 
 from __future__ import annotations
 
@@ -21,14 +21,14 @@ from .remote import Remote
 from .reports import real_time_figures
 
 _BARS = "▁▂▃▄▅▆▇█"
-_COURSE = 40  # looks that a course shows
-_LOOK = 0.25  # [s] between two of them
-_PLAIN = 1.0  # [s] between two where nobody watches a terminal
+_HISTORY = 40  # values that a sparkline shows
+_LIVE_PERIOD = 0.25  # [s] between two values in a terminal
+_PLAIN_PERIOD = 1.0  # [s] between two tables in a file or a pipe
 _SILENCE = 10.0  # [s] longest wait for a state
 
 
 class Figure(NamedTuple):
-    """One line of the table."""
+    """One row of the table."""
 
     name: str
     unit: str
@@ -40,7 +40,7 @@ def _rpm(speed: float) -> float:
 
 
 def _mean(values: object) -> float:
-    """Of the planets there are."""
+    """Return the mean over the planets; entries beyond their number are NaN."""
     array = np.asarray(values, dtype=float)
     return float(np.nanmean(array)) if np.isfinite(array).any() else math.nan
 
@@ -70,7 +70,7 @@ FIGURES = (
 
 
 def sparkline(values: list[float]) -> str:
-    """Draw a bar for each value from the least to the greatest; a blank where there is none."""
+    """Return a bar for each of `values`, scaled to their range; a blank for NaN."""
     finite = [value for value in values if math.isfinite(value)]
     if not finite:
         return ""
@@ -85,18 +85,18 @@ def sparkline(values: list[float]) -> str:
 
 
 class Monitor(Remote):
-    """Hears a twin and keeps the recent course of its figures."""
+    """Subscribes to a twin in `namespace` and keeps the recent history of its quantities."""
 
     def __init__(self, namespace: str) -> None:
         super().__init__(namespace)
         self.state: GearboxState | None = None
         self.report: dict[str, str] = {}
-        self._courses = [deque[float](maxlen=_COURSE) for _ in FIGURES]
-        self.node.create_subscription(GearboxState, "gearbox_state", self._hear, 10)
-        self.node.create_subscription(DiagnosticArray, "/diagnostics", self._diagnose, 10)
+        self._histories = [deque[float](maxlen=_HISTORY) for _ in FIGURES]
+        self.node.create_subscription(GearboxState, "gearbox_state", self._on_state, 10)
+        self.node.create_subscription(DiagnosticArray, "/diagnostics", self._on_diagnostics, 10)
 
-    def look(self) -> Table:
-        """Return the table of now."""
+    def table(self) -> Table:
+        """Return the present table; raises `ConnectionError` if no state has been received."""
         state = self.state
         if state is None:
             raise ConnectionError(
@@ -107,12 +107,12 @@ class Monitor(Remote):
         table.add_column(f"{self.namespace}  {state.simulated_time:.2f} s")
         table.add_column("value", justify="right")
         table.add_column("")
-        table.add_column("course")
-        for figure, course in zip(FIGURES, self._courses, strict=True):
+        table.add_column("history")
+        for figure, history in zip(FIGURES, self._histories, strict=True):
             value = figure.value(state)
-            course.append(value)
+            history.append(value)
             shown = "-" if math.isnan(value) else f"{value:.5g}"
-            table.add_row(figure.name, shown, figure.unit, sparkline(list(course)))
+            table.add_row(figure.name, shown, figure.unit, sparkline(list(history)))
         table.add_section()
         for name, key in (
             ("real time x", "real_time_factor"),
@@ -125,15 +125,15 @@ class Monitor(Remote):
             table.add_row(name, report.get(key, "-"), "", "")
         return table
 
-    def _hear(self, message: GearboxState) -> None:
+    def _on_state(self, message: GearboxState) -> None:
         self.state = message
 
-    def _diagnose(self, message: DiagnosticArray) -> None:
+    def _on_diagnostics(self, message: DiagnosticArray) -> None:
         self.report = real_time_figures(message, self.namespace) or self.report
 
 
 def watch(namespace: str, duration: float | None) -> None:
-    """Show the twin for `duration` [s], or until interrupted."""
+    """Show the twin in `namespace` for `duration` [s]; None: until interrupted."""
     console = make_console()
     with Monitor(namespace) as monitor:
         with console.status(f"looking for a twin in {monitor.namespace}"):
@@ -142,15 +142,15 @@ def watch(namespace: str, duration: float | None) -> None:
         if not console.is_terminal:
             _print(monitor, console, end)
             return
-        with Live(monitor.look(), console=console, refresh_per_second=8) as live:
+        with Live(monitor.table(), console=console, refresh_per_second=8) as live:
             while time.monotonic() < end:
-                time.sleep(_LOOK)
-                live.update(monitor.look())
+                time.sleep(_LIVE_PERIOD)
+                live.update(monitor.table())
 
 
 def _print(monitor: Monitor, console: Console, end: float) -> None:
-    """Print a table now and then, for a file or a pipe."""
-    console.print(monitor.look())
-    while time.monotonic() + _PLAIN < end:
-        time.sleep(_PLAIN)
-        console.print(monitor.look())
+    """Print a table once a second, for a file or a pipe."""
+    console.print(monitor.table())
+    while time.monotonic() + _PLAIN_PERIOD < end:
+        time.sleep(_PLAIN_PERIOD)
+        console.print(monitor.table())

@@ -1,4 +1,4 @@
-"""Keeps a twin on this machine unless its user has said otherwise."""
+"""Confines a twin to this machine unless the environment sets a discovery range."""
 
 from __future__ import annotations
 
@@ -14,10 +14,10 @@ _MIDDLEWARE = "RMW_IMPLEMENTATION"
 
 def stay_on_this_machine() -> None:
     """
-    Open no socket to a network, here and in what is started.
+    Bind the sockets of this process and its children to the loopback interface.
 
-    Where the environment brings a profile or another middleware of its own, only discovery is
-    limited: sockets are then theirs to bind.
+    If the environment sets a Fast DDS profile or another middleware, only discovery is limited:
+    these bind the sockets.
     """
     if _RANGE in os.environ:
         return
@@ -29,5 +29,5 @@ def stay_on_this_machine() -> None:
 
 
 def loopback_profile() -> Path:
-    """Profile of Fast DDS that binds to the loopback interface alone."""
+    """Return the path of the Fast DDS profile that binds to the loopback interface only."""
     return Path(get_package_share_directory("planetary_twin")) / "config" / "loopback.xml"

@@ -1,7 +1,7 @@
 """
-The nodes' executables: a signal ends them while they load as cleanly as later.
+The executables of the nodes, which a signal also ends cleanly while they load.
 
-Loading ROS and the model takes a second, in which Python would answer Ctrl-C with a traceback.
+Loading ROS and the model takes a second, during which Ctrl-C would otherwise print a traceback.
 """
 
 from __future__ import annotations
@@ -34,10 +34,10 @@ def twin() -> int:
 
 def _run(name: str) -> int:
     for number in (signal.SIGINT, signal.SIGTERM):
-        signal.signal(number, _leave)  # until `run_node` takes them
+        signal.signal(number, _exit)  # until `run_node` installs its handlers
     return int(import_module(f".{name}", __package__).main())
 
 
-def _leave(number: int, frame: FrameType | None) -> None:
-    # An exception would be shown, and lost, where it falls into a callback of the import system.
+def _exit(number: int, frame: FrameType | None) -> None:
+    # An exception inside a callback of the import system would be printed and discarded.
     os._exit(0)

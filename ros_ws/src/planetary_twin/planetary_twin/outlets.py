@@ -1,4 +1,4 @@
-"""Publishers like those that were recorded."""
+"""Publishers with the recorded types and QoS."""
 
 from __future__ import annotations
 
@@ -21,12 +21,16 @@ _NOW = Duration()
 
 
 class Outlet:
-    """A publisher that knows whether it would overwrite what a reliable subscriber still lacks."""
+    """
+    A publisher that reports whether the next message would overwrite an unacknowledged one.
+
+    `depth` is the number of messages that `publisher` keeps.
+    """
 
     def __init__(self, publisher: LifecyclePublisher, depth: int) -> None:
         self.publisher = publisher
         self._depth = depth
-        self._sent = 0  # since all was acknowledged
+        self._sent = 0  # since all messages were acknowledged
 
     def publish(self, data: bytes) -> None:
         """Publish a serialised message."""
@@ -35,9 +39,9 @@ class Outlet:
 
     def has_room(self) -> bool:
         """
-        Return whether the next message overwrites none that is not acknowledged.
+        Return whether the next message overwrites no unacknowledged message.
 
-        A subscriber that has died counts until its lease expires: 20 s in Fast DDS. A publisher
+        A subscriber that was killed counts until its lease expires: 20 s in Fast DDS. A publisher
         without reliable subscribers always has room.
         """
         if self._sent >= self._depth and self.acknowledged():
@@ -46,15 +50,16 @@ class Outlet:
 
     def acknowledged(self) -> bool:
         """Return whether every reliable subscriber has acknowledged every message."""
-        # Only polled: while rclpy waits it holds the interpreter, so that no service is answered.
+        # Poll only: rclpy holds the interpreter lock while it waits, so no service would answer.
         return bool(self.publisher.wait_for_all_acked(_NOW))
 
 
 class Outlets:
     """
-    A publisher for each topic, of its recorded type and QoS, under the name that `names` gives.
+    A publisher of `node` for each of `topics`, with its recorded type and QoS.
 
-    Raises `NodeError` where that cannot be had.
+    `names` maps recorded names to the names to publish. Raises `NodeError` if a publisher cannot
+    be created.
     """
 
     def __init__(
@@ -65,7 +70,7 @@ class Outlets:
         self._outlets: dict[str, Outlet] = {}
         try:
             for topic in topics:
-                self._offer(topic)
+                self._create(topic)
         except NodeError:
             self.close()
             raise
@@ -78,28 +83,28 @@ class Outlets:
         self._outlets[cue.topic].publish(cue.data)
 
     def has_room(self, cue: Cue) -> bool:
-        """Return whether `cue` overwrites nothing that a reliable subscriber still lacks."""
+        """Return whether `cue` overwrites no unacknowledged message."""
         return self._outlets[cue.topic].has_room()
 
     def shared(self) -> list[str]:
-        """Names of the topics that others publish too."""
+        """Return the names of the topics that have other publishers, too."""
         names = (self._names[topic] for topic in self._outlets)
         return [name for name in names if self._node.count_publishers(name) > 1]
 
     def wait(self, seconds: float) -> None:
-        """Wait until subscribers have acknowledged what was published, or `seconds` are over."""
+        """Wait until all messages are acknowledged, for `seconds` [s] at most."""
         deadline = time.monotonic() + seconds
         for outlet in self._outlets.values():
             while not outlet.acknowledged() and time.monotonic() < deadline:
                 time.sleep(_POLL)
 
     def close(self) -> None:
-        """Let the publishers go."""
+        """Destroy the publishers."""
         for outlet in self._outlets.values():
             self._node.destroy_lifecycle_publisher(outlet.publisher)
         self._outlets = {}
 
-    def _offer(self, topic: Topic) -> None:
+    def _create(self, topic: Topic) -> None:
         name = self._names[topic.name]
         try:
             kind = message_class(topic.type)
@@ -118,9 +123,9 @@ class Outlets:
 
     def _type_hashes(self, name: str) -> set[str]:
         """
-        Hashes of the message type of this node's publishers, which only the graph knows.
+        Return the type hashes of this node's publishers of a topic, from the ROS graph.
 
-        A publisher whose node the graph does not know yet may be this node's.
+        A publisher whose node is still unknown may belong to this node.
         """
         own = (self._node.get_name(), self._node.get_namespace())
         return {

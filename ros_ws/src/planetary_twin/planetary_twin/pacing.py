@@ -6,28 +6,27 @@ import time
 from collections.abc import Callable
 
 SLOWEST, FASTEST = 0.01, 100.0
-"""Simulated seconds per second."""
-AS_FAST_AS_IT_GOES = 0.0
-"""Stands for a rate factor that only the machine limits."""
+"""Range of the rate factor: simulated seconds per second."""
+UNLIMITED = 0.0
+"""Rate factor without a limit: as fast as possible."""
 
 
 def check_rate_factor(rate_factor: float) -> None:
-    """Raise `ValueError` for one that cannot be."""
-    if rate_factor != AS_FAST_AS_IT_GOES and not SLOWEST <= rate_factor <= FASTEST:
+    """Raise `ValueError` if `rate_factor` is out of range."""
+    if rate_factor != UNLIMITED and not SLOWEST <= rate_factor <= FASTEST:
         raise ValueError(
             f"rate_factor = {rate_factor:g}: must be within {SLOWEST:g} and {FASTEST:g}, "
-            f"or {AS_FAST_AS_IT_GOES:g} for as fast as it goes"
+            f"or {UNLIMITED:g} for as fast as possible"
         )
 
 
 class Pace:
     """
-    Absolute deadlines every `period` seconds of wall time, so that no error adds up.
+    Absolute deadlines every `period` [s] of wall time, so that errors do not accumulate.
 
     A deadline missed by more than one period is an overrun: the schedule shifts to now, because
-    catching up in a burst would only hide that the machine was too slow. With a period of 0
-    nothing waits and nothing is late. `sleep` waits for a time [s], or less where there is
-    something better to do.
+    catching up in a burst would only hide that the machine was too slow. With a period of 0, there
+    are no waits and no overruns. `sleep` waits for a time [s]; it may return early.
     """
 
     def __init__(self, period: float, sleep: Callable[[float], object] = time.sleep) -> None:
@@ -37,7 +36,7 @@ class Pace:
         self.overruns = 0
 
     def start(self) -> None:
-        """Let the first period begin now."""
+        """Start the first period now."""
         self._deadline = time.monotonic_ns() + self._period
 
     def wait(self) -> None:

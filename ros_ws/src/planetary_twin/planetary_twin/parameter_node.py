@@ -1,4 +1,4 @@
-"""A lifecycle node whose parameters take numbers as users type them, and refuse in one line."""
+"""A lifecycle node whose parameters accept numbers as typed, and whose refusals are one line."""
 
 from __future__ import annotations
 
@@ -17,16 +17,16 @@ from rclpy.service import Service
 from .parameters import brief, check_settable, coerce, fixed_at, is_fixed, is_number
 
 _OF_ROS = ("use_sim_time", "start_type_description_service")
-_QOS = "qos_overrides."  # of topics, which ROS declares where it finds them
-_MOST = 200  # parameters in a request: more than there are, but little work
+_QOS = "qos_overrides."  # of topics; ROS declares them
+_MAX_PARAMETERS = 200  # in a request: more than there are, but little work
 _REQUESTS = QoSProfile(depth=100)
 
 
 class ParameterNode(LifecycleNode):
     """
-    Node in `namespace`; `overrides` are parameters as from the command line.
+    Node `name` in `namespace`; `overrides` are start values, as from the command line.
 
-    Raises `ValueError` where `use_sim_time` is no bool.
+    Raises `ValueError` if `use_sim_time` is not a bool.
     """
 
     def __init__(self, name: str, namespace: str, overrides: Mapping[str, Any]) -> None:
@@ -37,7 +37,7 @@ class ParameterNode(LifecycleNode):
             automatically_declare_parameters_from_overrides=True,
         )
         self.given: dict[str, Any] = self._take_overrides()
-        """Start values that no declaration has taken yet, by name."""
+        """Start values of parameters that are not declared yet, by name."""
         self.service_of(SetParameters).callback = self._set_each
         self.service_of(SetParametersAtomically).callback = self._set_all
         self.add_pre_set_parameters_callback(self._coerced)
@@ -49,7 +49,7 @@ class ParameterNode(LifecycleNode):
         return str(get.callback(GetState.Request(), GetState.Response()).current_state.label)
 
     def transitions(self) -> dict[int, str]:
-        """Return labels of the transitions of the present state, by their numbers."""
+        """Return the labels of the transitions of the present state, by their ids."""
         kind, state = GetAvailableTransitions, self.state
         answer = self.service_of(kind).callback(kind.Request(), kind.Response())
         return {
@@ -59,24 +59,25 @@ class ParameterNode(LifecycleNode):
         }
 
     def service_of(self, kind: type) -> Service:
-        """Return the first service of a type, such as one that rclpy has created."""
+        """Return the first service of type `kind`, for example one that rclpy has created."""
         return next(service for service in self.services if service.srv_type is kind)
 
     def create_service(self, *given: Any, **options: Any) -> Service:
-        """As rclpy's, with room for few requests: who floods waits, and fills no memory."""
+        """As rclpy's, with a short queue: a client that floods waits, and fills no memory."""
         return super().create_service(*given, **options | {"qos_profile": _REQUESTS})
 
     def describe_parameter(self, name: str) -> ParameterDescriptor:
-        """As rclpy's; `read_only` where it cannot be set in the present lifecycle state."""
+        """As rclpy's; `read_only` if it cannot be set in the present lifecycle state."""
         descriptor = copy(super().describe_parameter(name))
         descriptor.read_only = descriptor.read_only or is_fixed(descriptor, self.state)
         return descriptor
 
     def set_parameters_atomically(self, parameter_list: list[Parameter]) -> SetParametersResult:
         """
-        As rclpy's, with a refusal that names the parameter and the reason.
+        As rclpy's, but a refusal names the parameter and the reason.
 
-        What is fixed may be set to what it is: a file that `ros2 param dump` wrote loads.
+        A fixed parameter may be set to its present value, so that a file from `ros2 param dump`
+        can be loaded.
         """
         try:
             changing = [p for p in parameter_list if not fixed_at(self, p)]
@@ -89,7 +90,7 @@ class ParameterNode(LifecycleNode):
             return SetParametersResult(successful=False, reason=str(refusal))
 
     def _take_overrides(self) -> dict[str, Any]:
-        """Undeclare what rclpy has declared of its own accord, so that the node declares it."""
+        """Undeclare the parameters that rclpy declared from overrides; the node declares them."""
         given = {
             name: parameter.value
             for name, parameter in self.get_parameters_by_prefix("").items()
@@ -103,17 +104,17 @@ class ParameterNode(LifecycleNode):
         return given
 
     def _coerced(self, parameters: list[Parameter]) -> list[Parameter]:
-        # The only callback of its kind: with several, rclpy 7.1 duplicates parameters.
+        # The only callback of this kind: with several, rclpy 7.1 duplicates parameters.
         numbers = {p.name for p in parameters if is_number(self, p.name)}
         return coerce(parameters, numbers)
 
-    # rclpy's own callbacks end the node at a value of no known type.
+    # rclpy's callbacks end the node if a value has an unknown type.
 
     def _set_each(
         self, request: SetParameters.Request, response: SetParameters.Response
     ) -> SetParameters.Response:
         messages = request.parameters
-        if len(messages) > _MOST:
+        if len(messages) > _MAX_PARAMETERS:
             response.results = [self._set(messages)] * len(messages)
         else:
             response.results = [self._set([message]) for message in messages]
@@ -126,8 +127,8 @@ class ParameterNode(LifecycleNode):
         return response
 
     def _set(self, messages: list[Any]) -> SetParametersResult:
-        if len(messages) > _MOST:
-            reason = f"{len(messages)} parameters: at most {_MOST} at once"
+        if len(messages) > _MAX_PARAMETERS:
+            reason = f"{len(messages)} parameters: at most {_MAX_PARAMETERS} at once"
             return SetParametersResult(successful=False, reason=reason)
         try:
             parameters = [Parameter.from_parameter_msg(message) for message in messages]

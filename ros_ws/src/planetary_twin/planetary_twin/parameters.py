@@ -1,4 +1,4 @@
-"""Declares parameters, and reads numbers however a user or a tool has typed them."""
+"""Declares parameters, and reads numbers in the types that users and tools send."""
 
 from __future__ import annotations
 
@@ -21,9 +21,9 @@ from rclpy.parameter import Parameter
 from planetary_twin_py import TUNABLES, Tunable
 from planetary_twin_py.scene.quantity import unit_of, within
 
-from .pacing import AS_FAST_AS_IT_GOES, FASTEST, SLOWEST, check_rate_factor
+from .pacing import FASTEST, SLOWEST, UNLIMITED, check_rate_factor
 
-_AT_START = "fixed while the node lives: set it at start, -p {name}:=VALUE"
+_AT_START = "fixed while the node runs: set it at start, -p {name}:=VALUE"
 _UNCONFIGURED = "fixed while the node is configured: set it before, or at start, -p {name}:=VALUE"
 _GEOMETRY = "geometry is fixed: choose another scene, -p scene:=SCENE"
 _BRIEF = reprlib.Repr()
@@ -31,7 +31,7 @@ _BRIEF.maxstring = _BRIEF.maxother = 60
 
 
 def brief(value: Any) -> str:
-    """Return a value as a refusal shows it, whoever sent it: one line of readable length."""
+    """Return `value` as text for a refusal: one line of readable length, whatever it is."""
     return _BRIEF.repr(_listed(value))
 
 
@@ -40,7 +40,7 @@ def _listed(value: Any) -> Any:
 
 
 class Declaring(Protocol):
-    """Node that declares parameters; `given` are start values that no declaration has taken."""
+    """Node that declares parameters; `given` are start values of undeclared parameters."""
 
     given: dict[str, Any]
 
@@ -65,12 +65,12 @@ def changes(descriptor: ParameterDescriptor) -> str:
 
 
 def is_fixed(descriptor: ParameterDescriptor, state: str) -> bool:
-    """Whether a parameter cannot be set in this lifecycle state of its node."""
+    """Return whether a parameter cannot be set in the lifecycle state `state` of its node."""
     return changes(descriptor) not in ("live", state)
 
 
 def fixed_at(node: Node, given: Parameter) -> bool:
-    """Whether `given` is the value of a fixed parameter, in whichever type it was sent."""
+    """Return whether `given` is the present value of a fixed parameter, sent in any type."""
     if not (node.has_parameter(given.name) and node.describe_parameter(given.name).read_only):
         return False
     value = node.get_parameter(given.name).value
@@ -81,16 +81,16 @@ def fixed_at(node: Node, given: Parameter) -> bool:
 
 def check_settable(node: Node, parameter: Parameter) -> None:
     """
-    Raise `ValueError` for one that there is not, that is fixed, of another type or out of range.
+    Raise `ValueError` if `parameter` does not exist, is fixed, or has a wrong type or value.
 
-    Numbers may be typed in other types, see `coerce`.
+    Numbers may have other types, see `coerce`.
     """
     if not node.has_parameter(parameter.name):
         raise ValueError(f"{brief(parameter.name)}: no such parameter")
     refused = f"{parameter.name} = {brief(parameter.value)}"
     descriptor = node.describe_parameter(parameter.name)
     if descriptor.read_only:
-        reason = descriptor.additional_constraints or "fixed while the node lives"
+        reason = descriptor.additional_constraints or "fixed while the node runs"
         raise ValueError(f"{refused}: {reason}")
     wanted = Parameter.Type(descriptor.type)
     if wanted not in (Parameter.Type.DOUBLE, parameter.type_):
@@ -100,18 +100,18 @@ def check_settable(node: Node, parameter: Parameter) -> None:
 
 
 def is_number(node: Node, name: str) -> bool:
-    """Whether `node` has a parameter of type DOUBLE of this name."""
+    """Return whether `node` has a parameter `name` of type DOUBLE."""
     double = ParameterType.PARAMETER_DOUBLE
     return node.has_parameter(name) and node.describe_parameter(name).type == double
 
 
 def _check_within(limits: FloatingPointRange, name: str, value: float) -> None:
-    """Refuse what rclpy would, but with the unit."""
+    """Raise `ValueError` if `value` is out of range; the message of rclpy lacks the unit."""
     low, high = limits.from_value, limits.to_value
     if not low <= value <= high:
         unit = TUNABLES[name].unit if name in TUNABLES else ""
-        told = f"{name} = {value!r} {unit}".rstrip()
-        raise ValueError(f"{told}: {within(low, high, unit)}")
+        refused = f"{name} = {value!r} {unit}".rstrip()
+        raise ValueError(f"{refused}: {within(low, high, unit)}")
 
 
 def declare_at_start(node: Declaring, name: str, default: Any, description: str) -> Any:
@@ -128,7 +128,7 @@ def declare_fixed(node: Declaring, name: str, default: Any, description: str) ->
     """
     Declare a parameter that may change while the node is unconfigured, and return its value.
 
-    A float also takes 1 and 1e3.
+    A float also accepts 1 and 1e3.
     """
     descriptor = ParameterDescriptor(
         description=description, additional_constraints=_UNCONFIGURED.format(name=name)
@@ -153,10 +153,10 @@ def declare_bounded(
 def declare_changing(
     node: Declaring, name: str, default: float, limits: tuple[float, float], description: str
 ) -> float:
-    """Declare a number within `limits` that may change while the node lives; return its value."""
+    """Declare a number within `limits` that may change while the node runs; return its value."""
     descriptor = ParameterDescriptor(
         description=description,
-        additional_constraints="a finite number, also written 1 or 2e-7; takes effect at once",
+        additional_constraints="a finite number, also written 1 or 2e-7; applies at once",
         floating_point_range=[FloatingPointRange(from_value=limits[0], to_value=limits[1])],
     )
     return _declare_number(node, name, default, descriptor)
@@ -164,32 +164,32 @@ def declare_changing(
 
 def declare_rate_factor(node: Declaring) -> float:
     """
-    Declare simulated seconds per second and return the value; 0 is as fast as it goes.
+    Declare `rate_factor`, simulated seconds per second, and return its value.
 
-    Raises `ValueError` for one between 0 and the slowest.
+    Raises `ValueError` for a value between 0 and the slowest.
     """
     value = declare_bounded(
         node,
         "rate_factor",
         1.0,
-        (AS_FAST_AS_IT_GOES, FASTEST),
-        f"simulated seconds per second, {SLOWEST:g} to {FASTEST:g}; 0: as fast as it goes [-]",
+        (UNLIMITED, FASTEST),
+        f"simulated seconds per second, {SLOWEST:g} to {FASTEST:g}; 0: as fast as possible [-]",
     )
     check_rate_factor(value)
     return value
 
 
-def declare_tunable(node: Declaring, tunable: Tunable, default: float, told_in: str) -> float:
+def declare_tunable(node: Declaring, tunable: Tunable, default: float, topic: str) -> float:
     """
     Declare a quantity that may change while the twin runs and return its value at start.
 
-    `told_in` is the topic that tells the instant of a change.
+    `topic` is the topic that publishes the instant of a change.
     """
     bounds = FloatingPointRange(from_value=tunable.minimum, to_value=tunable.maximum)
     descriptor = ParameterDescriptor(
         description=f"{tunable.description} [{tunable.unit or '-'}]",
         additional_constraints="a finite number, also written 1 or 2e-7; "
-        f"takes effect between two published intervals, at the instant {told_in} tells",
+        f"takes effect between two published intervals; {topic} gives the instant",
         floating_point_range=[bounds],
     )
     return _declare_number(node, tunable.name, default, descriptor)
@@ -197,9 +197,9 @@ def declare_tunable(node: Declaring, tunable: Tunable, default: float, told_in: 
 
 def declare_geometry(node: Declaring, prefix: str, section: BaseModel) -> None:
     """
-    Declare every field of a scene's section, to be read alone; it changes with the scene.
+    Declare every field of a section of the scene as a read-only parameter below `prefix`.
 
-    Raises `ValueError` where a start value differs from the scene's.
+    Raises `ValueError` if a start value differs from the scene's.
     """
     for name, field, value in _fields(prefix, section):
         unit = unit_of(field)
@@ -216,7 +216,7 @@ def declare_geometry(node: Declaring, prefix: str, section: BaseModel) -> None:
 
 
 def _fields(prefix: str, section: BaseModel) -> Iterator[tuple[str, FieldInfo, Any]]:
-    """Dotted name, description and value of each leaf."""
+    """Yield dotted name, field and value of each leaf."""
     for key, field in type(section).model_fields.items():
         name, value = f"{prefix}.{key}", getattr(section, key)
         if isinstance(value, BaseModel):
@@ -227,10 +227,10 @@ def _fields(prefix: str, section: BaseModel) -> Iterator[tuple[str, FieldInfo, A
 
 def coerce(parameters: list[Parameter], numbers: Container[str]) -> list[Parameter]:
     """
-    Return the same parameters, those named in `numbers` as DOUBLE.
+    Return `parameters`, with those named in `numbers` as DOUBLE.
 
     `ros2 param set` sends `1` as INTEGER and `2e-7` as STRING, which strict typing refuses.
-    Raises `ValueError` for a value that is no number.
+    Raises `ValueError` for a value that is not a number.
     """
     return [
         Parameter(p.name, Parameter.Type.DOUBLE, number(p.name, p.value))
@@ -241,7 +241,7 @@ def coerce(parameters: list[Parameter], numbers: Container[str]) -> list[Paramet
 
 
 def number(name: str, value: Any) -> float:
-    """`value` as float; raises `ValueError` naming the field where it is none."""
+    """Return `value` as float; raises `ValueError` with the field `name` if it is not a number."""
     if isinstance(value, (int, float, str)) and not isinstance(value, bool):
         try:
             return float(value)
@@ -251,7 +251,7 @@ def number(name: str, value: Any) -> float:
 
 
 def _declare(node: Declaring, name: str, default: Any, descriptor: ParameterDescriptor) -> Any:
-    # A start value holds for the first declaration; a later one is that of another scene.
+    # A start value applies to the first declaration only; later ones belong to another scene.
     first = node.given.pop(name, None) is not None
     return node.declare_parameter(name, default, descriptor, ignore_override=not first).value
 
@@ -259,8 +259,8 @@ def _declare(node: Declaring, name: str, default: Any, descriptor: ParameterDesc
 def _declare_number(
     node: Declaring, name: str, default: float, descriptor: ParameterDescriptor
 ) -> float:
-    # A value given at start may be typed INTEGER or STRING and is checked against the declared
-    # type at once: declare it open, then close it with the number it means.
+    # A start value may have the type INTEGER or STRING, and a declaration checks its type at once:
+    # declare the parameter with dynamic typing, then set the type with the number.
     given = _declare(node, name, default, ParameterDescriptor(dynamic_typing=True))
     descriptor.type = ParameterType.PARAMETER_DOUBLE
     value = Parameter(name, Parameter.Type.DOUBLE, number(name, given))

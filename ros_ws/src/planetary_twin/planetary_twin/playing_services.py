@@ -1,4 +1,4 @@
-"""Services that hold a replay, let it go step by step, and let it go on elsewhere."""
+"""Services that pause a replay, step it and seek in it."""
 
 from __future__ import annotations
 
@@ -9,26 +9,26 @@ from planetary_twin_msgs.srv import Seek, Step
 from rclpy.node import Node
 from std_srvs.srv import SetBool
 
+from .command_queue import answer
 from .messages import set_stamp
-from .orders import answer
 from .playing import Player
 
 
-class Deck(Protocol):
-    """The replay, as far as its services are concerned."""
+class PlaybackControl(Protocol):
+    """The part of a replay that its services use."""
 
     def playing(self) -> Player:
-        """Return the player; raises `ValueError` where there is none."""
+        """Return the player; raises `ValueError` if there is none."""
 
     def stamp(self, instant: float) -> int:
         """Return the recorder's time [ns] of a recorded instant [s]."""
 
 
 class PlayingServices:
-    """`~/pause`, `~/step` and `~/seek` of a node."""
+    """The services `~/pause`, `~/step` and `~/seek` of `node` for `control`."""
 
-    def __init__(self, node: Node, deck: Deck) -> None:
-        self._deck = deck
+    def __init__(self, node: Node, control: PlaybackControl) -> None:
+        self._control = control
         node.create_service(SetBool, "~/pause", self._pause)
         node.create_service(Step, "~/step", self._step)
         node.create_service(Seek, "~/seek", self._seek)
@@ -37,24 +37,24 @@ class PlayingServices:
         word = "paused" if request.data else "runs"
         return answer(
             response,
-            lambda: self._deck.playing().pause(request.data),
+            lambda: self._control.playing().pause(request.data),
             lambda instant: f"{word} from {instant:.9g} s",
         )
 
     def _step(self, request: Step.Request, response: Step.Response) -> Step.Response:
-        def told(instant: float) -> str:
+        def describe(instant: float) -> str:
             response.simulated_time = instant
             return self._set(response.stamp, instant)
 
-        return answer(response, lambda: self._deck.playing().step(request.duration), told)
+        return answer(response, lambda: self._control.playing().step(request.duration), describe)
 
     def _seek(self, request: Seek.Request, response: Seek.Response) -> Seek.Response:
-        def told(instant: float) -> str:
+        def describe(instant: float) -> str:
             response.time = instant
             return self._set(response.stamp, instant)
 
-        return answer(response, lambda: self._deck.playing().seek(request.time), told)
+        return answer(response, lambda: self._control.playing().seek(request.time), describe)
 
     def _set(self, stamp: Time, instant: float) -> str:
-        set_stamp(stamp, self._deck.stamp(instant))
+        set_stamp(stamp, self._control.stamp(instant))
         return ""

@@ -1,4 +1,4 @@
-"""Quality of service in rosbag2's words, and back."""
+"""Converts quality of service to the notation of rosbag2, and back."""
 
 from __future__ import annotations
 
@@ -17,8 +17,8 @@ from rclpy.qos import (
 
 from planetary_twin_py.recording.ros2.metadata import Topic
 
-# What a publisher keeps for retransmission where the recorder could not learn the depth: most
-# middleware does not tell it.
+# Messages that a publisher keeps for retransmission if the recording lacks the depth: most
+# middleware does not report it.
 _DEPTH = 100
 
 
@@ -39,9 +39,9 @@ def to_words(qos: QoSProfile) -> dict[str, Any]:
 
 def publisher_qos(topic: Topic) -> QoSProfile:
     """
-    Return a profile that meets every subscription that the recorded publishers of `topic` met.
+    Return a profile compatible with every subscription that matched a publisher of `topic`.
 
-    With several of them that is the strongest reliability and durability any of them offered.
+    It has the strongest reliability and durability that any recorded publisher offered.
     """
     offers = topic.offered_qos or [to_words(QoSProfile(depth=_DEPTH))]
     first = offers[0]
@@ -68,7 +68,7 @@ def _word(policy: Any) -> str:
 
 
 def _policy(kind: type[IntEnum], written: str | int) -> Any:
-    """Return a policy from its word, or from its number in bags before version 9."""
+    """Return a policy from its name, or from its number in bags before version 9."""
     return kind(written) if isinstance(written, int) else kind[written.upper()]
 
 

@@ -9,7 +9,7 @@ LONGEST_RAMP = 3600.0  # [s]
 
 
 class Ramp(NamedTuple):
-    """A quantity on its way."""
+    """A linear change of one quantity."""
 
     begin: float  # [s]
     end: float  # [s]
@@ -17,7 +17,7 @@ class Ramp(NamedTuple):
     last: float
 
     def at(self, time: float) -> float:
-        """Its value at a simulated time [s] not before the beginning."""
+        """Return the value at simulated `time` [s], which must not be before the start."""
         if time >= self.end:
             return self.last
         return self.first + (self.last - self.first) * (time - self.begin) / (
@@ -26,7 +26,7 @@ class Ramp(NamedTuple):
 
 
 class Ramps:
-    """Those under way, by name. A quantity that is set meanwhile leaves its ramp."""
+    """The ramps in progress, by name of the quantity. Setting a quantity ends its ramp."""
 
     def __init__(self) -> None:
         self._ramps: dict[str, Ramp] = {}
@@ -34,21 +34,21 @@ class Ramps:
     def start(
         self, time: float, duration: float, first: Mapping[str, float], last: Mapping[str, float]
     ) -> None:
-        """Let quantities go from their `first` to their `last` values from `time` [s] on."""
+        """Start ramps from `first` to `last` values at `time` [s], with a `duration` [s]."""
         for name, value in last.items():
             self._ramps[name] = Ramp(time, time + duration, first[name], value)
 
     def leave(self, names: Mapping[str, float]) -> None:
-        """Take quantities off their ramps."""
+        """End the ramps of the quantities `names`."""
         for name in names:
             self._ramps.pop(name, None)
 
     def clear(self) -> None:
-        """Take all off."""
+        """End all ramps."""
         self._ramps.clear()
 
     def values(self, time: float) -> dict[str, float]:
-        """Values of those under way; what has arrived is told once more and then no longer."""
+        """Return the values at `time` [s]; a ramp that has ended is included once more."""
         values = {name: ramp.at(time) for name, ramp in self._ramps.items()}
         self._ramps = {name: ramp for name, ramp in self._ramps.items() if time < ramp.end}
         return values

@@ -1,4 +1,4 @@
-"""Tells in /diagnostics whether the simulation keeps up with the wall clock."""
+"""Reports in /diagnostics whether the simulation keeps up with the wall clock."""
 
 from __future__ import annotations
 
@@ -14,21 +14,21 @@ from planetary_twin_py.recording.ros2.topics import REAL_TIME, status_name
 
 from .live import Progress, State
 
-_TOLERATED_LAG = 0.01  # share of the wanted rate; below it the real-time factor is a warning
-_TOLERATED_INTERVALS = 2.0  # by which two looks may differ in any case: where they fall decides
-_BROKEN = 0.5  # share of the wanted rate; below it the real-time factor is an error
-_SHORTEST = 0.5  # [s] over less than this, one late wake-up would already look like a lag
-_STALL = 2.0  # [s] beyond its time, after which an interval counts as one that may never end
+_TOLERATED_LAG = 0.01  # share of the rate factor; a larger lag is a warning
+_TOLERATED_INTERVALS = 2.0  # lag that the instants of two reports within intervals can cause
+_BROKEN = 0.5  # share of the rate factor; a lower real-time factor is an error
+_SHORTEST = 0.5  # [s] in a shorter time, one late wake-up would look like a lag
+_STALL = 2.0  # [s] beyond its period, after which an interval may never end
 
 
 class Verdict(NamedTuple):
-    """What a report comes to; figures are told beside it."""
+    """Level and message of a report."""
 
     level: bytes
     text: str
 
 
-RUNS_FREELY = Verdict(DiagnosticStatus.OK, "runs as fast as it goes")
+RUNS_FREELY = Verdict(DiagnosticStatus.OK, "runs as fast as possible")
 KEEPS_UP = Verdict(DiagnosticStatus.OK, "keeps up")
 PAUSED = Verdict(DiagnosticStatus.OK, "paused")
 WAITS = Verdict(DiagnosticStatus.OK, "waits")
@@ -37,15 +37,17 @@ THINNED = Verdict(DiagnosticStatus.WARN, "keeps up with a thinned waveform")
 FALLS_BEHIND = Verdict(DiagnosticStatus.WARN, "falls behind")
 FALLS_FAR_BEHIND = Verdict(DiagnosticStatus.ERROR, "falls far behind")
 FAILED = Verdict(DiagnosticStatus.ERROR, "failed")
-STANDS = Verdict(DiagnosticStatus.STALE, "stands still")
+STALLED = Verdict(DiagnosticStatus.STALE, "stalled")
 
 
 class RealTimeReport:
     """
-    Compares where a live twin stands now with where it stood at the report before.
+    Compares the progress of a live twin with that at the previous report.
 
-    An interval has `period` [s] of wall time. `log` is the twin's; what is told is taken off it,
-    because hours of ramps would fill the memory.
+    `hardware` is the namespace of the twin, `rate_factor` the requested simulated seconds per
+    second, `period` [s] the wall time of an interval, `start` the progress at the start. `log` is
+    that of the twin; reported changes are removed from it, because hours of ramps would fill the
+    memory.
     """
 
     def __init__(
@@ -54,16 +56,16 @@ class RealTimeReport:
         rate_factor: float,
         period: float,
         log: list[Change],
-        begun: Progress,
+        start: Progress,
     ) -> None:
         self._hardware = hardware
         self._rate_factor = rate_factor
         self._period = period
         self._log = log
-        self._told: Change | None = None
+        self._reported: Change | None = None
         self._changes = {"tolerance": 0, "sample_rate": 0}
-        self._begun = self._last = begun
-        self._waited = False  # at the report before
+        self._start = self._last = start
+        self._waited = False  # at the previous report
         self._process_cpu = time.process_time()
         self._wall = time.monotonic()
         self.verdict = KEEPS_UP
@@ -77,17 +79,18 @@ class RealTimeReport:
         last: bool,
     ) -> DiagnosticArray:
         """
-        Return the report, not stamped yet; `published` counts messages by topic.
+        Return the report, not stamped yet.
 
-        The `last` one is sent when the twin has stopped, so its counts are final.
+        `now` is the progress, `quality` the quality control, `published` the number of messages by
+        topic. The `last` report is sent when the twin has stopped, so its counts are final.
         """
         lasted = now.lasted - self._last.lasted
-        resting = 0.0 if now.state != State.RUNNING else self._rate_factor
-        recent = _ratio(now.ran - self._last.ran, lasted, resting)
+        idle = 0.0 if now.state != State.RUNNING else self._rate_factor
+        recent = _ratio(now.ran - self._last.ran, lasted, idle)
         overruns = now.overruns - self._last.overruns
         silence = time.monotonic() - now.wall
         self.verdict = self._judge(now, quality, recent, 0.0 if last else silence)
-        if self.verdict == STANDS:
+        if self.verdict == STALLED:
             recent = 0.0
         details = {
             THINNED: f"{self._log[-1].sample_rate:g} of {quality.full_sample_rate:g} Hz",
@@ -95,13 +98,13 @@ class RealTimeReport:
             FALLS_FAR_BEHIND: f"real time x {recent:.3f}, {overruns} overruns",
             WAITS_LONG: "for the first message on /clock, or for the node that wait_for names",
             FAILED: f"{now.failure}; ~/reset starts a new run with the parameters",
-            STANDS: f"the interval in progress has not ended for {silence:.1f} s",
+            STALLED: f"the interval in progress has not ended for {silence:.1f} s",
         }
-        told = [self.verdict.text, details.get(self.verdict, "")]
+        parts = [self.verdict.text, details.get(self.verdict, "")]
         status = DiagnosticStatus(
             level=self.verdict.level,
             name=status_name(REAL_TIME, self._hardware),
-            message=": ".join(filter(None, told)),
+            message=": ".join(filter(None, parts)),
             hardware_id=self._hardware,
         )
         figures: dict[str, object] = {
@@ -133,12 +136,12 @@ class RealTimeReport:
         if now.state == State.FAILED:
             return FAILED
         if silence > self._period + _STALL:
-            return STANDS
+            return STALLED
         if now.state == State.PAUSED:
             return PAUSED
         waited, self._waited = self._waited, now.state == State.WAITING
         if self._waited:
-            return WAITS_LONG if waited else WAITS  # on its way to running
+            return WAITS_LONG if waited else WAITS  # a short wait precedes every run
         if not self._rate_factor:
             return RUNS_FREELY
         lasted = now.lasted - self._last.lasted
@@ -154,17 +157,17 @@ class RealTimeReport:
         return THINNED if thinned else KEEPS_UP
 
     def _mean(self, now: Progress) -> float:
-        ran, lasted = now.ran - self._begun.ran, now.lasted - self._begun.lasted
+        ran, lasted = now.ran - self._start.ran, now.lasted - self._start.lasted
         return _ratio(ran, lasted, self._rate_factor)
 
     def _settings(self) -> dict[str, object]:
         """
-        Return the tolerance and the waveform's rate, and how often each has changed.
+        Return the tolerance and the sample rate of the waveform, and the number of their changes.
 
-        All since the report before are told with the instant they hold from, and with all digits:
-        with them a recording can be simulated again.
+        Each change since the previous report is included with its instant and with all digits, so
+        that a recording can be simulated again.
         """
-        log, before = self._log[:], self._told
+        log, before = self._log[:], self._reported
         new: dict[str, object] = {}
         for change in log:
             for name in self._changes:
@@ -173,15 +176,15 @@ class RealTimeReport:
                     new[f"{name}_from.{change.time!r}"] = repr(value)
                     self._changes[name] += before is not None
             before = change
-        self._told = before
-        del self._log[: len(log) - 1]  # the twin goes on from the last
+        self._reported = before
+        del self._log[: len(log) - 1]  # the last change is still in force
         for name, count in self._changes.items():
             new[name] = repr(getattr(log[-1], name))
             new[f"{name}_changes"] = count
         return new
 
     def _cpu(self, now: Progress) -> dict[str, str]:
-        """Shares of one core since the report before."""
+        """Return the shares of one core since the previous report."""
         wall, process = time.monotonic(), time.process_time()
         span = max(wall - self._wall, 1e-9)
         loop = (now.cpu - self._last.cpu) / max(now.wall - self._last.wall, 1e-9)
@@ -194,5 +197,5 @@ class RealTimeReport:
 
 
 def _ratio(simulated: float, wall: float, unknown: float) -> float:
-    """Return simulated seconds per second of wall time; `unknown` where no time has passed."""
+    """Return simulated seconds per second of wall time; `unknown` if no wall time has passed."""
     return simulated / wall if wall > 0.0 else unknown

@@ -1,4 +1,4 @@
-"""What the logger records now: into a bag, or into memory of which snapshots are taken."""
+"""The recordings of the logger: to a bag on disk, or to memory for snapshots."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from planetary_twin_py.recording.ros2.bag import BagWriter, free_folder, named_f
 from planetary_twin_py.recording.ros2.provenance import SOFTWARE_RECORD, host_clocks, software
 from planetary_twin_py.recording.ros2.ring import Ring
 
-from .logger_parameters import Wishes
+from .logger_parameters import LoggerOptions
 from .taps import Taps
 
 _SOFTWARE = (
@@ -29,41 +29,40 @@ _SOFTWARE = (
 )
 
 
-class Refused(Exception):
-    """What cannot be done; the message says why in one line."""
+class RecorderError(Exception):
+    """A command cannot be executed; the message gives the reason in one line."""
 
 
 class Recorder:
     """
-    One recording after another; `failed` hears why one cannot go on.
+    Makes the recordings of the logger `node`, one after another.
 
-    `progressed` is called after every 400 messages.
-
-    `own` are the newest messages that the node itself has published.
-    Raises `Refused` where something cannot be done.
+    `options` are the parameters of the logger, `own` the newest messages that it has published.
+    `failed` is called with the reason if a recording cannot continue, `progressed` after every
+    400 messages. Methods raise `RecorderError` if the command cannot be executed.
     """
 
     def __init__(
         self,
         node: Node,
-        wishes: Wishes,
+        options: LoggerOptions,
         own: Collection[bytes],
         failed: Callable[[str], None],
         progressed: Callable[[], None],
     ) -> None:
         self._node = node
-        self._wishes = wishes
+        self._options = options
         self._own = own
         self._failed = failed
         self._progressed = progressed
-        self._scene = _scene_text(wishes.scene)
+        self._scene = _scene_text(options.scene)
         self._sink: BagWriter | Ring | None = None
         self._taps: Taps | None = None
-        self._begun = time.monotonic()
+        self._start = time.monotonic()
 
     @property
     def file(self) -> str:
-        """Path of the file being written; empty where there is none."""
+        """Path of the file being written; empty without one."""
         return str(self._sink.file) if isinstance(self._sink, BagWriter) else ""
 
     @property
@@ -73,26 +72,26 @@ class Recorder:
 
     @property
     def duration(self) -> float:
-        """Since the recording began [s]."""
-        return time.monotonic() - self._begun if self._sink else 0.0
+        """Time since the start of the recording [s]."""
+        return time.monotonic() - self._start if self._sink else 0.0
 
     @property
-    def heard(self) -> dict[str, TopicAccount]:
-        """Accounts by topic of what is, or was, heard."""
-        return self._taps.heard if self._taps else {}
+    def matched(self) -> dict[str, TopicAccount]:
+        """Message counts of the topics that have, or have had, a publisher."""
+        return self._taps.matched if self._taps else {}
 
     def begin(self) -> None:
         """Create the recording's file, or the memory for snapshots."""
-        wishes = self._wishes
-        self._open(Ring(wishes.snapshot_duration) if wishes.snapshot_duration else self._bag())
+        options = self._options
+        self._open(Ring(options.snapshot_duration) if options.snapshot_duration else self._bag())
 
     def start(self) -> str:
-        """Begin another recording, in a free folder; returns its file."""
+        """Start another recording in a free folder; returns its file."""
         if isinstance(self._sink, Ring):
-            raise Refused("messages are kept in memory: call ~/snapshot to write them")
+            raise RecorderError("messages are kept in memory: call ~/snapshot to write them")
         if self._sink is not None:
-            raise Refused(f"already recording into {self.file}")
-        self._open(self._bag(anew=True))
+            raise RecorderError(f"already recording into {self.file}")
+        self._open(self._bag(another=True))
         return self.file
 
     def stop(self) -> str:
@@ -102,50 +101,52 @@ class Recorder:
         return file
 
     def split(self) -> str:
-        """Go on in the next file; returns the one that is finished."""
+        """Continue in the next file; returns a message with both files."""
         bag = self._bag_in_progress()
         file = bag.file
         try:
             bag.split()
         except OSError as reason:
-            raise Refused(self._give_up(reason)) from None
-        return f"{file} is finished, goes on in {bag.file}"
+            raise RecorderError(self._give_up(reason)) from None
+        return f"{file} is finished, continues in {bag.file}"
 
     def snapshot(self) -> str:
-        """Write what is in memory; returns the file."""
+        """Write the messages in memory to a bag; returns its file."""
         ring = self._sink
         if not isinstance(ring, Ring):
-            raise Refused("snapshot_duration = 0: nothing is kept in memory, all is recorded")
+            raise RecorderError(
+                "snapshot_duration = 0: nothing is kept in memory, all is recorded"
+            )
         if not ring.size:
-            raise Refused("nothing has been heard yet")
-        bag = self._bag(anew=True)
+            raise RecorderError("no message has been received yet")
+        bag = self._bag(another=True)
         try:
             ring.pour(bag)
             bag.close()
         except OSError as reason:
             bag.abandon()
-            raise Refused(_told(bag.file, reason)) from None
+            raise RecorderError(_failure(bag.file, reason)) from None
         return str(bag.file)
 
     def discover(self) -> bool:
-        """Listen to topics that have appeared; whether any has, or has vanished."""
+        """Subscribe to new topics; returns whether a topic has appeared or disappeared."""
         if self._taps is None:
             return False
-        before = list(self.heard)
+        before = list(self.matched)
         try:
             self._taps.discover()
         except OSError as reason:
             self._fail(reason)
-        return list(self.heard) != before
+        return list(self.matched) != before
 
     def pause(self) -> None:
-        """Listen no more; the file stays open and whole."""
+        """Unsubscribe; the file stays open, and what it contains is readable."""
         if self._taps is not None:
             self._taps.close()
         self.flush()
 
     def flush(self) -> None:
-        """Bring everything received so far onto the disk."""
+        """Write everything received so far to the disk."""
         try:
             if self._sink is not None:
                 self._sink.flush()
@@ -153,7 +154,7 @@ class Recorder:
             self._fail(reason)
 
     def close(self) -> None:
-        """Finish what is being recorded, with its account; memory is forgotten."""
+        """Finish the recording, with its message counts; messages in memory are discarded."""
         sink, taps, self._sink, self._taps = self._sink, self._taps, None, None
         if taps is None:
             return
@@ -164,11 +165,11 @@ class Recorder:
             sink.close()
         except OSError as reason:
             sink.abandon()
-            raise Refused(_told(sink.file, reason)) from None
+            raise RecorderError(_failure(sink.file, reason)) from None
         text = f"{sink.file}: {_summary(taps.accounts)}"
-        # A signal may have shut down what the node's own logger publishes to.
-        ours = self._node.context.ok()
-        logger = self._node.get_logger() if ours else get_logger("recording")
+        # After a signal, the node's logger can no longer publish to /rosout.
+        running = self._node.context.ok()
+        logger = self._node.get_logger() if running else get_logger("recording")
         if any(account.missed for account in taps.accounts.values()):
             logger.warning(text)
         else:
@@ -179,34 +180,36 @@ class Recorder:
             sink.attach("scene.yaml", self._scene, "application/yaml")
         self._sink = sink
         self._taps = Taps(
-            self._node, self._wishes.topics, self._own, sink, self._fail, self._progressed
+            self._node, self._options.topics, self._own, sink, self._fail, self._progressed
         )
-        self._begun = time.monotonic()
+        self._start = time.monotonic()
         if self.file:
             self._node.get_logger().info(f"recording into {self.file}")
 
     def _bag_in_progress(self) -> BagWriter:
         if not isinstance(self._sink, BagWriter):
-            raise Refused("nothing is being recorded")
+            raise RecorderError("nothing is being recorded")
         return self._sink
 
-    def _bag(self, anew: bool = False) -> BagWriter:
-        """Open a bag in the folder that is named, or, for one more, in a free one."""
-        directory, name = self._wishes.directory, self._wishes.name
+    def _bag(self, another: bool = False) -> BagWriter:
+        """Open a bag in the folder that `name` gives, or in a free one if `another` is True."""
+        directory, name = self._options.directory, self._options.name
         while True:
             folder = named_folder(directory, name) if name else None
-            if folder is None or anew:
+            if folder is None or another:
                 stem = name or self._node.get_namespace().strip("/").replace("/", "_")
                 folder = free_folder(directory, stem or "twin")
             try:
-                bag = BagWriter(folder, self._wishes.storage, self._clocks)
+                bag = BagWriter(folder, self._options.storage, self._clocks)
             except OSError as reason:
                 taken = isinstance(reason, FileExistsError) and folder.exists()
                 if not taken:
-                    raise Refused(f"directory = {directory}: {reason.strerror}") from None
-                if name and not anew:
-                    raise Refused(f"name = {name}: {folder} exists; choose a free name") from None
-                # Another logger has just taken that one.
+                    raise RecorderError(f"directory = {directory}: {reason.strerror}") from None
+                if name and not another:
+                    raise RecorderError(
+                        f"name = {name}: {folder} exists; choose a free name"
+                    ) from None
+                # Another logger has just created that folder: try the next.
             else:
                 bag.describe(SOFTWARE_RECORD, software(_SOFTWARE))
                 return bag
@@ -218,14 +221,14 @@ class Recorder:
         self._failed(self._give_up(reason))
 
     def _give_up(self, reason: OSError) -> str:
-        """Let go of a bag that cannot be written any more; returns why."""
+        """Abandon a bag that can no longer be written; returns the reason."""
         sink, taps, self._sink, self._taps = self._sink, self._taps, None, None
         if taps is not None:
             taps.close()
         if not isinstance(sink, BagWriter):
             return str(reason)
         sink.abandon()
-        return _told(sink.file, reason)
+        return _failure(sink.file, reason)
 
 
 def _scene_text(scene: str) -> bytes:
@@ -235,8 +238,8 @@ def _scene_text(scene: str) -> bytes:
     return yaml.safe_dump(content, sort_keys=False).encode()
 
 
-def _told(file: Path, reason: OSError) -> str:
-    return f"{file}: {reason.strerror}; what was flushed is readable"
+def _failure(file: Path, reason: OSError) -> str:
+    return f"{file}: {reason.strerror}; flushed messages are readable"
 
 
 def _summary(accounts: dict[str, TopicAccount]) -> str:
@@ -244,4 +247,4 @@ def _summary(accounts: dict[str, TopicAccount]) -> str:
     losses = ", ".join(f"{name} {a.missed}" for name, a in accounts.items() if a.missed)
     early = ", ".join(f"{n} {a.lost - a.missed}" for n, a in accounts.items() if a.lost > a.missed)
     text = f"recorded {recorded} messages, lost {losses or 'none'}"
-    return f"{text}; published before it began: {early}" if early else text
+    return f"{text}; published before the recording started: {early}" if early else text

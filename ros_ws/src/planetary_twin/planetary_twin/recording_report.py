@@ -1,4 +1,4 @@
-"""What the logger tells of itself in /diagnostics."""
+"""The report of the logger in /diagnostics."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ RECORDING = "logger: recording"
 
 
 class RecordingReport:
-    """Judges the losses since the report before; `hardware` is the logger's namespace."""
+    """Reports the losses since the previous report; `hardware` is the logger's namespace."""
 
     def __init__(self, hardware: str) -> None:
         self._hardware = hardware
@@ -22,7 +22,12 @@ class RecordingReport:
     def message(
         self, file: str, size: int, accounts: Mapping[str, TopicAccount]
     ) -> DiagnosticArray:
-        """Return the report, not stamped yet, of a recording that goes on."""
+        """
+        Return the report on a recording in progress, not stamped yet.
+
+        `file` is its path, `size` the number of bytes so far, `accounts` the message counts by
+        topic.
+        """
         missed = sum(account.missed for account in accounts.values())
         new, self._missed = max(missed - self._missed, 0), missed
         lost = sum(account.lost for account in accounts.values())
@@ -35,7 +40,7 @@ class RecordingReport:
         return self._array(DiagnosticStatus.OK, "records all" if accounts else "idle", figures)
 
     def failure(self, reason: str) -> DiagnosticArray:
-        """Return the report of a recording that cannot go on."""
+        """Return the report on a recording that cannot continue because of `reason`."""
         return self._array(DiagnosticStatus.ERROR, reason, {})
 
     def _array(self, level: bytes, text: str, figures: Mapping[str, object]) -> DiagnosticArray:

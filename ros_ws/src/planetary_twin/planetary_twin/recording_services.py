@@ -1,4 +1,4 @@
-"""Services that begin and end recordings while the logger is active."""
+"""Services that start and end recordings while the logger is active."""
 
 from __future__ import annotations
 
@@ -7,36 +7,36 @@ from collections.abc import Callable
 from rclpy.node import Node
 from std_srvs.srv import Trigger
 
-from .recorder import Recorder, Refused
+from .recorder import Recorder, RecorderError
 
 
 class RecordingServices:
     """
-    `~/start`, `~/stop`, `~/split` and `~/snapshot` of a node.
+    The services `~/start`, `~/stop`, `~/split` and `~/snapshot` of `node`.
 
-    `active` gives its recorder, and raises `Refused` where it has none. The answer names the file,
-    or why there is none.
+    `active` returns the recorder, and raises `RecorderError` if there is none. The response gives
+    the file, or the reason of a refusal.
     """
 
     def __init__(self, node: Node, active: Callable[[], Recorder]) -> None:
-        orders: dict[str, Callable[[Recorder], str]] = {
+        commands: dict[str, Callable[[Recorder], str]] = {
             "start": Recorder.start,
             "stop": Recorder.stop,
             "split": Recorder.split,
             "snapshot": Recorder.snapshot,
         }
-        for name, order in orders.items():
-            node.create_service(Trigger, f"~/{name}", _answering(active, order))
+        for name, command in commands.items():
+            node.create_service(Trigger, f"~/{name}", _answering(active, command))
 
 
 def _answering(
-    active: Callable[[], Recorder], order: Callable[[Recorder], str]
+    active: Callable[[], Recorder], command: Callable[[Recorder], str]
 ) -> Callable[[Trigger.Request, Trigger.Response], Trigger.Response]:
     def answer(request: Trigger.Request, response: Trigger.Response) -> Trigger.Response:
         try:
-            response.message = order(active())
+            response.message = command(active())
             response.success = True
-        except Refused as refusal:
+        except RecorderError as refusal:
             response.success, response.message = False, str(refusal)
         return response
 

@@ -1,4 +1,4 @@
-"""A running twin, as a command sees it: its parameters, its operating point, its time."""
+"""Reads and changes the parameters and the operating point of a running twin."""
 
 from __future__ import annotations
 
@@ -28,8 +28,8 @@ from .network import stay_on_this_machine
 NODE = "simulation"
 _DISCOVERY = 5.0  # [s] longest wait for a twin to be found
 _TRIALS = 3
-# Parameters of rclpy and of topics, which are not the twin's.
-_MACHINERY = ("qos_overrides.", "use_sim_time", "start_type_description_service")
+# Parameters that ROS declares.
+_OF_ROS = ("qos_overrides.", "use_sim_time", "start_type_description_service")
 
 
 class Setting(NamedTuple):
@@ -43,15 +43,16 @@ class Setting(NamedTuple):
 
 
 def _unknown(refusal: str, name: str, known: Collection[str]) -> str:
-    """Add to a refusal the name that is near, or else all there are."""
+    """Add the most similar name to a refusal, or else all known names."""
     return refusal + (did_you_mean(name, known) or f"; there are {', '.join(known)}")
 
 
 class Remote(Client):
     """
-    Asks the simulation in `namespace`.
+    A client of the simulation in `namespace`.
 
-    Raises `ConnectionError` where there is none, or no answer, and `ValueError` where it refuses.
+    Methods raise `ConnectionError` if there is no simulation, or no response, and `ValueError` if
+    it refuses.
     """
 
     def __init__(self, namespace: str) -> None:
@@ -59,18 +60,18 @@ class Remote(Client):
         super().__init__("remote", namespace)
 
     def settings(self) -> list[Setting]:
-        """All parameters of the twin, by name."""
-        return self._described([n for n in self._names() if not n.startswith(_MACHINERY)])
+        """Return all parameters of the twin, sorted by name."""
+        return self._described([n for n in self._names() if not n.startswith(_OF_ROS)])
 
     def setting(self, name: str) -> Setting:
-        """One of them."""
+        """Return the parameter `name`."""
         found = {setting.name: setting for setting in self.settings()}
         if name not in found:
             raise ValueError(_unknown(f"{name}: no such parameter", name, found))
         return found[name]
 
     def set(self, name: str, typed: str) -> None:
-        """Set a parameter to what a user has typed, with or without a unit."""
+        """Set the parameter `name` to the text `typed`, which may have a unit."""
         names = self._names()
         if name not in names:
             raise ValueError(_unknown(f"{name}: no such parameter", name, names))
@@ -85,7 +86,7 @@ class Remote(Client):
         """
         Change several quantities at one simulated instant [s], which is returned.
 
-        With a `ramp` [s], they are reached at its end.
+        `typed` are values by name, as text. With a `ramp` [s], its end reaches them.
         """
         for name in typed:
             if name not in TUNABLES:
@@ -103,7 +104,7 @@ class Remote(Client):
 
     def _described(self, names: list[str]) -> list[Setting]:
         got = self._ask(GetParameters, "get_parameters", GetParameters.Request(names=names))
-        told = self._ask(
+        described = self._ask(
             DescribeParameters, "describe_parameters", DescribeParameters.Request(names=names)
         )
         return [
@@ -115,14 +116,16 @@ class Remote(Client):
                 "".join(f"{r.from_value:g} to {r.to_value:g}" for r in
                         descriptor.floating_point_range),
             )
-            for name, value, descriptor in zip(names, got.values, told.descriptors, strict=True)
+            for name, value, descriptor in zip(
+                names, got.values, described.descriptors, strict=True
+            )
         ]  # fmt: skip
 
-    def _cure(self) -> str:
-        """Where there are twins instead, or how to get one."""
+    def _remedy(self) -> str:
+        """Return the namespaces of other twins, or how to start one."""
         nodes = self.node.get_node_names_and_namespaces()
         if elsewhere := sorted(space for name, space in nodes if name == NODE):
-            return f"there is one in {', '.join(elsewhere)}: --namespace chooses"
+            return f"there is one in {', '.join(elsewhere)}: choose with --namespace"
         return "start one with `planetary-twin run`"
 
     def _ask(self, kind: type, service: str, request: Any) -> Any:
@@ -131,7 +134,7 @@ class Remote(Client):
             if not self.wait(client.service_is_ready, _DISCOVERY):
                 domain = os.environ.get("ROS_DOMAIN_ID", "0")
                 raise ConnectionError(
-                    f"no twin in {self.namespace} on ROS_DOMAIN_ID = {domain}: {self._cure()}"
+                    f"no twin in {self.namespace} on ROS_DOMAIN_ID = {domain}: {self._remedy()}"
                 )
             for _ in range(_TRIALS):
                 answer = self.call(client, request, PATIENCE)
@@ -143,7 +146,12 @@ class Remote(Client):
 
 
 def in_si(name: str, typed: str) -> Any:
-    """Read what a user has typed: a number where the parameter is a quantity, else the text."""
+    """
+    Return the value of the text `typed` for the parameter `name`.
+
+    It is a number in SI if the parameter is a quantity of the operating point, else the text.
+    Raises `ValueError` if it is not a number or its unit is wrong.
+    """
     try:
         return to_si(typed, TUNABLES[name].unit) if name in TUNABLES else typed
     except ValueError as refusal:
@@ -151,7 +159,7 @@ def in_si(name: str, typed: str) -> Any:
 
 
 def _message(value: Any) -> ParameterValue:
-    """Text is for the node to read."""
+    """Return the message of a number or a text; the node converts texts."""
     if isinstance(value, float):
         return ParameterValue(type=ParameterType.PARAMETER_DOUBLE, double_value=value)
     return ParameterValue(type=ParameterType.PARAMETER_STRING, string_value=value)

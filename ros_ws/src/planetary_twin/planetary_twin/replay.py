@@ -1,4 +1,4 @@
-"""The replay node: publishes what a recording holds, byte for byte, when it was recorded."""
+"""The replay node: publishes the messages of a recording, byte for byte, in recorded time."""
 
 from __future__ import annotations
 
@@ -19,14 +19,13 @@ from planetary_twin_py.recording.ros2.tape import Cue, Tape
 
 from .managed import ManagedNode, NodeError, run_node
 from .outlets import Outlets
-from .pacing import AS_FAST_AS_IT_GOES, FASTEST, SLOWEST, check_rate_factor
+from .pacing import FASTEST, SLOWEST, UNLIMITED, check_rate_factor
 from .parameters import declare_bounded, declare_changing, declare_fixed
-from .playing import Player, Stretch
+from .playing import Excerpt, Player
 from .playing_services import PlayingServices
 
-# Participants find one another at once, or, where a packet of the first exchange got lost, with
-# the next announcement: every 3 s. A subscriber that was there before must not miss the first
-# messages.
+# Participants discover each other at once, or, if a packet of the first exchange was lost, at the
+# next announcement: every 3 s. An existing subscriber must not miss the first messages.
 _DISCOVERY = 4.0  # [s]
 _DELIVERY = 2.0  # [s] longest wait for subscribers to acknowledge the last messages
 _LONGEST = 1e7  # [s]
@@ -35,20 +34,25 @@ _RATE = "rate_factor"
 
 
 class Listener(Protocol):
-    """Who hears how a replay goes."""
+    """Receives the messages and the position of a replay."""
 
     def say(self, text: str) -> None:
-        """Print a line that stays."""
+        """Print a line."""
 
     def warn(self, text: str) -> None:
-        """Print a line that the user should know of."""
+        """Print a warning."""
 
     def move(self, instant: float, end: float) -> None:
-        """Show that what is played stands at `instant` [s] of the recording and goes to `end`."""
+        """Show the position `instant` [s] in the recording, which is played to `end` [s]."""
 
 
 class Replay(ManagedNode):
-    """Configure opens the recording, activate plays it, deactivate holds it; it ends by itself."""
+    """
+    Configure opens the recording, activate plays it, deactivate stops it; the node ends with it.
+
+    `given` contains start values of parameters. `listener` shows messages and the position, by
+    default in the node's log.
+    """
 
     def __init__(
         self, given: Mapping[str, Any] | None = None, listener: Listener | None = None
@@ -61,54 +65,54 @@ class Replay(ManagedNode):
         self._player: Player | None = None
         self._active = False
         self._begin = self._end = 0  # [ns]
-        self._told = 0
+        self._warned = 0  # number of damages
         self._opened = 0.0
         self._played = 0
         self._shown = 0.0
         PlayingServices(self, self)
 
     def configure(self) -> None:
-        """Open the recording and offer its topics."""
+        """Open the recording and create its publishers."""
         self._read()
         if not self._path:
             raise NodeError("file is not given: -p file:=RECORDING")
         tape = self._tape = Tape(Path(self._path).expanduser(), self._chosen)
-        self._told = self._played = 0
+        self._warned = self._played = 0
         self._warn_of_damage()
-        self._begin, self._end = self._stretch(tape)
-        # A recorder may note topics it heard nothing of, whose types nobody has here.
+        self._begin, self._end = self._excerpt(tape)
+        # A bag may contain topics without messages, whose types may not be installed here.
         topics = {name: topic for name, topic in tape.topics.items() if tape.counts[name]}
         ticking = self._clock_rate > 0.0 and CLOCK.name not in topics
         if ticking:
             topics[CLOCK.name] = CLOCK
         elif self._clock_rate:
             self._listener.warn(
-                f"clock = {self._clock_rate:g}: {self._path} holds /clock, played as is"
+                f"clock = {self._clock_rate:g}: {self._path} contains /clock, which is played"
             )
         names = (
             moved(topics, self._namespace) if self._namespace else {name: name for name in topics}
         )
         self._outlets = Outlets(self, topics.values(), names)
         self._opened = time.monotonic()
-        stretch = Stretch(
+        excerpt = Excerpt(
             self._begin, self._end, self._loop, lambda begin: self._cues(tape, begin, ticking)
         )
-        self._player = Player(stretch, self._start_paused, self)
+        self._player = Player(excerpt, self._start_paused, self)
 
     def activate(self) -> None:
-        """Begin as soon as subscribers had time to be found, or go on."""
+        """Start after the time for discovery, or continue."""
         if not self.ready():
-            self._listener.say(f"looking for subscribers for {_DISCOVERY:g} s")
+            self._listener.say(f"waiting {_DISCOVERY:g} s for subscribers")
         self._player.start(self.get_parameter(_RATE).value)
         self._active = True
 
     def deactivate(self) -> None:
-        """Hold the tape."""
+        """Stop before the next message."""
         self._active = False
         self._player.stop()
 
     def close(self) -> None:
-        """Stop, and say how far it came."""
+        """Stop, close the publishers and report the number of messages."""
         player, self._player = self._player, None
         if player is None:
             return
@@ -122,20 +126,22 @@ class Replay(ManagedNode):
     # Called by the player, in its thread.
 
     def ready(self) -> bool:
-        """Whether every subscriber that was there before has been found."""
+        """Return whether the time for discovery is over."""
         return time.monotonic() - self._opened > _DISCOVERY
 
     def begin(self) -> None:
-        """Say what is played, and who else publishes it."""
+        """Report what is played, and topics that have other publishers."""
         length = (self._end - self._begin) * 1e-9
         self._listener.say(
             f"replaying {length:.2f} s of {len(self._outlets)} topics from {self._path}"
         )
         if shared := self._outlets.shared():
-            self._listener.warn(f"others publish too, subscribers hear both: {', '.join(shared)}")
+            self._listener.warn(
+                f"other publishers exist, subscribers receive both: {', '.join(shared)}"
+            )
 
     def has_room(self, cue: Cue) -> bool:
-        """Return whether `cue` overwrites nothing that a reliable subscriber still lacks."""
+        """Return whether `cue` overwrites no unacknowledged message."""
         return self._outlets.has_room(cue)
 
     def play(self, cue: Cue) -> None:
@@ -148,12 +154,12 @@ class Replay(ManagedNode):
             self._listener.move(cue.time * 1e-9, self._end * 1e-9)
 
     def ended(self) -> None:
-        """End the process once the last messages are with their subscribers."""
+        """End the process once subscribers have acknowledged the last messages."""
         self._outlets.wait(_DELIVERY)
         rclpy.try_shutdown(context=self.context)
 
     def stopped(self, defect: Exception) -> None:
-        """End the process with the reason; a publisher refuses once a signal has shut ROS down."""
+        """End the process with the reason, unless a signal has shut down ROS."""
         if self.context.ok():
             self.fail(f"{self._path}: {type(defect).__name__}: {defect}")
 
@@ -162,7 +168,7 @@ class Replay(ManagedNode):
     def playing(self) -> Player:
         """Return the player."""
         if self._player is None or not self._active:
-            raise ValueError("the replay is not active, so its time stands still")
+            raise ValueError("the replay is not active")
         return self._player
 
     def stamp(self, instant: float) -> int:
@@ -176,27 +182,27 @@ class Replay(ManagedNode):
                 self,
                 _RATE,
                 1.0,
-                (AS_FAST_AS_IT_GOES, FASTEST),
+                (UNLIMITED, FASTEST),
                 f"recorded seconds per second, {SLOWEST:g} to {FASTEST:g}; 0: no limit [-]",
             )
         )
-        declare_bounded(self, "start", 0.0, (0.0, _LONGEST), "recorded time to begin at [s]")
+        declare_bounded(self, "start", 0.0, (0.0, _LONGEST), "recorded time at the start [s]")
         declare_bounded(
             self, "duration", 0.0, (0.0, _LONGEST), "recorded time to play [s]; 0: to the end"
         )
-        declare_fixed(self, "loop", False, "play again and again")
-        declare_fixed(self, "start_paused", False, "begin paused")
+        declare_fixed(self, "loop", False, "repeat until stopped")
+        declare_fixed(self, "start_paused", False, "start paused")
         declare_bounded(
-            self, "clock", 0.0, (0.0, 1000.0), "/clock per recorded second [Hz]; 0: none"
+            self, "clock", 0.0, (0.0, 1000.0), "/clock messages per recorded second [Hz]; 0: none"
         )
-        declare_fixed(self, "namespace", "", "publish below it what was recorded below another")
+        declare_fixed(self, "namespace", "", "replaces the recorded namespace; empty: as recorded")
         declare_fixed(self, "topics", [""], "recorded topics to play; empty: all")
         self._read()
         self.add_on_set_parameters_callback(self._validate)
         self.add_post_set_parameters_callback(self._submit)
 
     def _read(self) -> None:
-        """Take over what may have been set while the node was unconfigured."""
+        """Read the parameters, which may have been set while the node was unconfigured."""
         value = {name: p.value for name, p in self.get_parameters_by_prefix("").items()}
         self._path: str = value["file"]
         self._start: float = value["start"]
@@ -220,8 +226,8 @@ class Replay(ManagedNode):
             if self._active:
                 self._player.set_rate(value)
 
-    def _stretch(self, tape: Tape) -> tuple[int, int]:
-        """Begin and end [ns] of what is played, after the first message."""
+    def _excerpt(self, tape: Tape) -> tuple[int, int]:
+        """Return start and end [ns] of the part to play, after the first message."""
         begin = round(self._start * 1e9)
         if begin > tape.length:
             raise NodeError(
@@ -230,7 +236,7 @@ class Replay(ManagedNode):
         end = begin + round(self._duration * 1e9) if self._duration else tape.length
         end = min(end, tape.length)
         if self._loop and begin == end:
-            raise NodeError(f"loop: what is left of {self._path} has no length")
+            raise NodeError(f"loop: the part of {self._path} to play has no length")
         return begin, end
 
     def _cues(self, tape: Tape, begin: int, ticking: bool) -> Iterator[Cue]:
@@ -241,16 +247,16 @@ class Replay(ManagedNode):
         self._warn_of_damage()
 
     def _warn_of_damage(self) -> None:
-        remarks, told = self._tape.remarks, self._told
-        for remark in remarks[told:]:
+        remarks, warned = self._tape.remarks, self._warned
+        for remark in remarks[warned:]:
             self._listener.warn(remark)
-        self._told = len(remarks)
+        self._warned = len(remarks)
 
 
 class _Log:
-    """Tells it in the node's log."""
+    """Writes messages to the log."""
 
-    # Under a name of its own: a signal has shut down what the node's name would publish to.
+    # Not the node's logger: after a signal, it can no longer publish to /rosout.
     _logger = get_logger("replay")
 
     def say(self, text: str) -> None:
@@ -264,7 +270,7 @@ class _Log:
 
 
 def main(args: list[str] | None = None) -> int:
-    """Run the node until the recording has ended."""
+    """Run the node until the recording ends; returns the exit code."""
     return run_node(Replay, args)
 
 

@@ -1,4 +1,4 @@
-"""`planetary-twin replay`; options have the names of `ros2 bag play` where that has them."""
+"""`planetary-twin replay`; options are named as in `ros2 bag play` if it has them."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from .commands import interrupt_on_signals
 
 @dataclass(frozen=True)
 class Options:
-    """What the command takes: the node's parameters, and renamed topics."""
+    """Options of the command: the node's parameters, and renamed topics."""
 
     file: FileArgument
     rate_factor: Annotated[
@@ -28,7 +28,7 @@ class Options:
     ] = 1.0
     start: Annotated[
         float,
-        typer.Option("--start", "--start-offset", help="Recorded time to begin at [s].", min=0.0),
+        typer.Option("--start", "--start-offset", help="Recorded time at the start [s].", min=0.0),
     ] = 0.0
     duration: Annotated[
         float | None,
@@ -39,14 +39,13 @@ class Options:
             min=1e-9,
         ),
     ] = None
-    loop: Annotated[
-        bool, typer.Option("--loop", "-l", help="Play again and again, until Ctrl-C.")
-    ] = False
-    start_paused: Annotated[
-        bool, typer.Option("--start-paused", "-p", help="Stand at the begin until told to go on.")
-    ] = False
+    loop: Annotated[bool, typer.Option("--loop", "-l", help="Repeat until Ctrl-C.")] = False
+    start_paused: Annotated[bool, typer.Option("--start-paused", "-p", help="Start paused.")] = (
+        False
+    )
     clock: Annotated[
-        float, typer.Option(metavar="HZ", help="/clock per recorded second; 0: none.", min=0.0)
+        float,
+        typer.Option(metavar="HZ", help="/clock messages per recorded second; 0: none.", min=0.0),
     ] = 0.0
     topics: Annotated[
         list[str] | None, typer.Option(metavar="NAME", help="Recorded topic to play; repeatable.")
@@ -56,15 +55,15 @@ class Options:
         typer.Option("--remap", "-m", metavar="OLD:=NEW", help="Rename a topic; repeatable."),
     ] = None
     namespace: Annotated[
-        str, typer.Option(metavar="NS", help="Publish below it what was below the recorded one.")
+        str, typer.Option(metavar="NS", help="Replaces the recorded namespace.")
     ] = ""
 
 
 def replay(**given: Any) -> None:
     """
-    Publish a recording again, byte for byte and in its own time.
+    Publish the messages of a recording, byte for byte and in recorded time.
 
-    While it plays: services replay/pause, replay/step and replay/seek, parameter rate_factor.
+    Services replay/pause, replay/step and replay/seek and the parameter rate_factor control it.
 
     Example: planetary-twin replay recordings/NAME --rate 0.5 --loop
     """
@@ -87,7 +86,7 @@ def replay(**given: Any) -> None:
     raise typer.Exit(code)
 
 
-# Typer reads the options off the signature.
+# Typer reads the options from the signature.
 vars(replay)["__signature__"] = inspect.signature(Options, eval_str=True).replace(
     return_annotation=None
 )

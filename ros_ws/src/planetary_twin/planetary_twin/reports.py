@@ -1,4 +1,4 @@
-"""What a simulation tells of itself in /diagnostics, as who listens finds it."""
+"""Reads the real-time report of a simulation from /diagnostics."""
 
 from __future__ import annotations
 
@@ -8,7 +8,11 @@ from planetary_twin_py.recording.ros2.topics import REAL_TIME, is_status
 
 
 def real_time_figures(message: DiagnosticArray, namespace: str) -> dict[str, str]:
-    """Figures of the twin in `namespace`; none if the message is of another."""
+    """
+    Return the values of the real-time report in `message`, by key.
+
+    Empty unless it is the report of the twin in `namespace`.
+    """
     return {
         item.key: item.value
         for status in message.status

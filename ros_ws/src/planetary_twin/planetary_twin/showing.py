@@ -16,7 +16,7 @@ from .replay import Replay
 
 
 class Bar:
-    """The live line, and lines that stay above it."""
+    """The live line on `console`, and lines printed above it."""
 
     def __init__(self, console: Console) -> None:
         self._console = console
@@ -28,27 +28,27 @@ class Bar:
             refresh_per_second=10,
             disable=not console.is_terminal,
         )
-        self._task = self.progress.add_task("finding subscribers", total=None)
+        self._task = self.progress.add_task("waiting for subscribers", total=None)
 
     def say(self, text: str) -> None:
-        """Print a line that stays."""
+        """Print a line."""
         self._console.print(text, highlight=False, soft_wrap=True)
 
     def warn(self, text: str) -> None:
-        """Print a line that the user should know of."""
+        """Print a warning."""
         self._console.print(f"warning: {text}", style="yellow", highlight=False, soft_wrap=True)
 
     def move(self, instant: float, end: float) -> None:
-        """Show that what is played stands at `instant` [s] of the recording and goes to `end`."""
+        """Show the position `instant` [s] in the recording, which is played to `end` [s]."""
         text = f"{instant:.1f} / {end:.1f} s"
         self.progress.update(self._task, completed=instant, total=end, description=text)
 
 
 def replay_shown(parameters: Mapping[str, Any], remappings: Sequence[str]) -> int:
     """
-    Run a replay node with these parameters to its end; returns the exit code.
+    Run a replay node with `parameters` to its end; returns the exit code.
 
-    `remappings` are ROS's: OLD:=NEW.
+    `remappings` have the form OLD:=NEW of ROS.
     """
     stay_on_this_machine()
     bar = Bar(make_console())

@@ -1,7 +1,8 @@
 """
-SIGINT and SIGTERM: they interrupt what has nothing to lose, and otherwise only end the spinning.
+Handlers of SIGINT and SIGTERM, called after those of rclpy.
 
-rclpy's own handlers shut ROS down, which ends what spins; the ones here are called after them.
+rclpy's handlers shut down ROS, which ends the executors. The handlers here also interrupt steps
+that have no data to save.
 """
 
 from __future__ import annotations
@@ -18,42 +19,42 @@ _NUMBERS = (signal.SIGINT, signal.SIGTERM)
 
 
 class Signals:
-    """Whether the process has been told to end, however often."""
+    """The request to end the process, however many signals repeat it."""
 
     def __init__(self) -> None:
-        self.told = threading.Event()
-        """To end."""
+        self.stop = threading.Event()
+        """Set at the first signal, or when the process ends by itself."""
         self._interrupting = False
 
-    def listen(self) -> None:
-        """Take the signals; before `rclpy.init`, which hands them on to who had them before."""
+    def install(self) -> None:
+        """Install the handlers; before `rclpy.init`, whose handlers then call them."""
         for number in _NUMBERS:
-            signal.signal(number, self._tell)
-        repeat_lost(self._tell)
+            signal.signal(number, self._on_signal)
+        repeat_lost(self._on_signal)
 
     @contextmanager
     def interrupting(self) -> Iterator[None]:
-        """Raise `KeyboardInterrupt` at the first signal within, or at once if it has come."""
+        """Raise `KeyboardInterrupt` in the block at the first signal, or at once after one."""
         self._interrupting = True
         try:
-            if self.told.is_set():
+            if self.stop.is_set():
                 raise KeyboardInterrupt
             yield
         finally:
             self._interrupting = False
 
     def ignore(self) -> None:
-        """Let no signal disturb the interpreter's end."""
+        """Ignore signals while the interpreter ends."""
         for number in _NUMBERS:
             signal.signal(number, signal.SIG_IGN)
         repeat_no_more()
 
-    def _tell(self, number: int, frame: FrameType | None) -> None:
-        first = not self.told.is_set()
-        self.told.set()
+    def _on_signal(self, number: int, frame: FrameType | None) -> None:
+        first = not self.stop.is_set()
+        self.stop.set()
         if self._interrupting and (first or number == signal.SIGALRM):
             interrupt(number, frame)
 
 
 SIGNALS = Signals()
-"""Of this process."""
+"""The signals of this process."""

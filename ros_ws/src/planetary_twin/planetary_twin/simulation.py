@@ -1,4 +1,4 @@
-"""The simulation node: a twin in real time, its parameters and its service."""
+"""The simulation node: a twin in real time, its parameters and services."""
 
 from __future__ import annotations
 
@@ -35,13 +35,13 @@ from .telemetry import STALL, Telemetry
 from .time_services import TimeServices
 
 _REPORT_PERIOD = 1.0  # [s]
-# After which a thread that waits may take the interpreter from one that is busy: Python's 5 ms,
-# half an interval, would let clients that ask all the time hold the twin up.
+# Time after which a waiting thread may take the interpreter lock from a busy one. Python's 5 ms
+# are half an interval: clients that send many requests would delay the twin.
 _SWITCH_INTERVAL = 2e-4  # [s]
 
 
 class Simulation(ManagedNode):
-    """Runs a scene in real time: configure builds it, activate starts it, deactivate pauses it."""
+    """Runs a scene in real time: configure builds it, activate runs it, deactivate pauses it."""
 
     def __init__(self) -> None:
         super().__init__("simulation")
@@ -50,14 +50,14 @@ class Simulation(ManagedNode):
         self._report: RealTimeReport | None = None
         self._urdf = ""
         self._verdict = KEEPS_UP
-        self._company = 0
+        self._other_publishers = 0
         self._submitted: Future[float] | None = None
-        self._ramp = 0.0  # [s] in which what is being set is to be reached
+        self._ramp = 0.0  # [s] duration of the ramp for the parameters being set
         self._given = SimulationParameters(self)
         self._ledger = LedgerReport(self.get_namespace())
         self._accuracy = AccuracyReport(self.get_namespace())
         self._telemetry: Telemetry | None = None
-        self._before: Telemetry | None = None  # of the life before, closed
+        self._before: Telemetry | None = None  # the closed one of the previous configuration
         self._audience: Audience | None = None
         self.add_post_set_parameters_callback(self._submit)
         self._backlog: Backlog | None = None
@@ -69,21 +69,21 @@ class Simulation(ManagedNode):
             SimulationServices(self, self, lambda: 1.0 / self._given.rate)
 
     def configure(self) -> None:
-        """Offer the topics, so that others find them, and build the model as parameters say."""
+        """Create the publishers, so that subscribers find them, and build the model."""
         self._given.read()
         self._telemetry = Telemetry(self, self._given, self._before)
         self._audience = Audience(self, self._given.wait_for)
-        # Half of what publishers keep: what is on its way meanwhile does not fill the rest.
+        # Half of what publishers keep: messages in transit do not fill the rest.
         room = round(0.5 * STALL * self._given.rate)
         self._backlog = Backlog(self, self._given.wait_for, self._telemetry.streamed, room)
         self._urdf = robot_description(self._given.scene.gearset, self._given.frame)
         self._twin = self._new_twin()
-        # What is loaded now stays: a collection that looks at it all takes a tenth of a second.
+        # Exclude the objects loaded so far from garbage collection: scanning them takes 0.1 s.
         gc.collect()
         gc.freeze()
 
     def activate(self) -> None:
-        """Run from where the twin stands, with what was set while it stood."""
+        """Run from the twin's present time, with the present parameters."""
         twin = self._running_twin()
         try:
             twin.set(**self._given.point())
@@ -94,7 +94,7 @@ class Simulation(ManagedNode):
         self._live = LiveTwin(twin, 1.0 / given.rate, given.rate_factor, quality, self)
         self._report = self._new_report(twin, self._live.start())
         self._telemetry.describe(self._urdf)
-        self.get_logger().info(f"runs {twin.scene.name} from {twin.time:g} s on")
+        self.get_logger().info(f"runs {twin.scene.name} from {twin.time:g} s")
         if not self._telemetry.ready():
             self.get_logger().warning("use_sim_time: waits for the first message on /clock")
 
@@ -106,7 +106,7 @@ class Simulation(ManagedNode):
             self._diagnose(live, last=True)
 
     def close(self) -> None:
-        """Let the model go."""
+        """Release the model and the publishers."""
         live, self._live = self._live, None
         if live is not None:
             live.stop()
@@ -121,39 +121,39 @@ class Simulation(ManagedNode):
     # Called by the live twin, in its thread.
 
     def prepare(self, window: pt.Window) -> None:
-        """Turn an interval into messages ahead of its wall instant."""
+        """Fill the messages for an interval before the wall time of its end."""
         self._telemetry.prepare(window)
         self._ledger.add(window)
         self._accuracy.add(window)
 
     def publish(self) -> None:
-        """Send them at that instant."""
+        """Publish these messages at that time."""
         self._telemetry.publish()
 
     def changed(self, point: pt.OperatingPoint, instant: float) -> None:
-        """Tell of a new operating point."""
+        """Publish a new operating point."""
         self._telemetry.announce(point, instant)
 
     def ready(self) -> bool:
-        """Whether there is a ROS time to stamp with, and who is waited for is there."""
-        return self._telemetry.ready() and self._audience.there()
+        """Return whether ROS time is available and the node `wait_for` has subscribed."""
+        return self._telemetry.ready() and self._audience.present()
 
     def has_room(self) -> bool:
-        """Whether the node that `wait_for` names has kept up with recording."""
+        """Return whether the node that `wait_for` names has kept up with recording."""
         return self._backlog.has_room()
 
-    def goes_on(self, twin: pt.Twin) -> None:
-        """Let the twin's present time be now."""
+    def resumed(self, twin: pt.Twin) -> None:
+        """Map the twin's present time to the present ROS time."""
         self._telemetry.begin(twin.time)
         if twin.time == 0.0:
             self._telemetry.originate(twin.scene)
 
     def refused(self, reason: str) -> None:
-        """Say why a ramp has ended where it is."""
-        self.get_logger().warning(f"a ramp ends on its way: {reason}")
+        """Warn of a ramp that ended before its final values."""
+        self.get_logger().warning(f"a ramp ends before its final values: {reason}")
 
     def retuned(self, instant: float, before: Setting, quality: QualityControl) -> None:
-        """Say which setting holds, and why."""
+        """Log the setting in force and its reason."""
         now, load = quality.setting, quality.load
         why = "as set" if math.isnan(load) else f"an interval cost {load:.0%} of its time"
         text = (
@@ -166,7 +166,7 @@ class Simulation(ManagedNode):
             self.get_logger().info(text)
 
     def stopped(self, defect: Exception) -> None:
-        """Tell of the reason; a publisher refuses once a signal has shut ROS down."""
+        """Report the reason, unless a signal has shut down ROS."""
         if not self.context.ok():
             return
         if not isinstance(defect, (ValueError, ArithmeticError)):
@@ -178,11 +178,11 @@ class Simulation(ManagedNode):
     def running(self) -> LiveTwin:
         """Return the live twin."""
         if self._live is None:
-            raise ValueError("the simulation is not active, so its time stands still")
+            raise ValueError("the simulation is not active, so its time does not advance")
         return self._live
 
     def reset(self) -> Future[float]:
-        """Begin anew, at the operating point that the parameters give."""
+        """Start again at time zero, at the operating point of the parameters."""
         live, twin = self.running(), self._new_twin()
         instant = live.restart(twin)
         instant.result(timeout=self._longest_wait)
@@ -191,7 +191,7 @@ class Simulation(ManagedNode):
         return instant
 
     def stamp(self, instant: float) -> int:
-        """ROS time [ns] of a simulated instant [s]."""
+        """Return the ROS time [ns] of a simulated instant [s]."""
         return self._telemetry.stamp(instant)
 
     def _submit(self, parameters: list[Parameter]) -> None:
@@ -207,11 +207,11 @@ class Simulation(ManagedNode):
             self._submitted = self._live.ramp(values, self._ramp)
         else:
             self._submitted = self._live.submit(values)
-        if self._submitted is not before:  # changes between two intervals are one
+        if self._submitted is not before:  # otherwise merged with the change before
             self._submitted.add_done_callback(self._report_refusal)
 
     def _report_refusal(self, submitted: Future[float]) -> None:
-        """Say why the twin does not follow its parameters though they are within their ranges."""
+        """Warn if the twin refuses parameters that are within their ranges."""
         refusal = submitted.exception()
         if refusal is not None and self._live is not None:
             self.get_logger().warning(f"the twin does not follow its parameters: {refusal}")
@@ -232,12 +232,12 @@ class Simulation(ManagedNode):
         return response
 
     def _change(self, names: list[str], values: list[float], ramp: float) -> float:
-        """Set parameters and wait for the instant [s] at which the twin begins to follow."""
+        """Set parameters and return the instant [s] from which they apply."""
         if not 0.0 <= ramp <= LONGEST_RAMP:
             raise ValueError(f"ramp = {ramp:g} s: must be within 0 and {LONGEST_RAMP:g}")
         if len(names) != len(values) or not names:
             raise ValueError(
-                f"{len(names)} names for {len(values)} values: one each, at least one"
+                f"{len(names)} names for {len(values)} values: must be equal, and at least 1"
             )
         for name in names:
             if name not in pt.TUNABLES:
@@ -247,7 +247,7 @@ class Simulation(ManagedNode):
             if list(names).count(name) > 1:
                 raise ValueError(f"{name}: named twice")
         if self._live is None:
-            raise ValueError("the simulation is not active, so there is no instant to change at")
+            raise ValueError("the simulation is not active")
         parameters = [
             Parameter(name, Parameter.Type.DOUBLE, value)
             for name, value in zip(names, values, strict=True)
@@ -263,7 +263,7 @@ class Simulation(ManagedNode):
 
     @property
     def _longest_wait(self) -> float:
-        """Orders are taken up between two intervals, so this wait [s] is one interval long."""
+        """Longest wait for a command [s], which is executed between two intervals."""
         return 2.0 * self._given.period + 1.0
 
     def _natural_modes(
@@ -287,19 +287,20 @@ class Simulation(ManagedNode):
             return message
 
         message = self._telemetry.diagnose(report_now)
-        self._look_for_company()
+        self._warn_of_other_publishers()
         if report.verdict != self._verdict:
             self._verdict = report.verdict
             self._log(message.status[0])
 
-    def _look_for_company(self) -> None:
-        """Warn once of each that publishes as this twin does: who listens hears both."""
-        before, self._company = self._company, self.count_publishers("gearbox_state") - 1
-        if self._company > before:
+    def _warn_of_other_publishers(self) -> None:
+        """Warn once of each other publisher of the state: subscribers receive both."""
+        before = self._other_publishers
+        self._other_publishers = self.count_publishers("gearbox_state") - 1
+        if self._other_publishers > before:
             self.get_logger().warning("gearbox_state has another publisher: a replay, or a twin")
 
     def _log(self, status: DiagnosticStatus) -> None:
-        # A line of its own for each level: rclpy refuses one line with several.
+        # One call for each level: rclpy refuses a call with a varying level.
         if status.level == DiagnosticStatus.OK:
             self.get_logger().info(status.message)
         elif status.level == DiagnosticStatus.WARN:
@@ -313,9 +314,9 @@ class Simulation(ManagedNode):
         except RunawayError as reason:
             raise ValueError(str(reason)) from None
 
-    def _new_report(self, twin: pt.Twin, begun: Progress) -> RealTimeReport:
+    def _new_report(self, twin: pt.Twin, start: Progress) -> RealTimeReport:
         return RealTimeReport(
-            self.get_namespace(), self._given.rate_factor, self._given.period, twin.log, begun
+            self.get_namespace(), self._given.rate_factor, self._given.period, twin.log, start
         )
 
     def _running_twin(self) -> pt.Twin:
@@ -325,7 +326,7 @@ class Simulation(ManagedNode):
 
 
 def main(args: list[str] | None = None) -> int:
-    """Run the node until it is told to end."""
+    """Run the node until a signal ends it; returns the exit code."""
     sys.setswitchinterval(_SWITCH_INTERVAL)
     return run_node(Simulation, args)
 

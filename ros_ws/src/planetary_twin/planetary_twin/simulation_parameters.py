@@ -1,4 +1,4 @@
-"""What the simulation node can be told: its parameters, and what they mean together."""
+"""The parameters of the simulation node."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ from .parameters import (
 TOLERANCE = pt.Tunable(
     "tolerance",
     "",
-    "relative error of a step; 0: the tightest that the time left allows",
+    "relative error of a step; 0: the tightest that computing time allows",
     AUTOMATIC,
     TOLERANCES[1],
 )
@@ -47,20 +47,20 @@ _SETTINGS = (
 
 class SimulationParameters:
     """
-    Declares them on `node`, refuses what cannot be, and says what they ask for.
+    Declares the parameters on `node`, validates them and gives their values.
 
-    Raises `ValueError` where one that is given at the start is out of its range.
+    Raises `ValueError` if a value given at the start is invalid.
     """
 
     def __init__(self, node: ParameterNode) -> None:
         self._node = node
         given = node.given
         self._chosen = {name: number(name, given[name]) for name in pt.TUNABLES if name in given}
-        """Quantities whose values are not the scene's own, whichever scene it is."""
+        """Quantities that have been set; they keep their values if the scene changes."""
         name = declare_fixed(node, "scene", "paper", "packaged scene, or path of a YAML file")
         self.scene = pt.load_scene(name)
-        """As loaded, at the operating point given at the start."""
-        # First what may change: tools such as rqt_reconfigure list parameters in this order.
+        """The scene as loaded, at the operating point given at the start."""
+        # Changeable parameters first: tools such as rqt_reconfigure list them in this order.
         ladder_of(declare_tunable(node, TOLERANCE, AUTOMATIC, "/diagnostics"))
         self._declare_scene()
         _declare_settings(node)
@@ -72,7 +72,7 @@ class SimulationParameters:
         node.add_post_set_parameters_callback(self._follow)
 
     def read(self) -> None:
-        """Take over what may have been set while the node was unconfigured."""
+        """Read the parameters, which may have been set while the node was unconfigured."""
         value = {name: self._node.get_parameter(name).value for name in _SETTINGS}
         self.frame: str = value["frame_id"]
         self.frame_prefix: str = value["frame_prefix"]
@@ -87,11 +87,11 @@ class SimulationParameters:
 
     @property
     def period(self) -> float:
-        """Wall time for an interval [s]; the simulated time where it goes as fast as it can."""
+        """Wall time of an interval [s]; its simulated time if the rate factor is 0."""
         return 1.0 / (self.rate * (self.rate_factor or 1.0))
 
     def point(self) -> dict[str, float]:
-        """Return the operating point asked for now."""
+        """Return the operating point of the parameters."""
         return {name: self._node.get_parameter(name).value for name in pt.TUNABLES}
 
     def scene_now(self) -> pt.Scene:
@@ -99,7 +99,7 @@ class SimulationParameters:
         return self.scene.replace(**self.point())
 
     def quality(self, twin: pt.Twin) -> QualityControl:
-        """Return what chooses the setting as asked for, from the twin's present one on."""
+        """Return the quality control for the parameters, starting at the twin's setting."""
         wanted = self._node.get_parameter(TOLERANCE.name).value
         begin = Setting(twin.tolerance, twin.sample_rate)
         if self.rate_factor:
@@ -132,7 +132,7 @@ class SimulationParameters:
         return SetParametersResult(successful=True)
 
     def _follow(self, parameters: list[Parameter]) -> None:
-        """Note what has been chosen, and let another scene bring the rest."""
+        """Keep the values that were set, and change the scene if it was set."""
         self._chosen |= tunables(parameters)
         if any(p.name == "scene" for p in parameters):
             self._change_scene(self._wanted)
@@ -140,7 +140,7 @@ class SimulationParameters:
     def _change_scene(self, scene: pt.Scene) -> None:
         """Declare geometry and operating point again, with the ranges of another scene."""
         node = self._node
-        node.remove_on_set_parameters_callback(self._validate)  # there is no whole point meanwhile
+        node.remove_on_set_parameters_callback(self._validate)  # the point is incomplete meanwhile
         geometry = [f"{_GEARSET}.{name}" for name in node.get_parameters_by_prefix(_GEARSET)]
         for name in (*geometry, *pt.TUNABLES):
             node.undeclare_parameter(name)
@@ -150,15 +150,15 @@ class SimulationParameters:
 
 
 def _declare_settings(node: ParameterNode) -> None:
-    """Declare what may be set until the node is configured."""
-    declare_fixed(node, "frame_id", "gearbox", "frame of the gearbox's base")
-    declare_fixed(node, "frame_prefix", "", "before the names of all frames; for several twins")
-    declare_fixed(node, "tf", True, "publish /tf; false where robot_state_publisher does")
+    """Declare the parameters that may be set until the node is configured."""
+    declare_fixed(node, "frame_id", "gearbox", "base frame of the gearbox")
+    declare_fixed(node, "frame_prefix", "", "prefix of all frame names, for several twins")
+    declare_fixed(node, "tf", True, "publish /tf; false if robot_state_publisher does")
     declare_fixed(
         node,
         "continuous_joints",
         False,
-        "joint_states count whole turns, and positions do not jump by a turn",
+        "joint positions count whole turns instead of wrapping at one turn",
     )
     declare_bounded(
         node, "publish_rate", 100.0, (10.0, 1000.0), "messages per simulated second [Hz]"
@@ -167,21 +167,21 @@ def _declare_settings(node: ParameterNode) -> None:
         node,
         "wait_for",
         "",
-        f"node that records, such as the logger: the twin begins when it has subscribed, "
+        f"node that records, such as the logger: the twin starts when it has subscribed, "
         f"after {PATIENCE:g} s at most, and waits for it above real time and in steps",
     )
     declare_fixed(node, "clock", False, "publish simulated time on /clock")
-    declare_bounded(node, "sample_rate", 50e3, (1e3, 1e6), "samples of mesh_waveform [Hz]")
+    declare_bounded(node, "sample_rate", 50e3, (1e3, 1e6), "sample rate of mesh_waveform [Hz]")
     declare_rate_factor(node)
     declare_bounded(
         node,
         "compute_share",
         0.4,
         (0.05, 0.9),
-        "share of the time that computing may take where the tolerance is automatic [-]",
+        "share of the time that computing may take if the tolerance is automatic [-]",
     )
 
 
 def tunables(parameters: list[Parameter]) -> dict[str, float]:
-    """Those that change the operating point, by name."""
+    """Return the values in `parameters` that belong to the operating point, by name."""
     return {p.name: p.value for p in parameters if p.name in pt.TUNABLES}

@@ -1,7 +1,7 @@
 """
-The services of simulation_interfaces, which drive any simulator, for a twin's simulated time.
+The services of the standard package simulation_interfaces for a twin's simulated time.
 
-That package is part of ROS 2 Jazzy and no dependency: the wheels lack it.
+That package is part of ROS 2 Jazzy. It is an optional dependency, because the wheels lack it.
 """
 
 from __future__ import annotations
@@ -28,28 +28,29 @@ except ModuleNotFoundError:
 else:
     AVAILABLE = True
 
-_PATIENCE = 60.0  # [s] longest wait for an order to be carried out
+_PATIENCE = 60.0  # [s] longest wait for the execution of a command
 
 
-class Clockwork(Protocol):
-    """The simulation, as far as its time is concerned."""
+class TimeControl(Protocol):
+    """The part of a simulation that its services use."""
 
     def running(self) -> LiveTwin:
-        """Return the live twin; raises `ValueError` where there is none."""
+        """Return the live twin; raises `ValueError` if there is none."""
 
     def reset(self) -> Future[float]:
-        """Begin again at simulated time zero."""
+        """Start again at simulated time zero; the future returns the instant [s]."""
 
 
 class SimulationServices:
     """
-    `~/get_simulator_features`, `~/get_simulation_state` and the like of a node.
+    The services `~/get_simulator_features`, `~/get_simulation_state` and so on of `node`.
 
-    Needs `AVAILABLE`. A step is one published interval, which `interval` gives [s].
+    They act on `control` and need `AVAILABLE`. A step is one published interval, whose
+    duration [s] `interval` returns.
     """
 
-    def __init__(self, node: Node, clockwork: Clockwork, interval: Callable[[], float]) -> None:
-        self._clockwork = clockwork
+    def __init__(self, node: Node, control: TimeControl, interval: Callable[[], float]) -> None:
+        self._control = control
         self._interval = interval
         node.create_service(GetSimulatorFeatures, "~/get_simulator_features", self._features)
         node.create_service(GetSimulationState, "~/get_simulation_state", self._get)
@@ -83,7 +84,7 @@ class SimulationServices:
             return _refused(response, Result.RESULT_FEATURE_UNSUPPORTED, reason)
         if wanted == self._state():
             code = SetSimulationState.Response.ALREADY_IN_TARGET_STATE
-            return _refused(response, code, "is in this state already")
+            return _refused(response, code, "the simulation is already in this state")
         return self._carried_out(response, lambda live: self._move(live, wanted))
 
     def _step(self, request: Any, response: Any) -> Any:
@@ -95,23 +96,23 @@ class SimulationServices:
             ResetSimulation.Request.SCOPE_DEFAULT,
             ResetSimulation.Request.SCOPE_ALL,
         ):
-            reason = f"scope = {request.scope}: all (0 or 255) is reset at once"
+            reason = f"scope = {request.scope}: must be 0 or 255; only all can be reset"
             return _refused(response, Result.RESULT_FEATURE_UNSUPPORTED, reason)
-        return self._carried_out(response, lambda live: _wait(self._clockwork.reset()))
+        return self._carried_out(response, lambda live: _wait(self._control.reset()))
 
     def _move(self, live: LiveTwin, wanted: int) -> None:
-        """Bring the time of `live` into the state `wanted`."""
+        """Change the state of the time of `live` to `wanted`."""
         if wanted != SimulationState.STATE_PLAYING:
             _wait(live.pause(True))
         if wanted == SimulationState.STATE_STOPPED:
-            _wait(self._clockwork.reset())
+            _wait(self._control.reset())
         if wanted == SimulationState.STATE_PLAYING:
             _wait(live.pause(False))
 
     def _state(self) -> int:
-        """Return what stands for the twin's state: a node that is not active has no world."""
+        """Return the state in terms of the package: a node that is not active has no world."""
         try:
-            progress = self._clockwork.running().progress
+            progress = self._control.running().progress
         except ValueError:
             return int(SimulationState.STATE_NO_WORLD)
         if progress.state in (State.RUNNING, State.WAITING):
@@ -120,21 +121,21 @@ class SimulationServices:
             return int(SimulationState.STATE_STOPPED)
         return int(SimulationState.STATE_PAUSED)
 
-    def _carried_out(self, response: Any, order: Callable[[LiveTwin], None]) -> Any:
+    def _carried_out(self, response: Any, command: Callable[[LiveTwin], None]) -> Any:
         try:
-            live = self._clockwork.running()
+            live = self._control.running()
         except ValueError as refusal:
             return _refused(response, Result.RESULT_INCORRECT_STATE, str(refusal))
         try:
-            order(live)
+            command(live)
         except (ValueError, TimeoutError) as refusal:
             return _refused(response, Result.RESULT_OPERATION_FAILED, str(refusal))
         response.result.result = Result.RESULT_OK
         return response
 
 
-def _wait(order: Future[float]) -> None:
-    order.result(timeout=_PATIENCE)
+def _wait(command: Future[float]) -> None:
+    command.result(timeout=_PATIENCE)
 
 
 def _refused(response: Any, code: int, reason: str) -> Any:

@@ -1,4 +1,4 @@
-"""A standard error that nobody reads holds up no node."""
+"""Makes writes to standard error non-blocking, so that a stalled reader delays no node."""
 
 from __future__ import annotations
 
@@ -8,30 +8,30 @@ import stat
 from collections.abc import Iterator
 
 _NUMBER = 2
-_OURS = "/proc/self/fd/2"
+_PATH = "/proc/self/fd/2"
 
 
 @contextlib.contextmanager
 def never_waiting() -> Iterator[None]:
     """
-    Within, what is logged while the terminal stands still, or a pipe is full, is lost.
+    In the block, log lines are lost while the terminal is stopped or a pipe is full.
 
-    ROS logs with Python's global lock held: who waits there stops every thread of the process.
-    All lines are on /rosout as well. The mode is set on an opening of our own: the one that we
-    were given is also the shell's. A file never waits, and its place is shared with whoever else
-    writes into it; a socket cannot be opened anew: with both nothing changes.
+    ROS logs while it holds Python's global lock, so a blocked write would stop every thread of the
+    process. All lines are also published on /rosout. The mode is set on a new file description,
+    because the inherited one is shared with the shell. Files and sockets are left as they are: a
+    file never blocks and its offset is shared with other writers; a socket cannot be reopened.
     """
     if not (os.isatty(_NUMBER) or stat.S_ISFIFO(os.fstat(_NUMBER).st_mode)):
         yield
         return
     try:
-        ours = os.open(_OURS, os.O_WRONLY | os.O_NONBLOCK | os.O_NOCTTY)
-    except OSError:  # a terminal of somebody else
+        own = os.open(_PATH, os.O_WRONLY | os.O_NONBLOCK | os.O_NOCTTY)
+    except OSError:  # a terminal of another user
         yield
         return
     given = os.dup(_NUMBER)
-    os.dup2(ours, _NUMBER)
-    os.close(ours)
+    os.dup2(own, _NUMBER)
+    os.close(own)
     try:
         yield
     finally:

@@ -1,4 +1,4 @@
-"""Commands that ask and change a running twin."""
+"""Commands that read and change a running twin."""
 
 from __future__ import annotations
 
@@ -18,18 +18,20 @@ if TYPE_CHECKING:
     from .remote import Remote
 
 NAMESPACE = "/planetary_twin"
-Namespace = Annotated[str, typer.Option(help="Of the twin, where several run.")]
-# A value may begin with "-", which would else be taken for an option.
+Namespace = Annotated[str, typer.Option(help="Namespace of the twin.")]
+# A value may start with "-", which would otherwise be taken for an option.
 _NEGATIVE = {"ignore_unknown_options": True}
 
-Name = Annotated[str, typer.Argument(help="Of the parameter.", autocompletion=complete_parameter)]
+Name = Annotated[
+    str, typer.Argument(help="Name of the parameter.", autocompletion=complete_parameter)
+]
 
 param = typer.Typer(no_args_is_help=True, help="Parameters of a running twin.")
 
 
 @contextmanager
 def _twin(namespace: str) -> Iterator[Remote]:
-    """Reach the twin that runs; what it refuses ends the command in one line."""
+    """Connect to the running twin; a refusal ends the command with one line."""
     from .remote import Remote
 
     try:
@@ -57,7 +59,7 @@ def list_(namespace: Namespace = NAMESPACE) -> None:
         for setting in twin.settings():
             limits = "fixed" if setting.fixed else setting.limits
             table.add_row(setting.name, _shown(setting.value), limits, setting.description)
-        make_console(markup=False).print(table)  # units stand in brackets
+        make_console(markup=False).print(table)  # units are in brackets
 
 
 @param.command("get")
@@ -96,12 +98,12 @@ def op(
         list[str], typer.Argument(metavar="NAME=VALUE...", help="In SI, or with a unit.")
     ],
     ramp: Annotated[
-        float, typer.Option(help="Simulated seconds until they are reached.", min=0.0)
+        float, typer.Option(help="Simulated seconds until the values are reached.", min=0.0)
     ] = 0.0,
     namespace: Namespace = NAMESPACE,
 ) -> None:
     """
-    Change several quantities of a running twin at one simulated instant, or from it on.
+    Change several quantities of a running twin at one simulated instant, or in a ramp.
 
     Example: planetary-twin op input_speed=2000rpm lambda_ratio=1.5 --ramp 2
     """
@@ -113,7 +115,7 @@ def op(
 
 
 def _say_units(typed: Mapping[str, str]) -> None:
-    """Say of each quantity that is given as a bare number in which unit it was taken."""
+    """Print the unit that was assumed for each quantity without a unit."""
     from planetary_twin_py.scene import TUNABLES
     from planetary_twin_py.units import is_number
 
@@ -136,11 +138,11 @@ def _shown(value: Any) -> str:
 def monitor(
     namespace: Namespace = NAMESPACE,
     duration: Annotated[
-        float | None, typer.Option(help="Seconds to watch; without: until Ctrl-C.", min=0.1)
+        float | None, typer.Option(help="Time to watch [s]; without: until Ctrl-C.", min=0.1)
     ] = None,
 ) -> None:
     """
-    Show a running twin live: figures, and how they have changed.
+    Show the quantities of a running twin and their recent history.
 
     Example: planetary-twin monitor --duration 10
     """

@@ -1,4 +1,4 @@
-"""Listens to all that is to be recorded, serialised as it comes, and accounts for each message."""
+"""Receives the serialised messages to record, and counts recorded and lost ones by topic."""
 
 from __future__ import annotations
 
@@ -20,32 +20,32 @@ URDF_ATTACHMENT = "robot_description.urdf"
 _DESCRIPTION = "/robot_description"
 _STRING = "std_msgs/msg/String"
 _NOTHING: tuple[bytes, ...] = ()
-_REPORTED = 400  # messages after which the recording's progress is told
-_DEAF = 3.0  # [s] for which a subscription may find none of the publishers that there are
-_BATCH = 200  # messages of one topic before it is another's turn
+_REPORTED = 400  # messages between two calls of `progressed`
+_UNMATCHED = 3.0  # [s] after which a subscription without a publisher is created again
+_BATCH = 200  # messages of one topic before other topics have their turn
 _CDR_HEADER = 8  # bytes: encapsulation, then the length of the text with its closing zero
 
 
 class Sink(Protocol):
-    """Where messages go; each method raises `OSError` where they cannot."""
+    """Destination of messages; each method raises `OSError` if it cannot write."""
 
     def attach(self, name: str, data: bytes, media_type: str) -> None:
-        """Add a file beside the messages."""
+        """Add an attachment."""
 
     def add_topic(self, topic: Topic, account: TopicAccount) -> int:
-        """Open a channel."""
+        """Add a channel for `topic`, whose message counts are in `account`; returns its number."""
 
     def write(
         self, channel: int, data: bytes, log_time: int, publish_time: int, sequence: int
     ) -> None:
-        """Take one message."""
+        """Write one serialised message; times are in ns."""
 
 
 Failed = Callable[[OSError], None]
 
 
 class Tap:
-    """One recorded topic: its subscription, its channel in the sink, its account."""
+    """One recorded topic: its subscription, its channel in `sink` and its message counts."""
 
     def __init__(
         self,
@@ -58,7 +58,7 @@ class Tap:
     ) -> None:
         self.account = TopicAccount(latched)
         self.subscription: Subscription | None = None
-        self._matched = 0.0  # [s] when it last had a publisher, or was made
+        self._matched = 0.0  # [s] when it last had a publisher, or was created
         self._sink = sink
         self._own = own
         self._failed = failed
@@ -67,32 +67,33 @@ class Tap:
         self._describes = topic.type == _STRING and topic.name.endswith(_DESCRIPTION)
 
     def publishers(self) -> int:
-        """Count the publishers matched now, this node's own left out."""
+        """Return the number of matched publishers, without this node's own."""
         own = self._own is not _NOTHING
         return self.subscription.get_publisher_count() - own if self.subscription else 0
 
-    def listen(self, subscription: Subscription | None) -> None:
-        """Take messages from `subscription`, or from none."""
+    def use(self, subscription: Subscription | None) -> None:
+        """Receive messages from `subscription`; None: from no subscription."""
         self.subscription, self._matched = subscription, time.monotonic()
 
-    def deaf(self) -> bool:
+    def unmatched(self) -> bool:
         """
-        Whether the subscription has found no publisher for 3 s.
+        Return whether the subscription has had no publisher for 3 s.
 
-        Its QoS may be too strong for one that came later, or the match got lost.
+        Its QoS may be incompatible with a publisher that came later, or a discovery message was
+        lost.
         """
         if self.publishers():
             self._matched = time.monotonic()
-        return time.monotonic() > self._matched + _DEAF
+        return time.monotonic() > self._matched + _UNMATCHED
 
     def receive(self, raw: bytes, info: dict[str, Any]) -> None:
         """
-        Write a message, and those that wait behind it.
+        Write a message, and those queued behind it.
 
-        The executor would bring them one by one, at ten times the cost of writing one.
+        The executor would deliver them one by one, at ten times the cost of writing one.
         """
         subscription = self.subscription
-        if subscription is None:  # what was on its way when the tap was closed
+        if subscription is None:  # a message in transit when the tap was closed
             return
         self._write(raw, info)
         with subscription.handle:
@@ -118,19 +119,19 @@ class Tap:
         self.account.receive(number, self.publishers)
         self._accounted()
 
-    def told_of_loss(self, event: QoSMessageLostInfo) -> None:
-        """Hear from the middleware of messages it could not deliver."""
+    def on_message_lost(self, event: QoSMessageLostInfo) -> None:
+        """Count messages that the middleware could not deliver."""
         self.account.reported += event.total_count_change
 
 
 class Taps:
     """
-    The taps of one recording; `failed` hears why the sink takes no more.
+    The taps of one recording into `sink`, on subscriptions of `node`.
 
-    `progressed` is called after every 400 messages, of whatever topics.
-
-    What the node itself has published, of late in `own`, is not recorded: so a recording of a
-    replay holds what was replayed.
+    `chosen` are the topics to record; empty: those of the namespace. `own` are the newest messages
+    of the node itself, which are not recorded, so that a recording of a replay contains the
+    replayed messages only. `failed` is called with the exception if the sink cannot write,
+    `progressed` after every 400 messages of all topics.
     """
 
     def __init__(
@@ -154,12 +155,12 @@ class Taps:
 
     @property
     def accounts(self) -> dict[str, TopicAccount]:
-        """By topic; of all that were ever heard of."""
+        """Message counts by topic, of all topics found so far."""
         return {name: tap.account for name, tap in self._taps.items()}
 
     @property
-    def heard(self) -> dict[str, TopicAccount]:
-        """Accounts of topics that have a publisher now, or have had one."""
+    def matched(self) -> dict[str, TopicAccount]:
+        """Message counts of the topics that have, or have had, a publisher."""
         return {
             name: tap.account
             for name, tap in self._taps.items()
@@ -167,14 +168,14 @@ class Taps:
         }
 
     def discover(self) -> None:
-        """Subscribe to what there is."""
+        """Subscribe to new topics."""
         for name in wanted_topics(self._node, self._chosen):
             self._subscribe(name)
 
     def close(self) -> None:
-        """Listen no more; `discover` listens again."""
+        """Destroy the subscriptions; `discover` subscribes again."""
         for tap in self._taps.values():
-            self._leave(tap)
+            self._unsubscribe(tap)
 
     def _count(self) -> None:
         self._unreported += 1
@@ -182,22 +183,22 @@ class Taps:
             self._unreported = 0
             self._progressed()
 
-    def _leave(self, tap: Tap) -> None:
+    def _unsubscribe(self, tap: Tap) -> None:
         if tap.subscription is not None:
             self._node.destroy_subscription(tap.subscription)
-            tap.listen(None)
+            tap.use(None)
 
     def _subscribe(self, name: str) -> None:
         tap = self._taps.get(name)
-        everybody = self._node.get_publishers_info_by_topic(name)
+        all_publishers = self._node.get_publishers_info_by_topic(name)
         here = self._node.get_name(), self._node.get_namespace()
-        publishers = [p for p in everybody if (p.node_name, p.node_namespace) != here]
+        publishers = [p for p in all_publishers if (p.node_name, p.node_namespace) != here]
         if name in self._refused or not publishers:
             return
         if tap and tap.subscription:
-            if not tap.deaf():
+            if not tap.unmatched():
                 return
-            self._leave(tap)
+            self._unsubscribe(tap)
         try:
             topic = describe(name, publishers)
             kind = message_class(topic.type)
@@ -208,14 +209,14 @@ class Taps:
         qos = matching_qos(publishers)
         if tap is None:
             latched = qos.durability == DurabilityPolicy.TRANSIENT_LOCAL
-            own = self._own if len(publishers) < len(everybody) else _NOTHING
+            own = self._own if len(publishers) < len(all_publishers) else _NOTHING
             tap = self._taps[name] = Tap(
                 self._sink, topic, latched, own, self._failed, self._count
             )
-        tap.listen(self._subscription(kind, name, tap, qos))
+        tap.use(self._subscription(kind, name, tap, qos))
 
     def _subscription(self, kind: type, name: str, tap: Tap, qos: QoSProfile) -> Subscription:
-        events = SubscriptionEventCallbacks(message_lost=tap.told_of_loss)
+        events = SubscriptionEventCallbacks(message_lost=tap.on_message_lost)
         return self._node.create_subscription(
             kind, name, tap.receive, qos, raw=True, event_callbacks=events
         )

@@ -1,4 +1,4 @@
-"""What the twin publishes: one publisher, one message and one count per topic."""
+"""The publishers of the twin: one publisher, one message and one count per topic."""
 
 from __future__ import annotations
 
@@ -27,19 +27,20 @@ from .messages import (
     set_stamp,
 )
 from .simulation_parameters import SimulationParameters
-from .stamps import Rising, Stamps
+from .stamps import Stamps, StrictClock
 from .transforms import TransformsMessage
 
 _DEPTH = 10
 STALL = 10.0
-"""Simulated time [s] for which a reliable subscriber may be held up without losing a message."""
+"""Simulated time [s] for which a reliable subscriber may stall without losing a message."""
 
 
 class Telemetry:
     """
-    Publishes windows, operating points and diagnostics, stamped with their own ROS time.
+    Publishes intervals, operating points and diagnostics on `node`, stamped with their ROS time.
 
-    `before` has published on the same topics and is closed: its numbers and stamps are continued.
+    `given` are the parameters. `before` is the closed telemetry of the previous configuration,
+    whose sequence numbers and stamps are continued.
     """
 
     def __init__(
@@ -61,7 +62,7 @@ class Telemetry:
         self._end = 0.0
         newest = before._stamps.newest if before else 0
         self._stamps = Stamps(node.get_clock(), given.clock, newest)
-        self._now = before._now if before else Rising(node.get_clock())
+        self._now = before._now if before else StrictClock(node.get_clock())
         self._published = dict.fromkeys(self._topics, 0)
         if before is not None:
             self._continue(before)
@@ -69,7 +70,7 @@ class Telemetry:
     def _open(self, given: SimulationParameters) -> None:
         create = self._node.create_lifecycle_publisher
         kept = round(STALL * given.rate)
-        # A late subscriber gets these, too: the newest is the last.
+        # Late subscribers receive these, too, in order.
         latched = QoSProfile(depth=kept, durability=DurabilityPolicy.TRANSIENT_LOCAL)
         newest = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
         self._state = create(msg.GearboxState, "gearbox_state", kept)
@@ -103,47 +104,47 @@ class Telemetry:
             getattr(self, name).message.sequence = getattr(before, name).message.sequence
 
     def close(self) -> None:
-        """Let the publishers go."""
+        """Destroy the publishers."""
         for publisher in self._topics:
             self._node.destroy_lifecycle_publisher(publisher)
 
     def describe(self, urdf: str) -> None:
-        """Publish what the gearbox looks like."""
+        """Publish the robot description."""
         self._send(self._description, String(data=urdf))
 
     def originate(self, scene: Scene) -> None:
-        """Publish what the run that begins now follows from."""
+        """Publish the origin of the run that starts now: its scene and software."""
         origin = Origin(scene, self.stamp(0.0), makers_here())
         self._send(self._origin_of_run, String(data=origin.text()))
 
     def ready(self) -> bool:
-        """Whether there is a ROS time to stamp with."""
+        """Return whether ROS time is available."""
         return self._stamps.ready()
 
     def begin(self, simulated: float) -> None:
-        """Let time `simulated` [s] be now."""
+        """Map time `simulated` [s] to the present ROS time."""
         self._stamps.begin(simulated)
 
     def stamp(self, simulated: float) -> int:
-        """ROS time [ns] of simulated time `simulated` [s], of the newest interval or its end."""
+        """Return the ROS time [ns] of the instant `simulated` [s] in the newest interval."""
         return self._stamps.of(simulated)
 
     def streamed(self) -> dict[LifecyclePublisher, int]:
-        """Messages published so far on each topic that has one for each interval."""
+        """Return the number of messages by publisher, for topics with one message per interval."""
         return {stream: self._published[stream] for stream in self._streams}
 
     def prepare(self, window: Window) -> None:
         """
         Fill the messages that describe `window`.
 
-        They are sent in the order of their topics' names, in which recorders look for messages:
-        so they stand in a recording by the time at which they were received.
+        They are sent in the order of their topics' names, in which recorders take messages, so
+        that a recording is in the order of reception.
         """
         if self._joints_message is None:
             self._joints_message = JointsMessage(window.bodies, self._continuous)
         self._end = window.end
         self._prepared.clear()
-        if self._clock is not None:  # before what is stamped with it: nothing is of the future
+        if self._clock is not None:  # first: no message may be stamped later than the clock
             clock = self._clock_message
             self._prepared.append((self._clock, clock, [clock.clock], window.end))
         state, joints = self._state_message.fill(window), self._joints_message.fill(window)
@@ -159,7 +160,7 @@ class Telemetry:
             )
 
     def publish(self) -> None:
-        """Send what is prepared."""
+        """Stamp and publish the prepared messages."""
         self._stamps.reach(self._end)
         for publisher, message, times, instant in self._prepared:
             stamp = self.stamp(instant)
@@ -168,13 +169,13 @@ class Telemetry:
             self._send(publisher, message)
 
     def announce(self, point: OperatingPoint, instant: float) -> None:
-        """Publish the operating point in force from simulated time `instant` [s]."""
+        """Publish the operating point that applies from simulated time `instant` [s]."""
         message = self._point_message.fill(point, instant)
         set_stamp(message.header.stamp, self.stamp(instant))
         self._send(self._point, message)
 
     def diagnose(self, report: Callable[[Mapping[str, int]], DiagnosticArray]) -> DiagnosticArray:
-        """Stamp and publish what `report` makes of the message counts, its own message counted."""
+        """Stamp and publish the `report` on the message counts, which include this message."""
         counts = self._counts()
         counts[self._topics[self._diagnostics]] += 1
         message = report(counts)
@@ -183,7 +184,7 @@ class Telemetry:
         return message
 
     def _counts(self) -> dict[str, int]:
-        """Return how many messages have been published, by topic."""
+        """Return the number of published messages by topic."""
         return {topic: self._published[publisher] for publisher, topic in self._topics.items()}
 
     def _send(self, publisher: LifecyclePublisher, message: Any) -> None:

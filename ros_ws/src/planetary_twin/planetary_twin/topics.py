@@ -1,4 +1,4 @@
-"""Finds what there is to record in the ROS graph: names, types, and a QoS that gets everything."""
+"""Finds topics to record in the ROS graph: names, types, and a QoS that matches all publishers."""
 
 from __future__ import annotations
 
@@ -15,15 +15,15 @@ from planetary_twin_py.recording.ros2.schema import message_definition
 from .qos import to_words
 
 UNKNOWN_NODE = "_NODE_NAME_UNKNOWN_"
-"""Name that rmw gives the node of an endpoint until discovery names it, which it may never do."""
+"""Name in rmw for the node of an endpoint until discovery finds it, which may never happen."""
 _EVERYWHERE = ("/diagnostics", "/tf")
 
 
 def wanted_topics(node: Node, chosen: Sequence[str]) -> list[str]:
     """
-    Topics that exist and are to be recorded.
+    Return the names of existing topics to record.
 
-    `chosen` names them; without it, they are those that stand directly in the node's namespace,
+    These are the topics in `chosen`; if it is empty, those directly in the namespace of `node`,
     /diagnostics and /tf.
     """
     names = {name for name, _ in node.get_topic_names_and_types()}
@@ -35,7 +35,7 @@ def wanted_topics(node: Node, chosen: Sequence[str]) -> list[str]:
 
 
 def describe(name: str, publishers: Sequence[TopicEndpointInfo]) -> Topic:
-    """Return the topic as a bag describes it."""
+    """Return the description of the topic `name` for a bag."""
     first = publishers[0]
     return Topic(
         name=name,
@@ -47,7 +47,7 @@ def describe(name: str, publishers: Sequence[TopicEndpointInfo]) -> Topic:
 
 
 def message_class(type_name: str) -> type:
-    """Import the class of `pkg/msg/Name`; `ImportError` says that its package is not there."""
+    """Return the class of the message `pkg/msg/Name`; raises `ImportError` if there is none."""
     package, kind, name = type_name.split("/")
     try:
         return getattr(import_module(f"{package}.{kind}"), name)
@@ -57,10 +57,10 @@ def message_class(type_name: str) -> type:
 
 def matching_qos(publishers: Sequence[TopicEndpointInfo]) -> QoSProfile:
     """
-    Return the strongest profile that every publisher still meets.
+    Return the strictest profile that is compatible with every one of `publishers`.
 
-    It keeps all: what is received and waits for a slow disk is never overwritten. Where Fast DDS
-    has no more room (5000 messages), it leaves a reliable publisher to send the message again.
+    Its history is KEEP_ALL, so that a slow disk never causes received messages to be overwritten.
+    If the queue of Fast DDS is full (5000 messages), a reliable publisher sends the message again.
     """
     offered = [publisher.qos_profile for publisher in publishers]
     reliable = all(qos.reliability == ReliabilityPolicy.RELIABLE for qos in offered)

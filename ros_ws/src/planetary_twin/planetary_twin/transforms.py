@@ -1,4 +1,4 @@
-"""The frames of the gearbox on /tf, as robot_state_publisher makes them of joint states."""
+"""The frames of the gearbox on /tf, as robot_state_publisher computes them from joint states."""
 
 from __future__ import annotations
 
@@ -12,15 +12,15 @@ from planetary_twin_py.robot import Frame
 
 
 class TransformsMessage:
-    """TFMessage: a transform per frame, all turning about z; `prefix` goes before their names."""
+    """TFMessage with a rotation about z for each of `frames`; `prefix` precedes their names."""
 
     def __init__(self, frames: list[Frame], prefix: str) -> None:
         self._frames = frames
-        self.message = TFMessage(transforms=[_still(frame, prefix) for frame in frames])
+        self.message = TFMessage(transforms=[_unrotated(frame, prefix) for frame in frames])
         self.stamps = [transform.header.stamp for transform in self.message.transforms]
 
     def fill(self, window: Window) -> TFMessage:
-        """Describe the end of `window`."""
+        """Return the message for the end of `window`."""
         angle = dict(zip(window.bodies, window.angle, strict=True))
         for frame, transform in zip(self._frames, self.message.transforms, strict=True):
             half = 0.5 * frame.sign * float(angle[frame.body])
@@ -29,7 +29,7 @@ class TransformsMessage:
         return self.message
 
 
-def _still(frame: Frame, prefix: str) -> TransformStamped:
+def _unrotated(frame: Frame, prefix: str) -> TransformStamped:
     transform = TransformStamped(child_frame_id=prefix + frame.name)
     transform.header.frame_id = prefix + frame.parent
     translation = transform.transform.translation

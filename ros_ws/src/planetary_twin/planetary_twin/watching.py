@@ -1,4 +1,4 @@
-"""What a running twin publishes, as the records of a recording in the making."""
+"""The messages of a running twin as MCAP records."""
 
 from __future__ import annotations
 
@@ -20,25 +20,25 @@ from .client import Client
 from .network import stay_on_this_machine
 from .topics import message_class
 
-# A twin neither waits for who looks on nor sends again: what is missed is missed.
-_PASSING = QoSProfile(depth=100, reliability=ReliabilityPolicy.BEST_EFFORT)
+# A viewer must not delay the twin: lost messages are not sent again.
+_BEST_EFFORT = QoSProfile(depth=100, reliability=ReliabilityPolicy.BEST_EFFORT)
 _LATCHED = QoSProfile(depth=100, durability=DurabilityPolicy.TRANSIENT_LOCAL)
 _TOPICS = {
-    STATE: ("planetary_twin_msgs/msg/GearboxState", _PASSING),
-    WAVEFORM: ("planetary_twin_msgs/msg/MeshWaveform", _PASSING),
+    STATE: ("planetary_twin_msgs/msg/GearboxState", _BEST_EFFORT),
+    WAVEFORM: ("planetary_twin_msgs/msg/MeshWaveform", _BEST_EFFORT),
     POINT: ("planetary_twin_msgs/msg/OperatingPoint", _LATCHED),
     ORIGIN: ("std_msgs/msg/String", _LATCHED),
 }
 _BATCH = 0.1  # [s] between two batches
-_ROOM = 2000  # messages that wait for the next batch at most, some 100 MB
+_MAX_MESSAGES = 2000  # in the next batch, some 100 MB
 _SILENCE = 10.0  # [s] longest wait for a twin
 
 
 def follow(namespace: str, duration: float | None) -> Iterator[list[Any]]:
     """
-    Yield batches of MCAP records for `duration` [s], without it for ever.
+    Yield batches of MCAP records of the twin in `namespace` for `duration` [s]; None: forever.
 
-    Raises `RecordingError` where nothing publishes.
+    Raises `RecordingError` if no twin publishes.
     """
     stay_on_this_machine()
     with _Watch(namespace) as watch:
@@ -54,12 +54,12 @@ def follow(namespace: str, duration: float | None) -> Iterator[list[Any]]:
 
 
 class _Watch(Client):
-    """Hears a twin; of a backlog that nobody takes it keeps the newest."""
+    """Subscribes to a twin in `namespace`; keeps the newest messages until `take` is called."""
 
     def __init__(self, namespace: str) -> None:
         super().__init__("view", namespace)
-        self._heard: set[int] = set()
-        self._records: deque[Any] = deque(maxlen=_ROOM)
+        self._received: set[int] = set()  # numbers of topics
+        self._records: deque[Any] = deque(maxlen=_MAX_MESSAGES)
         self._definitions: list[Any] = []
         for number, (name, (kind, qos)) in enumerate(_TOPICS.items(), start=1):
             topic = self.node.resolve_topic_name(name)
@@ -74,25 +74,25 @@ class _Watch(Client):
                     schema_id=number,
                 ),
             ]
-            hear = partial(self._hear, number)
-            self.node.create_subscription(message_class(kind), name, hear, qos, raw=True)
+            callback = partial(self._on_message, number)
+            self.node.create_subscription(message_class(kind), name, callback, qos, raw=True)
 
     def complete(self) -> bool:
-        """Whether all that a picture needs has been heard."""
-        return {_number(STATE), _number(ORIGIN)} <= self._heard
+        """Return whether the messages that a picture needs have been received."""
+        return {_number(STATE), _number(ORIGIN)} <= self._received
 
     def take(self) -> list[Any]:
         """Return the records since the last call, definitions first."""
         definitions, self._definitions = self._definitions, []
-        count = len(self._records)  # what comes meanwhile is of the next batch
+        count = len(self._records)  # later messages belong to the next batch
         return definitions + [self._records.popleft() for _ in range(count)]
 
-    def _hear(self, number: int, data: bytes) -> None:
+    def _on_message(self, number: int, data: bytes) -> None:
         now = time.time_ns()
         self._records.append(
             Message(channel_id=number, data=data, log_time=now, publish_time=now, sequence=0)
         )
-        self._heard.add(number)
+        self._received.add(number)
 
 
 def _number(name: str) -> int:

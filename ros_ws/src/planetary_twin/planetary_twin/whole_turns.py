@@ -1,4 +1,4 @@
-"""Whole turns of the bodies of a gearbox, whose angles are known modulo a turn."""
+"""Whole turns of the bodies of a gearbox, whose angles are given modulo one turn."""
 
 from __future__ import annotations
 
@@ -11,14 +11,14 @@ from planetary_twin_py.recording.ros2.fields import TURN
 
 class WholeTurns:
     """
-    Counts them from the first window of a run on.
+    Counts whole turns from the first window of a run.
 
-    Angle and mean speed of a window, and the angle before it, leave one whole number; none of it
-    is rounded along the way, so nothing drifts.
+    The angles before and after a window and its mean speed determine one integer. Only this
+    integer is added up, so there is no drift.
     """
 
     def __init__(self) -> None:
-        self._end = np.nan  # [s] of the window before
+        self._end = np.nan  # [s] of the previous window
         self._angle: NDArray[np.float64] = np.empty(0)  # [rad]
         self._turns: NDArray[np.float64] = np.empty(0)
 

@@ -1,1 +1,1 @@
-"""What a live twin costs and how punctual it is, measured from outside its process."""
+"""Jitter, latency and cost of a live twin, measured from another process."""

@@ -1,4 +1,4 @@
-"""Listeners that only listen: each a participant of its own, as a program of its own would be."""
+"""Subscribers without further work, each a separate DDS participant, as separate programs are."""
 
 from __future__ import annotations
 
@@ -14,14 +14,14 @@ from rclpy.signals import SignalHandlerOptions
 TOPICS = {"gearbox_state": GearboxState, "mesh_waveform": MeshWaveform}
 
 
-def _listen(context: rclpy.Context, namespace: str) -> None:
+def _subscribe(context: rclpy.Context, namespace: str) -> None:
     node = rclpy.create_node("listener", namespace=namespace, context=context)
 
-    def hear(raw: bytes) -> None:
-        """Nothing: taking a message is what listening costs at least."""
+    def ignore(raw: bytes) -> None:
+        """Do nothing: receiving the message is the least cost of a subscription."""
 
     for name, kind in TOPICS.items():
-        node.create_subscription(kind, name, hear, 10, raw=True)
+        node.create_subscription(kind, name, ignore, 10, raw=True)
     executor = SingleThreadedExecutor(context=context)
     executor.add_node(node)
     with contextlib.suppress(ExternalShutdownException):
@@ -29,14 +29,14 @@ def _listen(context: rclpy.Context, namespace: str) -> None:
 
 
 def main(args: list[str] | None = None) -> int:
-    """Listen as often as the parameter `listeners` says, until a signal."""
+    """Subscribe with as many participants as the parameter `listeners` gives, until a signal."""
     rclpy.init(args=args)
     node = rclpy.create_node("audience")
     contexts = [rclpy.Context() for _ in range(node.declare_parameter("listeners", 1).value)]
     threads = []
     for context in contexts:
         rclpy.init(context=context, signal_handler_options=SignalHandlerOptions.NO)
-        threads.append(threading.Thread(target=_listen, args=(context, node.get_namespace())))
+        threads.append(threading.Thread(target=_subscribe, args=(context, node.get_namespace())))
         threads[-1].start()
     with contextlib.suppress(KeyboardInterrupt, ExternalShutdownException):
         rclpy.spin(node)

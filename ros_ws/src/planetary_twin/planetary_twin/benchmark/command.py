@@ -1,4 +1,4 @@
-"""`planetary-twin bench-live`: how punctual a live twin is, and what it costs."""
+"""`planetary-twin bench-live`: jitter, latency, processor share and memory of a live twin."""
 
 from __future__ import annotations
 
@@ -14,10 +14,10 @@ from planetary_twin_py.cli._figures import console_beside, put_figures
 
 def bench_live(
     duration: Annotated[
-        float, typer.Option(help="Of each measurement [s].", min=2.0, max=3600.0)
+        float, typer.Option(help="Duration of each measurement [s].", min=2.0, max=3600.0)
     ] = 20.0,
     memory: Annotated[
-        float, typer.Option(help="Of the measurement of the memory [s].", min=2.0)
+        float, typer.Option(help="Duration of the memory measurement [s].", min=2.0)
     ] = 60.0,
     json_: JsonOption = None,
     markdown: Annotated[

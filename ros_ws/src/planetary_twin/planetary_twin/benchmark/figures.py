@@ -1,4 +1,4 @@
-"""Figures of samples that are not normally distributed."""
+"""Statistics of samples that are not normally distributed."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ import numpy as np
 
 
 class Quantiles(NamedTuple):
-    """Of a sample; NaN where it is empty."""
+    """Quantiles of a sample; NaN if it is empty."""
 
     p50: float
     p99: float
@@ -24,7 +24,7 @@ class Quantiles(NamedTuple):
 
 
 class Slope(NamedTuple):
-    """Of a line through samples, by least squares."""
+    """Slope of a line through samples, by least squares."""
 
     value: float
     error: float  # standard error of `value`, as if the deviations were independent

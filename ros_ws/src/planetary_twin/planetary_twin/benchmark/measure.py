@@ -1,4 +1,4 @@
-"""The measurements: each starts a simulation of its own, in a process of its own."""
+"""The measurements of the live benchmark; each starts a simulation in a separate process."""
 
 from __future__ import annotations
 
@@ -20,35 +20,35 @@ from .process import processor_time, resident_memory
 
 RATES = (100.0, 1000.0)  # [Hz]
 AUDIENCES = (0, 1, 4, 16)
-SETS = 200  # parameter sets for a latency
-SETTLING = 5.0  # [s] after which a twin has found its tolerance and its steady running
-_LOOK = 0.5  # [s] between two looks at the memory
+SETS = 200  # parameter changes for the latency
+SETTLING = 5.0  # [s] after which a twin has settled its tolerance and runs steadily
+_PERIOD = 0.5  # [s] between two samples of the memory
 _VALUES = (1.5, 2.0)  # of the lambda ratio, in turn
 CASES = [("paper", AUTOMATIC, n) for n in AUDIENCES] + [
     (scene, tolerance, 1)
     for scene in ("differential", "wind_turbine_stage")
     for tolerance in (AUTOMATIC, 1e-3)
 ]
-"""Scene, tolerance and listeners of each measurement of the processor's share."""
+"""Scene, tolerance and number of subscribers of each measurement of the processor share."""
 Progress = Callable[[str], None]
 
 
 class Punctuality(NamedTuple):
-    """Of one publish rate; times in s."""
+    """Results for one publish rate; times in s."""
 
     rate: float  # [Hz]
     messages: int
     lost: int
-    sent: Quantiles  # jitter
-    came: Quantiles  # jitter
-    answer: Quantiles  # latency
-    shown: Quantiles  # latency
+    sent: Quantiles  # jitter by the publisher's stamps
+    came: Quantiles  # jitter by the subscriber's clock
+    answer: Quantiles  # latency of the response
+    shown: Quantiles  # latency of the first message with the new value
     real_time_factor: float
     overruns: int
 
 
 class Cost(NamedTuple):
-    """Of one simulation with so many listeners."""
+    """Processor share of one simulation with `listeners` subscribers."""
 
     scene: str
     tolerance: float
@@ -60,7 +60,7 @@ class Cost(NamedTuple):
 
 
 class Memory(NamedTuple):
-    """Resident memory over `duration` [s] of running with one listener."""
+    """Resident memory over `duration` [s] with one subscriber."""
 
     duration: float
     begin: float  # [MB]
@@ -69,17 +69,22 @@ class Memory(NamedTuple):
 
 
 class Figures(NamedTuple):
-    """All that was measured."""
+    """All results."""
 
     machine: str
-    duration: float  # [s] of each measurement but that of the memory
+    duration: float  # [s] of each measurement except that of the memory
     punctuality: list[Punctuality]
     costs: list[Cost]
     memory: Memory
 
 
 def measure(duration: float, memory: float, progress: Progress) -> Figures:
-    """Measure everything, `duration` [s] each, the memory for `memory` [s]."""
+    """
+    Run all measurements and return the results.
+
+    Each takes `duration` [s], that of the memory `memory` [s]. `progress` receives a line of text
+    for each step.
+    """
     machine, bench = _machine(), Bench(duration, progress)
     return Figures(
         machine,
@@ -97,7 +102,7 @@ def _machine() -> str:
 
 
 class Bench:
-    """Runs simulations in a namespace of their own, `duration` [s] for each measurement."""
+    """Measures simulations in a separate namespace, each for `duration` [s]."""
 
     def __init__(self, duration: float, progress: Progress) -> None:
         stay_on_this_machine()
@@ -106,7 +111,7 @@ class Bench:
         self._namespace = f"/bench_{os.getpid()}"
 
     def punctuality(self, rate: float) -> Punctuality:
-        """Jitter of messages and latency of a parameter at `rate` [Hz]."""
+        """Measure the jitter of messages and the latency of a parameter at `rate` [Hz]."""
         with ExitStack() as stack:
             simulation = self._simulation(stack, publish_rate=rate)
             meter = stack.enter_context(Meter(self._namespace, simulation))
@@ -116,7 +121,7 @@ class Bench:
             before = int(meter.figures["overruns"])
             self._run(self._duration, f"{rate:g} Hz: jitter", simulation)
             sent, came = meter.jitter(1.0 / rate)
-            heard, lost = meter.heard, meter.lost
+            received, lost = meter.received, meter.lost
             figures = meter.figures
             latencies = []
             for k in range(SETS):
@@ -125,12 +130,12 @@ class Bench:
                 time.sleep(random.uniform(0.02, 0.05))  # at any phase of an interval
         answer, shown = (Quantiles.of(times) for times in zip(*latencies, strict=True))
         return Punctuality(
-            rate, heard, lost, sent, came, answer, shown,
+            rate, received, lost, sent, came, answer, shown,
             float(figures["real_time_factor"]), int(figures["overruns"]) - before,
         )  # fmt: skip
 
     def cost(self, scene: str, tolerance: float, listeners: int) -> Cost:
-        """Processor share of a simulation; the only listeners are those asked for."""
+        """Measure the processor share of a simulation with exactly `listeners` subscribers."""
         with ExitStack() as stack:
             simulation = self._simulation(stack, scene=scene, tolerance=tolerance)
             what = f"{scene}, {listeners} listeners"
@@ -154,7 +159,7 @@ class Bench:
         )  # fmt: skip
 
     def memory(self, duration: float) -> Memory:
-        """Resident memory and its slope."""
+        """Measure the resident memory and its slope for `duration` [s]."""
         with ExitStack() as stack:
             simulation = self._simulation(stack)
             meter = stack.enter_context(Meter(self._namespace, simulation))
@@ -166,7 +171,7 @@ class Bench:
                 times.append(now / 3600.0)
                 sizes.append(resident_memory(simulation.pid))
                 meter.forget()
-                self._run(_LOOK, f"memory: {now:.0f} of {duration:g} s", simulation)
+                self._run(_PERIOD, f"memory: {now:.0f} of {duration:g} s", simulation)
         return Memory(duration, sizes[0], sizes[-1], Slope.of(times, sizes))
 
     def _simulation(self, stack: ExitStack, **parameters: object) -> Child:

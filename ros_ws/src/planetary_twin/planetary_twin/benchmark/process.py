@@ -1,4 +1,4 @@
-"""What the kernel knows of a process."""
+"""Processor time and memory of a process, from the kernel."""
 
 from __future__ import annotations
 
@@ -10,21 +10,21 @@ _PAGE = os.sysconf("SC_PAGE_SIZE")
 
 
 def processor_time(pid: int) -> float:
-    """Of all threads, in user and system mode [s]."""
+    """Return the processor time [s] of all threads of process `pid`, in user and system mode."""
     fields = Path(f"/proc/{pid}/stat").read_text().rpartition(")")[2].split()
     return (int(fields[11]) + int(fields[12])) / _TICKS
 
 
 def resident_memory(pid: int) -> float:
-    """Resident memory [MB]."""
+    """Return the resident memory [MB] of process `pid`."""
     return _pages(pid)[1] * _PAGE / 1e6
 
 
 def own_memory(pid: int) -> float:
     """
-    Of the resident memory, what is neither of a file nor shared [MB].
+    Return the resident memory [MB] of process `pid` that is neither shared nor of a file.
 
-    The middleware's rings, which are both, become resident as they are first written to.
+    The ring buffers of the middleware are both; they become resident when first written.
     """
     _, resident, shared, *_ = _pages(pid)
     return (resident - shared) * _PAGE / 1e6
@@ -35,6 +35,6 @@ def _pages(pid: int) -> list[int]:
 
 
 def waited_for_processor(pid: int) -> float:
-    """Time [s] that threads of the process could have run, and others ran instead."""
+    """Return the time [s] for which threads of process `pid` waited while others ran."""
     tasks = Path(f"/proc/{pid}/task").iterdir()
     return sum(int((task / "schedstat").read_text().split()[1]) for task in tasks) * 1e-9

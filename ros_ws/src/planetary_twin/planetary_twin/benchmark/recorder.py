@@ -1,4 +1,4 @@
-"""How much the logger records without loss, at what cost, and how late it is on disk."""
+"""Measures the highest rate that the logger records without loss, its cost and its latency."""
 
 from __future__ import annotations
 
@@ -25,11 +25,11 @@ from .process import processor_time
 from .tail import Tail
 
 SIZES = (100, 1_000, 100_000)  # bytes
-_SLOWEST = {100: 500.0, 1_000: 500.0, 100_000: 50.0}  # [Hz] from which the search begins
-_FINER = 3  # halvings of the interval in which the highest rate is
+_SLOWEST = {100: 500.0, 1_000: 500.0, 100_000: 50.0}  # [Hz] first rate of the search
+_BISECTIONS = 3  # of the interval that contains the highest rate
 _START = 60.0  # [s]
 _FLUSH_PERIOD = 0.5  # [s]
-_DRAIN = 0.3  # [s] beyond the flush period, after which a logger has fallen behind
+_DRAIN = 0.3  # [s] beyond the flush period; a later logger has fallen behind
 _PATIENCE = 30.0  # [s]
 _DEPTH = 1000
 _BARE_MEGABYTES = 100.0
@@ -38,36 +38,40 @@ Progress = Callable[[str], None]
 
 
 class Trial(NamedTuple):
-    """One rate, kept up for a while."""
+    """The result for one rate."""
 
-    rate: float  # [Hz] as it was sent
+    rate: float  # [Hz] as sent
     lost: int
     behind: float  # [s] from the last message sent to the last one in the file
-    cores: float  # share of one core that the logger took
-    latency: Quantiles  # [s] from a message to its chunk in the file, of the oldest in each
+    cores: float  # share of one core used by the logger
+    latency: Quantiles  # [s] from a message to its chunk in the file, of the oldest in each chunk
 
     @property
     def sustained(self) -> bool:
-        """Whether it could go on like this."""
+        """Whether the logger keeps up with this rate without loss."""
         return not self.lost and self.behind < _FLUSH_PERIOD + _DRAIN
 
 
 class Throughput(NamedTuple):
-    """Of one size of messages."""
+    """The result for one message size."""
 
     size: int  # bytes
     best: Trial  # highest rate sustained
-    limit: str  # what keeps it from going higher
-    bare_rate: float  # [Hz] of the mcap writer fed from memory
+    limit: str  # what limits the rate
+    bare_rate: float  # [Hz] of the mcap writer alone
 
     @property
     def megabytes(self) -> float:
-        """Per second, recorded."""
+        """Recorded megabytes per second."""
         return self.best.rate * self.size * 1e-6
 
 
 def measure(duration: float, directory: Path, progress: Progress) -> list[Throughput]:
-    """Measure every size, each rate for `duration` [s], on the disk of `directory`."""
+    """
+    Measure every message size on the disk of `directory` and return the results.
+
+    Each rate is sent for `duration` [s]. `progress` receives a line of text for each step.
+    """
     stay_on_this_machine()
     return [_throughput(size, duration, directory, progress) for size in SIZES]
 
@@ -96,7 +100,7 @@ def _throughput(size: int, duration: float, directory: Path, progress: Progress)
         elif low is None:
             rate *= 0.5
         else:
-            if high / low.rate < 2.0 ** (1.0 / 2**_FINER) or step > 16:
+            if high / low.rate < 2.0 ** (1.0 / 2**_BISECTIONS) or step > 16:
                 break
             rate = (low.rate * high) ** 0.5
     assert low is not None
@@ -104,7 +108,7 @@ def _throughput(size: int, duration: float, directory: Path, progress: Progress)
 
 
 def run_trial(size: int, rate: float, duration: float, directory: Path) -> Trial:
-    """Send messages of `size` bytes at `rate` [Hz] for `duration` [s] past a logger."""
+    """Send messages of `size` bytes at `rate` [Hz] for `duration` [s] to a logger."""
     namespace = f"/bench_{os.getpid()}"
     parameters = {
         "directory": directory,
@@ -131,21 +135,21 @@ def run_trial(size: int, rate: float, duration: float, directory: Path) -> Trial
 
 
 class _Sender(Client):
-    """Publishes beside a logger, and hears its account."""
+    """Publishes messages in the namespace of a logger, and receives its message counts."""
 
     def __init__(self, namespace: str, logger: Child) -> None:
         super().__init__("sender", namespace, logger.check)
         self._publisher = self.node.create_publisher(String, "numbers", QoSProfile(depth=_DEPTH))
         self._status = RecorderStatus()
-        self.node.create_subscription(RecorderStatus, "logger/status", self._hear, 10)
+        self.node.create_subscription(RecorderStatus, "logger/status", self._on_status, 10)
 
     def begin(self) -> None:
-        """Wait until the logger hears."""
+        """Wait until the logger has subscribed."""
         if not self.wait(lambda: self._status.topics, _START):
-            raise RunError("logger: does not hear the sender")
+            raise RunError("logger: does not subscribe to the sender")
 
     def send(self, payload: Payload, rate: float, duration: float) -> int:
-        """Publish evenly; returns the number of messages."""
+        """Publish at `rate` [Hz] for `duration` [s]; returns the number of messages."""
         begin, count = time.monotonic(), 0
         while (now := time.monotonic() - begin) < duration:
             if now * rate < count:
@@ -156,22 +160,22 @@ class _Sender(Client):
         return count
 
     def recorded(self) -> int:
-        """By the logger's account."""
+        """Return the number of messages that the logger reports as recorded."""
         return sum(self._status.recorded)
 
     def accounted(self) -> int:
-        """Count what is recorded or lost, by the logger's account."""
+        """Return the number of messages that the logger reports as recorded or lost."""
         return self.recorded() + sum(self._status.lost)
 
-    def _hear(self, status: RecorderStatus) -> None:
+    def _on_status(self, status: RecorderStatus) -> None:
         self._status = status
 
 
 class Payload:
-    """Serialised Strings of `size` bytes that compress as measured floats do, each another."""
+    """Distinct serialised Strings of `size` bytes that compress as well as measured floats."""
 
     def __init__(self, size: int) -> None:
-        # Longer than a chunk, so that none finds its message again.
+        # Longer than a chunk, so that no message occurs twice in a chunk.
         floats = np.random.default_rng(1).normal(size=1_000_000).astype(np.float32)
         self._text = floats.tobytes()
         self._length = size - _HEADER - 1
@@ -184,7 +188,7 @@ class Payload:
 
 
 def bare_rate(size: int, file: Path) -> float:
-    """Messages a second of the mcap writer alone, its file on the disk at the end."""
+    """Return the messages per second of the mcap writer alone, with `file` synced to the disk."""
     payload = Payload(size)
     count = min(round(_BARE_MEGABYTES * 1e6 / size), 200_000)
     with file.open("wb") as stream:

@@ -1,4 +1,4 @@
-"""`planetary-twin bench-recorder`: how much the logger records without loss."""
+"""`planetary-twin bench-recorder`: the highest rate that the logger records without loss."""
 
 from __future__ import annotations
 
@@ -18,9 +18,11 @@ if TYPE_CHECKING:
 
 
 def bench_recorder(
-    duration: Annotated[float, typer.Option(help="Of each rate [s].", min=1.0, max=600.0)] = 4.0,
+    duration: Annotated[
+        float, typer.Option(help="Duration of each rate [s].", min=1.0, max=600.0)
+    ] = 4.0,
     directory: Annotated[
-        Path, typer.Option(help="On the disk to measure; what is written is deleted.")
+        Path, typer.Option(help="Folder on the disk to measure; its new files are deleted.")
     ] = Path("."),
     json_: JsonOption = None,
 ) -> None:

@@ -1,4 +1,4 @@
-"""The figures of the live benchmark, for a terminal, for a page and for machines."""
+"""The results of the live benchmark as tables, as a page and as JSON values."""
 
 from __future__ import annotations
 
@@ -9,13 +9,13 @@ from rich.table import Table
 
 from .measure import Figures, Punctuality
 
-CORES = 0.25  # aim: share of one core, 100 Hz, waveform at 50 kHz
-RESIDENT = 350.0  # [MB] aim
-SLOPE = 1.0  # [MB/h] aim
+CORES = 0.25  # target: share of one core, 100 Hz, waveform at 50 kHz
+RESIDENT = 350.0  # [MB] target
+SLOPE = 1.0  # [MB/h] target
 
 
 def as_json(figures: Figures) -> dict[str, Any]:
-    """For machines; times in s, memory in MB and MB/h."""
+    """Return the values for `--json`; times in s, memory in MB and MB/h."""
     return {
         "machine": figures.machine,
         "duration": figures.duration,
@@ -26,7 +26,7 @@ def as_json(figures: Figures) -> dict[str, Any]:
 
 
 def _plain(value: Any) -> Any:
-    """Return a record as a dictionary, whatever records it holds."""
+    """Return a record, and the records in it, as dictionaries."""
     if hasattr(value, "_asdict"):
         return {name: _plain(part) for name, part in value._asdict().items()}
     return value
@@ -41,7 +41,7 @@ _MEMORY: Row = ("seconds", "start", "end", "slope", "standard error")
 
 
 def tables(figures: Figures) -> list[tuple[Row, list[Row]]]:
-    """Titles and rows."""
+    """Return the titles and rows of each table."""
     times = [row for p in figures.punctuality for row in _times(p)]
     costs = [
         (
@@ -72,7 +72,7 @@ def _times(p: Punctuality) -> list[Row]:
 
 
 def remarks(figures: Figures) -> list[str]:
-    """Return messages and losses, which are not in the tables."""
+    """Return a line on messages and losses for each publish rate."""
     return [
         f"{p.rate:g} Hz: {p.messages} messages in {figures.duration:g} s, {p.lost} lost in "
         f"transit, real-time factor {p.real_time_factor:.4f}, {p.overruns} overruns"
@@ -81,7 +81,7 @@ def remarks(figures: Figures) -> list[str]:
 
 
 def as_tables(figures: Figures) -> list[Table]:
-    """For the terminal."""
+    """Return the tables for a terminal."""
     made = []
     for titles, rows in tables(figures):
         table = Table(box=None, header_style="bold", pad_edge=False)
@@ -95,7 +95,7 @@ def as_tables(figures: Figures) -> list[Table]:
 
 
 def as_markdown(figures: Figures, command: str) -> str:
-    """Return the page `docs/real-time.md`."""
+    """Return the text of `docs/real-time.md`; `command` is the command that produces it."""
     times, costs, memory = (_markdown(*table) for table in tables(figures))
     notes = "\n".join(f"- {remark}." for remark in remarks(figures))
     return f"""# Real time, measured

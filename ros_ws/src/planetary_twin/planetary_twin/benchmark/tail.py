@@ -1,4 +1,4 @@
-"""Follows a recording from outside while it is written: what is in the file, and how late."""
+"""Follows a recording while another process writes it: number and age of messages in the file."""
 
 from __future__ import annotations
 
@@ -19,12 +19,12 @@ _POLL = 2e-3  # [s]
 
 
 class Tail:
-    """Reads the chunks of `file` as they appear, in a thread of its own."""
+    """Reads the chunks of `file` as they appear, in a separate thread."""
 
     def __init__(self, file: Path) -> None:
         self.messages = 0
         self.latencies: list[float] = []
-        """Of each chunk: age of its oldest message when all of it is in the file [s]."""
+        """Age of the oldest message of each chunk when the chunk is complete in the file [s]."""
         self.newest = 0.0
         """Monotonic time at which the last chunk appeared [s]."""
         self._file = file
@@ -53,7 +53,7 @@ class Tail:
                     pass
 
     def _advance(self, stream: BinaryIO) -> bool:
-        """Go past the next record, if it is in the file wholly."""
+        """Move past the next record; returns False if it is not complete in the file."""
         stream.seek(self._place)
         head = stream.read(_RECORD.size)
         if len(head) < _RECORD.size:

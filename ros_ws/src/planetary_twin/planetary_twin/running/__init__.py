@@ -1,1 +1,1 @@
-"""One run: two nodes as processes, a user who turns the knobs, and what came of it."""
+"""One run: two nodes as processes, changes of the operating point, and the outcome."""

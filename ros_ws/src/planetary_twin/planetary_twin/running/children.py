@@ -1,4 +1,4 @@
-"""Nodes as child processes that never outlive the run."""
+"""Nodes as child processes, which end with the run."""
 
 from __future__ import annotations
 
@@ -18,19 +18,19 @@ _PATIENCE = {signal.SIGINT: 10.0, signal.SIGTERM: 3.0, signal.SIGKILL: 3.0}  # [
 
 
 def _end_with_parent() -> None:
-    """Have the kernel send SIGTERM when the run dies without a chance to end its nodes."""
+    """Make the kernel send SIGTERM to this process when its parent dies."""
     ctypes.CDLL(None).prctl(_PR_SET_PDEATHSIG, signal.SIGTERM)
 
 
 class RunError(RuntimeError):
-    """A run that cannot go on; the message says why in one line."""
+    """A run cannot continue; the message gives the reason in one line."""
 
 
 class Child:
     """
-    A node of this package, started with `parameters` in `namespace`.
+    A process with the `node` of this package, started with `parameters` in `namespace`.
 
-    It stands in a session of its own: Ctrl-C reaches the run alone, which ends its nodes in order.
+    It has its own session: Ctrl-C reaches the run only, which ends its nodes in order.
     """
 
     def __init__(self, node: str, namespace: str, parameters: Mapping[str, object]) -> None:
@@ -51,7 +51,7 @@ class Child:
 
     @property
     def pid(self) -> int:
-        """Of the process."""
+        """Id of the process."""
         return self._process.pid
 
     def __enter__(self) -> Self:
@@ -73,10 +73,10 @@ class Child:
             return
         if code < 0:
             raise RunError(f"{self.node}: ended by {signal.Signals(-code).name}")
-        raise RunError(self.last_words() or f"{self.node}: ended with exit code {code}")
+        raise RunError(self.last_line() or f"{self.node}: ended with exit code {code}")
 
     def stop(self) -> int:
-        """End the process, the gentle way first; returns its exit code."""
+        """End the process with SIGINT, then SIGTERM, then SIGKILL; returns its exit code."""
         for number, patience in _PATIENCE.items():
             if self._process.poll() is None:
                 with contextlib.suppress(ProcessLookupError):
@@ -85,17 +85,17 @@ class Child:
                     self._process.wait(patience)
         return self._process.returncode
 
-    def words(self) -> str:
-        """Return all that the process has printed."""
+    def output(self) -> str:
+        """Return the output of the process."""
         self._log.seek(0)
         return self._log.read().decode(errors="replace")
 
-    def last_words(self) -> str:
-        """Return the last line the process printed, or nothing."""
-        lines = self.words().strip().splitlines()
+    def last_line(self) -> str:
+        """Return the last line of the output; empty without one."""
+        lines = self.output().strip().splitlines()
         return lines[-1] if lines else ""
 
-    def complaint(self) -> str:
-        """Return what the node has last logged as an error, or nothing."""
-        lines = [line for line in self.words().splitlines() if line.startswith("[ERROR]")]
+    def last_error(self) -> str:
+        """Return the last error that the node logged; empty without one."""
+        lines = [line for line in self.output().splitlines() if line.startswith("[ERROR]")]
         return lines[-1].partition("]: ")[2] if lines else ""

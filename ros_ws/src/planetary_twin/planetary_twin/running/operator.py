@@ -1,4 +1,4 @@
-"""Acts on a running twin as a user does: through its life cycle, its parameters, its topics."""
+"""Controls a running twin as a user does: by its life cycle, its parameters and its topics."""
 
 from __future__ import annotations
 
@@ -20,39 +20,38 @@ from .children import RunError
 
 _NODE = "simulation"
 _POLL = 0.1  # [s]
-_REPORTED = 3.0  # [s] for which a report, one each second, tells how it is now
+_REPORTED = 3.0  # [s] for which a report, sent once a second, is up to date
 
 
 class Operator(Client):
     """
-    Beside the two nodes of a run.
+    The node that controls the two nodes of a run in `namespace`.
 
-    What it hears is kept as the newest `state`, `recorder` and real-time `figures`, and as the
-    `recordings` there were.
+    It keeps the newest `state`, the newest status of the `recorder`, the newest real-time
+    `figures`, and the names of all `recordings`. `watch` is called repeatedly while it waits.
     """
 
     def __init__(self, namespace: str, watch: Callable[[], None]) -> None:
         super().__init__("operator", namespace, watch)
         self.state: GearboxState | None = None
         self.recorder = RecorderStatus()
-        self.recordings: dict[str, None] = {}  # names of their folders, in their order
+        self.recordings: dict[str, None] = {}  # names of the folders, in order
         self.figures: dict[str, str] = {}
-        self._told = 0.0  # [s] when they came
-        self._moved = 0.0  # [s] when the newest state came
-        listen = self.node.create_subscription
-        listen(GearboxState, "gearbox_state", self._hear_state, 10)
-        listen(RecorderStatus, "logger/status", self._hear_recorder, 10)
-        listen(DiagnosticArray, "/diagnostics", self._hear_diagnostics, 100)
+        self._reported = 0.0  # [s] when the figures were received
+        self._advanced = 0.0  # [s] when the newest state was received
+        subscribe = self.node.create_subscription
+        subscribe(GearboxState, "gearbox_state", self._on_state, 10)
+        subscribe(RecorderStatus, "logger/status", self._on_status, 10)
+        subscribe(DiagnosticArray, "/diagnostics", self._on_diagnostics, 100)
         self._change = self._client(ChangeState, "change_state")
         self._get = self._client(GetState, "get_state")
         self._set = self._client(SetParametersAtomically, "set_parameters_atomically")
 
     def next_state(self, after: int, seconds: float) -> GearboxState | None:
         """
-        Return the newest state whose number is above `after`; None while simulated time stands.
+        Return the newest state whose number exceeds `after`; None while simulated time is halted.
 
-        Raises `RunError` where the twin has failed, or after `seconds` without a state in which
-        it runs.
+        Raises `RunError` if the twin has failed, or after `seconds` without a state.
         """
         deadline = time.monotonic() + seconds
 
@@ -62,28 +61,28 @@ class Operator(Client):
         while not self.wait(later, _POLL):
             if failure := self.figures.get("failure"):
                 raise RunError(f"simulation: {failure}")
-            if self.stands():
+            if self.halted():
                 return None
             if time.monotonic() > deadline:
                 raise RunError(f"simulation: {self._silent(seconds)}")
         return self.state
 
     def _silent(self, seconds: float) -> str:
-        """Say why no state has come for `seconds`."""
+        """Return the reason why no state has been received for `seconds`."""
         answer = self.call(self._get, GetState.Request())
         label = answer.current_state.label if answer else ""
         if label in ("", "active"):
             return f"publishes no state within {seconds:g} s"
-        return f"was made {label} by a request to its life cycle"
+        return f"is {label} after a lifecycle request"
 
-    def stands(self) -> str:
-        """`paused`, `waits` or nothing, as a report says that came lately and after all states."""
-        told = self.figures.get("state", "")
-        recent = max(time.monotonic() - _REPORTED, self._moved) < self._told
-        return told if recent and told in ("paused", "waits") else ""
+    def halted(self) -> str:
+        """Return `paused` or `waits` if the newest report, after all states, says so, else ''."""
+        state = self.figures.get("state", "")
+        recent = max(time.monotonic() - _REPORTED, self._advanced) < self._reported
+        return state if recent and state in ("paused", "waits") else ""
 
-    def company(self) -> list[str]:
-        """Names of others that publish a twin's state in this namespace."""
+    def other_publishers(self) -> list[str]:
+        """Return the names of other nodes that publish a twin's state in this namespace."""
         topic = self.node.resolve_topic_name("gearbox_state")
         publishers = self.node.get_publishers_info_by_topic(topic)
         names = [f"{p.node_namespace.rstrip('/')}/{p.node_name}" for p in publishers]
@@ -92,8 +91,12 @@ class Operator(Client):
             names.remove(own)
         return [name for name in names if not name.endswith(UNKNOWN_NODE)]
 
-    def bring(self, transition: str, begin: str, goal: str, seconds: float) -> None:
-        """Take the simulation through a lifecycle `transition` from state `begin` to `goal`."""
+    def change_state(self, transition: str, begin: str, goal: str, seconds: float) -> None:
+        """
+        Make the simulation execute a lifecycle `transition` from state `begin` to state `goal`.
+
+        Raises `RunError` if it refuses, or after `seconds`.
+        """
         deadline = time.monotonic() + seconds
         while time.monotonic() < deadline:
             answer = self.call(self._get, GetState.Request())
@@ -112,7 +115,7 @@ class Operator(Client):
         raise RunError(f"simulation: does not {transition} within {seconds:g} s")
 
     def set(self, values: Mapping[str, float]) -> None:
-        """Set parameters at one instant; raises `RunError` with the reason of a refusal."""
+        """Set parameters atomically; raises `RunError` with the reason of a refusal."""
         request = SetParametersAtomically.Request()
         request.parameters = [
             Parameter(name, Parameter.Type.DOUBLE, value).to_parameter_msg()
@@ -126,21 +129,21 @@ class Operator(Client):
                 return
         raise RunError(f"simulation: no answer to setting {', '.join(values)}")
 
-    def unheard(self) -> str:
+    def unsubscribed(self) -> str:
         """
-        Topics of the simulation that the logger does not hear; empty if it hears them all.
+        Return the topics of the simulation to which the logger has not subscribed, or empty.
 
-        They are found as the logger finds them: by their names. Which node publishes a topic is
-        another message of the middleware, which may never come.
+        Topics are found by name, as the logger does: the node of a publisher arrives in a separate
+        discovery message, which may be lost for good.
         """
         wanted = wanted_topics(self.node, ())
         topics = {name for name in wanted if self.node.count_publishers(name)}
         if not topics:
-            return "the simulation, whose topics are not known"
+            return "the topics of the simulation, which are unknown"
         return ", ".join(sorted(topics - set(self.recorder.topics)))
 
     def published(self) -> dict[str, int]:
-        """Messages the simulation says it has published, by topic."""
+        """Return the number of messages by topic that the simulation reports as published."""
         prefix = "published."
         return {
             key.removeprefix(prefix): int(value)
@@ -149,21 +152,21 @@ class Operator(Client):
         }
 
     def accounted(self) -> dict[str, int]:
-        """Messages the logger says it has recorded or missed, by topic."""
+        """Return the number of messages by topic that the logger reports as recorded or lost."""
         totals = zip(self.recorder.topics, self.recorder.recorded, self.recorder.lost, strict=True)
         return {topic: recorded + lost for topic, recorded, lost in totals}
 
     def _client(self, kind: type, service: str) -> Service:
         return self.node.create_client(kind, f"{_NODE}/{service}")
 
-    def _hear_state(self, message: GearboxState) -> None:
-        self.state, self._moved = message, time.monotonic()
+    def _on_state(self, message: GearboxState) -> None:
+        self.state, self._advanced = message, time.monotonic()
 
-    def _hear_recorder(self, message: RecorderStatus) -> None:
+    def _on_status(self, message: RecorderStatus) -> None:
         self.recorder = message
         if message.file:
             self.recordings[Path(message.file).parent.name] = None
 
-    def _hear_diagnostics(self, message: DiagnosticArray) -> None:
+    def _on_diagnostics(self, message: DiagnosticArray) -> None:
         if figures := real_time_figures(message, self.namespace):
-            self.figures, self._told = figures, time.monotonic()
+            self.figures, self._reported = figures, time.monotonic()

@@ -1,4 +1,4 @@
-"""What came of a run: counted from the finished file, told as a table or as figures."""
+"""The outcome of a run: counted in the finished file, as a table or as JSON values."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ _STATE = "planetary_twin_msgs/msg/GearboxState"
 
 @dataclass(frozen=True)
 class Tally:
-    """Messages of one topic: published, in the file, and missing between two in the file."""
+    """Messages of one topic: published, recorded, and missing between two recorded ones."""
 
     type: str
     published: int
@@ -30,20 +30,20 @@ class Tally:
 
     @property
     def lost(self) -> int:
-        """Messages published but not in the file."""
+        """Number of messages published but not in the file."""
         return self.published - self.recorded
 
 
 @dataclass(frozen=True)
 class Outcome:
-    """A finished run; it has several `files` where the logger was told to split or to stop."""
+    """A finished run; it has several `files` if the logger was asked to split or to stop."""
 
     files: Sequence[Path]
-    stopped: bool  # whether somebody has stopped the logger on the way
+    stopped: bool  # whether the logger was stopped during the run
     topics: Mapping[str, Tally]
     duration: float  # [s] simulated
     power_loss: float  # [W] mean; NaN without a state
-    efficiency: float  # [-] over the whole run; NaN unless power went in
+    efficiency: float  # [-] over the whole run; NaN without input energy
     real_time_factor: float
     overruns: int
     tolerance: float  # in force at the end
@@ -51,7 +51,7 @@ class Outcome:
     sample_rates: tuple[float, float]  # [Hz] of the waveform, lowest and highest; NaN without
 
     def losses(self) -> dict[str, int]:
-        """Messages by topic that should be in the file and are not."""
+        """Return the number of messages by topic that are missing in the file."""
         lost = {
             name: tally.missed if self.stopped else tally.lost
             for name, tally in self.topics.items()
@@ -59,7 +59,7 @@ class Outcome:
         return {name: count for name, count in lost.items() if count}
 
     def figures(self) -> dict[str, Any]:
-        """For machines."""
+        """Return the values for `--json`."""
         topics = {
             name: {
                 "type": tally.type,
@@ -89,10 +89,10 @@ def read_outcome(
     stopped: bool,
 ) -> Outcome:
     """
-    Count what the recordings in `folders` hold against what was `published`.
+    Compare the recordings in `folders` with the number of messages `published` by topic.
 
-    There are several where the logger was `stopped` and started again; `figures` are those of the
-    simulation's last report.
+    There are several folders if the logger was `stopped` and started again. `figures` are the
+    values of the simulation's last report.
     """
     info = read_info(*folders)
     states = [state for file in info.files for state in _states(file)]
@@ -100,7 +100,7 @@ def read_outcome(
         np.array([getattr(state, name) for state in states])
         for name in ("power_loss", "input_power", "interval")
     )
-    put_in = float(np.sum(power * span))
+    energy = float(np.sum(power * span))
     rates = [state.sample_rate for state in states] or [float("nan")]
     return Outcome(
         files=info.files,
@@ -108,7 +108,7 @@ def read_outcome(
         topics={name: _tally(topic, published.get(name)) for name, topic in info.topics.items()},
         duration=float(span.sum()),
         power_loss=float(np.sum(loss * span) / span.sum()) if states else float("nan"),
-        efficiency=1.0 - float(np.sum(loss * span)) / put_in if put_in > 0 else float("nan"),
+        efficiency=1.0 - float(np.sum(loss * span)) / energy if energy > 0 else float("nan"),
         real_time_factor=float(figures.get("real_time_factor_mean", "nan")),
         overruns=int(figures.get("overruns", 0)),
         tolerance=float(figures.get("tolerance", "nan")),
@@ -126,14 +126,14 @@ def _states(file: Path) -> Iterator[GearboxState]:
 
 def _tally(topic: TopicInfo, published: int | None) -> Tally:
     missed = (topic.lost or 0) - topic.before
-    # Where others publish, too, the twin's own counter is not all: numbering is all there is.
+    # With other publishers, the twin's counter is too low: use the sequence numbers.
     own = published is not None and published >= topic.recorded
     total = published if own else topic.recorded + missed
     return Tally(topic.type, total, topic.recorded, missed)
 
 
 def print_outcome(console: Console, outcome: Outcome) -> None:
-    """Print a short table, and how to look at the recording."""
+    """Print a short table, and the command that shows the recording."""
     table = Table(box=None, pad_edge=False)
     table.add_column("topic")
     for title in ("published", "recorded", "lost"):
@@ -173,4 +173,4 @@ def _places(files: Sequence[Path]) -> str:
 def _waveform(lowest: float, highest: float) -> str:
     if lowest == highest:
         return f"{highest:g} Hz"
-    return f"{highest:g} Hz, at times down to {lowest:g} on a busy machine"
+    return f"{highest:g} Hz, reduced to {lowest:g} at times on a busy machine"

@@ -1,4 +1,4 @@
-"""The course of one run, from two fresh processes to a finished recording."""
+"""One run, from the start of two processes to a finished recording."""
 
 from __future__ import annotations
 
@@ -24,15 +24,15 @@ from .outcome import Outcome, read_outcome
 from .show import Show
 from .tour import Stop
 
-_START = 60.0  # [s] longest wait for the nodes to find one another
-_BUILD = 300.0  # [s] longest wait for the model, which a first run compiles
+_START = 60.0  # [s] longest wait for the nodes to discover each other
+_BUILD = 300.0  # [s] longest wait for the model, which the first run compiles
 _END = 3.0  # [s] longest wait for the twin's last report
 SILENCE = 10.0  # [s] longest silence of a running twin
 
 
 @dataclass(frozen=True)
 class Plan:
-    """What to run; `values` are parameters of the simulation given at start."""
+    """What to run; `values` are start values of the simulation's parameters."""
 
     scene: str
     duration: float  # [s] simulated
@@ -46,9 +46,9 @@ class Plan:
 
 def run_session(plan: Plan, console: Console) -> Outcome:
     """
-    Run `plan` to its end, or until interrupted; either way the recording is finished.
+    Run `plan` to its end, or until interrupted; in both cases, the recording is finished.
 
-    Raises `RunError` where a node fails.
+    The progress is shown on `console`. Raises `RunError` if a node fails.
     """
     stay_on_this_machine()
     with _alone(plan.namespace):
@@ -69,14 +69,14 @@ def _run(plan: Plan, console: Console) -> Outcome:
             Operator(plan.namespace, watch) as operator,
             Show(console, plan.duration) as show,
         ):
-            with _nothing_left(logger, plan.folder):
+            with _removed_on_failure(logger, plan.folder):
                 _begin(operator, simulation)
-            with contextlib.suppress(KeyboardInterrupt), _told_where(plan.folder):
+            with contextlib.suppress(KeyboardInterrupt), _named_on_failure(plan.folder):
                 _drive(operator, plan, show)
             with _undisturbed():
                 _finish(operator)
         if logger.stop() != 0:
-            raise RunError(logger.last_words() or "logger: ended with an error")
+            raise RunError(logger.last_line() or "logger: ended with an error")
     names = dict.fromkeys([plan.folder.name, *operator.recordings])
     folders = [plan.folder.with_name(name) for name in names]
     stopped = len(names) > 1 or not operator.recorder.file
@@ -103,31 +103,32 @@ def _simulation_parameters(plan: Plan) -> dict[str, object]:
 
 
 def _begin(operator: Operator, simulation: Child) -> None:
-    """Bring the twin up; what goes wrong may be that another run's simulation answered."""
+    """Start the twin; if that fails, another run's simulation may have answered."""
     try:
-        _bring_up(operator)
+        _start(operator)
     except RunError as failure:
-        _refuse_company(operator)
-        raise RunError(": ".join(filter(None, (str(failure), simulation.complaint())))) from None
+        _refuse_other_publishers(operator)
+        raise RunError(": ".join(filter(None, (str(failure), simulation.last_error())))) from None
 
 
-def _bring_up(operator: Operator) -> None:
-    """Build the model, and let it run once the logger hears every topic: nothing gets lost."""
-    operator.bring("configure", "unconfigured", "inactive", _BUILD)
+def _start(operator: Operator) -> None:
+    """Build the model, and run it once the logger has subscribed to every topic."""
+    operator.change_state("configure", "unconfigured", "inactive", _BUILD)
 
-    if not operator.wait(lambda: not operator.unheard(), _START):
-        raise RunError(f"logger: after {_START:g} s it does not hear {operator.unheard()}")
-    _refuse_company(operator)
-    operator.bring("activate", "inactive", "active", _START)
-
-
-def _refuse_company(operator: Operator) -> None:
-    """Raise `RunError` if others publish here: they would be recorded, and drive what looks."""
-    if others := operator.company():
-        raise RunError(_company(", ".join(others)))
+    if not operator.wait(lambda: not operator.unsubscribed(), _START):
+        topics = operator.unsubscribed()
+        raise RunError(f"logger: within {_START:g} s, it does not subscribe to {topics}")
+    _refuse_other_publishers(operator)
+    operator.change_state("activate", "inactive", "active", _START)
 
 
-def _company(others: str = "another twin") -> str:
+def _refuse_other_publishers(operator: Operator) -> None:
+    """Raise `RunError` if other nodes publish here: their messages would be recorded, too."""
+    if others := operator.other_publishers():
+        raise RunError(_conflict(", ".join(others)))
+
+
+def _conflict(others: str = "another twin") -> str:
     return f"{others} runs on ROS_DOMAIN_ID = {_domain()}: end it, or choose another domain"
 
 
@@ -138,9 +139,9 @@ def _domain() -> str:
 @contextlib.contextmanager
 def _alone(namespace: str) -> Iterator[None]:
     """
-    Raise `RunError` where a run of this user is under way in the same domain and namespace.
+    Raise `RunError` if another run of this user is active in the same domain and namespace.
 
-    Discovery may take longer than a short run; a lock does not, and ends with its process.
+    A lock is used because discovery may take longer than a short run; it ends with its process.
     """
     name = f"planetary_twin_{os.getuid()}_{_domain()}{namespace.replace('/', '_')}.lock"
     path = os.path.join(tempfile.gettempdir(), name)
@@ -156,39 +157,39 @@ def _take(lock: int) -> None:
     try:
         fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
     except BlockingIOError:
-        raise RunError(_company()) from None
+        raise RunError(_conflict()) from None
 
 
 @contextlib.contextmanager
-def _nothing_left(logger: Child, folder: Path) -> Iterator[None]:
-    """Remove the recording of a twin that has not begun; never a folder that others made."""
+def _removed_on_failure(logger: Child, folder: Path) -> Iterator[None]:
+    """Remove the recording of a twin that did not start, unless another process created it."""
     try:
         yield
     except (RunError, KeyboardInterrupt):
         with _undisturbed():
             logger.stop()
-            if f"recording into {folder.absolute()}{os.sep}" in logger.words():
+            if f"recording into {folder.absolute()}{os.sep}" in logger.output():
                 shutil.rmtree(folder, ignore_errors=True)
         raise
 
 
 @contextlib.contextmanager
-def _told_where(folder: Path) -> Iterator[None]:
-    """Name the recording of a run that fails."""
+def _named_on_failure(folder: Path) -> Iterator[None]:
+    """Add the folder of the recording to the message of a run that fails."""
     try:
         yield
     except RunError as failure:
-        raise RunError(f"{failure}; what was recorded is in {folder}") from None
+        raise RunError(f"{failure}; the recording is in {folder}") from None
 
 
 def _drive(operator: Operator, plan: Plan, show: Show) -> None:
-    """Follow the twin to the end of the run, turning the knobs on the way."""
+    """Follow the twin to the end of the run, and change the operating point as planned."""
     stops = list(plan.stops)
     seen, number = 0.0, 0
     while seen < plan.duration:
         state = operator.next_state(number, SILENCE / min(plan.rate_factor or 1.0, 1.0))
         if state is None:
-            show.stand(seen, operator.stands())
+            show.halt(seen, operator.halted())
             continue
         seen, number = state.simulated_time, state.sequence
         show.update(state, operator.figures.get("real_time_factor", "-"))
@@ -201,11 +202,11 @@ def _drive(operator: Operator, plan: Plan, show: Show) -> None:
 
 def _finish(operator: Operator) -> None:
     """
-    Stop the twin, then wait until the logger has accounted for what it says it has published.
+    Stop the twin, then wait until the logger has counted all messages reported as published.
 
-    A logger that stands still is waited for as long as publishers keep messages for it.
+    If the logger stalls, the wait lasts as long as publishers keep messages for it.
     """
-    operator.bring("deactivate", "active", "inactive", _END + 2.0)
+    operator.change_state("deactivate", "active", "inactive", _END + 2.0)
     operator.wait(lambda: operator.figures.get("state") == "stopped", _END)
 
     def done() -> bool:
@@ -220,7 +221,7 @@ def _finish(operator: Operator) -> None:
 
 @contextlib.contextmanager
 def _undisturbed() -> Iterator[None]:
-    """Ignore further Ctrl-C: what runs inside is short and must come to its end."""
+    """Ignore further signals: the block is short and must be completed."""
     handlers = {number: signal.signal(number, signal.SIG_IGN) for number in _INTERRUPTS}
     try:
         yield

@@ -1,4 +1,4 @@
-"""The live line of a run, or plain lines where nobody watches a terminal."""
+"""The live line of a run in a terminal, or plain lines in a file or a pipe."""
 
 from __future__ import annotations
 
@@ -14,13 +14,17 @@ _PLAIN_PERIOD = 1.0  # [s] simulated time between two plain lines
 
 
 class Show:
-    """Shows simulated time, speed, transmission error, losses and the real-time factor."""
+    """
+    Shows simulated time, speed, transmission error, losses and the real-time factor.
+
+    `duration` [s] is the simulated time of the run.
+    """
 
     def __init__(self, console: Console, duration: float) -> None:
         self._console = console
         self._duration = duration
         self._next_line = 0.0
-        self._stands = ""
+        self._reason = ""  # why simulated time is halted
         self._bar = Progress(
             TextColumn("{task.completed:5.1f} / {task.total:g} s"),
             BarColumn(bar_width=24),
@@ -45,23 +49,23 @@ class Show:
         self._bar.stop()
 
     def say(self, simulated: float, text: str) -> None:
-        """Print a line that stays."""
+        """Print `text` at the time `simulated` [s]."""
         self._console.print(f"{simulated:6.2f} s  {text}", highlight=False)
 
-    def stand(self, simulated: float, why: str) -> None:
-        """Show that simulated time stands."""
-        self._bar.update(self._task, description=why)
-        if not self._console.is_terminal and why != self._stands:
-            self.say(simulated, why)
-        self._stands = why
+    def halt(self, simulated: float, reason: str) -> None:
+        """Show that simulated time is halted at `simulated` [s], and the reason."""
+        self._bar.update(self._task, description=reason)
+        if not self._console.is_terminal and reason != self._reason:
+            self.say(simulated, reason)
+        self._reason = reason
 
     def update(self, state: GearboxState, real_time_factor: str) -> None:
         """Show the newest state."""
         line = _line(state, real_time_factor)
         self._bar.update(self._task, completed=state.simulated_time, description=line)
-        self._stands = ""
+        self._reason = ""
         now = state.simulated_time
-        due = now >= self._next_line or now < self._next_line - _PLAIN_PERIOD  # it began anew
+        due = now >= self._next_line or now < self._next_line - _PLAIN_PERIOD  # after a reset
         if not self._console.is_terminal and due:
             self._next_line = math.floor(now) + _PLAIN_PERIOD
             self.say(now, line)

@@ -1,4 +1,4 @@
-"""What a thread that runs a twin or plays a tape is told by others, and does in between."""
+"""Commands from other threads to the thread that runs a twin or plays a recording."""
 
 from __future__ import annotations
 
@@ -9,54 +9,55 @@ from concurrent.futures import Future
 from functools import partial
 from typing import Any
 
-Order = Callable[[], float]
-_PATIENCE = 60.0  # [s] longest wait for an order to be carried out
+Command = Callable[[], float]
+_PATIENCE = 60.0  # [s] longest wait for the execution of a command
 
 
-class Orders:
+class CommandQueue:
     """
-    Carried out in the order given; each future is the instant [s] of that.
+    A first-in, first-out queue of commands; each future returns the instant [s] of execution.
 
-    Changes that follow one another between two intervals become one, of what was given last: they
-    would hold from the same instant, and a flood of them must not hold the twin up.
+    Consecutive changes between two intervals are merged, and the last value of each name counts:
+    they would apply from the same instant, and a flood of them must not delay the twin. `change`
+    applies values and returns the instant [s].
     """
 
     def __init__(self, change: Callable[[Mapping[str, float]], float]) -> None:
         self._change = change
-        self._queue: queue.SimpleQueue[tuple[Order, Future[float]]] = queue.SimpleQueue()
+        self._queue: queue.SimpleQueue[tuple[Command, Future[float]]] = queue.SimpleQueue()
         self._lock = threading.Lock()
         self._gathering: tuple[dict[str, float], Future[float]] | None = None
 
-    def give(self, order: Order) -> Future[float]:
-        """Have `order` carried out after what was given before."""
+    def put(self, command: Command) -> Future[float]:
+        """Append `command` to the queue."""
         with self._lock:
             self._gathering = None
-            return self._put(order)
+            return self._append(command)
 
     def change(self, values: Mapping[str, float]) -> Future[float]:
-        """Have `values` set."""
+        """Append a change to `values`, or merge it with the change that was appended last."""
         with self._lock:
             if self._gathering is None:
                 gathered: dict[str, float] = {}
-                self._gathering = gathered, self._put(lambda: self._set(gathered))
+                self._gathering = gathered, self._append(lambda: self._set(gathered))
             self._gathering[0].update(values)
             return self._gathering[1]
 
-    def carry_out(self, patience: float) -> list[Callable[[], None]]:
+    def execute(self, patience: float) -> list[Callable[[], None]]:
         """
-        Do what is there by now, and return what gives the answers.
+        Execute the queued commands, and return the functions that set their futures.
 
-        Where nothing is there, wait `patience` [s] for one order. What an order raises goes to
-        who gave it; all but a `ValueError`, a refusal, is also raised.
+        If the queue is empty, wait up to `patience` [s] for a command. An exception of a command
+        is set on its future. All exceptions but `ValueError`, a refusal, are also raised.
         """
         answers: list[Callable[[], None]] = []
         for _ in range(max(self._queue.qsize(), 1)):
             try:
-                order, future = self._queue.get(timeout=patience)
+                command, future = self._queue.get(timeout=patience)
             except queue.Empty:
                 break
             try:
-                answers.append(partial(future.set_result, order()))
+                answers.append(partial(future.set_result, command()))
             except ValueError as refusal:
                 answers.append(partial(future.set_exception, refusal))
             except Exception as defect:
@@ -67,16 +68,16 @@ class Orders:
         return answers
 
     def refuse(self, reason: str) -> None:
-        """Answer all that is left with `reason`."""
+        """Refuse all queued commands: their futures raise `ValueError` with `reason`."""
         with self._lock:
             self._gathering = None
         while not self._queue.empty():
             _, future = self._queue.get()
             future.set_exception(ValueError(reason))
 
-    def _put(self, order: Order) -> Future[float]:
+    def _append(self, command: Command) -> Future[float]:
         future: Future[float] = Future()
-        self._queue.put((order, future))
+        self._queue.put((command, future))
         return future
 
     def _set(self, gathered: dict[str, float]) -> float:
@@ -86,10 +87,16 @@ class Orders:
         return self._change(gathered)
 
 
-def answer(response: Any, order: Callable[[], Future[float]], told: Callable[[float], str]) -> Any:
-    """Fill in what came of an order: `told` turns its instant [s] into the message."""
+def answer(
+    response: Any, command: Callable[[], Future[float]], describe: Callable[[float], str]
+) -> Any:
+    """
+    Execute `command` and fill in `response`, which is returned.
+
+    `describe` returns the message for the instant [s] of execution.
+    """
     try:
-        response.message = told(order().result(timeout=_PATIENCE))
+        response.message = describe(command().result(timeout=_PATIENCE))
         response.success = True
     except (ValueError, TimeoutError) as refusal:
         response.success, response.message = False, str(refusal)

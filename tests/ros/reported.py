@@ -1,4 +1,4 @@
-"""What a twin has told of itself, and the same run made again from that alone."""
+"""Reports of a twin, and the same run simulated again from them."""
 
 from __future__ import annotations
 
@@ -14,30 +14,30 @@ from planetary_twin_py.recording.ros2.topics import REAL_TIME, is_status
 
 from .peer import Peer
 
-LONGEST = 20.0  # [s] simulated again at a time
+LONGEST = 20.0  # [s] simulated at a time
 
 
 def listen_to_reports(peer: Peer) -> list[DiagnosticArray]:
-    """A list that fills with the simulation's reports; a logger sends its own beside them."""
+    """A list of the simulation's reports; the logger's reports are left out."""
     reports: list[DiagnosticArray] = []
 
-    def hear(message: DiagnosticArray) -> None:
+    def receive(message: DiagnosticArray) -> None:
         if is_status(message.status[0].name, REAL_TIME):
             reports.append(message)
 
-    peer.node.create_subscription(DiagnosticArray, "/diagnostics", hear, 100)
+    peer.node.create_subscription(DiagnosticArray, "/diagnostics", receive, 100)
     return reports
 
 
 def figures(reports: list[DiagnosticArray]) -> dict[str, str]:
-    """All that the reports have told, the newest where they repeat."""
+    """All reported values, the newest of each key."""
     return {item.key: item.value for report in reports for item in report.status[0].values}
 
 
-def settings_told(told: Mapping[str, str]) -> dict[float, Setting]:
-    """Settings by the simulated time [s] they hold from, in order."""
+def reported_settings(reported: Mapping[str, str]) -> dict[float, Setting]:
+    """Settings by the simulated time [s] from which they apply, in order."""
     since: dict[float, dict[str, float]] = {}
-    for key, value in told.items():
+    for key, value in reported.items():
         name, mark, instant = key.partition("_from.")
         if mark:
             since.setdefault(float(instant), {})[name] = float(value)
@@ -50,11 +50,11 @@ def settings_told(told: Mapping[str, str]) -> dict[float, Setting]:
 def assert_simulated_again(
     waves: Sequence[MeshWaveform],
     points: Sequence[OperatingPoint],
-    told: Mapping[str, str],
+    reported: Mapping[str, str],
     sample_rate: float,
 ) -> None:
-    """Every sample of `waves` comes again from the told changes, at the full `sample_rate`."""
-    again = _transmission_error(points, told, sample_rate)
+    """The reported changes reproduce every sample of `waves`, at the full `sample_rate`."""
+    again = _transmission_error(points, reported, sample_rate)
     for wave in waves:
         stride = round(wave.sample_period * sample_rate)
         assert wave.sample_period == stride / sample_rate
@@ -64,16 +64,16 @@ def assert_simulated_again(
 
 
 def _transmission_error(
-    points: Sequence[OperatingPoint], told: Mapping[str, str], sample_rate: float
+    points: Sequence[OperatingPoint], reported: Mapping[str, str], sample_rate: float
 ) -> np.ndarray:
-    """Of all meshes, in float32 as published, shape (samples, meshes)."""
+    """Transmission error of all meshes, in float32 as published, shape (samples, meshes)."""
     changes = {point.simulated_time: point for point in points}
-    settings = settings_told(told)
+    settings = reported_settings(reported)
     values = {name: getattr(points[0], name) for name in pt.TUNABLES}
     scene = pt.load_scene("paper").replace(**values)
     twin = pt.Twin(scene, sample_rate, settings[0.0].tolerance)
     parts = []
-    for instant in sorted({*changes, *settings, float(told["simulated_time"])} - {0.0}):
+    for instant in sorted({*changes, *settings, float(reported["simulated_time"])} - {0.0}):
         while twin.time < instant:
             window = twin.advance(min(instant - twin.time, LONGEST))
             parts.append(window.waveform.dte.astype(np.float32))
