@@ -68,7 +68,7 @@ class Twin:
         self._clock = Fraction(0)
         self.log = [Change(0.0, scene.operating_point, tolerance, float(sample_rate))]
         """All changes. Applied at the same times, they reproduce the run and its samples."""
-        self._last_account = self._account()
+        self._books = self._account()
         self._end = self._engine.sample(self._clock)
         self._settled, self._settling = 0.0, settling_rate(scene, scene.operating_point)
         self._course = course_so_far(self._engine.control, 0.0)
@@ -192,7 +192,7 @@ class Twin:
         change = Change(self.time, point, tolerance, self.sample_rate)
         if change[1:] != self.log[-1][1:]:
             self._engine.change(point, tolerance, self._clock)
-            self._last_account = self._account()  # a change of backlash is not work of this window
+            self._books = self._account()  # a change of backlash is not work of this window
             self._end = self._engine.sample(self._clock)  # with the new operating point
             self._settling = settling_rate(self.scene, point)
             self.log.append(change)
@@ -207,13 +207,13 @@ class Twin:
         return self._engine.reached, self._engine.take_ledger(), sum(self._engine.stored())
 
     def _window(self, step: Fraction, first: int, samples: Samples, repeated: bool) -> Window:
-        before, begin = self._last_account, self._end
-        self._last_account, self._end = self._account(), self._engine.sample(self._clock)
+        before, begin = self._books, self._end
+        self._books, self._end = self._account(), self._engine.sample(self._clock)
         names = self._names
-        elapsed = float(self._last_account[0] - before[0])
+        elapsed = float(self._books[0] - before[0])
         if elapsed > 0.0:
-            rate = self._last_account[1] / elapsed
-            stored = (self._last_account[2] - before[2]) / elapsed
+            rate = self._books[1] / elapsed
+            stored = (self._books[2] - before[2]) / elapsed
         else:  # a window within one step
             rate, stored = self._engine.powers, float("nan")
         turned = 2.0 * math.pi * (self._end.turns - begin.turns) @ self._ratio
@@ -246,7 +246,7 @@ class Twin:
             machine_power=rate[WORK : WORK + self._machines],
             power_loss=float(rate[FRICTION] + rate[BEARING] + rate[CHURNING]),
             stored_power=stored,
-            stored_energy=self._last_account[2],
+            stored_energy=self._books[2],
             residual_power=_residual(rate, self._machines) - stored,
             course=self._follow(float(step)),
         )

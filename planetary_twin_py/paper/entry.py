@@ -81,7 +81,7 @@ class Entry:
         """Reasons for claims that are not reached, or only in the printed form."""
         missed = [claim.why for claim in self.claims if not claim.reached and claim.why]
         printed = [
-            f"only in the printed form: {claim.why}"
+            f"one statement is reached in the printed form only, because {claim.why}"
             for claim in self.claims
             if claim.reached and not claim.holds and claim.why
         ]

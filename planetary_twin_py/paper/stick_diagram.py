@@ -79,7 +79,8 @@ def assembly(evidence: Evidence) -> Entry:
                 printed=f"{ring_held:g} Hz in the damping of `paper_printed`",
                 holds=math.isclose(frequency, 350.0),
                 kind="number",
-                why=f"(1e) is valid for a held ring: its last form gives {ring_held:g} Hz",
+                why=f"the last form of (1e), which gives {ring_held:g} Hz, is valid for a held "
+                "ring only",
             ),
         ),
         remarks="Equations (1c) to (1e) are valid for a held ring if omega_r is read as the speed "

@@ -44,7 +44,7 @@ def stribeck_curve(evidence: Evidence) -> Entry:
     )
     mixed = _curve(evidence.scene.replace(**COMPUTED, **MIXED))
     highest = max(ours.friction.max(), printed.friction.max())
-    other = "; it requires {}, which neither scene has" if _is_stribeck(mixed) else ""
+    other = "; {}, which neither scene has" if _is_stribeck(mixed) else ""
     return Entry(
         number="Figure 6",
         title="Stribeck curve",
@@ -58,7 +58,7 @@ def stribeck_curve(evidence: Evidence) -> Entry:
                 printed_holds=_has_boundary_regime(printed),
                 why="with the model of Greenwood and Tripp asperities carry at most a few per cent "
                 f"of the load, so friction is below {highest:.3f} and there is no boundary regime"
-                + other.format("a law of load sharing"),
+                + other.format("this regime requires a law of load sharing"),
             ),
             Claim(
                 says="beyond the minimum it increases with eta V/W",
@@ -67,7 +67,7 @@ def stribeck_curve(evidence: Evidence) -> Entry:
                 holds=_rises_at_last(ours),
                 printed_holds=_rises_at_last(printed),
                 why="the plateau of Evans and Johnson decreases steadily with film thickness"
-                + other.format("the rolling resistance of the film"),
+                + other.format("an increase requires the rolling resistance of the film"),
             ),
         ),
         remarks="The curves are for one contact of the sun-planet mesh at a slide-to-roll ratio of "

@@ -91,7 +91,7 @@ def oil(evidence: Evidence) -> Entry:
                 printed_holds=agrees(printed.oil_conductivity, 2000.0),
                 kind="number",
                 why="neither oil nor steel (46 W/(m K)) has a conductivity of 2000 W/(m K); 2000 "
-                "would be the heat capacity of an oil in J/(kg K)",
+                "J/(kg K) would be the heat capacity of an oil",
             ),
         ),
         remarks="The conductivity has little effect: with 2000 in place of "
