@@ -14,7 +14,7 @@ class Energy:
     """Energy ledger of a run [J]: input = output + stored + lost - stiffness_work + residual."""
 
     machines: tuple[float, ...]
-    """Work on the train of motor, load, and second motor of a differential [J], (machines,)."""
+    """Work on the train by motor, load, and second motor of a differential [J], (machines,)."""
     kinetic: float
     """Increase of the kinetic energy [J]."""
     elastic: float
@@ -131,7 +131,7 @@ class Result:
     mesh: dict[str, np.ndarray]
     """Statistics of the meshes over the time of the samples, (meshes,) each, by name."""
     mesh_efficiency: tuple[float, float]
-    """Efficiency of the sun-planet and of the planet-ring meshes: 1 - tooth friction/power."""
+    """Of the sun-planet and of the planet-ring meshes: 1 - friction loss/transmitted power."""
     stats: Stats
     """Statistics of the integration."""
 

@@ -44,6 +44,8 @@ class Change(NamedTuple):
 class Twin:
     """A running gearbox whose operating point can be changed between windows.
 
+    The equations of motion are those of `simulate`; their sources are in docs/model.md.
+
     Args:
         scene: the scene; the run starts in a steady state at its operating point.
         sample_rate: of the waveform [Hz].

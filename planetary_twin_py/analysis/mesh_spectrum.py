@@ -129,7 +129,7 @@ def order_spectrum_of(signal: Signal, sun_teeth: int | None) -> MeshSpectrum:
         The spectrum, up to the order that the samples resolve at the highest speed of the sun.
 
     Raises:
-        ValueError: the sun stands still or reverses (see `order_spectrum`).
+        ValueError: the sun is at rest or reverses (see `order_spectrum`).
     """
     fastest = float(np.abs(np.diff(signal.angle)).max())
     per_turn = max(math.floor(2.0 * math.pi / max(fastest, 1e-12)), 4)

@@ -22,7 +22,7 @@ from .spectrum import amplitude_spectrum, checked
 
 Array = NDArray[np.float64]
 _TURN = 2.0 * math.pi
-FINEST = 1 << 24  # resampled angles; a shaft that almost stands still would need more
+FINEST = 1 << 24  # resampled angles; a shaft that is almost at rest would need more
 SAMPLES_PER_TURN = 512
 
 
@@ -76,7 +76,7 @@ def resample_by_angle(
 
     Raises:
         ValueError: the signal is too short or not finite, the angle has another length, or the
-            shaft reverses, stands still or turns less than two steps.
+            shaft reverses, is at rest or turns less than two steps.
     """
     values, turned = checked(samples), _one_way(angle)
     if len(values) != len(turned):
