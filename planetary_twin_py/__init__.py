@@ -1,4 +1,4 @@
-"""A digital twin of a planetary gearbox: the model, and everything that needs no ROS.
+"""Digital twin of a planetary gearbox: the model and all tools that do not require ROS.
 
 import planetary_twin_py as pt
 
@@ -51,7 +51,7 @@ if TYPE_CHECKING:
     from .units import rpm
     from .window import Waveform, Window
 
-_HOME = {
+_EXPORTS = {
     "analysis.orders": (
         "ByAngle", "OrderMap", "OrderSpectrum", "mesh_order", "order_map", "order_spectrum",
         "resample_by_angle",
@@ -77,7 +77,7 @@ _HOME = {
     "units": ("rpm",),
     "window": ("Waveform", "Window"),
 }  # fmt: skip
-_MODULE_OF = {name: module for module, names in _HOME.items() for name in names}
+_MODULE_OF = {name: module for module, names in _EXPORTS.items() for name in names}
 
 __all__ = [
     "TUNABLES",
@@ -122,12 +122,12 @@ __all__ = [
 
 
 def __dir__() -> list[str]:
-    """The public names, also those that are not imported yet."""
+    """Public names, including those that are not imported yet."""
     return sorted(__all__)
 
 
 def __getattr__(name: str) -> Any:
-    """Import on first use, because numba takes half a second to load."""
+    """Import on first use, because loading numba takes half a second."""
     if name not in _MODULE_OF:
         raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
     value = getattr(import_module(f".{_MODULE_OF[name]}", __name__), name)

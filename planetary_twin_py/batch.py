@@ -12,18 +12,19 @@ from .result import Result
 from .scene import Scene
 from .simulation import check_run, simulate
 
-AHEAD = 2  # runs per thread that are running, queued or waiting for the caller
+AHEAD = 2  # runs per thread that are active, queued or complete and not yet consumed
 
 
 @dataclass(frozen=True)
 class Outcome:
-    """Outcome of one scene of a batch."""
+    """Result or error of one scene of a batch."""
 
     place: int
     """Index of the scene in the batch, from 0."""
     scene: Scene
+    """The scene."""
     found: Result | ValueError | ArithmeticError
-    """The result, or the error."""
+    """The result, or the error of a failed run."""
 
     @property
     def result(self) -> Result:
@@ -47,17 +48,17 @@ def simulate_many(
 ) -> Iterator[Outcome]:
     """Simulate many scenes in parallel, each with the same result as `simulate`.
 
-    Only a few runs are ahead of the caller, so memory does not grow with the number of scenes
-    unless the caller keeps the results. A scene that fails has its error as outcome and does not
-    affect the others.
+    At most two runs per thread are ahead of the caller, so memory does not grow with the number of
+    scenes unless the caller keeps the results. The error of a failed run is its outcome; it does
+    not affect other runs.
 
     Args:
         scenes: the scenes; may be a generator.
         duration: simulated time of each run [s].
         sample_rate: of the results [Hz].
-        method: as in `simulate`.
+        method: see `simulate`.
         tolerance: relative local error tolerance of the integrator.
-        workers: number of threads; None is the number of available cores.
+        workers: number of threads, at least 1; None is the number of available cores.
 
     Returns:
         An iterator over the outcomes, in the order of the scenes.
@@ -84,14 +85,14 @@ def simulate_many(
 def _in_order(
     scenes: Iterable[Scene], run: Callable[[int, Scene], Outcome], workers: int
 ) -> Iterator[Outcome]:
-    under_way: deque[Future[Outcome]] = deque()
+    pending: deque[Future[Outcome]] = deque()
     pool = ThreadPoolExecutor(workers, "scene")
     try:
         for place, scene in enumerate(scenes):
-            if len(under_way) == AHEAD * workers:
-                yield under_way.popleft().result()
-            under_way.append(pool.submit(run, place, scene))
-        while under_way:
-            yield under_way.popleft().result()
+            if len(pending) == AHEAD * workers:
+                yield pending.popleft().result()
+            pending.append(pool.submit(run, place, scene))
+        while pending:
+            yield pending.popleft().result()
     finally:
         pool.shutdown(cancel_futures=True)

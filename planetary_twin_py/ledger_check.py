@@ -1,6 +1,6 @@
-"""Check of the energy ledger of a run, which determines whether its losses are reliable.
+"""Check of the energy ledger of a run, on which the accuracy of its losses depends.
 
-The residual of the energy balance is due to the integration only, and makes the losses uncertain by
+The residual of the energy balance is an error of the integration, and the losses are uncertain by
 the same amount. It must be at most 1 % of the loss, or 1e-5 of the turnover if losses are small.
 """
 
@@ -26,15 +26,17 @@ class Balance(NamedTuple):
     """Energy balance of a run, or of a part of it [J]."""
 
     residual: float = 0.0
+    """Of the energy balance [J]."""
     loss: float = 0.0
+    """Dissipated by tooth friction, bearings and churning [J]."""
     turnover: float = 0.0
-    """Work of the machines, and change of the stored energy, as absolute values."""
+    """Sum of the absolute values of the work of all machines and of the changes in energy [J]."""
     stored: float = 0.0
-    """Kinetic and elastic energy."""
+    """Kinetic and elastic energy [J]."""
 
     @property
     def excess(self) -> float:
-        """Residual/allowed residual; the ledger balances up to 1."""
+        """Residual over allowed residual; the ledger balances if it is at most 1."""
         allowed = max(
             OF_LOSS * abs(self.loss), OF_TURNOVER * self.turnover, OF_STORED * self.stored
         )
@@ -43,7 +45,11 @@ class Balance(NamedTuple):
         return abs(self.residual) / allowed if allowed > 0.0 else math.inf
 
     def joined(self, other: Balance) -> Balance:
-        """Balance of this part and the following part `other` together."""
+        """Balance of this part of a run together with the following part.
+
+        Args:
+            other: balance of the following part.
+        """
         return Balance(
             self.residual + other.residual,
             self.loss + other.loss,
@@ -53,13 +59,21 @@ class Balance(NamedTuple):
 
 
 def balance_of_run(energy: Energy) -> Balance:
-    """Balance of a run."""
+    """Balance of a run.
+
+    Args:
+        energy: its ledger.
+    """
     turnover = sum(map(abs, energy.machines)) + abs(energy.kinetic) + abs(energy.elastic)
     return Balance(energy.residual, energy.loss, turnover, energy.stored)
 
 
 def balance_of_window(window: Window) -> Balance:
-    """Balance of a window of a twin; zero for a window within one step of the integrator."""
+    """Balance of a window of a twin; zero for a window within one step of the integrator.
+
+    Args:
+        window: of the twin.
+    """
     if math.isnan(window.residual_power):
         return Balance()
     duration = window.end - window.start
@@ -88,12 +102,17 @@ def ledger_warning(balance: Balance, tolerance: float) -> str | None:
     return (
         f"the energy ledger does not balance: the residual is {balance.residual:.3g} J of a "
         f"turnover of {balance.turnover:.3g} J ({share}), so losses and efficiency are uncertain "
-        f"by as much; {advice(balance.excess, tolerance)}"
+        f"by the same amount; {advice(balance.excess, tolerance)}"
     )
 
 
 def advice(excess: float, tolerance: float) -> str:
-    """Recommended change for an `excess` above 1 at a `tolerance`."""
+    """Recommended change of the tolerance or the method.
+
+    Args:
+        excess: residual over allowed residual, above 1.
+        tolerance: of the integration.
+    """
     tightest = TOLERANCES[0]
     if tolerance <= tightest:
         return f"the tolerance {tightest:g} is the tightest: use another method"

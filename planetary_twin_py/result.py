@@ -14,48 +14,48 @@ class Energy:
     """Energy ledger of a run [J]: input = output + stored + lost - stiffness_work + residual."""
 
     machines: tuple[float, ...]
-    """Work done on the train by the motor, the load, and the second motor of a differential."""
+    """Work on the train by motor, load, and second motor of a differential [J], (machines,)."""
     kinetic: float
-    """Increase of the kinetic energy."""
+    """Increase of the kinetic energy [J]."""
     elastic: float
-    """Increase of the elastic energy of meshes and couplings."""
+    """Increase of the elastic energy of meshes and couplings [J]."""
     friction: float
-    """Dissipated by tooth friction."""
+    """Dissipated by tooth friction [J]."""
     damping: float
-    """Dissipated by the damping of meshes and couplings."""
+    """Dissipated by the damping of meshes and couplings [J]."""
     bearing: float
-    """Dissipated by bearings, seals and grease."""
+    """Dissipated by bearings, seals and grease [J]."""
     churning: float
-    """Dissipated by oil churning."""
+    """Dissipated by oil churning [J]."""
     stiffness_work: float
-    """Work due to the change of mesh stiffness with the tooth pairs in contact."""
+    """Work due to the change of mesh stiffness with the tooth pairs in contact [J]."""
     stored: float
-    """Kinetic and elastic energy at the end."""
+    """Kinetic and elastic energy at the end [J]."""
 
     @property
     def input(self) -> float:
-        """Work of the motors."""
+        """Work of the motors [J]."""
         return self.machines[MOTOR] + sum(self.machines[SECOND_MOTOR:])
 
     @property
     def output(self) -> float:
-        """Work done on the load."""
+        """Work done on the load [J]."""
         return -self.machines[LOAD_MACHINE]
 
     @property
     def put_in(self) -> float:
-        """Work of the driving machines."""
+        """Work of the driving machines [J]."""
         return sum(max(work, 0.0) for work in self.machines)
 
     @property
     def residual(self) -> float:
-        """Residual of the balance: the error of the integration."""
+        """Residual of the balance, an error of the integration [J]."""
         lost = self.loss + self.damping - self.stiffness_work
         return self.input - self.output - self.kinetic - self.elastic - lost
 
     @property
     def loss(self) -> float:
-        """Dissipated by tooth friction, bearings and churning."""
+        """Dissipated by tooth friction, bearings and churning [J]."""
         return self.friction + self.bearing + self.churning
 
 
@@ -70,10 +70,11 @@ class Stats:
     stiff_steps: int
     """Steps by Rosenbrock's method."""
     rejected_steps: int
+    """Computed steps whose error exceeded the tolerance."""
     evaluations: int
     """Evaluations of the equations of motion."""
     pair_events: int
-    """Starts and ends of the entry and exit of tooth pairs."""
+    """Starts and ends of the engagement and disengagement of tooth pairs."""
     flank_events: int
     """Engagements and separations of flanks."""
     reversals: int
@@ -81,64 +82,68 @@ class Stats:
     both_flanks: int
     """Steps in which both flanks of a mesh touch; the model has a force on one of them only."""
     wall_time: float
-    """[s]"""
+    """Wall time of the integration [s]."""
     real_time_factor: float
-    """Simulated time/wall time."""
+    """Simulated time over wall time."""
 
 
 @dataclass(frozen=True)
 class Result:
-    """Samples and energy ledger of a run; arrays are (samples,), (samples, bodies/meshes)."""
+    """Samples, energy ledger and statistics of a run."""
 
     duration: float
     """Time that the energy ledger covers [s]: from the end of the step in which settling ends to
     the end of the last step."""
     time: np.ndarray
-    """[s]"""
+    """Sample times [s], (samples,)."""
     bodies: tuple[str, ...]
+    """Names of the bodies, in the order of arrays over bodies."""
     meshes: tuple[str, ...]
+    """Names of the meshes, in the order of arrays over meshes."""
     angle: np.ndarray
-    """Absolute, counter-clockwise positive [rad], (samples, bodies)."""
+    """Absolute angle, positive counter-clockwise [rad], (samples, bodies)."""
     speed: np.ndarray
-    """[rad/s], (samples, bodies)."""
+    """Absolute speed, positive counter-clockwise [rad/s], (samples, bodies)."""
     mean_speed: np.ndarray
-    """Over the time of the samples [rad/s], (bodies,)."""
+    """Mean speed over the time of the samples [rad/s], (bodies,)."""
     dte: np.ndarray
     """Dynamic transmission error along the line of action [m], (samples, meshes)."""
     mesh_force: np.ndarray
     """Normal force, negative on the coast flanks [N], (samples, meshes)."""
     film_thickness: np.ndarray
-    """[m], NaN without contact, (samples, meshes)."""
+    """Film thickness [m], NaN without contact, (samples, meshes)."""
     lambda_ratio: np.ndarray
     """Specific film thickness [-], NaN without contact, (samples, meshes)."""
     boundary_friction: np.ndarray
-    """Magnitude [N], (samples, meshes)."""
+    """Magnitude of the boundary friction [N], (samples, meshes)."""
     viscous_friction: np.ndarray
-    """Magnitude [N], (samples, meshes)."""
+    """Magnitude of the viscous friction [N], (samples, meshes)."""
     power_loss: np.ndarray
-    """Tooth friction [W], (samples, meshes)."""
+    """Power loss of tooth friction [W], (samples, meshes)."""
     mesh_power: np.ndarray
-    """Power that a mesh transmits in the frame of the carrier [W], (samples, meshes)."""
+    """Power transmitted by a mesh in the frame of the carrier [W], (samples, meshes)."""
     bearing_loss: np.ndarray
-    """All bearings, seals and grease [W], (samples,)."""
+    """Power loss of all bearings, seals and grease [W], (samples,)."""
     churning_loss: np.ndarray
-    """Oil churning [W], (samples,)."""
+    """Power loss of oil churning [W], (samples,)."""
     energy: Energy
+    """Energy ledger over `duration`."""
     mesh: dict[str, np.ndarray]
-    """Statistics of the meshes over the evaluated time, (meshes,) each: see `mesh_statistics`."""
+    """Statistics of the meshes over the time of the samples, (meshes,) each, by name."""
     mesh_efficiency: tuple[float, float]
-    """Of the sun meshes and of the ring meshes: 1 - tooth friction/transmitted power."""
+    """Of the sun-planet and of the planet-ring meshes: 1 - friction loss/transmitted power."""
     stats: Stats
+    """Statistics of the integration."""
 
     @property
     def total_power_loss(self) -> np.ndarray:
-        """Tooth friction of all meshes, bearings and churning [W], (samples,)."""
+        """Power loss of tooth friction, bearings and churning [W], (samples,)."""
         total: np.ndarray = self.power_loss.sum(axis=1) + self.bearing_loss + self.churning_loss
         return total
 
     @property
     def mean_power_loss(self) -> float:
-        """Tooth friction of all meshes, bearings and churning, over `duration` [W]."""
+        """Mean power loss of tooth friction, bearings and churning over `duration` [W]."""
         return self.energy.loss / self.duration
 
     @property

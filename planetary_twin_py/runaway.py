@@ -1,7 +1,7 @@
-"""Limits at which a run is stopped, because no gearbox can reach them.
+"""Limits at which a run is stopped, because no real gearbox can exceed them.
 
-With an unstable drive or an extreme load the motion grows until numbers overflow. The equations are
-invalid long before: a mesh deflection of a base pitch means that teeth have broken or jumped.
+With an unstable drive or an extreme load, the motion grows until numbers overflow. The equations
+are invalid long before: at a mesh deflection of a base pitch, teeth have broken or jumped.
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ EXCESS = 10.0  # allowed ratio of speeds and torques to those at the limits of t
 
 
 class RunawayError(ArithmeticError):
-    """A run was stopped; the message is a line with time and reason."""
+    """A run exceeded a physical limit and was stopped; the message states time and reason."""
 
 
 class Limit(NamedTuple):
@@ -30,12 +30,22 @@ class Limit(NamedTuple):
 
     quantity: str
     unit: str
-    names: Sequence[str]  # of the bodies, machines or meshes
-    largest: np.ndarray  # (names,)
-    reason: str  # of the limit
+    names: Sequence[str]
+    """Of the bodies, machines or meshes."""
+    largest: np.ndarray
+    """In `unit`, (names,)."""
+    reason: str
+    """Of the limit, for the message."""
 
     def check(self, values: np.ndarray) -> None:
-        """Raise `ArithmeticError` if one of `values` (times, names) exceeds its limit or is NaN."""
+        """Check values.
+
+        Args:
+            values: in `unit`, (times, names).
+
+        Raises:
+            ArithmeticError: a value exceeds its limit, or is NaN.
+        """
         peak = np.abs(values).max(axis=0, initial=0.0)  # NaN if there is one
         passed = np.flatnonzero(~(peak <= self.largest))
         if passed.size:
@@ -64,7 +74,7 @@ class Limits:
             "a base pitch, at which teeth break or jump; reduce the torques or increase the "
             "stiffness",
         )
-        """See `squeeze`."""
+        """Of the mesh deflection, see `squeeze`."""
         fastest = max(drive.speed_limit, abs(drive.speed_control.start_speed or 0.0))
         self.speed = Limit(
             "speed",
@@ -73,7 +83,7 @@ class Limits:
             EXCESS * fastest * np.abs(train.ratio[: train.bodies]).sum(axis=1),
             f"{EXCESS:g} times the speed at drive.speed_limit = {drive.speed_limit:g} rad/s",
         )
-        """Of the bodies."""
+        """Of the speeds of the bodies."""
         accelerating = drive.speed_control.slew_rate * _inertia(train)
         self.torque = Limit(
             "torque",
@@ -83,18 +93,21 @@ class Limits:
             f"{EXCESS:g} times the torque at drive.torque_limit = {drive.torque_limit:g} N m and "
             f"drive.speed_control.slew_rate = {drive.speed_control.slew_rate:g} rad/s^2",
         )
-        """Of the machines."""
+        """Of the torques of the machines."""
 
 
 def squeeze(samples: Samples, train: Record, load: Record) -> np.ndarray:
-    """Lower bound of the mesh deflection along the line of action [m], shape (times, meshes).
+    """Lower bound of the mesh deflection along the line of action.
 
-    It is |DTE| minus half the backlash and the largest errors of form.
+    It is |DTE| minus half the backlash and the largest form errors.
 
     Args:
         samples: of the meshes.
-        train: gives the errors of form.
+        train: gives the form errors.
         load: gives the backlash.
+
+    Returns:
+        Deflection [m], at least 0, (times, meshes).
     """
     size = np.hypot(train.line_tangential, train.line_radial)
     errors = size.sum(axis=1)[train.kind[: train.meshes]]
@@ -103,7 +116,7 @@ def squeeze(samples: Samples, train: Record, load: Record) -> np.ndarray:
 
 
 def _inertia(train: Record) -> float:
-    """Largest inertia of the whole train at a motor [kg m^2]."""
+    """Largest inertia of the whole train, referred to a motor [kg m^2]."""
     squares = train.mass * train.radius**2
     return float((squares[:, None] * train.ratio**2).sum(axis=0).max())
 

@@ -1,4 +1,4 @@
-"""Simulation of a run, as fast as possible."""
+"""Simulation of a run at maximum speed."""
 
 from __future__ import annotations
 
@@ -47,18 +47,19 @@ def simulate(
 ) -> Result:
     """Simulate a scene from a steady state.
 
-    The integrator computes means, rms and peaks, independently of the samples.
+    The integrator computes means, rms values and peaks independently of the samples. The equations
+    of motion and their sources are in docs/model.md.
 
     Args:
-        scene: to simulate.
+        scene: the scene.
         duration: simulated time of the result [s].
-        sample_rate: of the result [Hz]; sample times are integer multiples of its period.
+        sample_rate: of the result [Hz]; sample times are integer multiples of the sample period.
         method: "collocation", "rosenbrock", "march" (collocation wherever it is applicable) or
-            "auto" (the same, but periodic motion is not computed again). Creeping gears are always
-            integrated by "rosenbrock", see `Stats.stiff_steps`.
+            "auto" (as "march", but periodic motion is not computed again). Creeping gears are
+            always integrated by "rosenbrock", see `Stats.stiff_steps`.
         tolerance: relative local error tolerance.
-        settling: simulated time before the result [s], to exclude the transient of the start; the
-            time of the result includes it.
+        settling: simulated time before the result [s], which excludes the initial transient. The
+            times of the result include it.
 
     Returns:
         Samples, energy ledger and statistics of the time after `settling`.
@@ -98,7 +99,7 @@ class _Start(NamedTuple):
 
     reached: Fraction  # [s]
     stored: tuple[float, float]  # [J]
-    samples: int  # before
+    samples: int  # number before the result
     turned: np.ndarray  # angles of the bodies [rad]
 
 
@@ -120,7 +121,17 @@ def _samples(time: float, sample_rate: float) -> int:
 
 
 def check_run(duration: float, sample_rate: float, method: str, tolerance: float) -> None:
-    """Raise `ValueError` if an argument of `simulate` is out of range."""
+    """Check arguments of `simulate`.
+
+    Args:
+        duration: simulated time of the result [s].
+        sample_rate: of the result [Hz].
+        method: name of the method.
+        tolerance: relative local error tolerance.
+
+    Raises:
+        ValueError: an argument is out of range.
+    """
     if method not in METHODS:
         raise ValueError(f"method = {method!r}: must be one of {', '.join(METHODS)}")
     if not (duration > 0.0 and 1.0 <= duration * sample_rate <= MOST_SAMPLES):
@@ -134,14 +145,14 @@ def check_run(duration: float, sample_rate: float, method: str, tolerance: float
 def _result(
     scene: Scene,
     engine: Run,
-    seen: tuple[Samples, np.ndarray, MeshSums],
+    found: tuple[Samples, np.ndarray, MeshSums],
     sample_rate: float,
     before: _Start,
     wall: float,
 ) -> Result:
     names, meshes = body_names(scene), mesh_names(scene)
-    samples, mean_speed = seen[:2]
-    sums = in_order(seen[2], meshes.place)
+    samples, mean_speed = found[:2]
+    sums = in_order(found[2], meshes.place)
     mesh, count = samples.mesh[:, :, meshes.place], engine.control
     ground = np.zeros((len(mesh), 1))
     return Result(

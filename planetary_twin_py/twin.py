@@ -1,4 +1,4 @@
-"""A twin that is advanced in windows and can be changed between them."""
+"""A simulation that advances in windows and whose inputs can be changed between them."""
 
 from __future__ import annotations
 
@@ -22,29 +22,34 @@ from .tolerance import LIVE_TOLERANCE, check_tolerance
 from .window import Waveform, Window, mesh_statistics
 
 TICKS = 10**12  # of the clock per second
-LEEWAY = Fraction(1, 10**6)  # sample periods by which a sample may be beyond its window
-LONGEST_WINDOW = 60.0  # [s], because samples are in memory; or
+LEEWAY = Fraction(1, 10**6)  # sample periods by which a sample may exceed the window
+LONGEST_WINDOW = 60.0  # [s], because samples are kept in memory; or
 MOST_SAMPLES = 4096  # samples, if that is longer
 LOWEST_SAMPLE_RATE = 1.0  # [Hz]
 
 
 class Change(NamedTuple):
-    """Inputs of a run, and the simulated time [s] from which they apply."""
+    """Inputs of a run from a certain time on."""
 
     time: float
+    """Simulated time from which they apply [s]."""
     point: OperatingPoint
+    """Operating point."""
     tolerance: float
+    """Relative local error tolerance."""
     sample_rate: float
     """Of the waveform [Hz]; it does not affect the motion."""
 
 
 class Twin:
-    """A running gearbox, whose operating point can be changed between windows.
+    """A running gearbox whose operating point can be changed between windows.
+
+    The equations of motion are those of `simulate`; their sources are in docs/model.md.
 
     Args:
-        scene: to simulate; it starts in a steady state at the operating point of the scene.
+        scene: the scene; the run starts in a steady state at its operating point.
         sample_rate: of the waveform [Hz].
-        tolerance: relative local error tolerance; the default is fast enough for real time.
+        tolerance: relative local error tolerance; the default is suitable for real time.
 
     Raises:
         ValueError: the scene, the sample rate or the tolerance is invalid.
@@ -64,7 +69,7 @@ class Twin:
         self._whole_turns = [_WholeTurns.of(ratios) for ratios in self._names.ratio]
         self._clock = Fraction(0)
         self.log = [Change(0.0, scene.operating_point, tolerance, float(sample_rate))]
-        """All changes; applied again at the same times, they reproduce the run and its samples."""
+        """All changes. Applied at the same times, they reproduce the run and its samples."""
         self._books = self._account()
         self._end = self._engine.sample(self._clock)
         self._settled, self._settling = 0.0, settling_rate(scene, scene.operating_point)
@@ -87,21 +92,21 @@ class Twin:
 
     @property
     def operating_point(self) -> OperatingPoint:
-        """Present operating point."""
+        """Current operating point."""
         return self.log[-1].point
 
     @property
     def tolerance(self) -> float:
-        """Present tolerance."""
+        """Current relative local error tolerance."""
         return self.log[-1].tolerance
 
     @property
     def sample_rate(self) -> float:
-        """Present sample rate [Hz]."""
+        """Current sample rate of the waveform [Hz]."""
         return self.log[-1].sample_rate
 
     def set(self, **changes: float) -> float:
-        """Change fields of the operating point at the present time.
+        """Change fields of the operating point at the current time.
 
         Args:
             changes: values in SI by field name.
@@ -110,7 +115,7 @@ class Twin:
             The simulated time from which they apply [s].
 
         Raises:
-            ValueError: a name is unknown, or a value is out of range; nothing is changed.
+            ValueError: a name is unknown, or a value is out of range; no field is changed.
         """
         for name in changes:
             if name not in TUNABLES:
@@ -121,7 +126,7 @@ class Twin:
         return self._change(point, self.tolerance)
 
     def set_tolerance(self, tolerance: float) -> float:
-        """Change the tolerance at the present time.
+        """Change the tolerance at the current time.
 
         Args:
             tolerance: relative local error tolerance.
@@ -130,13 +135,13 @@ class Twin:
             The simulated time from which it applies [s].
 
         Raises:
-            ValueError: it is out of range; nothing is changed.
+            ValueError: the value is out of range; it is not changed.
         """
         check_tolerance(tolerance)
         return self._change(self.operating_point, tolerance)
 
     def set_sample_rate(self, sample_rate: float) -> float:
-        """Change the sample rate of the waveform at the present time; the motion is not affected.
+        """Change the sample rate of the waveform at the current time; the motion is not affected.
 
         Args:
             sample_rate: [Hz]; sample times are integer multiples of the new period.
@@ -145,7 +150,7 @@ class Twin:
             The simulated time from which it applies [s].
 
         Raises:
-            ValueError: it is out of range; nothing is changed.
+            ValueError: the value is out of range; it is not changed.
         """
         _check_sample_rate(sample_rate)
         if sample_rate != self.sample_rate:
@@ -165,12 +170,12 @@ class Twin:
 
         Raises:
             ValueError: the duration is out of range.
-            RunawayError: the run exceeds physical limits; the twin cannot be advanced any more.
+            RunawayError: the run exceeds physical limits; the twin cannot be advanced further.
         """
         longest = max(LONGEST_WINDOW, MOST_SAMPLES / self.sample_rate)
         if not 0.0 < duration <= longest:
             raise ValueError(f"duration = {duration!r} s: must be above 0 and at most {longest:g}")
-        # Windows of 10 ms end on samples; rounding errors of their sum must not accumulate.
+        # Exact, so that rounding errors do not accumulate and windows of 10 ms end on samples.
         step = Fraction(round(duration * TICKS), TICKS)
         if not step:
             raise ValueError(f"duration = {duration!r} s: must be at least 1e-12, the clock's step")
@@ -196,11 +201,11 @@ class Twin:
         return self.time
 
     def _samples(self) -> int:
-        """Number of samples up to the present time."""
+        """Number of samples up to the current time."""
         return math.floor(self._clock * Fraction(self.sample_rate) + LEEWAY)
 
     def _account(self) -> tuple[Fraction, np.ndarray, float]:
-        """Time reached, ledger since the last call, and stored energy at that time."""
+        """Time reached by the integrator, ledger since the last call, and stored energy."""
         return self._engine.reached, self._engine.take_ledger(), sum(self._engine.stored())
 
     def _window(self, step: Fraction, first: int, samples: Samples, repeated: bool) -> Window:
@@ -249,14 +254,14 @@ class Twin:
         )
 
     def _follow(self, duration: float) -> Course:
-        """The course of the `duration` [s] that has passed."""
+        """Counters of the last `duration` [s]."""
         self._settled += duration * self._settling
         missing, before = unsettled(self._settled, self._settling), self._course
         self._course = course_so_far(self._engine.control, missing)
         return self._course.since(before)
 
     def _angles(self) -> np.ndarray:
-        """Angles modulo a turn [rad], with exact whole turns of the motor."""
+        """Angles modulo a turn [rad], computed from exact whole turns of the motors."""
         turns = [int(turn) for turn in self._end.turns[0]]
         relative = np.append(self._end.angle[0], 0.0)[self._names.place]
         whole = [body.part(turns) for body in self._whole_turns]
@@ -277,7 +282,7 @@ class _WholeTurns(NamedTuple):
 
     @classmethod
     def of(cls, ratios: Ratios) -> _WholeTurns:
-        """From the speed ratios of the body to each motor."""
+        """From the ratios of the speed of the body to that of each motor."""
         common = math.lcm(*(ratio.denominator for ratio in ratios))
         return cls(tuple(int(ratio * common) for ratio in ratios), common)
 

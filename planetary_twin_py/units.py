@@ -31,11 +31,11 @@ _CUSTOMARY = {  # by SI unit: customary unit, factor, and offset
 }
 
 
-# pint evaluates a unit as an expression: of 10**10**10 it would compute every digit.
+# pint evaluates a unit as an expression, so it would compute every digit of 10**10**10.
 _LONGEST_UNIT = 60  # characters
 _MANY_DIGITS = re.compile(r"\d{4}|[⁰¹²³⁴-⁹]{3}")
 _POWERS = re.compile(r"\*\*|\^")
-_RAISED = re.compile(r"[^\W\d]\s*(?:\*\*|\^)\s*\(?[-+]?\d{1,2}(?![\d\s]*[\d*^])")  # a name is
+_RAISED = re.compile(r"[^\W\d]\s*(?:\*\*|\^)\s*\(?[-+]?\d{1,2}(?![\d\s]*[\d*^])")  # power of a name
 
 
 class UnitError(ValueError):
@@ -43,7 +43,14 @@ class UnitError(ValueError):
 
 
 def rpm(value: float) -> float:
-    """Revolutions per minute in rad/s."""
+    """Convert a speed from revolutions per minute to rad/s.
+
+    Args:
+        value: speed [rpm].
+
+    Returns:
+        Speed [rad/s].
+    """
     return value * math.pi / 30.0
 
 
@@ -106,7 +113,11 @@ def customary(value: float, unit: str) -> str:
 
 
 def is_number(text: str) -> bool:
-    """Whether `text` is a number without a unit."""
+    """Whether a text is a number without a unit.
+
+    Args:
+        text: any text.
+    """
     try:
         float(text)
     except ValueError:
@@ -115,7 +126,11 @@ def is_number(text: str) -> bool:
 
 
 def has_unit(text: str) -> bool:
-    """Whether `text` is a number with a unit."""
+    """Whether a text is a number with a unit.
+
+    Args:
+        text: any text.
+    """
     return not is_number(text) and _QUANTITY.fullmatch(text.strip()) is not None
 
 

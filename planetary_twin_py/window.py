@@ -20,18 +20,18 @@ class Waveform:
     period: float
     """Sample period [s]."""
     time: np.ndarray
-    """[s], shape (samples,)"""
+    """Sample times [s], (samples,)."""
     dte: np.ndarray
-    """Dynamic transmission error along the line of action [m], shape (samples, meshes)."""
+    """Dynamic transmission error along the line of action [m], (samples, meshes)."""
     mesh_force: np.ndarray
-    """Normal force [N], negative on the coast flanks, shape (samples, meshes)."""
+    """Normal force, negative on the coast flanks [N], (samples, meshes)."""
     friction: np.ndarray
-    """Boundary and viscous friction, magnitude [N], shape (samples, meshes)."""
+    """Magnitude of boundary plus viscous friction [N], (samples, meshes)."""
 
 
 @dataclass(frozen=True)
 class Window:
-    """Results over one interval of simulated time; angles are those at its end.
+    """Results over one interval of simulated time.
 
     Statistics of the meshes cover exactly the window. Powers and torques of the train cover the
     steps of the integrator that end in the window: windows do not shorten steps, so the motion does
@@ -39,61 +39,64 @@ class Window:
     """
 
     start: float
-    """[s]"""
+    """Start of the window [s]."""
     end: float
-    """[s]"""
+    """End of the window [s]."""
     tolerance: float
     """Relative local error tolerance of the integrator."""
     sample_rate: float
-    """Of the waveform [Hz]."""
+    """Sample rate of the waveform [Hz]."""
     repeated: bool
     """Whether the motion at the start was periodic, so that it was not computed again."""
     bodies: tuple[str, ...]
+    """Names of the bodies, in the order of arrays over bodies."""
     meshes: tuple[str, ...]
+    """Names of the meshes, in the order of arrays over meshes."""
     waveform: Waveform
+    """Samples of the meshes."""
     mesh: dict[str, np.ndarray]
-    """Statistics of the meshes, shape (meshes,) each: see `mesh_statistics`."""
+    """Statistics of the meshes by name, (meshes,) each, see `mesh_statistics`."""
     angle: np.ndarray
-    """[rad] in [0, 2 pi), shape (bodies,)"""
+    """Absolute angles at the end, in [0, 2 pi) [rad], (bodies,)."""
     mean_speed: np.ndarray
-    """[rad/s], shape (bodies,)"""
+    """Mean speed, positive counter-clockwise [rad/s], (bodies,)."""
     mesh_frequency: float
-    """Mesh frequency [Hz]."""
+    """Mesh frequency at the mean speed [Hz]."""
     machine_speed: np.ndarray
-    """Of the motor, the load, and the second motor of a differential [rad/s], (machines,)."""
+    """Speeds of motor, load, and second motor of a differential [rad/s], (machines,)."""
     machine_torque: np.ndarray
-    """Of each on its shaft [N m], (machines,)."""
+    """Torques of the machines on their shafts [N m], (machines,)."""
     machine_power: np.ndarray
-    """From each into the train [W], (machines,)."""
+    """Powers from the machines into the train [W], (machines,)."""
     power_loss: float
-    """Tooth friction of all meshes, bearings and churning [W]."""
+    """Power loss of tooth friction, bearings and churning [W]."""
     stored_power: float
     """Rate of increase of kinetic and elastic energy [W]."""
     stored_energy: float
     """Kinetic and elastic energy at the end [J]."""
     residual_power: float
-    """Residual of the energy ledger [W]: the error of the integration."""
+    """Residual of the energy ledger, an error of the integration [W]."""
     course: Course
     """Counters from which the accuracy is estimated, see `accuracy`."""
 
     @property
     def input_speed(self) -> float:
-        """Of the motor [rad/s]."""
+        """Speed of the motor [rad/s]."""
         return float(self.machine_speed[MOTOR])
 
     @property
     def input_torque(self) -> float:
-        """Of the motor [N m]."""
+        """Torque of the motor [N m]."""
         return float(self.machine_torque[MOTOR])
 
     @property
     def second_input_speed(self) -> float:
-        """Of the second motor [rad/s], NaN without one."""
+        """Speed of the second motor [rad/s]; NaN without one."""
         return float(self.machine_speed[SECOND_MOTOR]) if self._differential else math.nan
 
     @property
     def second_input_torque(self) -> float:
-        """Of the second motor [N m], NaN without one."""
+        """Torque of the second motor [N m]; NaN without one."""
         return float(self.machine_torque[SECOND_MOTOR]) if self._differential else math.nan
 
     @property
@@ -102,22 +105,22 @@ class Window:
 
     @property
     def output_speed(self) -> float:
-        """Of the load [rad/s]."""
+        """Speed of the load [rad/s]."""
         return float(self.machine_speed[LOAD_MACHINE])
 
     @property
     def output_torque(self) -> float:
-        """Of the load on its shaft [N m]."""
+        """Torque of the load on its shaft [N m]."""
         return float(self.machine_torque[LOAD_MACHINE])
 
     @property
     def input_power(self) -> float:
-        """From the motors into the train [W]."""
+        """Power from the motors into the train [W]."""
         return float(self.machine_power[MOTOR] + self.machine_power[SECOND_MOTOR:].sum())
 
     @property
     def output_power(self) -> float:
-        """From the train into the load [W]."""
+        """Power from the train into the load [W]."""
         return -float(self.machine_power[LOAD_MACHINE])
 
     @property
@@ -128,18 +131,18 @@ class Window:
 
 
 def mesh_statistics(sums: MeshSums) -> dict[str, np.ndarray]:
-    """Mean, rms and peak over an interval, shape (meshes,) each.
+    """Mean, rms and peak values over an interval.
 
-    The integrator computes them, independently of samples. rms is that of the deviation from the
-    mean, peak the largest magnitude; film thickness and lambda ratio are means over the time in
-    contact, NaN without contact. `without_viscous` is the fraction of time in which teeth carry
-    load without viscous friction.
+    The integrator computes them independently of samples. The rms value is that of the deviation
+    from the mean, the peak is the largest magnitude. Film thickness and lambda ratio are means over
+    the time in contact, NaN without contact. `without_viscous` is the fraction of time in which
+    teeth carry load without viscous friction.
 
     Args:
         sums: integrals and extremes of the meshes over the interval.
 
     Returns:
-        Statistics in SI by name.
+        Statistics in SI by name, (meshes,) each.
     """
     mean = sums.integral / sums.time
     with np.errstate(invalid="ignore"):

@@ -1,5 +1,6 @@
-"""Signal analysis as people use it on gearboxes: spectra and orders.
+"""Signal analysis for gearboxes.
 
-spectrum (amplitude spectrum, power spectral density, lines), orders (computed order tracking),
-stretches (where samples follow one another evenly), signals (what to analyse of a recording).
+spectrum: amplitude spectrum, power spectral density and lines. orders: computed order tracking.
+segments: uniformly sampled segments of a signal. signals: signals of recordings and runs. aliases:
+detection of aliasing. mesh_spectrum: spectrum of a mesh, and the harmonics of the mesh frequency.
 """

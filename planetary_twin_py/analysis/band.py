@@ -1,4 +1,4 @@
-"""A part of the axis of a spectrum."""
+"""Ranges of the axis of a spectrum."""
 
 from __future__ import annotations
 
@@ -9,29 +9,36 @@ from ..units import to_si
 
 
 class Band(NamedTuple):
-    """From `low` to `high` on the axis [Hz or cycles per turn], both included."""
+    """Range of the axis from `low` to `high` [Hz, or cycles per turn], both included."""
 
     low: float
     high: float
 
 
 def read_band(text: str, unit: str) -> Band:
-    """The band that ``low:high`` tells, in `unit` ("Hz", or "" for orders) or with one of its own.
+    """Parse a band.
+
+    Args:
+        text: ``low:high``, numbers in `unit` or with a unit.
+        unit: "Hz", or "" for orders.
+
+    Returns:
+        The band in `unit`.
 
     Raises:
-        ValueError: the text is none, or not a range from 0 up.
+        ValueError: the text is not a band, or not 0 <= low < high.
     """
     ends = text.split(":")
     try:
         low, high = (float(str(to_si(end.strip(), unit))) for end in ends)
     except ValueError:
-        raise _refusal(text, unit) from None
+        raise _error(text, unit) from None
     if not 0.0 <= low < high < math.inf:
-        raise _refusal(text, unit)
+        raise _error(text, unit)
     return Band(low, high)
 
 
-def _refusal(text: str, unit: str) -> ValueError:
+def _error(text: str, unit: str) -> ValueError:
     return ValueError(
-        f"band = {text!r}: must be low:high in {unit or 'orders'}, 0 <= low < high, as 400:600"
+        f"band = {text!r}: must be low:high in {unit or 'orders'}, 0 <= low < high, e.g. 400:600"
     )

@@ -1,4 +1,4 @@
-"""The spectrum of one mesh, by frequency or by order, and which of its lines are of the meshing."""
+"""Spectrum of one mesh over frequency or order, with the harmonics of the mesh frequency."""
 
 from __future__ import annotations
 
@@ -9,65 +9,77 @@ from typing import Self
 import numpy as np
 from numpy.typing import NDArray
 
-from .aliases import CARRIED, edge_amplitude, folded_harmonic
+from .aliases import NEGLIGIBLE, aliased_harmonic, edge_amplitude
 from .band import Band
 from .orders import order_spectrum
 from .signals import Signal
 from .spectrum import Array, Line, amplitude_spectrum, strongest_lines
 
-NEAR = 1.0  # [bins] from a harmonic: such a line is called one
-HIGHEST_ALIAS = 2.0  # over what stands next to half the sample rate
+NEAR = 1.0  # [bins] largest distance of a line from the harmonic that it is attributed to
+HIGHEST_ALIAS = 2.0  # height of an alias over that of the lines near half the sample rate
 
 
 @dataclass(frozen=True)
 class MeshSpectrum:
-    """`axis` [Hz or cycles per turn] and peak `amplitude` in SI (bins,).
-
-    `mesh` is where the first harmonic of the meshing lies on the axis; None if unknown. `band` is
-    the part of the axis that is looked at. `sample_rate` is that of the samples in the unit of the
-    axis, `edge` what their spectrum over frequency has next to half of it, see `aliases`.
-    """
+    """Amplitude spectrum of a signal of a mesh."""
 
     axis: Array
+    """[Hz, or cycles per turn], (bins,)."""
     amplitude: Array
+    """Peak amplitude in SI, (bins,)."""
     mesh: float | None
+    """Place of the first mesh harmonic on the axis; None if it is unknown."""
     band: Band
+    """Part of the axis whose lines are listed."""
     sample_rate: float
+    """In the unit of the axis."""
     edge: float
+    """Height of the lines just below half the sample rate, see `edge_amplitude`."""
 
     @property
     def alias_share(self) -> float:
-        """Height of aliases over that of the highest line, about."""
+        """Approximate height of aliases over that of the highest line."""
         highest = float(self.amplitude[1:].max())
         return self.edge / highest if highest > 0.0 else 0.0
 
     def within(self, band: Band) -> Self:
-        """The same, looked at in `band`; raises `ValueError` where no bin lies in it."""
+        """The spectrum, restricted to a band.
+
+        Args:
+            band: in the unit of the axis.
+
+        Raises:
+            ValueError: the band contains no bin.
+        """
         narrowed = replace(self, band=Band(band.low, min(band.high, self.band.high)))
-        if not narrowed.seen.any():
+        if not narrowed.in_band.any():
             raise ValueError(
-                f"band = '{band.low:g}:{band.high:g}': nothing there: the spectrum has a value "
-                f"each {self.axis[1]:.4g} up to {self.axis[-1]:g}"
+                f"band = '{band.low:g}:{band.high:g}': must contain a value of the spectrum, which "
+                f"has one every {self.axis[1]:.4g} up to {self.axis[-1]:g}"
             )
         return narrowed
 
     @property
-    def seen(self) -> NDArray[np.bool_]:
-        """Which bins lie in the band (bins,)."""
+    def in_band(self) -> NDArray[np.bool_]:
+        """Whether each bin is in the band, (bins,)."""
         return np.asarray((self.axis >= self.band.low) & (self.axis <= self.band.high))
 
     def lines(self, count: int) -> list[Line]:
-        """The highest in the band, see `strongest_lines`."""
-        # All are sought first: where a band begins or ends in a slope is no peak.
+        """The highest lines in the band, see `strongest_lines`.
+
+        Args:
+            count: largest number of lines.
+        """
+        # Peaks are searched in the whole spectrum, because the end of a band on a slope is no peak.
         found = strongest_lines(self.axis, self.amplitude, len(self.axis))
         return [line for line in found if self.band.low <= line.place <= self.band.high][:count]
 
     def in_mesh_orders(self, place: float) -> float | None:
-        """`place` on the axis over the first harmonic of the meshing."""
+        """Mesh order of a `place` on the axis: its ratio to the first mesh harmonic, if known."""
         return None if self.mesh is None else place / self.mesh
 
     def harmonic(self, place: float) -> int | None:
-        """Which harmonic of the meshing the line at `place` is, if any."""
+        """Number of the mesh harmonic of a line at `place` on the axis, or None."""
         if self.mesh is None:
             return None
         nearest = round(place / self.mesh)
@@ -75,23 +87,31 @@ class MeshSpectrum:
         return nearest if nearest > 0 and away <= NEAR * float(self.axis[1]) else None
 
     def alias(self, line: Line) -> int | None:
-        """Harmonic of the meshing beyond half the sample rate that `line` may be, if any.
+        """Number of the mesh harmonic above half the sample rate that `line` may be an alias of.
 
-        What is a harmonic itself and stands above the height of aliases is no alias.
+        None if there is no such harmonic, or if the line is a harmonic higher than aliases.
         """
         if self.mesh is None:
             return None
         own = self.harmonic(line.place)
-        carried = self.alias_share <= CARRIED or line.amplitude > HIGHEST_ALIAS * self.edge
-        if own is not None and carried:
+        higher = self.alias_share <= NEGLIGIBLE or line.amplitude > HIGHEST_ALIAS * self.edge
+        if own is not None and higher:
             return None
         near = NEAR * float(self.axis[1])
-        found = folded_harmonic(line.place, self.mesh, self.sample_rate, near)
+        found = aliased_harmonic(line.place, self.mesh, self.sample_rate, near)
         return None if found == own else found
 
 
 def frequency_spectrum_of(signal: Signal, sun_teeth: int | None) -> MeshSpectrum:
-    """Over frequency [Hz]; the meshing's is that at the mean speed."""
+    """Spectrum of a signal over frequency.
+
+    Args:
+        signal: of a mesh.
+        sun_teeth: number of teeth of the sun; None if it is unknown.
+
+    Returns:
+        The spectrum, with the mesh frequency at the mean speed.
+    """
     found = amplitude_spectrum(signal.samples, signal.sample_rate)
     mesh = None if sun_teeth is None else sun_teeth * abs(signal.speed) / (2.0 * math.pi)
     edge = edge_amplitude(found.frequency, found.amplitude)
@@ -99,12 +119,17 @@ def frequency_spectrum_of(signal: Signal, sun_teeth: int | None) -> MeshSpectrum
 
 
 def order_spectrum_of(signal: Signal, sun_teeth: int | None) -> MeshSpectrum:
-    """Over orders: cycles per turn of the sun against the carrier.
+    """Spectrum of a signal over orders, in cycles per turn of the sun relative to the carrier.
 
-    Up to what the samples resolve where the sun is fastest.
+    Args:
+        signal: of a mesh.
+        sun_teeth: number of teeth of the sun; None if it is unknown.
+
+    Returns:
+        The spectrum, up to the order that the samples resolve at the highest speed of the sun.
 
     Raises:
-        ValueError: the sun stands still or turns back (see `order_spectrum`).
+        ValueError: the sun is at rest or reverses (see `order_spectrum`).
     """
     fastest = float(np.abs(np.diff(signal.angle)).max())
     per_turn = max(math.floor(2.0 * math.pi / max(fastest, 1e-12)), 4)

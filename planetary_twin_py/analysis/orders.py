@@ -1,9 +1,9 @@
-"""Computed order tracking: what happens a fixed number of times per turn, at any speed.
+"""Computed order tracking: spectra of signals of gearboxes with varying speed.
 
-A gearbox that changes its speed smears every line of a plain spectrum. Sampled anew at equal steps
-of a shaft's angle, the same signal has its lines at orders, in cycles per turn of that shaft, and
-they stay (Fyfe and Munck 1997, Mech. Syst. Signal Process. 11, 187-205; Randall 2011,
-Vibration-based Condition Monitoring, sec. 3.6).
+A varying speed smears the lines of a frequency spectrum. Resampled at equal steps of the angle of
+a shaft, the same signal has lines at constant orders, in cycles per turn of that shaft (Fyfe and
+Munck 1997, Mech. Syst. Signal Process. 11, 187-205; Randall 2011, Vibration-based Condition
+Monitoring, sec. 3.6).
 """
 
 from __future__ import annotations
@@ -22,49 +22,61 @@ from .spectrum import amplitude_spectrum, checked
 
 Array = NDArray[np.float64]
 _TURN = 2.0 * math.pi
-FINEST = 1 << 24  # angles at once; more come of a shaft that all but stands still
+FINEST = 1 << 24  # resampled angles; a shaft that is almost at rest would need more
 SAMPLES_PER_TURN = 512
 
 
 class ByAngle(NamedTuple):
-    """`angle` [rad] (n,) in equal steps, counted up in the sense of turning; `samples` (n, ...)."""
+    """A signal resampled at equal steps of the angle of a shaft."""
 
     angle: Array
+    """Angle since the first sample, increasing in the direction of rotation [rad], (n,)."""
     samples: Array
+    """In the unit of the signal, (n,) or (n, channels)."""
 
 
 class OrderSpectrum(NamedTuple):
-    """`order` [cycles per turn] (bins,); `amplitude` (bins, ...), peak, in the signal's unit."""
+    """Amplitude spectrum over orders."""
 
     order: Array
+    """[cycles per turn], (bins,)."""
     amplitude: Array
+    """Peak amplitude in the unit of the signal, (bins,) or (bins, channels)."""
 
 
 class OrderMap(NamedTuple):
-    """Order spectra over time: `amplitude` (windows, bins), peak, in the signal's unit.
-
-    `time` [s] (windows,) of the middle of each window, `speed` [rad/s] (windows,) the mean within,
-    `order` [cycles per turn] (bins,).
-    """
+    """Order spectra over time."""
 
     time: Array
+    """Centre of each window [s], (windows,)."""
     speed: Array
+    """Mean speed of the shaft in each window [rad/s], (windows,)."""
     order: Array
+    """[cycles per turn], (bins,)."""
     amplitude: Array
+    """Peak amplitude in the unit of the signal, (windows, bins)."""
 
 
 def resample_by_angle(
     samples: ArrayLike, angle: ArrayLike, samples_per_turn: int = SAMPLES_PER_TURN
 ) -> ByAngle:
-    """Samples (n,) or (n, channels) at equal steps of the shaft's continuous `angle` [rad] (n,).
+    """Resample a signal at equal steps of the angle of a shaft (Fyfe and Munck 1997).
 
-    By cubic splines, which leave tones up to a quarter of the sample rate within 1.5 %. Orders up
-    to 0.4 `samples_per_turn` are kept to 1 %; those beyond 0.6, which would fold back among them,
-    are filtered out to 1 %.
+    Cubic splines interpolate the samples; the error is at most 1.5 % for tones up to a quarter of
+    the sample rate. The error of orders up to 0.4 `samples_per_turn` is at most 1 %. Orders above
+    0.6 `samples_per_turn`, which would appear as aliases of these, are reduced to 1 % by a filter.
+
+    Args:
+        samples: the signal in any unit, (n,) or (n, channels), n at least 8.
+        angle: of the shaft at the samples, continuous over turns [rad], (n,).
+        samples_per_turn: number of samples per turn of the result, at least 4.
+
+    Returns:
+        Angle [rad] and samples, each (m,) or (m, channels).
 
     Raises:
-        ValueError: the signal is too short or not finite, the angle does not match or the shaft
-            turns back, stands still, or turns less than two steps.
+        ValueError: the signal is too short or not finite, the angle has another length, or the
+            shaft reverses, is at rest or turns less than two steps.
     """
     values, turned = checked(samples), _one_way(angle)
     if len(values) != len(turned):
@@ -72,15 +84,15 @@ def resample_by_angle(
     if samples_per_turn < 4:
         raise ValueError(f"samples_per_turn = {samples_per_turn}: must be 4 or more")
     step = _TURN / samples_per_turn
-    # Fine enough where the shaft is slowest, so that nothing folds back before the filter.
+    # Fine enough at the lowest speed, so that there are no aliases before the filter.
     finer = max(1, math.ceil(step / float(np.diff(turned).min())))
     count = math.floor(turned[-1] / step)
     if count < 2:
-        raise ValueError(f"angle: turns {turned[-1]:.3g} rad: less than two steps of {step:.3g}")
+        raise ValueError(f"angle: turns {turned[-1]:.3g} rad: must be at least {2 * step:.3g}")
     if count * finer > FINEST:
         raise ValueError(
-            f"angle: turns {np.diff(turned).min():.3g} rad in the slowest step, "
-            f"{np.diff(turned).max():.3g} in the fastest: leave standstill out"
+            f"angle: increases by {np.diff(turned).min():.3g} rad in the slowest step and "
+            f"{np.diff(turned).max():.3g} in the fastest; exclude standstill"
         )
     grid = step / finer * np.arange(count * finer)
     fine = CubicSpline(turned, values)(grid)
@@ -94,12 +106,22 @@ def order_spectrum(
     samples_per_turn: int = SAMPLES_PER_TURN,
     window: str = "hann",
 ) -> OrderSpectrum:
-    """Amplitude spectrum over orders of the shaft with the continuous `angle` [rad] (n,).
+    """Amplitude spectrum over orders of a shaft (Fyfe and Munck 1997).
 
-    Scaled as `amplitude_spectrum`; the orders are resolved to one over the turns in the signal.
+    The amplitudes are scaled as in `amplitude_spectrum`. The order resolution is the inverse of
+    the number of turns in the signal.
+
+    Args:
+        samples: the signal in any unit, (n,) or (n, channels), n at least 8.
+        angle: of the shaft at the samples, continuous over turns [rad], (n,).
+        samples_per_turn: see `resample_by_angle`; the highest order is half of it.
+        window: name of a window of `scipy.signal.get_window`.
+
+    Returns:
+        Order [cycles per turn] (bins,) and peak amplitude (bins,) or (bins, channels).
 
     Raises:
-        ValueError: as `resample_by_angle` and `amplitude_spectrum`.
+        ValueError: see `resample_by_angle` and `amplitude_spectrum`.
     """
     resampled = resample_by_angle(samples, angle, samples_per_turn).samples
     return OrderSpectrum(*amplitude_spectrum(resampled, samples_per_turn, window))
@@ -113,12 +135,25 @@ def order_map(
     most_windows: int = 400,
     samples_per_turn: int = SAMPLES_PER_TURN,
 ) -> OrderMap:
-    """Order spectra (Hann) of windows of `turns` turns of the shaft, over time [s] (n,).
+    """Order spectra of successive windows of a signal, with a Hann window.
 
-    Windows overlap by half, or lie further apart if there would be more than `most_windows`.
+    Windows overlap by half; they are further apart if there would be more than `most_windows`.
+
+    Args:
+        samples: the signal in any unit, (n,), n at least 8.
+        time: of the samples [s], (n,).
+        angle: of the shaft at the samples, continuous over turns [rad], (n,).
+        turns: length of a window in turns of the shaft.
+        most_windows: largest number of windows.
+        samples_per_turn: see `resample_by_angle`; the highest order is half of it.
+
+    Returns:
+        Time [s] and speed [rad/s] of the windows (windows,), order [cycles per turn] (bins,) and
+        peak amplitude (windows, bins).
 
     Raises:
-        ValueError: as `order_spectrum`; `samples` have several channels, or last less than `turns`.
+        ValueError: see `order_spectrum`; or the signal has several channels or is shorter than
+            `turns`.
     """
     resampled = resample_by_angle(samples, angle, samples_per_turn)
     length = round(turns * samples_per_turn)
@@ -141,31 +176,40 @@ def order_map(
 
 
 def mesh_order(teeth: Teeth, held: str, member: str) -> Fraction:
-    """Teeth that pass each mesh per turn of `member`: the order of the meshing.
+    """Mesh order: the number of teeth that pass a mesh per turn of a member.
 
-    `member` is "sun", "ring", "carrier" or "planet" (about the gearbox's axis and its pin together,
-    as its angle is recorded). Sidebands and harmonics lie at whole numbers around and of it. With
-    both inputs of a differential turning, there is no such number: take the angle of the sun
-    against the carrier, of which the order is always the sun's number of teeth.
+    It follows from the speeds of Willis (1841). Harmonics are at integer multiples of it, and
+    sidebands of faults at integer distances from these. If both inputs of a differential turn, the
+    number is not constant; use the angle of the sun relative to the carrier, for which the mesh
+    order is the number of teeth of the sun.
+
+    Args:
+        teeth: tooth numbers of sun, planet and ring.
+        held: member at rest, "sun", "ring" or "carrier".
+        member: "sun", "ring", "carrier" or "planet". The turns of a planet are absolute, like its
+            recorded angle.
+
+    Returns:
+        The mesh order [cycles per turn of `member`], exact.
 
     Raises:
-        ValueError: `held` or `member` is no member, or is at rest.
+        ValueError: `held` or `member` is not a member of the gearset, or `member` is at rest.
     """
     if member != "planet":
         return abs(mesh_cycles_per_turn(teeth, speed_ratios(teeth, held, member)))
     ratios = speed_ratios(teeth, held, "sun" if held != "sun" else "carrier")
     if ratios["planet"] == 0:
-        raise ValueError(f"member = 'planet': is at rest with the {held} held")
+        raise ValueError(f"member = 'planet': is at rest if the {held} is held")
     return abs(mesh_cycles_per_turn(teeth, ratios) / ratios["planet"])
 
 
 def _one_way(angle: ArrayLike) -> Array:
-    """The angle turned since the first sample, counted up."""
+    """Angle since the first sample [rad], increasing; raises `ValueError` if the shaft reverses."""
     turned = checked(angle, "angle")
     if turned.ndim != 1:
-        raise ValueError(f"angle: shape {turned.shape}: must be of one shaft")
+        raise ValueError(f"angle: shape {turned.shape}: must be that of one shaft, (n,)")
     turned = (turned - turned[0]) * np.sign(turned[-1] - turned[0])
     wrong = np.flatnonzero(np.diff(turned) <= 0.0)
     if len(wrong):
-        raise ValueError(f"angle: turns back or stands still after sample {wrong[0]}")
+        raise ValueError(f"angle: reverses or stands still after sample {wrong[0]}")
     return turned

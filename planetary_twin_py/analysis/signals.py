@@ -1,4 +1,4 @@
-"""What to analyse: one quantity of one mesh, from a recording or from the samples of a run."""
+"""Signals to analyse: a quantity of a mesh, from a recording or from the samples of a run."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from scipy.interpolate import PchipInterpolator
 from ..recording.container.records import RecordingError
 from ..recording.runs.reader import Recording, read_recording
 from ..recording.runs.unwrapping import unwrap
-from .stretches import full_rate, longest_stretch, sample_rate
+from .segments import full_rate, longest_segment, sample_rate
 
 Array = NDArray[np.float64]
 QUANTITIES = {"dte": "m", "mesh_force": "N", "friction": "N"}
@@ -22,39 +22,49 @@ QUANTITIES = {"dte": "m", "mesh_force": "N", "friction": "N"}
 
 @dataclass(frozen=True)
 class Signal:
-    """`samples` (n,) of a quantity in SI at `time` [s] (n,), evenly; angles (n,) in rad.
-
-    `angle` is that of the sun against the carrier, in which a mesh has the sun's number of teeth
-    as its order, whatever is held.
-    """
+    """Samples of a quantity of a mesh."""
 
     samples: Array
+    """In SI, (n,)."""
     time: Array
+    """[s], (n,), uniformly spaced in a signal returned by `within`."""
     angle: Array
+    """Of the sun relative to the carrier [rad], (n,), continuous over turns; the mesh order for
+    this angle is the number of teeth of the sun, whichever member is held."""
     scene_yaml: str | None
+    """The scene, if it is known."""
     remarks: tuple[str, ...] = ()
+    """Warnings about the samples."""
 
     @property
     def sample_rate(self) -> float:
-        """[Hz]."""
+        """Sample rate [Hz] of uniformly spaced samples."""
         return sample_rate(self.time)
 
     @property
     def speed(self) -> float:
-        """Mean of the sun against the carrier [rad/s]."""
+        """Mean speed of the sun relative to the carrier [rad/s]."""
         return float((self.angle[-1] - self.angle[0]) / (self.time[-1] - self.time[0]))
 
     def within(self, begin: float | None, end: float | None) -> Self:
-        """The longest even stretch from `begin` to `end` [s]; a remark tells what that leaves out.
+        """The longest uniformly sampled segment of an interval.
+
+        Args:
+            begin: start of the interval [s]; None is the start of the signal.
+            end: end of the interval [s]; None is the end of the signal.
+
+        Returns:
+            The segment, with remarks if it is shorter than the interval or its sample rate is
+            reduced.
 
         Raises:
-            RecordingError: there is none.
+            RecordingError: there is no such segment.
         """
         low = self.time[0] if begin is None else begin
         high = self.time[-1] if end is None else end
         inside = np.flatnonzero((self.time >= low) & (self.time <= high))
         try:
-            part = inside[longest_stretch(self.time[inside])]
+            part = inside[longest_segment(self.time[inside])]
         except ValueError as error:
             raise RecordingError(
                 f"from {low:g} to {high:g} s: {error}; "
@@ -64,14 +74,14 @@ class Signal:
         if len(part) < len(inside):
             first, last = self.time[part[[0, -1]]]
             remarks += (
-                f"samples are missing or change their rate: analysed is the longest stretch "
-                f"without, {first:.4f} to {last:.4f} s",
+                "samples are missing or the sample rate changes: only the longest uniformly "
+                f"sampled segment is analysed, {first:.4f} to {last:.4f} s",
             )
         rate, full = sample_rate(self.time[part]), full_rate(self.time)
         if rate < 0.99 * full:
             remarks += (
-                f"samples come at {rate:.0f} in place of {full:.0f} Hz: what lies above "
-                f"{0.5 * rate:.0f} Hz folds back below it",
+                f"the sample rate is reduced from {full:.0f} to {rate:.0f} Hz: components above "
+                f"{0.5 * rate:.0f} Hz appear as aliases",
             )
         return type(self)(
             self.samples[part], self.time[part], self.angle[part], self.scene_yaml, remarks
@@ -79,10 +89,19 @@ class Signal:
 
 
 def read_signal(path: Path, mesh: str, quantity: str, namespace: str | None = None) -> Signal:
-    """The `quantity` of `mesh` in the recording or the .npz file of `simulate` at `path`.
+    """Read a signal.
+
+    Args:
+        path: of a recording, or of an .npz file of `simulate`.
+        mesh: name of the mesh.
+        quantity: one of `QUANTITIES`.
+        namespace: of the topics in the recording; None if there is only one.
+
+    Returns:
+        The whole signal.
 
     Raises:
-        RecordingError: `path` is neither, or holds no such mesh or quantity.
+        RecordingError: the file is neither, or the mesh or quantity does not exist.
     """
     if quantity not in QUANTITIES:
         raise RecordingError(f"quantity = {quantity!r}: must be one of {', '.join(QUANTITIES)}")
@@ -92,14 +111,22 @@ def read_signal(path: Path, mesh: str, quantity: str, namespace: str | None = No
 
 
 def of_recording(recording: Recording, mesh: str, quantity: str) -> Signal:
-    """The `quantity` of `mesh`; angles between two states run smoothly through the recorded ones.
+    """Signal of a mesh in a recording.
+
+    Args:
+        recording: with waveform.
+        mesh: name of the mesh.
+        quantity: one of `QUANTITIES`.
+
+    Returns:
+        The whole signal, with angles interpolated between the recorded states.
 
     Raises:
-        RecordingError: there is no such mesh, or no waveform.
+        RecordingError: the mesh does not exist, or the recording has no waveform.
     """
     wave = recording.waveform
     if wave is None:
-        raise RecordingError(f"{recording.path}: no mesh_waveform message in it")
+        raise RecordingError(f"{recording.path}: contains no mesh_waveform message")
     column = _column(mesh, recording.meshes)
     return Signal(
         getattr(wave, quantity)[:, column].astype(np.float64),
@@ -111,7 +138,12 @@ def of_recording(recording: Recording, mesh: str, quantity: str) -> Signal:
 
 
 def relative_angle(recording: Recording, time: Array) -> Array:
-    """Angle of the sun against the carrier [rad] at `time` [s] (n,), continuous."""
+    """Angle of the sun relative to the carrier [rad], (n,), continuous over turns.
+
+    Args:
+        recording: gives the recorded angles and speeds.
+        time: at which to interpolate [s], (n,).
+    """
     state = recording.state
     sun, carrier = (
         unwrap(state.time, state[f"{member}_angle"], state[f"{member}_speed"])
@@ -123,24 +155,24 @@ def relative_angle(recording: Recording, time: Array) -> Array:
 def _of_run(path: Path, mesh: str, quantity: str) -> Signal:
     try:
         with np.load(path) as arrays:
-            held = {name: arrays[name] for name in arrays.files}
-        bodies = held["bodies"].tolist()
-        angle = held["angle"][:, bodies.index("sun")] - held["angle"][:, bodies.index("carrier")]
-        samples = _values(held, quantity)[:, _column(mesh, tuple(held["meshes"].tolist()))]
-        scene = str(held["scene_yaml"]) if "scene_yaml" in held else None
-        return Signal(samples, held["time"], angle, scene)
+            stored = {name: arrays[name] for name in arrays.files}
+        bodies = stored["bodies"].tolist()
+        sun, carrier = (stored["angle"][:, bodies.index(name)] for name in ("sun", "carrier"))
+        samples = _values(stored, quantity)[:, _column(mesh, tuple(stored["meshes"].tolist()))]
+        scene = str(stored["scene_yaml"]) if "scene_yaml" in stored else None
+        return Signal(samples, stored["time"], sun - carrier, scene)
     except FileNotFoundError:
         raise RecordingError(f"{path}: no such file or folder") from None
     except RecordingError:
         raise
     except (BadZipFile, ValueError, KeyError, EOFError, OSError) as error:
-        raise RecordingError(f"{path}: no samples of `simulate`: {error}") from None
+        raise RecordingError(f"{path}: not a file of `simulate`: {error}") from None
 
 
-def _values(held: dict[str, Any], quantity: str) -> Any:
+def _values(stored: dict[str, Any], quantity: str) -> Any:
     if quantity == "friction":
-        return held["boundary_friction"] + held["viscous_friction"]
-    return held[quantity]
+        return stored["boundary_friction"] + stored["viscous_friction"]
+    return stored[quantity]
 
 
 def _column(mesh: str, meshes: tuple[str, ...]) -> int:

@@ -1,8 +1,8 @@
-"""Spectra of evenly sampled signals, scaled so that what is read off is what was measured.
+"""Spectra of uniformly sampled signals.
 
-An amplitude spectrum shows tones: a line's height is the tone's peak amplitude, whatever the window
-and the length. A power spectral density shows noise: its integral is the variance. Both after
-Randall 2011, Vibration-based Condition Monitoring, ch. 3, and Harris 1978, Proc. IEEE 66, 51-83.
+In an amplitude spectrum the height of a line is the peak amplitude of a tone, independently of
+window and length. The integral of a power spectral density is the variance. Sources: Randall 2011,
+Vibration-based Condition Monitoring, ch. 3, and Harris 1978, Proc. IEEE 66, 51-83.
 """
 
 from __future__ import annotations
@@ -14,48 +14,62 @@ from numpy.typing import ArrayLike, NDArray
 from scipy import signal as filters
 
 Array = NDArray[np.float64]
-FEWEST_SAMPLES = 8  # a Hann window's main lobe alone is four bins wide
+FEWEST_SAMPLES = 8  # the main lobe of a Hann window is four bins wide
 
 
 class Spectrum(NamedTuple):
-    """`frequency` [Hz] (bins,); `amplitude` (bins, ...), peak, in the unit of the signal."""
+    """One-sided amplitude spectrum."""
 
     frequency: Array
+    """[Hz], (bins,)."""
     amplitude: Array
+    """Peak amplitude in the unit of the signal, (bins,) or (bins, channels)."""
 
 
 class PowerDensity(NamedTuple):
-    """`frequency` [Hz] (bins,); `density` (bins, ...) in the signal's unit squared per Hz."""
+    """One-sided power spectral density."""
 
     frequency: Array
+    """[Hz], (bins,)."""
     density: Array
+    """In the squared unit of the signal per Hz, (bins,) or (bins, channels)."""
 
 
 class Line(NamedTuple):
-    """A tone: `place` in the unit of the axis, peak `amplitude`."""
+    """A line of a spectrum."""
 
     place: float
+    """Frequency [Hz] or order [cycles per turn]."""
     amplitude: float
+    """Peak amplitude in the unit of the signal."""
 
 
 def amplitude_spectrum(samples: ArrayLike, sample_rate: float, window: str = "hann") -> Spectrum:
-    """One-sided amplitude spectrum of `samples` (n,) or (n, channels) at `sample_rate` [Hz].
+    """One-sided amplitude spectrum (Harris 1978; Randall 2011, ch. 3).
 
-    A tone a sin(2 pi f t + p) between 0 and half the sample rate has the height a, if f is a bin;
-    else up to 15 % less with a Hann window (scalloping), 0.1 % with "flattop";
-    `strongest_lines` takes that out. The magnitude of the mean stands at 0 Hz and does not leak.
-    `window` is any that `scipy.signal.get_window` knows by name.
+    The height of a tone a sin(2 pi f t + p) below half the sample rate is a if f is the frequency
+    of a bin. Otherwise it is lower by up to 15 % with a Hann window and 0.1 % with "flattop"
+    (scalloping loss); `strongest_lines` corrects that. The value at 0 Hz is the magnitude of the
+    mean, which is subtracted before windowing and does not leak.
+
+    Args:
+        samples: the signal in any unit, (n,) or (n, channels), n at least 8.
+        sample_rate: [Hz].
+        window: name of a window of `scipy.signal.get_window`.
+
+    Returns:
+        Frequency [Hz] (bins,) and peak amplitude (bins,) or (bins, channels).
 
     Raises:
-        ValueError: `samples` are too few or not finite, the rate is not positive, or the window is
-            unknown.
+        ValueError: there are too few samples, a sample is not finite, the sample rate is not
+            positive, or the window is unknown.
     """
     values, rate = checked(samples), _positive(sample_rate, "sample_rate")
     count = len(values)
     weights = _window(window, count).reshape(-1, *[1] * (values.ndim - 1))
     mean = values.mean(axis=0)
     amplitude = np.abs(np.fft.rfft((values - mean) * weights, axis=0)) / weights.sum()
-    # Half of a tone stands at its negative frequency; 0 and the Nyquist frequency have none.
+    # Half of a tone is at its negative frequency; 0 and the Nyquist frequency have none.
     amplitude[1 : (count + 1) // 2] *= 2.0
     amplitude[0] = np.abs(mean)
     half = count // 2
@@ -66,14 +80,23 @@ def amplitude_spectrum(samples: ArrayLike, sample_rate: float, window: str = "ha
 def power_density(
     samples: ArrayLike, sample_rate: float, segment: int | None = None, window: str = "hann"
 ) -> PowerDensity:
-    """One-sided power spectral density of `samples` (n,) or (n, channels), by Welch's method.
+    """One-sided power spectral density by Welch's method.
 
-    Averages over segments of `segment` samples (without it: an eighth of all) that overlap by half,
-    each less its mean (Welch 1967, IEEE Trans. Audio Electroacoust. 15, 70-73). The sum times the
-    spacing of the bins is the variance of the segments.
+    The periodograms of segments that overlap by half are averaged; the mean of each segment is
+    subtracted (Welch 1967, IEEE Trans. Audio Electroacoust. 15, 70-73). The sum over the bins times
+    their spacing is the variance of the segments.
+
+    Args:
+        samples: the signal in any unit, (n,) or (n, channels), n at least 8.
+        sample_rate: [Hz].
+        segment: length of a segment in samples, at least 8; None is an eighth of the signal.
+        window: name of a window of `scipy.signal.get_window`.
+
+    Returns:
+        Frequency [Hz] (bins,) and density (bins,) or (bins, channels).
 
     Raises:
-        ValueError: as `amplitude_spectrum`, or `segment` is longer than the signal.
+        ValueError: see `amplitude_spectrum`; or `segment` is too short, or longer than the signal.
     """
     values, rate = checked(samples), _positive(sample_rate, "sample_rate")
     length = max(len(values) // 8, FEWEST_SAMPLES) if segment is None else segment
@@ -81,28 +104,36 @@ def power_density(
         raise ValueError(
             f"segment = {length}: must be within {FEWEST_SAMPLES} and {len(values)} samples"
         )
-    _window(window, length)  # a name that is unknown is told as ours
+    _window(window, length)  # for our error message if the name is unknown
     return PowerDensity(*filters.welch(values, rate, window, length, axis=0))
 
 
 def strongest_lines(axis: ArrayLike, amplitude: ArrayLike, count: int = 10) -> list[Line]:
-    """The `count` highest lines of a spectrum with a Hann window, (bins,) each, highest first.
+    """The highest lines of a spectrum with a Hann window.
 
     Place and height between the bins follow from the ratio of the two highest bins of each peak
-    (Grandke 1983, IEEE Trans. Instrum. Meas. 32, 350-355): exact for a lone tone, and within
-    1 % in height for tones more than four bins apart from each other and from both ends. The mean
-    is no line.
+    (Grandke 1983, IEEE Trans. Instrum. Meas. 32, 350-355). They are exact for a single tone; the
+    error of the height is at most 1 % for tones more than four bins from each other and from both
+    ends. The mean is not a line.
+
+    Args:
+        axis: frequency [Hz] or order [cycles per turn], uniformly spaced, (bins,).
+        amplitude: peak amplitude in any unit, (bins,).
+        count: largest number of lines, at least 1.
+
+    Returns:
+        The lines, highest first.
 
     Raises:
-        ValueError: the two do not match, or `count` is not positive.
+        ValueError: the shapes differ, there are fewer than three bins, or `count` is below 1.
     """
     x, a = np.asarray(axis, dtype=np.float64), np.asarray(amplitude, dtype=np.float64)
     if x.ndim != 1 or x.shape != a.shape or len(x) < 3:
         raise ValueError(
-            f"amplitude: shape {a.shape}: must be that of the axis {x.shape}, 3 or more"
+            f"amplitude: shape {a.shape}: must be that of the axis {x.shape}, at least 3 bins"
         )
     if count < 1:
-        raise ValueError(f"count = {count}: must be 1 or more")
+        raise ValueError(f"count = {count}: must be at least 1")
     a = np.concatenate(([0.0], a[1:], [0.0]))  # without the mean; the last bin may be a peak
     peaks = 1 + np.flatnonzero((a[1:-1] > a[:-2]) & (a[1:-1] >= a[2:]))
     lines = [_interpolated(x, a, int(k)) for k in peaks]
@@ -118,14 +149,16 @@ def _interpolated(x: Array, a: Array, peak: int) -> Line:
 
 
 def checked(samples: ArrayLike, name: str = "samples") -> Array:
-    """`samples` as floats; raises `ValueError` where they are too few or not finite."""
+    """`samples` as floats; raises `ValueError` if there are too few, or one is not finite."""
     values = np.asarray(samples, dtype=np.float64)
     if values.ndim == 0 or len(values) < FEWEST_SAMPLES:
         found = len(values) if values.ndim else 1
-        raise ValueError(f"{name}: {found} of them: must be {FEWEST_SAMPLES} or more")
+        raise ValueError(f"{name}: {found} values: must be at least {FEWEST_SAMPLES}")
     bad = ~np.isfinite(values).reshape(len(values), -1).all(axis=1)
     if bad.any():
-        raise ValueError(f"{name}: not finite at {np.flatnonzero(bad)[0]}: leave such samples out")
+        raise ValueError(
+            f"{name}: not finite at index {np.flatnonzero(bad)[0]}; exclude such samples"
+        )
     return values
 
 
@@ -139,4 +172,4 @@ def _window(name: str, length: int) -> Array:
     try:
         return filters.get_window(name, length)
     except ValueError:
-        raise ValueError(f"window = {name!r}: scipy.signal.get_window knows none") from None
+        raise ValueError(f"window = {name!r}: must be one of scipy.signal.get_window") from None

@@ -67,7 +67,7 @@ def paper(
 def _table(entries: list[Entry]) -> Table:
     from rich.table import Table
 
-    table = Table("", "what", "verdict", box=None, header_style="bold", pad_edge=False)
+    table = Table("", "title", "verdict", box=None, header_style="bold", pad_edge=False)
     for entry in entries:
-        table.add_row(entry.number, entry.title, str(entry.verdict).removesuffix(", because"))
+        table.add_row(entry.number, entry.title, entry.verdict.text)
     return table

@@ -161,11 +161,11 @@ def _sun_teeth(signal: Signal) -> int | None:
 
 def _aliases(signal: Signal, found: MeshSpectrum) -> Iterator[str]:
     """A warning if the sample rate is too low for the signal."""
-    from ..analysis.aliases import CARRIED, alias_remark
+    from ..analysis.aliases import NEGLIGIBLE, alias_remark
     from ..modal.natural import natural_modes
     from ..scene import parse_scene
 
-    if found.alias_share <= CARRIED:
+    if found.alias_share <= NEGLIGIBLE:
         return
     highest = mesh = None
     if signal.scene_yaml is not None:
@@ -234,7 +234,7 @@ def _write(out: Path, found: MeshSpectrum, title: str, labels: tuple[str, str]) 
     if out.suffix == ".csv":
         import numpy as np
 
-        table = np.column_stack((found.axis, found.amplitude))[found.seen]
+        table = np.column_stack((found.axis, found.amplitude))[found.in_band]
         np.savetxt(out, table, delimiter=",", header=",".join(labels), comments="")
         return
     from ..plots.spectrum import spectrum_plot

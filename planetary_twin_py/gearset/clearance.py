@@ -1,8 +1,8 @@
-"""Whether planets pass each other: the tip circles of neighbours must not touch.
+"""Clearance between neighbouring planets: their tip circles must not touch.
 
-The centres of two planets, an angle delta apart on the carrier, are 2 a sin(delta/2) apart, with
-the centre distance a = m (Zs + Zp)/2; the tip diameter is m (Zp + 2 ha), with the addendum ha in
-modules. Two opposite planets always pass: the sun between them has more than 2 ha teeth.
+The centres of two planets with an angle delta between them have the distance 2 a sin(delta/2),
+where a = m (Zs + Zp)/2. The tip diameter is m (Zp + 2 ha), where ha is the addendum in modules.
+Two opposite planets are always clear, because the sun has more than 2 ha teeth.
 """
 
 from __future__ import annotations
@@ -15,45 +15,68 @@ from .kinematics import Teeth
 
 
 class Size(NamedTuple):
-    """What decides how much room planets need."""
+    """Dimensions that determine the space planets require."""
 
     teeth: Teeth
-    module: float  # [m]
-    addendum: float  # in modules
+    module: float
+    """[m]"""
+    addendum: float
+    """[modules]"""
 
     @property
     def tip_diameter(self) -> float:
-        """Of a planet [m]."""
+        """Tip diameter of a planet [m]."""
         return self.module * (self.teeth.planet + 2.0 * self.addendum)
 
     def distance(self, angle: float) -> float:
-        """Between the centres of two planets `angle` [rad] apart [m]."""
+        """Distance between the centres of two planets [m].
+
+        Args:
+            angle: between the planets [rad].
+        """
         return self.module * (self.teeth.sun + self.teeth.planet) * abs(math.sin(0.5 * angle))
 
 
 def least_places(size: Size) -> int:
-    """How many of the positions that can be assembled a planet is at least from the next."""
+    """Smallest distance between planets, in positions at which a planet can be assembled.
+
+    Args:
+        size: dimensions of the gearset.
+    """
     places = size.teeth.sun + size.teeth.ring
     return next(n for n in range(1, places) if _clear(size, 2.0 * math.pi * n / places))
 
 
 def most_planets(size: Size) -> int:
-    """How many planets there is room for, as equally spaced as they can be assembled."""
+    """Largest number of planets, spaced as equally as assembly permits.
+
+    Args:
+        size: dimensions of the gearset.
+    """
     return (size.teeth.sun + size.teeth.ring) // least_places(size)
 
 
 def are_clear(size: Size, angles: Sequence[float]) -> bool:
-    """Whether planets at `angles` [rad] all pass each other."""
+    """Whether no tip circles of planets touch.
+
+    Args:
+        size: dimensions of the gearset.
+        angles: positions of the planets [rad].
+    """
     first, second = _closest(size, angles)
     return _clear(size, angles[second] - angles[first])
 
 
 def check_clearance(size: Size, angles: Sequence[float]) -> None:
-    """Check that planets at `angles` [rad] pass each other.
+    """Check that no tip circles of planets touch.
+
+    Args:
+        size: dimensions of the gearset.
+        angles: positions of the planets [rad].
 
     Raises:
-        ValueError: the tip circles of two touch; names them, and how many planets there is room
-            for where there are more.
+        ValueError: the tip circles of two planets touch; the message names them, and the largest
+            number of planets if there are more.
     """
     if are_clear(size, angles):
         return
@@ -63,8 +86,8 @@ def check_clearance(size: Size, angles: Sequence[float]) -> None:
     room = f"; at most {most} planets fit, equally spaced" if len(angles) > most else ""
     raise ValueError(
         f"planet_angles = {', '.join(f'{math.degrees(angle):g}' for angle in angles)} deg: "
-        f"planets {first + 1} and {second + 1} are {distance:.6g} mm apart, which must be more "
-        f"than their tip diameter of {1e3 * size.tip_diameter:.6g} mm{room}"
+        f"the distance of planets {first + 1} and {second + 1} is {distance:.6g} mm and must be "
+        f"above their tip diameter of {1e3 * size.tip_diameter:.6g} mm{room}"
     )
 
 

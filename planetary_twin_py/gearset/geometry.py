@@ -9,14 +9,15 @@ from .kinematics import Teeth
 
 
 class PathOfContact(NamedTuple):
-    """Reach of a tooth pair on the line of action, in base pitches from the pitch point.
+    """Path of contact of a tooth pair on the line of action, relative to the pitch point.
 
-    A pair is in contact from -approach to +recess; the sum is the contact ratio. `approach` is
-    made by the tip of the second (driven) gear, `recess` by that of the first (driving) one.
+    A pair is in contact from -approach to +recess.
     """
 
     approach: float
+    """Length up to the pitch point [base pitches], limited by the tip of the driven gear."""
     recess: float
+    """Length after the pitch point [base pitches], limited by the tip of the driving gear."""
 
     @property
     def contact_ratio(self) -> float:
@@ -25,17 +26,27 @@ class PathOfContact(NamedTuple):
 
 
 def pitch_radius(teeth: int, module: float) -> float:
-    """Pitch radius m z/2 [m]."""
+    """Pitch radius m z/2 [m].
+
+    Args:
+        teeth: number of teeth z.
+        module: m [m].
+    """
     return 0.5 * module * teeth
 
 
 def base_pitch(module: float, pressure_angle: float) -> float:
-    """Distance of neighbouring flanks on the line of action [m]."""
+    """Distance between neighbouring flanks on the line of action, pi m cos(alpha) [m].
+
+    Args:
+        module: m [m].
+        pressure_angle: alpha [rad].
+    """
     return math.pi * module * math.cos(pressure_angle)
 
 
 def _external_tip_reach(teeth: int, angle: float, addendum: float) -> float:
-    """From the pitch point to where the tip circle cuts the line of action, in modules."""
+    """Distance from the pitch point to the tip circle along the line of action, in modules."""
     pitch, base, tip = teeth / 2, teeth / 2 * math.cos(angle), teeth / 2 + addendum
     return math.sqrt(tip**2 - base**2) - pitch * math.sin(angle)
 
@@ -46,24 +57,32 @@ def _internal_tip_reach(teeth: int, angle: float, addendum: float) -> float:
 
 
 def _on_involute(reach: float, teeth: int, angle: float, tip: str, flank: str) -> float:
-    """`reach` of the mate's tip, unless it passes where the involute of `flank` begins.
+    """`reach` of the mating tip; raises `ValueError` if it passes the start of the involute.
 
-    The line of action touches the base circle there (Buckingham 1949, Analytical Mechanics of
-    Gears, ch. 4: involute interference).
+    The involute starts where the line of action touches the base circle (Buckingham 1949,
+    Analytical Mechanics of Gears, ch. 4: involute interference).
     """
     if reach >= teeth / 2 * math.sin(angle):
         raise ValueError(
             f"gearset.teeth.{flank} = {teeth}: tips of the {tip} reach below its base circle, "
-            "where there is no involute: it takes more teeth or a shorter addendum"
+            "where there is no involute: increase the number of teeth or reduce the addendum"
         )
     return reach
 
 
 def sun_planet_path(teeth: Teeth, pressure_angle: float, addendum: float) -> PathOfContact:
-    """Path of contact of the external mesh; `addendum` in modules, `pressure_angle` in rad.
+    """Path of contact of the external mesh.
+
+    Args:
+        teeth: tooth numbers.
+        pressure_angle: [rad].
+        addendum: [modules].
+
+    Returns:
+        Lengths of approach and recess [base pitches].
 
     Raises:
-        ValueError: a tip reaches below the base circle of its mate.
+        ValueError: a tip reaches below the base circle of the mating gear.
     """
     pitch = math.pi * math.cos(pressure_angle)
     sun = _external_tip_reach(teeth.sun, pressure_angle, addendum)
@@ -75,15 +94,23 @@ def sun_planet_path(teeth: Teeth, pressure_angle: float, addendum: float) -> Pat
 
 
 def planet_ring_path(teeth: Teeth, pressure_angle: float, addendum: float) -> PathOfContact:
-    """Path of contact of the internal mesh; `addendum` in modules, `pressure_angle` in rad.
+    """Path of contact of the internal mesh.
+
+    Args:
+        teeth: tooth numbers.
+        pressure_angle: [rad].
+        addendum: [modules].
+
+    Returns:
+        Lengths of approach and recess [base pitches].
 
     Raises:
-        ValueError: the ring's tip circle lies inside its base circle, where there is no flank, or
-            its tips reach below the base circle of the planets.
+        ValueError: the tip circle of the ring is inside its base circle, where there is no flank,
+            or its tips reach below the base circle of the planets.
     """
     if teeth.ring / 2 - addendum <= teeth.ring / 2 * math.cos(pressure_angle):
         raise ValueError(
-            f"addendum = {addendum:g} module: the ring's tip circle lies inside its base circle"
+            f"addendum = {addendum:g} module: the tip circle of the ring is inside its base circle"
         )
     pitch = math.pi * math.cos(pressure_angle)
     ring = _internal_tip_reach(teeth.ring, pressure_angle, addendum)

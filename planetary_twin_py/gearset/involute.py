@@ -1,9 +1,9 @@
 """Shape of involute spur gears, external and internal.
 
-The flanks are true involutes of the base circle r cos(alpha); the tooth fills half the pitch on
-the pitch circle (no profile shift, no backlash), dedendum 1.25 modules. The root is simplified:
-where the root circle lies inside the base circle, a radial line joins the start of the involute to
-the root circle in place of the trochoid that a hob would cut.
+The flanks are involutes of the base circle r cos(alpha). The tooth thickness on the pitch circle is
+half the pitch (no profile shift, no backlash), and the dedendum is 1.25 modules. The root is
+simplified: if the root circle is inside the base circle, a radial line connects it to the start of
+the involute, instead of the trochoid that a hob would cut.
 """
 
 from __future__ import annotations
@@ -22,23 +22,27 @@ _TURN = 2.0 * math.pi
 
 @dataclass(frozen=True)
 class SpurGear:
-    """A standard spur gear: `module` [m], `pressure_angle` [rad], `addendum` [modules].
-
-    The teeth of an internal gear point inwards.
+    """A standard spur gear.
 
     Raises:
-        ValueError: the teeth would be pointed, or an internal tip lies inside its base circle.
+        ValueError: the teeth would be pointed, or the tip circle of an internal gear is inside its
+            base circle.
     """
 
     teeth: int
+    """Number of teeth."""
     module: float
+    """[m]"""
     pressure_angle: float
+    """[rad]"""
     addendum: float = 1.0
+    """[modules]"""
     internal: bool = False
+    """Whether the teeth point inwards."""
 
     def __post_init__(self) -> None:
         if self.internal and self.tip_radius <= self.base_radius:
-            raise ValueError(f"teeth = {self.teeth}: the ring's tips lie inside its base circle")
+            raise ValueError(f"teeth = {self.teeth}: the ring's tips are inside its base circle")
         if self.half_thickness(np.array(self.tip_radius)) <= 0.0:
             raise ValueError(f"teeth = {self.teeth}: the tooth is pointed below its tip circle")
 
@@ -49,7 +53,7 @@ class SpurGear:
 
     @property
     def base_radius(self) -> float:
-        """Radius of the base circle, where the involute begins [m]."""
+        """Radius of the base circle, at which the involute starts [m]."""
         return self.pitch_radius * math.cos(self.pressure_angle)
 
     @property
@@ -65,16 +69,24 @@ class SpurGear:
         return self.pitch_radius + (depth if self.internal else -depth)
 
     def half_thickness(self, radius: NDArray[np.float64]) -> NDArray[np.float64]:
-        """Half the angle [rad] that a tooth spans on circles of `radius` [m], any shape."""
+        """Half the angle that a tooth spans on circles about the gear axis [rad], any shape.
+
+        Args:
+            radius: of the circles [m], any shape.
+        """
         local = np.arccos(np.minimum(self.base_radius / radius, 1.0))
         thinning = _involute(local) - _involute(np.array(self.pressure_angle))
         return 0.5 * math.pi / self.teeth + (thinning if self.internal else -thinning)
 
     def tooth(self, points: int = 9) -> NDArray[np.float64]:
-        """One tooth and the root land after it, as polar points (radius [m], angle [rad]).
+        """Outline of a tooth and the root land after it.
 
-        The tooth is centred on angle zero, the points run counter-clockwise, shape (k, 2);
-        `points` counts those on each flank.
+        Args:
+            points: number of points on each flank.
+
+        Returns:
+            Polar points (radius [m], angle [rad]) counter-clockwise, (k, 2). The tooth is centred
+            at angle zero.
         """
         start = max(self.root_radius, self.base_radius)
         radii = np.linspace(start, self.tip_radius, points)
@@ -94,7 +106,15 @@ class SpurGear:
         )
 
     def outline(self, points: int = 9) -> NDArray[np.float64]:
-        """The whole gear, once around counter-clockwise, as polar points like those of `tooth`."""
+        """Outline of the gear.
+
+        Args:
+            points: number of points on each flank.
+
+        Returns:
+            Polar points (radius [m], angle [rad]) counter-clockwise, (k, 2), starting with those of
+            `tooth`.
+        """
         tooth = self.tooth(points)
         outline = np.tile(tooth, (self.teeth, 1))
         outline[:, 1] += np.repeat(_TURN / self.teeth * np.arange(self.teeth), len(tooth))

@@ -1,8 +1,8 @@
-"""The straight line on which involute flanks touch, seen from the carrier.
+"""Line of action of involute flanks, in the frame of the carrier.
 
-It runs through the pitch point, tangent to both base circles, along the normal of the flanks. Drive
-flanks are those that carry while the sun, turning counter-clockwise, drives: on the sun those that
-face counter-clockwise. Coast flanks are the others.
+It passes through the pitch point, tangent to both base circles and normal to the flanks. Drive
+flanks carry load while the sun drives counter-clockwise; on the sun they face counter-clockwise.
+Coast flanks are the others.
 """
 
 from __future__ import annotations
@@ -18,26 +18,37 @@ DRIVE, COAST = 1, -1
 
 @dataclass(frozen=True)
 class LineOfAction:
-    """Of the flanks of one mesh: `pitch_point` [m] and unit `direction`, both (x, y).
-
-    The direction is that in which the first gear pushes the second, and in which the contact moves
-    as the tooth pair goes on from approach to recess.
-    """
+    """Line of action of one flank of a mesh."""
 
     pitch_point: tuple[float, float]
+    """(x, y) [m]."""
     direction: tuple[float, float]
+    """Unit vector (x, y) in which the first gear pushes the second, and in which the contact moves
+    from approach to recess."""
 
     def at(self, position: NDArray[np.float64]) -> NDArray[np.float64]:
-        """Points [m] at `position` [m] past the pitch point, any shape (...); result (..., 2)."""
+        """Points of the line (x, y) [m], (..., 2).
+
+        Args:
+            position: after the pitch point [m], any shape (...).
+        """
         return np.asarray(self.pitch_point) + position[..., None] * np.asarray(self.direction)
 
 
 def line_of_action(
     planet_angle: float, pitch_radius: float, pressure_angle: float, flank: int, ring: bool
 ) -> LineOfAction:
-    """Of a planet at `planet_angle` [rad] with the sun, or with the `ring`, on one `flank`.
+    """Line of action of a mesh.
 
-    `pitch_radius` [m] is that of the sun or the ring, `flank` DRIVE or COAST.
+    Args:
+        planet_angle: position of the planet [rad].
+        pitch_radius: of the sun or the ring [m].
+        pressure_angle: [rad].
+        flank: `DRIVE` or `COAST`.
+        ring: whether the mesh is that of the planet with the ring; otherwise with the sun.
+
+    Returns:
+        Pitch point [m] and direction.
     """
     out = (math.cos(planet_angle), math.sin(planet_angle))
     sideways = math.cos(pressure_angle) * flank * (-1 if ring else 1)

@@ -1,10 +1,10 @@
-"""How the gears stand to one another at angle zero, so that their teeth mesh.
+"""Orientation of the gears in the assembly position, in which their teeth mesh.
 
-Convention: angle zero of every body is the assembly position. There the leading
-(counter-clockwise) flank of the sun's tooth 0 meets planet 1 at the pitch point, which is where
-the mesh phases count from; the teeth of planet i fill the sun's gaps, and the ring's teeth fill
-those of planet 1. Each gear stands at its mount angle plus its own absolute angle, and rolling
-keeps the teeth in mesh. The other planets fit the ring because the set can be assembled.
+Convention: all angles are zero in the assembly position. There the leading (counter-clockwise)
+flank of tooth 0 of the sun contacts planet 1 at the pitch point; mesh phases are counted from
+there. The teeth of planet i are in gaps of the sun, and the teeth of the ring are in gaps of planet
+1. They are also in gaps of the other planets, because the set can be assembled. The orientation of
+a gear is its mount angle plus its absolute angle; rolling keeps the teeth in mesh.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ _TURN = 2.0 * math.pi
 
 
 class Mount(NamedTuple):
-    """Direction [rad] of tooth 0 of each gear in the assembly position."""
+    """Direction of tooth 0 of sun, planets and ring in the assembly position [rad]."""
 
     sun: float
     planets: tuple[float, ...]
@@ -27,26 +27,40 @@ class Mount(NamedTuple):
 
 
 class Mate(NamedTuple):
-    """A gear seen from its mesh: tooth number, angles [rad] of its tooth 0 and of the mesh."""
+    """The other gear of a mesh."""
 
     teeth: int
+    """Number of teeth."""
     angle: float
+    """Of its tooth 0 [rad]."""
     direction: float
+    """Of the mesh from its centre [rad]."""
 
 
 def mount_angle(teeth: int, direction: float, mate: Mate, internal: bool = False) -> float:
-    """Angle [rad] of a gear's tooth 0 that puts a gap of it where its mate has a tooth.
+    """Angle of tooth 0 of a gear at which its gaps coincide with teeth of the mating gear [rad].
 
-    `direction` [rad] is that of the mesh seen from this gear's own centre. `internal`: one of the
-    two is an internal gear, so that the teeth of both follow one another in the same sense along
-    the pitch line; on two external gears they run in opposite senses.
+    Args:
+        teeth: number of teeth.
+        direction: of the mesh from the centre of the gear [rad].
+        mate: the mating gear.
+        internal: whether one of the two is an internal gear. The teeth of both then follow each
+            other in the same direction along the pitch line, otherwise in opposite directions.
     """
     pitches = mate.teeth * (mate.angle - mate.direction) / _TURN
     return direction + _TURN / teeth * (0.5 + (pitches if internal else -pitches))
 
 
 def mount(teeth: Teeth, planet_angles: Sequence[float]) -> Mount:
-    """Mount angles of sun, planets and ring for planets at `planet_angles` [rad]."""
+    """Mount angles of sun, planets and ring.
+
+    Args:
+        teeth: tooth numbers.
+        planet_angles: positions of the planets [rad].
+
+    Returns:
+        Direction of tooth 0 of each gear [rad].
+    """
     first = planet_angles[0]
     sun = first - 0.25 * _TURN / teeth.sun
     planets = tuple(

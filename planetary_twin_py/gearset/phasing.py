@@ -1,7 +1,8 @@
-"""Where in its cycle each mesh stands, and where planets can be put at all.
+"""Mesh phases, and the positions at which planets can be assembled.
 
-The mesh phase is a delay in mesh cycles behind the sun mesh of planet 1 (Parker and Lin 2004):
-Zs psi/2pi at the sun, -Zr psi/2pi at the ring for a planet at the angle psi from planet 1.
+The mesh phase is the delay after the sun-planet mesh of planet 1, in mesh cycles (Parker and Lin
+2004). For a planet at the angle psi from planet 1 it is Zs psi/2pi at the sun and -Zr psi/2pi at
+the ring.
 """
 
 from __future__ import annotations
@@ -13,42 +14,56 @@ from fractions import Fraction
 from .clearance import Size, are_clear
 from .kinematics import Teeth
 
-ASSEMBLY_TOLERANCE = 1e-6  # [-] of the spacing between two positions that can be assembled
+ASSEMBLY_TOLERANCE = 1e-6  # of the spacing between two assembly positions
 
 
 def least_mesh_angle(teeth: Teeth) -> float:
-    """Spacing of the positions at which a planet can be put in [rad]: 2 pi/(Zs + Zr)."""
+    """Spacing of the positions at which a planet can be assembled, 2 pi/(Zs + Zr) [rad].
+
+    Args:
+        teeth: tooth numbers.
+    """
     return 2.0 * math.pi / (teeth.sun + teeth.ring)
 
 
 def nearest_assembly(teeth: Teeth, angles: Sequence[float]) -> tuple[float, ...]:
-    """The angles [rad] nearest to `angles` at which the planets can be put in."""
+    """Nearest positions at which planets can be assembled [rad], (planets,).
+
+    Args:
+        teeth: tooth numbers.
+        angles: wanted positions of the planets [rad], (planets,).
+    """
     step = least_mesh_angle(teeth)
     return tuple(angles[0] + step * place for place in _places(teeth, angles))
 
 
 def _places(teeth: Teeth, angles: Sequence[float]) -> list[int]:
-    """Positions at which planets can be put in, counted from that of the first planet."""
+    """Number of assembly positions from the first planet to each planet."""
     return [round((angle - angles[0]) / least_mesh_angle(teeth)) for angle in angles]
 
 
 def check_assembly(teeth: Teeth, angles: Sequence[float], addendum: float = 1.0) -> None:
-    """Check that planets at `angles` [rad] fit between sun and ring.
+    """Check that the teeth of all planets mesh with sun and ring.
+
+    Args:
+        teeth: tooth numbers.
+        angles: positions of the planets [rad].
+        addendum: [modules].
 
     Raises:
-        ValueError: some planet's teeth miss the spaces; the message offers what fits, unless
-            planets with this `addendum`, in modules, would then touch each other.
+        ValueError: a planet cannot be assembled. The message suggests the nearest positions,
+            unless the planets would touch each other there.
     """
     fitting = nearest_assembly(teeth, angles)
     step = least_mesh_angle(teeth)
     misses = [abs(a - b) / step for a, b in zip(angles, fitting, strict=True)]
     if max(misses) > ASSEMBLY_TOLERANCE:
-        offer = f"nearest: {_degrees(fitting)}"
+        advice = f"nearest: {_degrees(fitting)}"
         if not are_clear(Size(teeth, 1.0, addendum), fitting):
-            offer = "at the nearest that can, planets touch each other"
+            advice = "at the nearest possible angles, planets touch each other"
         raise ValueError(
             f"planets at {_degrees(angles)} cannot be assembled with "
-            f"{teeth.sun}/{teeth.planet}/{teeth.ring} teeth; {offer}"
+            f"{teeth.sun}/{teeth.planet}/{teeth.ring} teeth; {advice}"
         )
 
 
@@ -57,12 +72,19 @@ def _degrees(angles: Sequence[float]) -> str:
 
 
 def mesh_phases(teeth: Teeth, angles: Sequence[float]) -> tuple[list[Fraction], list[Fraction]]:
-    """Phases of the sun meshes and of the ring meshes [cycles], exact: planets at `angles` [rad]
-    stand where they can be put in (see `check_assembly`).
+    """Phases of the meshes (Parker and Lin 2004).
 
-    Whole cycles count teeth: tooth n of the sun is at planet i once `n` + phase cycles have
-    passed, and so is tooth n of the ring. Pitch point to pitch point across one planet: half a
-    cycle between its sun mesh and its ring mesh if it has an even number of teeth, none if odd.
+    Integer parts count teeth: tooth n of the sun, or of the ring, is at planet i after n + phase
+    cycles. Between the pitch points of the two meshes of one planet, there is a phase of half a
+    cycle if it has an even number of teeth, otherwise zero.
+
+    Args:
+        teeth: tooth numbers.
+        angles: positions of the planets [rad], which pass `check_assembly`.
+
+    Returns:
+        Phases of the sun-planet meshes and of the planet-ring meshes [cycles], (planets,) each,
+        exact.
     """
     offset = Fraction(1 - teeth.planet % 2, 2)
     turns = [Fraction(place, teeth.sun + teeth.ring) for place in _places(teeth, angles)]

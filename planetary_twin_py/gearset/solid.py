@@ -1,4 +1,4 @@
-"""Flat shapes given in polar form, extruded into triangle meshes."""
+"""Extrusion of flat shapes in polar coordinates to triangle meshes."""
 
 from __future__ import annotations
 
@@ -10,11 +10,14 @@ from numpy.typing import NDArray
 
 @dataclass(frozen=True)
 class TriangleMesh:
-    """Triangles with one normal per vertex: `vertices` and `normals` (n, 3), `faces` (m, 3)."""
+    """Triangles with one normal per vertex."""
 
     vertices: NDArray[np.float32]
+    """[m], (n, 3)."""
     normals: NDArray[np.float32]
+    """Unit vectors, (n, 3)."""
     faces: NDArray[np.uint32]
+    """Indices of vertices, (m, 3)."""
 
     def __add__(self, other: TriangleMesh) -> TriangleMesh:
         return TriangleMesh(
@@ -27,11 +30,18 @@ class TriangleMesh:
 def extrude(
     inner: NDArray[np.float64] | float, outer: NDArray[np.float64] | float, low: float, high: float
 ) -> TriangleMesh:
-    """Solid between two closed outlines about the z axis, from z = `low` to z = `high` [m].
+    """Solid between two closed outlines about the z axis; faces share no vertices.
 
-    Either is an outline of polar points (radius [m], angle [rad]) that runs counter-clockwise,
-    shape (n, 2); both then have the same angles. One of them may be a plain radius [m], 0 for none.
-    Every face has four vertices of its own.
+    Args:
+        inner: outline as polar points (radius [m], angle [rad]) counter-clockwise, (n, 2), or
+            radius [m]; 0 for a solid without hole. At least one outline must be points; two must
+            have the same angles.
+        outer: as `inner`.
+        low: lowest z [m].
+        high: highest z [m].
+
+    Returns:
+        The closed surface.
     """
     angles = next(edge[:, 1] for edge in (inner, outer) if isinstance(edge, np.ndarray))
     edges = [
@@ -44,7 +54,7 @@ def extrude(
         np.column_stack((r * np.cos(a), r * np.sin(a))) for r, a in (edge.T for edge in edges)
     )
     thick = np.linalg.norm(outside - inside, axis=1) > 1e-9 * np.abs(outside).max()
-    walled = thick | np.roll(thick, -1)  # where the outlines run together there is no solid
+    walled = thick | np.roll(thick, -1)  # no solid where the outlines coincide
     mesh = _face(inside, outside, high, up=True) + _face(inside, outside, low, up=False)
     mesh += _wall(outside, walled, low, high)
     if np.allclose(inside, 0.0):
@@ -53,7 +63,12 @@ def extrude(
 
 
 def circle(radius: float, points: int = 64) -> NDArray[np.float64]:
-    """A circle as polar points, shape (points, 2)."""
+    """A circle as polar points (radius [m], angle [rad]), (points, 2).
+
+    Args:
+        radius: [m].
+        points: number of points.
+    """
     return np.column_stack((np.full(points, radius), np.linspace(0, 2 * np.pi, points, False)))
 
 
@@ -89,7 +104,7 @@ def _face(
 def _wall(
     points: NDArray[np.float64], kept: NDArray[np.bool_], low: float, high: float
 ) -> TriangleMesh:
-    """Side of the solid from each `kept` point to the next; its outside lies to their right."""
+    """Side of the solid from each `kept` point to the next; its outside is on their right."""
     following = np.roll(points, -1, 0)[kept]
     points = points[kept]
     along = following - points

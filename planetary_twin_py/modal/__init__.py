@@ -1,1 +1,1 @@
-"""Natural modes of the gearset, from models that are lists of springs."""
+"""Natural modes of a gearset, from models of masses and springs."""

@@ -1,4 +1,4 @@
-"""Campbell diagram: where the meshing frequency and its harmonics meet natural frequencies."""
+"""Campbell diagram: speeds at which mesh harmonics coincide with natural frequencies."""
 
 from __future__ import annotations
 
@@ -15,18 +15,28 @@ HARMONICS = 5
 
 
 class Resonance(NamedTuple):
-    """A speed of the first motor at which a harmonic of the meshing frequency meets a mode."""
+    """A speed of the first motor at which a mesh harmonic coincides with a natural frequency."""
 
-    mode: int  # place in the order of frequencies, from 0; of modes of one frequency, the first
-    multiplicity: int  # number of modes of this frequency
+    mode: int
+    """Index in ascending order of frequency; the first of several modes with the same frequency."""
+    multiplicity: int
+    """Number of modes with this frequency."""
     kind: str
-    frequency: float  # [Hz]
+    """Kind of the mode, see `modes`."""
+    frequency: float
+    """Natural frequency [Hz]."""
     harmonic: int
-    speed: float  # [rad/s]
+    """Number of the mesh harmonic, from 1."""
+    speed: float
+    """Speed of the first motor [rad/s]."""
 
 
 def mesh_frequency_per_speed(scene: Scene) -> float:
-    """Meshing frequency [Hz] per speed of the first motor [rad/s], a second one being at rest."""
+    """Mesh frequency [Hz] per speed of the first motor [rad/s], with the second motor at rest.
+
+    Args:
+        scene: gives the tooth numbers and the member at rest.
+    """
     ratios = {kind: ratio[0] for kind, ratio in rigid_ratios(scene).items()}
     cycles = mesh_cycles_per_turn(scene.gearset.tooth_numbers, ratios)
     return abs(float(cycles)) / (2.0 * np.pi)
@@ -35,9 +45,16 @@ def mesh_frequency_per_speed(scene: Scene) -> float:
 def resonances(
     scene: Scene, modes: NaturalModes, highest_speed: float, harmonics: int = HARMONICS
 ) -> tuple[Resonance, ...]:
-    """All of them up to `highest_speed` [rad/s], in the order of speed.
+    """Resonances up to a speed.
 
-    Modes at mean mesh stiffness are those at which a run resonates.
+    Args:
+        scene: gives the mesh frequency.
+        modes: of the scene; a run resonates at the modes for the mean mesh stiffness.
+        highest_speed: of the first motor [rad/s].
+        harmonics: number of mesh harmonics.
+
+    Returns:
+        The resonances in ascending order of speed.
     """
     per_speed = mesh_frequency_per_speed(scene)
     levels = [(c.start, c.stop - c.start) for c in clusters(modes.frequencies)]

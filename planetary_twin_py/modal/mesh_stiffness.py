@@ -1,4 +1,4 @@
-"""The one stiffness of a mesh that natural modes take for that which varies as teeth pass."""
+"""Constant mesh stiffness of the natural modes, in place of the varying one."""
 
 from __future__ import annotations
 
@@ -13,20 +13,29 @@ STIFFNESSES = ("single", "mean")
 
 
 class MeshStiffness(NamedTuple):
-    """Of one mesh of each kind, along the line of action [N/m]."""
+    """Stiffness of one mesh of each kind along the line of action [N/m]."""
 
     sun_planet: float
+    """Of a sun-planet mesh [N/m]."""
     planet_ring: float
+    """Of a planet-ring mesh [N/m]."""
 
 
 def mesh_stiffness(scene: Scene, stiffness: str) -> MeshStiffness:
-    """That of one tooth pair ("single") or the mean over the mesh cycle ("mean").
+    """Mesh stiffness of a scene.
 
-    The mean is c_gamma of ISO 6336-1 and what Kahraman 1994 and Lin and Parker 1999 take.
+    The mean is c_gamma of ISO 6336-1, which Kahraman 1994 and Lin and Parker 1999 use.
+
+    Args:
+        scene: gives teeth and stiffness law.
+        stiffness: "single" for one tooth pair, or "mean" for the mean over the mesh cycle.
+
+    Returns:
+        Stiffnesses along the line of action [N/m].
 
     Raises:
-        ValueError: there is no such stiffness, there are no such teeth, or they leave a moment
-            without contact.
+        ValueError: the stiffness is unknown, the teeth are impossible, or at times no pair is in
+            contact.
     """
     if stiffness == "single":
         return MeshStiffness(*(law.single for law in stiffness_laws(scene)))

@@ -1,8 +1,9 @@
-"""Natural frequencies and mode shapes of a spring model, and what kind each mode is.
+"""Natural frequencies, mode shapes and kinds of modes of a spring model.
 
-Kinds (Lin and Parker 1999; Eritenel and Parker 2009 in three dimensions): "rigid"; "planet", where
-sun, ring and carrier stand still; "rotational", where they turn (and move along the axis) only;
-"translational", where they move across it (and tilt) only; "mixed" where planets are not alike.
+Kinds (Lin and Parker 1999; in three dimensions Eritenel and Parker 2009): "rigid"; "planet", in
+which sun, ring and carrier are at rest; "rotational", in which these only rotate (and move along
+the axis); "translational", in which they only move across the axis (and tilt); otherwise "mixed",
+e.g. with unequally spaced planets.
 """
 
 from __future__ import annotations
@@ -17,34 +18,35 @@ from .springs import SpringModel
 
 CENTRAL = ("sun", "ring", "carrier", "motor", "load", "second_motor")
 ALONG = ("u", "z")  # motions of a central member in a rotational mode
-SAME = 1e-6  # relative difference below which frequencies are one
-STILL = 1e-6  # share of the kinetic energy that counts as rest
+SAME = 1e-6  # relative difference below which frequencies count as equal
+AT_REST = 1e-6  # share of the kinetic energy below which bodies count as at rest
 
 
 class NaturalModes(NamedTuple):
-    """Modes in the order of their frequencies."""
+    """Natural modes in ascending order of frequency."""
 
     frequencies: np.ndarray
-    """[Hz], ascending, shape (modes,)."""
+    """[Hz], ascending, (modes,)."""
     shapes: np.ndarray
-    """Column m is mode m, mass-normalised [kg^-1/2], shape (coordinates, modes)."""
+    """Mode shapes in columns, mass-normalised [kg^-1/2], (coordinates, modes)."""
     kinds: tuple[str, ...]
+    """"rigid", "planet", "rotational", "translational" or "mixed" (Lin and Parker 1999)."""
     coordinates: tuple[str, ...]
-    """Names of the rows of `shapes`."""
+    """Names of the rows of `shapes`, e.g. "planet_2.u" for the arc length r theta."""
 
 
 def modes_of(model: SpringModel) -> NaturalModes:
     """Solve (K - w^2 M) phi = 0 (Salagianni et al. 2017, eq. (36)).
 
-    A mode is rigid if it stretches no spring, whatever the stiffnesses are. The other frequencies
-    are the singular values of B, where K = B^T B: their rounding error is relative to the highest
-    frequency, that of the eigenvalues of K to its square.
+    A mode is rigid if it deforms no spring, whatever the stiffnesses are. The other frequencies
+    are the singular values of B, where K = B^T B. Their rounding error is proportional to the
+    highest frequency; that of eigenvalues of K would be proportional to its square.
 
     Args:
         model: masses [kg] (coordinates,) and springs of the gearset.
 
     Returns:
-        Frequencies [Hz] (modes,), shapes (coordinates, modes) and kinds of all modes.
+        Frequencies [Hz] (modes,), shapes [kg^-1/2] (coordinates, modes) and kinds of all modes.
     """
     scale, springs = 1.0 / np.sqrt(model.mass), model.acting
     rows = np.array([spring.row for spring in springs]).reshape(-1, len(scale))
@@ -63,27 +65,34 @@ def modes_of(model: SpringModel) -> NaturalModes:
 
 
 def clusters(frequencies: np.ndarray) -> list[slice]:
-    """Stretches of modes that share one frequency."""
+    """Group modes with equal frequencies.
+
+    Args:
+        frequencies: ascending [Hz], (modes,).
+
+    Returns:
+        Indices of each group.
+    """
     gaps = np.diff(frequencies) > SAME * np.maximum(frequencies[1:], 1e-300)
     edges = [0, *(np.flatnonzero(gaps) + 1).tolist(), len(frequencies)]
     return [slice(a, b) for a, b in pairwise(edges)]
 
 
 def _kinds(coordinates: tuple[str, ...], vectors: np.ndarray, frequency: float) -> list[str]:
-    """Kinds of modes of one frequency; any basis of them is as good as another."""
+    """Kinds of modes with one frequency, independent of the basis chosen for them."""
     count = vectors.shape[1]
     if frequency == 0.0:
         return ["rigid"] * count
     names = [name.split(".") for name in coordinates]
     turning = _gram(vectors, [body in CENTRAL and motion in ALONG for body, motion in names])
     moving = _gram(vectors, [body in CENTRAL and motion not in ALONG for body, motion in names])
-    # Directions in which the central members move at all; the others are planet modes.
-    moved = int(np.sum(np.linalg.eigvalsh(turning + moving) > STILL))
+    # Number of directions in which central members move; the others are planet modes.
+    moved = int(np.sum(np.linalg.eigvalsh(turning + moving) > AT_REST))
     if moved == 0:
         kind = "planet"
-    elif np.trace(moving) < STILL:
+    elif np.trace(moving) < AT_REST:
         kind = "rotational"
-    elif np.trace(turning) < STILL:
+    elif np.trace(turning) < AT_REST:
         kind = "translational"
     else:
         kind = "mixed"
@@ -91,6 +100,6 @@ def _kinds(coordinates: tuple[str, ...], vectors: np.ndarray, frequency: float) 
 
 
 def _gram(vectors: np.ndarray, wanted: list[bool]) -> np.ndarray:
-    """Products of the modes with one another over the wanted coordinates."""
+    """Scalar products of the modes over the wanted coordinates."""
     part = vectors[np.array(wanted, dtype=bool)]
     return part.T @ part

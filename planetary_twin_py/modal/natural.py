@@ -1,4 +1,4 @@
-"""Natural modes of a scene, by the model that is asked for."""
+"""Natural modes of a scene, by one of several models."""
 
 from __future__ import annotations
 
@@ -21,25 +21,42 @@ MODELS = ("torsional", "machines", "printed", "planar", "spatial")
 def natural_modes(
     scene: Scene, model: str = "torsional", stiffness: str = "single"
 ) -> NaturalModes:
-    """Natural frequencies, mode shapes and kinds of modes of a scene at rest, without damping.
+    """Natural modes of a scene at rest, without damping.
 
     Args:
-        scene: what to analyse.
-        model: "torsional", the gears and carrier of the twin; "machines", the same with motor and
-            load; "printed", eqs. (32)-(38) of Salagianni et al. 2017; "planar", Lin and Parker
-            1999; "spatial", all six motions of every body. The last two need `scene.supports`.
-        stiffness: of every mesh. "single", with one tooth pair in contact; "mean", over the mesh
-            cycle: that of the modes at which a run resonates.
+        scene: the scene.
+        model: "torsional", gears and carrier as in a simulation (Kahraman 1994); "machines", the
+            same with motor and load; "printed", eqs. (32)-(38) of Salagianni et al. 2017;
+            "planar", Lin and Parker 1999; "spatial", six motions of every body. The last two
+            require `scene.supports`.
+        stiffness: of every mesh. "single": one tooth pair is in contact; "mean": mean over the
+            mesh cycle, which gives the modes at which a simulation resonates.
+
+    Returns:
+        Frequencies [Hz] (modes,), mass-normalised shapes [kg^-1/2] (coordinates, modes), and kinds
+        of the modes (modes,).
 
     Raises:
-        ValueError: there is no such model or stiffness, the scene lacks what the model needs, or
-            the mean is asked for of teeth that leave a moment without contact.
+        ValueError: the model or the stiffness is unknown, the scene lacks data of the model, or the
+            stiffness is "mean" and at times no tooth pair is in contact.
     """
     return modes_of(spring_model(scene, model, stiffness))
 
 
 def spring_model(scene: Scene, model: str = "torsional", stiffness: str = "single") -> SpringModel:
-    """Masses and springs of a scene, see `natural_modes`."""
+    """Masses and springs of a scene.
+
+    Args:
+        scene: the scene.
+        model: see `natural_modes`.
+        stiffness: see `natural_modes`.
+
+    Returns:
+        The spring model.
+
+    Raises:
+        ValueError: see `natural_modes`.
+    """
     if model not in MODELS:
         raise ValueError(f"model = {model!r}: must be one of {', '.join(MODELS)}")
     mesh = mesh_stiffness(scene, stiffness)
@@ -69,12 +86,12 @@ def _printed_set(scene: Scene, mesh: MeshStiffness) -> PrintedSet:
 
 def _supports(scene: Scene) -> Supports:
     if scene.supports is None:
-        raise SceneError("supports: missing; models in which axes move need masses and bearings")
+        raise SceneError("supports: missing; planar and spatial models require masses and bearings")
     return scene.supports
 
 
 def _rim_masses(scene: Scene) -> dict[str, float]:
-    """J/r^2 [kg] with base radii; with that of the planet centres for the bare carrier."""
+    """J/r^2 [kg]; r is the base radius, for the carrier the radius of the planet centres."""
     mass, slant = scene.gearset.equivalent_mass, math.cos(scene.gearset.pressure_angle) ** -2
     return {
         "sun": mass.sun * slant,

@@ -1,7 +1,8 @@
-"""The two-dimensional model of Lin and Parker 1999 (J. Vib. Acoust. 121, 316), 3 (N + 3) motions.
+"""Planar model of Lin and Parker 1999 (J. Vib. Acoust. 121, 316) with 3 (N + 3) coordinates.
 
-Sun, ring and carrier move by x, y and u = r theta in the frame of the carrier; a planet by xi along
-its radius, eta across it, and u. No gyroscopic terms, as in (36) of Salagianni et al. 2017.
+Coordinates of sun, ring and carrier are x, y and u = r theta in the frame of the carrier. Those of
+a planet are xi in the radial and eta in the tangential direction, and u. There are no gyroscopic
+terms, as in (36) of Salagianni et al. 2017.
 """
 
 from __future__ import annotations
@@ -16,35 +17,36 @@ from .springs import Rows, Spring, SpringModel
 
 @dataclass(frozen=True)
 class PlanarBody:
-    """A body: mass [kg], J/r^2 [kg], stiffness of its bearing and of a torsional support [N/m].
-
-    The bearing of a planet is on the carrier. `radius` r is that of the base circle, of the planet
-    centres for the carrier.
-    """
+    """A body of the planar model."""
 
     mass: float
+    """[kg]"""
     rim_mass: float
+    """J/r^2 [kg]; r is the base radius, for the carrier the radius of the planet centres."""
     bearing: float
+    """Radial stiffness of the bearing [N/m]; the bearing of a planet is on the carrier."""
     torsion: float = 0.0
+    """Stiffness of a torsional support, divided by r^2 [N/m]."""
 
 
 @dataclass(frozen=True)
 class PlanarSet:
-    """A planetary gearset in its plane.
-
-    Angles [rad]: of the planets, and transverse pressure angles at the sun and at the ring;
-    stiffnesses of one mesh along the line of action [N/m].
-    """
+    """A planetary gearset in the plane."""
 
     sun: PlanarBody
     ring: PlanarBody
     carrier: PlanarBody
     planet: PlanarBody
     planet_angles: tuple[float, ...]
+    """Positions of the planets [rad]."""
     sun_planet: float
+    """Stiffness of a sun-planet mesh along the line of action [N/m]."""
     planet_ring: float
+    """Stiffness of a planet-ring mesh along the line of action [N/m]."""
     sun_angle: float
+    """Transverse pressure angle of the sun-planet meshes [rad]."""
     ring_angle: float
+    """Transverse pressure angle of the planet-ring meshes [rad]."""
 
     @property
     def planets(self) -> tuple[str, ...]:
@@ -53,7 +55,14 @@ class PlanarSet:
 
 
 def planar_model(data: PlanarSet) -> SpringModel:
-    """The springs of Lin and Parker's matrices."""
+    """Spring model with the matrices of Lin and Parker 1999.
+
+    Args:
+        data: bodies and stiffnesses of the gearset.
+
+    Returns:
+        Masses and springs over 3 (N + 3) coordinates.
+    """
     central = ("sun", "ring", "carrier")
     coordinates = tuple(f"{body}.{m}" for body in central for m in ("x", "y", "u"))
     coordinates += tuple(f"{body}.{m}" for body in data.planets for m in ("xi", "eta", "u"))
@@ -88,7 +97,7 @@ def _meshes(data: PlanarSet, row: Rows, planet: str, psi: float) -> list[Spring]
 
 
 def _bearing(data: PlanarSet, row: Rows, planet: str, psi: float) -> list[Spring]:
-    """Along and across the radius, between the carrier's pin and the planet."""
+    """Radial and tangential springs between the pin of the carrier and the planet."""
     along = {"carrier.x": math.cos(psi), "carrier.y": math.sin(psi), f"{planet}.xi": -1.0}
     across = {"carrier.x": -math.sin(psi), "carrier.y": math.cos(psi), "carrier.u": 1.0}
     across |= {f"{planet}.eta": -1.0}

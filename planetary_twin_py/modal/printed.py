@@ -1,7 +1,7 @@
-"""The torsional eigenproblem as Salagianni et al. 2017 print it, eqs. (29)-(38).
+"""Torsional eigenproblem as printed in Salagianni et al. 2017, eqs. (29)-(38).
 
-Sun, planets, ring and a carrier that nothing couples to the gears: (35) drops the coupling, so
-the carrier is a mode of its own. Stiffness is not projected on the line of action.
+The bodies are sun, planets, ring and carrier. Because (35) omits the coupling of the carrier, its
+motion is a separate mode. Stiffness is not projected on the line of action.
 """
 
 from __future__ import annotations
@@ -24,18 +24,27 @@ class PrintedSet(NamedTuple):
     carrier: float
     sun_planet: float = 2e8
     planet_ring: float = 2e8
-    carrier_support: float = 8.04e8  # sum of k_c11i in (38), which no table explains
+    carrier_support: float = 8.04e8
+    """Sum of k_c11i in (38); no table explains this value."""
     planets: int = 3
+    """Number of planets."""
 
 
 EQUATION_37 = PrintedSet(0.272, 0.1, 0.759, 1.5)
-# Four inertias fitted to the four frequencies of Table 5, which they give cut to whole Hz. The
-# ring's is neither 0.759 kg of (37) nor 0.779 kg of Table 4, rounded or not.
+# Inertias fitted to the four frequencies of Table 5, which they give truncated to integers. That of
+# the ring is neither the 0.759 kg of (37) nor the 0.779 kg of Table 4, even if rounded.
 FITTED_TO_TABLE_5 = PrintedSet(0.2718, 0.0999, 0.727, 1.498)
 
 
 def printed_model(data: PrintedSet) -> SpringModel:
-    """(33) and (35) with the numbers of `data`; bodies in the order of (34)."""
+    """Spring model of (33) and (35).
+
+    Args:
+        data: inertias and stiffnesses.
+
+    Returns:
+        Masses and springs, with the bodies in the order of (34).
+    """
     planets = [f"planet_{i + 1}.u" for i in range(data.planets)]
     coordinates = ("sun.u", *planets, "ring.u", "carrier.u")
     row = Rows(coordinates)
@@ -48,8 +57,15 @@ def printed_model(data: PrintedSet) -> SpringModel:
 
 
 def stiffness_sweep(data: PrintedSet, sun_planet: Sequence[float]) -> np.ndarray:
-    """Natural frequencies [Hz] for each sun-planet stiffness, (values, modes): their Fig. 13."""
+    """Natural frequencies against the sun-planet stiffness, as in their Fig. 13.
 
+    Args:
+        data: inertias and the other stiffnesses.
+        sun_planet: stiffnesses of the sun-planet meshes [N/m], (values,).
+
+    Returns:
+        Natural frequencies [Hz], (values, modes).
+    """
     return np.array(
         [modes_of(printed_model(data._replace(sun_planet=k))).frequencies for k in sun_planet]
     )

@@ -1,9 +1,10 @@
-"""The stiffness blocks of Salagianni et al. 2017, eqs. (25)-(28), entry by entry as printed.
+"""Stiffness matrices of Salagianni et al. 2017, eqs. (25)-(28), as printed.
 
-Coordinates x, y, z, w_x, w_y, u. What is wrong: entry (1,5) of (25) and (26) has the other sign
-than the product of its row and column that all other entries are, so a helical mesh is no spring;
-the last row of (27) couples the turning carrier to y by k_zz where (28) has k_xx, so moving carrier
-and planet together is resisted. With a helix of zero the first does not show.
+The coordinates are x, y, z, w_x, w_y and u. There are two errors. Every entry of (25) and (26) is a
+product of two factors, one of its row and one of its column, but entry (1,5) has the opposite sign;
+a helical mesh is therefore not a spring. The last row of (27) couples the rotation of the carrier
+to y by k_zz, where (28) has k_xx; a common motion of carrier and planet is therefore resisted. With
+a helix angle of zero the first error has no effect.
 """
 
 from __future__ import annotations
@@ -15,17 +16,28 @@ import numpy as np
 
 
 class PinStiffness(NamedTuple):
-    """k_xx, k_yy, k_zz and the two tilting stiffnesses of a planet's pin [N/m]."""
+    """Stiffnesses of the pin of a planet [N/m]."""
 
     x: float
+    """k_xx"""
     y: float
+    """k_yy"""
     z: float
+    """k_zz"""
     wx: float
+    """Against tilting about x."""
     wy: float
+    """Against tilting about y."""
 
 
 def mesh_block(stiffness: float, angle: float, helix: float) -> np.ndarray:
-    """K_si of (25) or K_ri of (26) [N/m], (6, 6); `angle` is psi_si or psi_ri [rad]."""
+    """Matrix K_si of (25) or K_ri of (26) [N/m], (6, 6).
+
+    Args:
+        stiffness: of the mesh [N/m].
+        angle: psi_si or psi_ri [rad].
+        helix: helix angle [rad].
+    """
     c, s, cb, sb = math.cos(angle), math.sin(angle), math.cos(helix), math.sin(helix)
     v = np.array([cb * c, -cb * s, -sb, sb * c, -sb * s, cb])
     block = np.outer(v, v)
@@ -34,7 +46,13 @@ def mesh_block(stiffness: float, angle: float, helix: float) -> np.ndarray:
 
 
 def coupling_block(pin: PinStiffness, psi: float, gamma: float) -> np.ndarray:
-    """K_c12i of (27) [N/m], (6, 6); gamma = r_c/r_p."""
+    """Matrix K_c12i of (27) [N/m], (6, 6).
+
+    Args:
+        pin: stiffnesses of the pin.
+        psi: position of the planet [rad].
+        gamma: r_c/r_p.
+    """
     block = np.diag([-pin.y, -pin.x, -pin.z, -gamma * pin.wy, -gamma * pin.wx, 0.0])
     block[3, 2], block[4, 2] = -pin.z * math.cos(psi), pin.z * math.sin(psi)
     block[5, 0], block[5, 1] = pin.y * math.cos(psi), -pin.z * math.sin(psi)
@@ -42,7 +60,12 @@ def coupling_block(pin: PinStiffness, psi: float, gamma: float) -> np.ndarray:
 
 
 def carrier_block(pin: PinStiffness, psi: float) -> np.ndarray:
-    """K_c11i of (28) [N/m], (6, 6)."""
+    """Matrix K_c11i of (28) [N/m], (6, 6).
+
+    Args:
+        pin: stiffnesses of the pin.
+        psi: position of the planet [rad].
+    """
     c, s = math.cos(psi), math.sin(psi)
     block = np.diag(
         [
@@ -67,5 +90,10 @@ def carrier_block(pin: PinStiffness, psi: float) -> np.ndarray:
 
 
 def planet_block(pin: PinStiffness, gamma: float) -> np.ndarray:
-    """k_22i [N/m], (6, 6), as the text after (28) gives it."""
+    """Matrix k_22i of the text after (28) [N/m], (6, 6).
+
+    Args:
+        pin: stiffnesses of the pin.
+        gamma: r_c/r_p.
+    """
     return np.diag([pin.x, pin.y, pin.z, gamma**2 * pin.wy, gamma**2 * pin.wx, 0.0])

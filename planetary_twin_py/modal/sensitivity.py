@@ -1,7 +1,7 @@
-"""How natural frequencies follow the stiffness of each kind of spring.
+"""Sensitivity of natural frequencies to the stiffness of each kind of spring.
 
-d(w^2)/dk = phi^T dK/dk phi for a mass-normalised mode (Fox and Kapoor 1968). Modes of one
-frequency part in the directions that diagonalise the same product.
+d(w^2)/dk = phi^T dK/dk phi for a mass-normalised mode (Fox and Kapoor 1968). Modes with equal
+frequencies separate in the directions that diagonalise this product.
 """
 
 from __future__ import annotations
@@ -13,9 +13,14 @@ from .springs import SpringModel
 
 
 def frequency_sensitivities(model: SpringModel) -> dict[str, np.ndarray]:
-    """df/dk [Hz m/N] of every mode, ascending within modes of one frequency, by kind of spring.
+    """Derivatives of the natural frequencies with respect to stiffness (Fox and Kapoor 1968).
 
-    NaN for rigid modes, whose frequency grows as the root of the stiffness that hits them.
+    Args:
+        model: masses and springs.
+
+    Returns:
+        df/dk [Hz m/N] by kind of spring, (modes,), ascending among modes with equal frequencies. It
+        is NaN for rigid modes, whose frequency is proportional to the root of an added stiffness.
     """
     modes = modes_of(model)
     result = {}

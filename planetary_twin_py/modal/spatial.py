@@ -1,9 +1,10 @@
-"""The three-dimensional model, 6 (N + 3) motions, for spur and helical gears (after Kahraman 1994).
+"""Spatial model for spur and helical gears with 6 (N + 3) coordinates (after Kahraman 1994).
 
-What eqs. (20)-(31) of Salagianni et al. 2017 set up: every body moves by x, y, z, tilts by w_x and
-w_y and turns by u, arc lengths at its base radius (that of the planet centres for the carrier). The
-stretch of a spring is taken from the velocities of the two bodies at the point where they touch, so
-moving or turning the unsupported whole stores nothing, whatever the helix. No gyroscopic terms.
+It is the model that eqs. (20)-(31) of Salagianni et al. 2017 intend. The coordinates of a body are
+its displacements x, y and z, tilts w_x and w_y, and rotation u; the last three are arc lengths at
+its base radius, for the carrier at the radius of the planet centres. The deformation of a spring
+follows from the displacements of both bodies at their contact point, so a rigid motion of the
+unsupported gearset deforms no spring at any helix angle. There are no gyroscopic terms.
 """
 
 from __future__ import annotations
@@ -22,45 +23,55 @@ CENTRAL = ("sun", "ring", "carrier")
 
 @dataclass(frozen=True)
 class SpatialBody:
-    """A body of mass `mass` [kg], base radius `radius` [m], and its springs to where it is held.
-
-    `rim_mass` is J/r^2, `tilt_mass` I/r^2 with the diametral inertia [kg]. Stiffnesses of the
-    bearing across and along the axis, against tilting (moment/angle/r^2) and against turning [N/m];
-    those of a planet act between it and the carrier.
-    """
+    """A body of the spatial model; the bearing of a planet is on the carrier."""
 
     mass: float
+    """[kg]"""
     rim_mass: float
+    """J/r^2 with the polar inertia J [kg]."""
     tilt_mass: float
+    """I/r^2 with the diametral inertia I [kg]."""
     radius: float
+    """Base radius r, for the carrier the radius of the planet centres [m]."""
     bearing: float
+    """Radial stiffness of the bearing [N/m]."""
     axial: float
+    """Axial stiffness of the bearing [N/m]."""
     tilting: float
+    """Tilting stiffness of the bearing, moment/angle/r^2 [N/m]."""
     torsion: float = 0.0
+    """Stiffness of a torsional support, moment/angle/r^2 [N/m]."""
 
 
 @dataclass(frozen=True)
 class SpatialSet:
-    """A planetary gearset in space.
-
-    Angles [rad]: of the planets, of pressure in the transverse plane, and the helix on the base
-    circle, positive for a right-hand sun. Stiffness of a mesh is along its transverse line of
-    action.
-    """
+    """A planetary gearset in space."""
 
     sun: SpatialBody
     ring: SpatialBody
     carrier: SpatialBody
     planet: SpatialBody
     planet_angles: tuple[float, ...]
+    """Positions of the planets [rad]."""
     sun_planet: float
+    """Stiffness of a sun-planet mesh along its transverse line of action [N/m]."""
     planet_ring: float
+    """Stiffness of a planet-ring mesh along its transverse line of action [N/m]."""
     pressure_angle: float
+    """In the transverse plane [rad]."""
     base_helix: float = 0.0
+    """Helix angle on the base circle, positive for a right-hand sun [rad]."""
 
 
 def spatial_model(data: SpatialSet) -> SpringModel:
-    """All springs of a gearset in space."""
+    """Spring model of a gearset in space.
+
+    Args:
+        data: bodies and stiffnesses of the gearset.
+
+    Returns:
+        Masses and springs over 6 (N + 3) coordinates.
+    """
     planets = [f"planet_{i + 1}" for i in range(len(data.planet_angles))]
     names = [*CENTRAL, *planets]
     coordinates = tuple(f"{body}.{motion}" for body in names for motion in MOTIONS)
@@ -89,7 +100,7 @@ def _supports(body: SpatialBody, name: str, row: Rows) -> list[Spring]:
 
 
 def _velocity(data: SpatialSet, name: str, direction: Vector, arm: Vector) -> dict[str, float]:
-    """Entries for the motion along `direction` of the point of a body at `arm` from its centre."""
+    """Row of the displacement along `direction` of the point at `arm` from the centre of a body."""
     turning = np.cross(arm, direction) / _body(data, name).radius
     return dict(zip((f"{name}.{m}" for m in MOTIONS), [*direction, *turning], strict=True))
 
@@ -99,7 +110,7 @@ def _relative(first: dict[str, float], second: dict[str, float]) -> dict[str, fl
 
 
 def _meshes(data: SpatialSet, row: Rows, planet: str, psi: float) -> list[Spring]:
-    """Contact normals at the pitch points; a planet's screw motion disturbs neither mesh."""
+    """Springs along the contact normals at the pitch points."""
     cosine, radial = math.cos(data.pressure_angle), np.array([math.cos(psi), math.sin(psi), 0.0])
     springs = []
     for gear, lean, hand in (("sun", -1.0, 1.0), ("ring", 1.0, -1.0)):
@@ -118,7 +129,7 @@ def _meshes(data: SpatialSet, row: Rows, planet: str, psi: float) -> list[Spring
 
 
 def _pin(data: SpatialSet, row: Rows, planet: str, psi: float) -> list[Spring]:
-    """Bearing of a planet on its pin: three directions, and tilting with the carrier."""
+    """Springs of the bearing of a planet: three directions, and tilting relative to the carrier."""
     arm = data.carrier.radius * np.array([math.cos(psi), math.sin(psi), 0.0])
     body, springs = data.planet, []
     for direction, kind in zip(np.eye(3), ("bearing", "bearing", "axial"), strict=True):

@@ -1,7 +1,7 @@
-"""A linear model as masses and springs.
+"""A linear model of masses and springs.
 
-Every spring is a row: it is stretched by row @ q and stores k (row @ q)^2/2, so the stiffness
-matrix is the sum of k row row^T. A mesh, a bearing and a support differ in nothing but their row.
+A spring is given by a row: its deformation is row @ q and its energy k (row @ q)^2/2, so the
+stiffness matrix is the sum of k row row^T. Meshes, bearings and supports differ only in their rows.
 """
 
 from __future__ import annotations
@@ -12,26 +12,28 @@ import numpy as np
 
 
 class Spring(NamedTuple):
-    """A spring of a kind that varies together, e.g. all sun meshes."""
+    """A spring."""
 
     kind: str
-    stiffness: float  # [N/m]
-    row: np.ndarray  # (coordinates,)
+    """Name that springs with a common stiffness share, e.g. all sun-planet meshes."""
+    stiffness: float
+    """[N/m]"""
+    row: np.ndarray
+    """Deformation per displacement of each coordinate, (coordinates,)."""
 
 
 class SpringModel(NamedTuple):
-    """Masses and springs over named coordinates, all of them lengths.
-
-    A coordinate is named "body.motion", e.g. "planet_2.u"; rotations are arc lengths u = r theta.
-    """
+    """Masses and springs over named coordinates, all of which are lengths."""
 
     coordinates: tuple[str, ...]
-    mass: np.ndarray  # (coordinates,) [kg]
+    """Names "body.motion", e.g. "planet_2.u"; rotations are arc lengths u = r theta."""
+    mass: np.ndarray
+    """[kg], (coordinates,)."""
     springs: tuple[Spring, ...]
 
     @property
     def acting(self) -> tuple[Spring, ...]:
-        """The springs whose stiffness is not zero."""
+        """Springs with a stiffness above zero."""
         return tuple(spring for spring in self.springs if spring.stiffness > 0.0)
 
     @property
@@ -42,7 +44,14 @@ class SpringModel(NamedTuple):
         return (rows.T * weights) @ rows
 
     def holding(self, *held: str) -> SpringModel:
-        """The model with some coordinates at rest."""
+        """The model with some coordinates at rest.
+
+        Args:
+            held: names of the coordinates.
+
+        Returns:
+            The model without these coordinates.
+        """
         kept = np.array([name not in held for name in self.coordinates])
         return SpringModel(
             tuple(np.array(self.coordinates)[kept]),
@@ -52,17 +61,24 @@ class SpringModel(NamedTuple):
 
 
 class Rows:
-    """Builds rows by the names of coordinates.
+    """Builder of rows from names of coordinates.
 
     Args:
-        coordinates: names in their order.
+        coordinates: names in the order of the rows.
     """
 
     def __init__(self, coordinates: tuple[str, ...]) -> None:
         self._place = {name: k for k, name in enumerate(coordinates)}
 
     def __call__(self, parts: dict[str, float]) -> np.ndarray:
-        """A row with the given entries; names that are no coordinates are at rest."""
+        """Build a row.
+
+        Args:
+            parts: entries by name of the coordinate; unknown names are at rest and ignored.
+
+        Returns:
+            The row, (coordinates,).
+        """
         row = np.zeros(len(self._place))
         for name, value in parts.items():
             if name in self._place:

@@ -1,7 +1,7 @@
-"""The torsional model of a scene: the linear part of what the twin integrates.
+"""Torsional model of a scene: the linear part of the equations of motion of a simulation.
 
-Coordinates u = r theta with base radii (r_c cos(phi) for the carrier), stiffness along the line of
-action (Kahraman 1994, with the carrier coupled to both meshes).
+The coordinates are u = r theta with base radii (r_c cos(phi) for the carrier). Stiffness acts along
+the line of action (Kahraman 1994, with the carrier coupled to both meshes).
 """
 
 from __future__ import annotations
@@ -15,7 +15,16 @@ from .springs import Rows, Spring, SpringModel
 
 
 def torsional_model(scene: Scene, mesh: MeshStiffness, with_machines: bool = False) -> SpringModel:
-    """Gears and carrier of `scene`, on request with motors and load on their couplings."""
+    """Spring model of the gears and the carrier.
+
+    Args:
+        scene: gives inertias and couplings.
+        mesh: stiffnesses of the meshes.
+        with_machines: whether to include motors and load with their couplings.
+
+    Returns:
+        Masses and springs.
+    """
     bodies, found = build_bodies(scene), machines(scene)
     ground = len(bodies.mass) - 1
     names = [name for name, place in bodies.place.items() if place != ground]

@@ -18,33 +18,46 @@ from .entry import Claim, Entry
 from .evidence import Evidence
 from .judge import agrees
 
-SAMPLE_RATE = 200_000.0  # [Hz] fine enough to differentiate what it samples
+SAMPLE_RATE = 200_000.0  # [Hz] high enough to differentiate the samples
 RUN = 0.02  # [s]
-RISING = 0.25  # share of the run that is not looked at
+SETTLING = 0.25  # share of the run that is omitted
 
 
 class Spring(NamedTuple):
-    """The sun-planet mesh of a scene as its equations of motion have it."""
+    """The sun-planet mesh in the equations of motion of a scene."""
 
-    single: float  # stiffness of one pair [N/m]
-    double: float  # and of two [N/m]
-    half: float  # transmission error at which flanks meet [m]
-    offset: float  # and from which the force grows [m]
-    damping_time: float  # tau of c = tau k [s]
+    single: float
+    """Stiffness of one pair [N/m]."""
+    double: float
+    """Stiffness of two pairs [N/m]."""
+    half: float
+    """Transmission error at which flanks engage [m]."""
+    offset: float
+    """Transmission error from which the force increases [m]."""
+    damping_time: float
+    """tau of c = tau k [s]."""
 
     def force(self, dte: np.ndarray) -> np.ndarray:
-        """Of one pair at rest [N]."""
+        """Static force of one pair [N], (n,).
+
+        Args:
+            dte: transmission error [m], (n,).
+        """
         push = self.single * np.sign(dte) * (np.abs(dte) - self.offset)
         return np.where(np.abs(dte) > self.half, push, 0.0)
 
     @property
     def jump(self) -> float:
-        """Of the force where flanks meet [N]."""
+        """Discontinuity of the force at the engagement of flanks [N]."""
         return self.single * (self.half - self.offset)
 
 
 def spring(scene: Scene) -> Spring:
-    """Read stiffness, backlash and damping from the model of a scene."""
+    """Stiffness, backlash and damping in the model of a scene.
+
+    Args:
+        scene: the scene.
+    """
     train = build_train(scene)
     load = build_load(scene, scene.operating_point, train)
     cycle_rate = abs(train.cycles[0]) * scene.operating_point.input_speed / (2.0 * np.pi)
@@ -67,18 +80,18 @@ def regulatory_factor(evidence: Evidence) -> Entry:
         title="values of the regulatory factor fa",
         claims=(
             Claim(
-                says="no torque while the DTE is within the backlash, torque beyond",
-                ours=f"no force within {1e6 * least:.3g} um either way, {_slope(ours):.3g} N/um "
-                "beyond",
-                printed=f"no force within {1e6 * most:.3g} um, {_slope(printed):.3g} N/um beyond",
-                holds=_gates(ours),
-                printed_holds=_gates(printed),
+                says="no torque for a DTE within the backlash, torque beyond it",
+                ours=f"no force within +-{1e6 * least:.3g} um, {_slope(ours):.3g} N/um beyond",
+                printed=f"no force within +-{1e6 * most:.3g} um, {_slope(printed):.3g} N/um beyond",
+                holds=_has_dead_zone(ours),
+                printed_holds=_has_dead_zone(printed),
             ),
         ),
-        remarks=f"The printed factor makes the force jump by k B, {jumps[0]:.0f} to "
-        f"{jumps[-1]:.0f} N over the studied backlashes, as soon as flanks meet; a smaller load "
-        "finds no place to rest. The dead zone (Kahraman and Singh 1990) has no jump: the force "
-        f"is k (DTE - B/2), B the whole play. The figure shows B = {1e6 * backlash:g} um.",
+        remarks="With the printed factor the force is discontinuous: it jumps by k B when flanks "
+        f"engage, {jumps[0]:.0f} to {jumps[-1]:.0f} N for the backlashes of the study, and there "
+        "is no equilibrium for smaller loads. The dead zone (Kahraman and Singh 1990) is "
+        "continuous: the force is k (DTE - B/2) with the total backlash B. The figure shows "
+        f"B = {1e6 * backlash:g} um.",
         picture=_draw_forces(ours, printed, backlash),
         figures={"printed_jumps": jumps},
     )
@@ -88,7 +101,7 @@ def _slope(mesh: Spring) -> float:
     return 1e-6 * mesh.single
 
 
-def _gates(mesh: Spring) -> bool:
+def _has_dead_zone(mesh: Spring) -> bool:
     within = mesh.force(np.linspace(-mesh.half, mesh.half, 41))
     beyond = mesh.force(mesh.half * np.linspace(1.001, 5.0, 41))
     return bool((within == 0.0).all() and (beyond > 0.0).all())
@@ -122,30 +135,29 @@ def contact_model(evidence: Evidence) -> Entry:
         title="gear pair contact model",
         claims=(
             Claim(
-                says="spring and damper side by side push both wheels along the line of action, "
-                "(4), (5)",
-                ours=f"k = F/(DTE - B/2 + tau DTE') of a run lies between {texts[0]}",
-                printed=f"F/(DTE + tau DTE') between {texts[1]}",
+                says="a spring and a damper in parallel act on both wheels along the line of "
+                "action, (4), (5)",
+                ours=f"k = F/(DTE - B/2 + tau DTE') of a run is between {texts[0]}",
+                printed=f"F/(DTE + tau DTE') is between {texts[1]}",
                 holds=levels[0],
                 printed_holds=levels[1],
                 kind="number",
                 why="the force of a run is not that of a spring and a damper",
             ),
         ),
-        remarks="One pair has "
-        f"{springs[0].single:g} N/m, two have {springs[0].double:g} N/m; (2) and (3) measure along "
-        "the pitch arcs, which makes the printed spring 1/cos(phi) stiffer. At "
-        f"{speed:.0f} rpm a single pair damps with {damping[0]:.0f} "
-        f"N s/m, as printed with {damping[1]:.0f} N s/m.",
+        remarks=f"The stiffness of one pair is {springs[0].single:g} N/m, that of two pairs "
+        f"{springs[0].double:g} N/m. Equations (2) and (3) measure along the pitch arcs, so the "
+        f"printed spring is stiffer by 1/cos(phi). At {speed:.0f} rpm the damping coefficient of "
+        f"one pair is {damping[0]:.0f} N s/m, in the printed form {damping[1]:.0f} N s/m.",
         picture=_draw_model(springs[0], springs[1]),
         figures={"stiffness_of_a_run": found},
     )
 
 
 def _recovered(scene: Scene, mesh: Spring) -> tuple[float, float]:
-    """Stiffness that few samples of a run lie below, and that few lie above [N/m]."""
+    """10th and 90th percentile of the stiffness in a run [N/m]."""
     result = simulate(scene, RUN, SAMPLE_RATE)
-    late = result.time > RISING * RUN
+    late = result.time > SETTLING * RUN
     dte, force = result.dte[:, 0], result.mesh_force[:, 0]
     squeeze = dte - mesh.offset + mesh.damping_time * np.gradient(dte, 1.0 / SAMPLE_RATE)
     low, high = np.percentile(force[late] / squeeze[late], (10.0, 90.0))
@@ -162,7 +174,7 @@ def _draw_model(ours: Spring, printed: Spring) -> Figure:
 
 
 def _draw_spring(axes: Axes, mesh: Spring) -> None:
-    """Wheel 1, gap, spring beside damper, wheel 2."""
+    """Wheel 1, gap, spring and damper in parallel, wheel 2."""
     for end, name in ((0.0, "wheel 1"), (10.0, "wheel 2")):
         axes.plot([end, end], [-1.8, 1.8], color="black", lw=5, solid_capstyle="butt")
         axes.annotate(name, (end, 2.1), ha="center")

@@ -19,7 +19,7 @@ from .entry import Claim, Entry
 from .evidence import Evidence
 from .tables import MASSES
 
-BEARING = 2e8  # [N/m] any: the number of coordinates does not depend on it
+BEARING = 2e8  # [N/m] arbitrary: the number of coordinates does not depend on it
 
 
 def degrees_of_freedom(evidence: Evidence) -> Entry:
@@ -39,25 +39,26 @@ def degrees_of_freedom(evidence: Evidence) -> Entry:
         title="degrees of freedom of sun-planet, ring-planet and planet-carrier",
         claims=(
             Claim(
-                says="each body moves along and tilts about three axes, twelve coordinates a pair",
-                ours=f"{len(pair)} a pair, {len(spatial)} in all beside the held rotation of the "
+                says="each body has three translations and three rotations, a pair of bodies "
+                "twelve coordinates",
+                ours=f"{len(pair)} per pair, {len(spatial)} in total and the held rotation of the "
                 f"{scene.gearset.held}",
                 holds=len(pair) == 12 and len(spatial) + 1 == 36,
                 kind="number",
             ),
             Claim(
-                says="of them only the rotations u = r theta are used, six",
-                ours=f"{len(torsional)} beside the held one",
+                says="only the six rotations u = r theta are used",
+                ours=f"{len(torsional)} and the held one",
                 printed=f"{len(printed)}",
                 holds=len(torsional) + 1 == 6,
                 printed_holds=len(printed) == 6,
                 kind="number",
             ),
         ),
-        remarks="Drawn from the scene, positions to scale; springs stand for the meshes "
-        "along their lines of action and for the planet's bearing. Motion along z and both tilts "
-        'are not drawn. `natural_modes(scene, "spatial")` solves the whole for scenes that say how '
-        "axes are held.",
+        remarks="The figure is drawn from the scene, with positions to scale. Springs represent "
+        "the meshes along their lines of action and the bearing of the planet. Motion along z and "
+        'tilting are not drawn. `natural_modes(scene, "spatial")` solves the spatial model for '
+        "scenes with bearings (`supports`).",
         picture=_draw(scene),
         figures={"spatial": spatial, "torsional": torsional, "printed": printed},
     )
@@ -88,7 +89,7 @@ def _draw(scene: Scene) -> Figure:
 
 
 def _body(axes: Axes, y: float, radius: float, colour: str, name: str) -> None:
-    """A circle with two translations at its centre and its rotation to the left [mm]."""
+    """A circle with two translations at its centre and the rotation on its left [mm]."""
     axes.add_patch(Circle((0.0, y), radius, fill=False, color=colour, lw=1.6))
     arrow = {"arrowstyle": "->", "color": colour, "shrinkA": 0.0, "shrinkB": 0.0}
     reach = min(0.7 * radius, 9.0)

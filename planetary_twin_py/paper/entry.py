@@ -1,4 +1,4 @@
-"""One table or figure of the paper: what it claims, what comes out, and the verdict."""
+"""One table or figure of the paper: its statements, the computed values and the verdict."""
 
 from __future__ import annotations
 
@@ -12,36 +12,46 @@ if TYPE_CHECKING:
 
 
 class Verdict(StrEnum):
-    """How far a table or figure of the paper comes out."""
+    """Whether a table or figure of the paper is reproduced; the values are those in JSON."""
 
     REPRODUCED = "reproduced"
     TREND = "trend reproduced"
     CANNOT = "cannot be, because"
 
+    @property
+    def text(self) -> str:
+        """The verdict for people."""
+        return "cannot be reproduced" if self is Verdict.CANNOT else str(self)
+
 
 @dataclass(frozen=True, kw_only=True)
 class Claim:
-    """One statement of the paper, judged by computed numbers."""
+    """One statement of the paper, compared with computed values."""
 
     says: str
+    """The statement."""
     ours: str
+    """Values of the default scene."""
     holds: bool
+    """Whether they agree with the statement."""
     printed: str = "-"
-    """What the printed forms give."""
+    """Values of the printed forms."""
     printed_holds: bool = False
+    """Whether they agree with the statement."""
     kind: Literal["number", "trend"] = "trend"
+    """Facts are of kind "number"."""
     why: str = ""
-    """Where the default does not hold: the reason."""
+    """The reason if the values of the default scene do not agree."""
 
     @property
     def reached(self) -> bool:
-        """Whether either form agrees with the paper."""
+        """Whether the values of one of the two scenes agree with the statement."""
         return self.holds or self.printed_holds
 
 
 @dataclass(frozen=True, kw_only=True)
 class Entry:
-    """A table or figure, numbered and titled as in the paper."""
+    """A table or figure with number and title of the paper."""
 
     number: str
     title: str
@@ -49,14 +59,14 @@ class Entry:
     remarks: str = ""
     picture: Figure | None = None
     figures: Mapping[str, Any] = field(default_factory=dict)
-    """Numbers for machines, in SI."""
+    """Values for JSON, in SI."""
 
     @property
     def verdict(self) -> Verdict:
-        """Follows from the claims alone.
+        """The verdict, which follows from the claims.
 
-        Reproduced if all of them are reached and one of them is a number; the trend, if there are
-        trends and all of them are, but no number is stated or one is not reached; else not.
+        Reproduced: all claims are reached, and at least one is a number. Trend: there are trends
+        and all are reached, but there is no number or one is not reached. Otherwise not reproduced.
         """
         numbers = [claim.reached for claim in self.claims if claim.kind == "number"]
         trends = [claim.reached for claim in self.claims if claim.kind == "trend"]
@@ -68,10 +78,10 @@ class Entry:
 
     @property
     def reason(self) -> str:
-        """Why what does not come out does not, and what comes out in the printed form only."""
+        """Reasons for claims that are not reached, or only in the printed form."""
         missed = [claim.why for claim in self.claims if not claim.reached and claim.why]
         printed = [
-            f"as printed only: {claim.why}"
+            f"one statement is reached in the printed form only, because {claim.why}"
             for claim in self.claims
             if claim.reached and not claim.holds and claim.why
         ]
@@ -79,5 +89,5 @@ class Entry:
 
     @property
     def slug(self) -> str:
-        """Name of its picture."""
+        """Name of its picture, without suffix."""
         return self.number.lower().replace(" ", "_")

@@ -1,4 +1,4 @@
-"""What every entry is computed from: the two scenes and their studies."""
+"""Data of all entries: the two scenes and their studies."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ DEFAULT, PRINTED = "paper", "paper_printed"
 
 
 class Evidence(NamedTuple):
-    """Both scenes, each with the runs of its study."""
+    """Both scenes with their studies."""
 
     scene: Scene
     printed: Scene
@@ -25,6 +25,15 @@ def gather(
     jobs: int,
     progress: Callable[[Iterable[Any], int], Iterable[Any]] = lambda runs, _: runs,
 ) -> Evidence:
-    """Run both studies; `progress` as in `run_studies`."""
+    """Run both studies.
+
+    Args:
+        grid: values of the study.
+        jobs: number of processes.
+        progress: see `run_studies`.
+
+    Returns:
+        Scenes and studies.
+    """
     studies = run_studies((DEFAULT, PRINTED), grid, jobs, progress)
     return Evidence(load_scene(DEFAULT), load_scene(PRINTED), studies[DEFAULT], studies[PRINTED])

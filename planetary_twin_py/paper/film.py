@@ -38,18 +38,19 @@ def film_thickness(evidence: Evidence) -> Entry:
         title="film thickness against speed",
         claims=(
             Claim(
-                says="the film grows with speed in both meshes",
+                says="film thickness increases with speed in both meshes",
                 ours=_growth(ours),
                 printed=_growth(printed),
                 holds=all(rises(film, 2) for film in ours),
                 printed_holds=all(rises(film, 2) for film in printed),
-                why="the film does not grow with speed",
+                why="the film thickness does not increase with speed",
             ),
         ),
-        remarks=f"As the speed to the power 0.7: {growth:.4f} times from {speeds[0]:g} to "
-        f"{speeds[-1]:g} rpm at the pitch point. Planet and ring touch more closely than sun and "
-        f"planet, so their film is {own[RING][0] / own[SUN][0]:.3f} times as thick. Equation (15) "
-        f"is the minimum film of Dowson and Higginson times {share:.3f}.",
+        remarks="The film thickness is proportional to the speed to the power 0.7: at the pitch "
+        f"point it increases by a factor of {growth:.4f} from {speeds[0]:g} to {speeds[-1]:g} rpm. "
+        "The contact of planet and ring has a larger reduced radius than that of sun and planet, "
+        f"so its film is {own[RING][0] / own[SUN][0]:.3f} times as thick. Equation (15) is the "
+        f"minimum film thickness of Dowson and Higginson times {share:.3f}.",
         picture=_draw(evidence, ours, laws),
         figures={"at_pitch_point": laws},
     )

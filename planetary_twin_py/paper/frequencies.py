@@ -1,4 +1,4 @@
-"""Table 5, Figures 13 and 14: natural frequencies and modes against the sun's mesh stiffness."""
+"""Table 5, Figures 13 and 14: natural frequencies and modes against the sun mesh stiffness."""
 
 from __future__ import annotations
 
@@ -19,20 +19,28 @@ from .judge import agrees, rises
 
 TABLE_5 = (0, 3687, 5956, 10070, 10070, 11948)  # [Hz]
 MESH_STIFFNESS = 2e8  # [N/m] Table 4
-RING_OF_TABLE_4 = 0.779  # [kg] where (37) has 0.759
-WITHIN = 0.01  # of a frequency, which counts as the paper's
+RING_OF_TABLE_4 = 0.779  # [kg]; (37) has 0.759
+WITHIN = 0.01  # relative difference up to which a frequency agrees with the paper
 PRINTED_RANGE = (1.5e3, 1.5e4)  # [N/m] section 9.1
 CAPTION_STIFFNESS = (1.4e3, 1.5e4)  # [N/m] Figure 14
 CAPTION_FREQUENCIES = (23.0, 8643.0)  # [Hz]
-UNIT_SLIP = 1e3  # what N/mm read as N/m would make of a stiffness
+UNIT_SLIP = 1e3  # factor of a stiffness in N/mm that is read as N/m
 MESHING_FREQUENCY = 350.0  # [Hz] section 9.1
-SAME_SHAPE = 0.9  # modal assurance criterion of shapes that have not changed
+SAME_SHAPE = 0.9  # modal assurance criterion above which shapes count as equal
 
 
 def printed_modes(
     sun_planet_stiffness: float = MESH_STIFFNESS, data: PrintedSet = EQUATION_37
 ) -> NaturalModes:
-    """Modes of (37) and (38) with another stiffness of the sun's meshes [N/m]."""
+    """Modes of (37) and (38).
+
+    Args:
+        sun_planet_stiffness: of the sun-planet meshes [N/m].
+        data: the other values.
+
+    Returns:
+        The modes.
+    """
     return modes_of(printed_model(data._replace(sun_planet=sun_planet_stiffness)))
 
 
@@ -56,16 +64,16 @@ def natural_frequencies(evidence: Evidence) -> Entry:
                 holds=agrees(held[1:], TABLE_5[1:], WITHIN),
                 printed_holds=agrees(literal[1:], TABLE_5[1:], WITHIN),
                 kind="number",
-                why="(38) has the stiffness along the line of action act on the pitch circles, "
-                f"and {carrier:.0f} Hz is a carrier on a spring of its own, {support:g} N/m, "
-                "which a held carrier does not have",
+                why="in (38) the stiffness along the line of action acts on the pitch circles, and "
+                f"{carrier:.0f} Hz is the frequency of the carrier on a separate spring of "
+                f"{support:g} N/m, which a held carrier does not have",
             ),
             Claim(
-                says="the same numbers to the last digit",
+                says="the same frequencies to the last digit",
                 ours="-",
                 holds=False,
-                printed=f"off by up to {_largest_error(literal)}, with {RING_OF_TABLE_4:g} kg for "
-                f"the ring by {_largest_error(table_4)}",
+                printed=f"differences of up to {_largest_error(literal)}, with "
+                f"{RING_OF_TABLE_4:g} kg for the ring up to {_largest_error(table_4)}",
                 printed_holds=agrees(np.round(literal), TABLE_5)
                 or agrees(np.round(table_4), TABLE_5),
                 kind="number",
@@ -73,10 +81,11 @@ def natural_frequencies(evidence: Evidence) -> Entry:
                 f"the {RING_OF_TABLE_4:g} kg of Table 4 for the ring",
             ),
         ),
-        remarks=f"Printed forms count as the paper's within {WITHIN:.0%}. Masses of "
+        remarks=f"Frequencies agree if they differ by at most {WITHIN:.0%}. Masses of "
         f"{'/'.join(f'{mass:g}' for mass in FITTED_TO_TABLE_5[:4])} kg (sun/planet/ring/carrier) "
-        f"give {_list(np.floor(fitted))} Hz, cut to whole numbers. They are fitted: four masses "
-        "meet any four frequencies of this order, so this is no evidence of what the authors used.",
+        f"give {_list(np.floor(fitted))} Hz, truncated to integers. These masses are fitted, and "
+        "four masses can be fitted to any four frequencies of this order, so this is no evidence "
+        "of the values that the authors used.",
         figures={"twin": twin, "literal": literal, "table_4": table_4, "fitted": fitted},
     )
 
@@ -105,27 +114,27 @@ def against_stiffness(evidence: Evidence) -> Entry:
         title="eigenfrequencies against Ksp",
         claims=(
             Claim(
-                says="eigenfrequencies vary as Ksp grows from 1.5e3 to 1.5e4 N/m",
-                ours=f"the second from {twin[0]:.1f} to {twin[-1]:.1f} Hz",
+                says="eigenfrequencies change as Ksp increases from 1.5e3 to 1.5e4 N/m",
+                ours=f"the second increases from {twin[0]:.1f} to {twin[-1]:.1f} Hz",
                 printed=f"from {low[0]:.2f} to {low[-1]:.2f} Hz",
                 holds=rises(twin),
                 printed_holds=rises(low),
-                why="the second eigenfrequency does not grow with Ksp",
+                why="the second eigenfrequency does not increase with Ksp",
             ),
             Claim(
-                says="one of them may meet the meshing frequency, 350 Hz",
+                says="one of them may coincide with the mesh frequency of 350 Hz",
                 ours=f"at Ksp = {ours:.3g} N/m",
                 printed=f"at Ksp = {crossing:.3g} N/m",
                 holds=twin_crosses,
                 printed_holds=crosses,
                 kind="number",
                 why=f"within the printed range the second eigenfrequency stays below "
-                f"{low[-1]:.0f} Hz; it meets 350 Hz at {crossing:.3g} N/m",
+                f"{low[-1]:.0f} Hz; it is 350 Hz at {crossing:.3g} N/m",
             ),
         ),
-        remarks="Only the second eigenfrequency varies there, as the root of Ksp: the sun alone "
-        'moves on a soft mesh. Which curve is the paper\'s "planet 1" or "ring" is not in its '
-        "text. The ring's mesh keeps 2e8 N/m.",
+        remarks="In this range only the second eigenfrequency changes. It is proportional to the "
+        "root of Ksp, because only the sun moves on a soft mesh. The text of the paper does not "
+        'say which curves are "planet 1" and "ring". The stiffness of the ring meshes is 2e8 N/m.',
         picture=_draw_frequencies(evidence.scene),
         figures={"crossing_printed": crossing, "crossing": ours},
     )
@@ -178,10 +187,10 @@ def mode_shapes(evidence: Evidence) -> Entry:
     slip = UNIT_SLIP * CAPTION_STIFFNESS[1]
     slipped, fitted = _highest(slip), _highest(slip, FITTED_TO_TABLE_5)
     mass = printed_model(EQUATION_37).mass
-    alike = _likeness(soft, stiff, mass)
-    far = _likeness(soft, printed_modes(MESH_STIFFNESS), mass)
+    similarity = _similarity(soft, stiff, mass)
+    far = _similarity(soft, printed_modes(MESH_STIFFNESS), mass)
     ours = [_twin_at(evidence.scene, k) for k in CAPTION_STIFFNESS]
-    own = _likeness(ours[0], ours[1], spring_model(evidence.scene).mass)
+    own = _similarity(ours[0], ours[1], spring_model(evidence.scene).mass)
     low = float(ours[0].frequencies[1])
     return Entry(
         number="Figure 14",
@@ -202,24 +211,25 @@ def mode_shapes(evidence: Evidence) -> Entry:
                 printed=f"highest mode {highest:.0f} Hz",
                 printed_holds=agrees(highest, CAPTION_FREQUENCIES[1], 1e-3),
                 kind="number",
-                why=f"8643 Hz takes Ksp = {where:.3g} N/m, {where / CAPTION_STIFFNESS[1]:.0f} "
-                f"times the stated; exactly {UNIT_SLIP:.0f} times, as if N/mm had been read as "
-                f"N/m, gives {slipped:.0f} Hz ({_off(slipped)}), with the masses fitted to "
-                f"Table 5 {fitted:.0f} Hz ({_off(fitted)})",
+                why=f"8643 Hz requires Ksp = {where:.3g} N/m, "
+                f"{where / CAPTION_STIFFNESS[1]:.0f} times the stated value; a factor of exactly "
+                f"{UNIT_SLIP:.0f}, from N/mm read as N/m, gives {slipped:.0f} Hz "
+                f"({_off(slipped)}), and with the masses fitted to Table 5 {fitted:.0f} Hz "
+                f"({_off(fitted)})",
             ),
             Claim(
                 says="the modes change drastically as Ksp varies",
-                ours=f"the least similar of all shapes at 1.4e3 and 1.5e4 N/m agree to "
-                f"{own:.3f} (modal assurance criterion)",
+                ours=f"modal assurance criterion of the least similar shapes at 1.4e3 and 1.5e4 "
+                f"N/m: {own:.3f}",
                 holds=own < SAME_SHAPE,
-                printed=f"to {alike:.3f}; at 1.4e3 and 2e8 N/m to {far:.2f}",
-                printed_holds=alike < SAME_SHAPE,
-                why="over the printed range the shapes stay the same; they change once the sun's "
-                "mesh is as stiff as the ring's",
+                printed=f"{similarity:.3f}; at 1.4e3 and 2e8 N/m: {far:.2f}",
+                printed_holds=similarity < SAME_SHAPE,
+                why="in the printed range the shapes do not change; they change when the sun mesh "
+                "is as stiff as the ring mesh",
             ),
         ),
-        remarks="The paper's drawings are not in its text. The two modes of equal frequency, in "
-        "which planets move against one another, are compared as a plane.",
+        remarks="The drawings of the paper were not available. The two modes with equal "
+        "frequencies, in which planets move relative to each other, are compared as a plane.",
         picture=_draw_shapes(),
         figures={
             "highest_mode": highest,
@@ -231,19 +241,20 @@ def mode_shapes(evidence: Evidence) -> Entry:
 
 
 def _highest(stiffness: float, data: PrintedSet = EQUATION_37) -> float:
-    """Highest natural frequency [Hz] of (37) and (38) with the sun's meshes that stiff [N/m]."""
+    """Highest natural frequency of (37) and (38) [Hz] at a sun-planet stiffness [N/m]."""
     return float(printed_modes(stiffness, data).frequencies[-1])
 
 
 def _off(frequency: float) -> str:
-    """How far a frequency [Hz] is from the caption's upper one."""
+    """Relative difference of a frequency [Hz] from the higher one of the caption."""
     return f"{100 * (frequency / CAPTION_FREQUENCIES[1] - 1):+.2f} %"
 
 
-def _likeness(first: NaturalModes, second: NaturalModes, mass: np.ndarray) -> float:
-    """Least of the best agreements of the shapes of one set with those of another.
+def _similarity(first: NaturalModes, second: NaturalModes, mass: np.ndarray) -> float:
+    """Smallest of the best modal assurance criteria of the shapes of two sets.
 
-    Shapes of one frequency in `second` count together, since any mixture of them is a shape.
+    Shapes with equal frequencies in `second` are compared as a subspace, because every linear
+    combination of them is a shape.
     """
     overlap = (first.shapes.T @ (mass[:, None] * second.shapes)) ** 2
     together = [overlap[:, same].sum(axis=1) for same in clusters(second.frequencies)]

@@ -16,7 +16,7 @@ from .judge import falls, percent, rises
 from .pitch_point import KINDS, RING, SUN, at_pitch_point
 from .study import Study
 
-LEAST_EFFECT = 0.5  # relative change of friction per relative change of DTE that is "notable"
+LEAST_EFFECT = 0.5  # relative change of friction per relative change of DTE to be "notable"
 
 
 def viscous_friction(evidence: Evidence) -> Entry:
@@ -32,27 +32,27 @@ def viscous_friction(evidence: Evidence) -> Entry:
         title="viscous friction against DTE at 1000 rpm",
         claims=(
             Claim(
-                says="viscous friction grows with DTE in both meshes",
+                says="viscous friction increases with DTE in both meshes",
                 ours=_ranges(ours),
                 printed=_ranges(printed),
-                holds=_grows(ours),
-                printed_holds=_grows(printed),
-                why="friction does not grow with DTE",
+                holds=_increases(ours),
+                printed_holds=_increases(printed),
+                why="friction does not increase with DTE",
             ),
             Claim(
-                says="a small variation of DTE affects it notably",
+                says="a small change of DTE affects it notably",
                 ours=f"1 % of DTE changes it by {effects[0][SUN]:.2f} % (sun-planet), "
                 f"{effects[0][RING]:.2f} % (planet-ring)",
-                printed=f"by {effects[1][SUN]:.2f} %, {effects[1][RING]:.2f} %",
+                printed=f"{effects[1][SUN]:.2f} %, {effects[1][RING]:.2f} %",
                 holds=min(effects[0]) > LEAST_EFFECT,
                 printed_holds=min(effects[1]) > LEAST_EFFECT,
-                why="friction hardly depends on DTE",
+                why="friction depends little on DTE",
             ),
         ),
-        remarks=f"Means of runs at {torques[0]:g} to {torques[-1]:g} N m: DTE grows because the "
-        "load does, as the paper supposes. Backlash is no such load: from the smallest to the "
-        f"largest B of the study the mean DTE grows by {rise:.3f} um and friction changes by "
-        f"{abs(percent(friction, 0)):.3f} %.",
+        remarks=f"The values are means of runs at {torques[0]:g} to {torques[-1]:g} N m: DTE "
+        "increases with the load, as the paper assumes. Backlash does not have this effect: from "
+        f"the smallest to the largest B of the study, the mean DTE increases by {rise:.3f} um and "
+        f"friction changes by {abs(percent(friction, 0)):.3f} %.",
         picture=_draw_viscous(ours, printed),
         figures={"dte_and_friction": [[list(a), list(b)] for a, b in ours]},
     )
@@ -73,7 +73,7 @@ def _effect(dte: np.ndarray, friction: np.ndarray) -> float:
     return float(np.polyfit(np.log(dte), np.log(friction), 1)[0])
 
 
-def _grows(curves: Curves) -> bool:
+def _increases(curves: Curves) -> bool:
     return all(rises(dte) and rises(friction) for dte, friction in curves)
 
 
@@ -119,19 +119,19 @@ def boundary_friction(evidence: Evidence) -> Entry:
         title="boundary friction against the lambda ratio",
         claims=(
             Claim(
-                says="boundary friction falls as lambda grows",
+                says="boundary friction decreases with lambda",
                 ours=_fall(ours),
                 printed=_fall(printed),
                 holds=all(falls(force, 1) for force in ours),
                 printed_holds=all(falls(force, 1) for force in printed),
-                why="friction does not fall with lambda",
+                why="friction does not decrease with lambda",
             ),
         ),
-        remarks=f"At the pitch point of the sun-planet mesh, one pair: {texts['paper']} N, as "
-        f"printed {texts['paper_printed']} N. The printed F_2 is negative from lambda "
-        f"{negative:.2f} and the printed F_5/2 rises from {rising:.2f}, both within the studied "
-        f"range. Asperities carry so little "
-        f"that boundary friction is at most {share:.1%} of the viscous.",
+        remarks="Boundary friction of one pair at the pitch point of the sun-planet mesh: "
+        f"{texts['paper']} N, as printed {texts['paper_printed']} N. The printed F_2 is negative "
+        f"above lambda {negative:.2f}, and the printed F_5/2 increases above {rising:.2f}; both "
+        "are in the range of the study. Asperities carry little load, so boundary friction is at "
+        f"most {share:.1%} of viscous friction.",
         picture=_draw_boundary(ours, printed, evidence.study.grid.lambda_ratios),
         figures={"at_pitch_point": at_pitch},
     )

@@ -46,17 +46,18 @@ def meshing_cycle(evidence: Evidence) -> Entry:
         title="meshing cycle of the spur gear pair",
         claims=(
             Claim(
-                says="stiffness alternates between that of one pair and that of two, once a cycle",
-                ours=f"{levels[SUN]} and {levels[RING]} levels; two pairs during "
-                f"{shares[SUN]:.1%} (sun-planet) and {shares[RING]:.1%} (planet-ring) of the cycle",
+                says="stiffness alternates between one and two tooth pairs, once per cycle",
+                ours=f"{levels[SUN]} and {levels[RING]} levels; two pairs for {shares[SUN]:.1%} "
+                f"(sun-planet) and {shares[RING]:.1%} (planet-ring) of the cycle",
                 holds=levels == [2, 2] and agrees(shares, np.array(ratios) - 1.0, 2.0 / SAMPLES),
                 printed="constant: Table 4 has no value for two pairs",
             ),
         ),
-        remarks=f"The shares are the contact ratios {ratios[SUN]:.4f} and {ratios[RING]:.4f} less "
-        f"one. Two pairs have {scene.mesh.double_pair_ratio:g} times the stiffness of one, which "
-        "is the slope of ISO 6336-1's c_gamma; the teeth themselves (`mesh.stiffness: involute`) "
-        f"give {teeth[SUN].min():.2g} to {teeth[SUN].max():.2g} N/m at the sun.",
+        remarks=f"The shares are the contact ratios {ratios[SUN]:.4f} and {ratios[RING]:.4f} minus "
+        f"one. The stiffness of two pairs is {scene.mesh.double_pair_ratio:g} times that of one, "
+        "which is the slope of c_gamma in ISO 6336-1. The stiffness computed from the teeth "
+        f"(`mesh.stiffness: involute`) is {teeth[SUN].min():.2g} to {teeth[SUN].max():.2g} N/m at "
+        "the sun.",
         picture=_draw(curves),
         figures={"share_of_two_pairs": shares, "contact_ratios": ratios},
     )

@@ -1,4 +1,4 @@
-"""Film and friction of one tooth pair by the laws of a scene, at the pitch point or sliding."""
+"""Film and friction of one tooth pair by the laws of a scene."""
 
 from __future__ import annotations
 
@@ -16,25 +16,44 @@ KINDS = ("sun-planet", "planet-ring")
 
 
 class Contact(NamedTuple):
-    """What the laws of the oil give for one pair of flanks."""
+    """Film and friction of one pair of flanks."""
 
-    friction: float  # signed [N]
-    boundary: float  # [N]
-    viscous: float  # [N]
-    film: float  # [m]
+    friction: float
+    """With the sign of the sliding speed [N]."""
+    boundary: float
+    """Boundary friction [N]."""
+    viscous: float
+    """Viscous friction [N]."""
+    film: float
+    """Film thickness [m]."""
     lambda_ratio: float
-    sliding: float  # [m/s]
-    slope: float  # of friction over sliding [N s/m]
-    rolling: float  # resistance [N]
+    sliding: float
+    """Sliding speed [m/s]."""
+    slope: float
+    """Derivative of friction with respect to sliding speed [N s/m]."""
+    rolling: float
+    """Rolling resistance [N]."""
 
 
 def static_load(scene: Scene) -> float:
-    """Mean force of one mesh without friction [N]."""
+    """Mean force of one mesh without friction [N].
+
+    Args:
+        scene: at its operating point.
+    """
     return abs(mesh_force(scene, scene.operating_point.input_torque))
 
 
 def at_pitch_point(scene: Scene, kind: int) -> Contact:
-    """One pair that carries the whole mean force, at the scene's speed, carrier held."""
+    """Contact of one pair that carries the mean mesh force, with the carrier held.
+
+    Args:
+        scene: at its operating point.
+        kind: `SUN` or `RING`.
+
+    Returns:
+        Film and friction.
+    """
     gearset = scene.gearset
     teeth, sine = gearset.tooth_numbers, math.sin(gearset.pressure_angle)
     first, second = ((teeth.sun, teeth.planet), (teeth.planet, teeth.ring))[kind]
@@ -51,7 +70,17 @@ def at_pitch_point(scene: Scene, kind: int) -> Contact:
 def contact(
     scene: Scene, curvature: tuple[float, float], speed: tuple[float, float], external: float
 ) -> Contact:
-    """Flanks of given radii [m] and speeds [rad/s] under the mean mesh force."""
+    """Contact of two flanks under the mean mesh force.
+
+    Args:
+        scene: at its operating point.
+        curvature: radii of curvature of both flanks [m].
+        speed: of both gears relative to the carrier [rad/s].
+        external: 1 for two external gears, -1 with an internal gear.
+
+    Returns:
+        Film and friction.
+    """
     point = scene.operating_point
     oil = build_oil(scene, point)
     pair = (*curvature, external, *speed, static_load(scene))

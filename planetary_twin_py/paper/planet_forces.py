@@ -27,9 +27,9 @@ def planet_forces(evidence: Evidence) -> Entry:
     spread = 100.0 * float(np.ptp(ours["mean"])) / mean
     growth, printed_growth = (percent(forces["largest"], 2) for forces in (ours, printed))
     why = (
-        "the input torque is given, so the mean forces follow from statics: over the whole study "
-        f"they differ by {spread:.2f} %; only the largest of a cycle changes with speed, by "
-        f"{growth:+.1f} %, as printed by {printed_growth:+.1f} %"
+        "the input torque is given, so the mean forces follow from statics: in the whole study "
+        f"they differ by {spread:.2f} %; only the largest force of a cycle changes with speed, by "
+        f"{growth:+.1f} %, and as printed by {printed_growth:+.1f} %"
     )
     peaks = ", ".join(
         f"{force:.0f} N at {speed:g} rpm" for force, speed in zip(largest, speeds, strict=True)
@@ -41,11 +41,11 @@ def planet_forces(evidence: Evidence) -> Entry:
             _claim("speed", ours, printed, 2, why),
             _claim("lambda", ours, printed, 1, why),
         ),
-        remarks=f"The sun pushes every planet with {mean:.0f} N in the mean: {mean * cosine:.0f} N "
-        f"tangential, {mean * sine:.0f} N radial, a torque of {mean * arm:.2f} N m about its pin. "
-        f"All four are the mesh force times a constant, so they share one shape. The largest of a "
-        "cycle (dashed) does change with speed, as the meshing frequency moves among the natural "
-        f"frequencies: {peaks}.",
+        remarks=f"The mean force of the sun on a planet is {mean:.0f} N: {mean * cosine:.0f} N "
+        f"tangential, {mean * sine:.0f} N radial, and a torque of {mean * arm:.2f} N m about the "
+        "pin. All four are the mesh force times a constant, so their curves have the same shape. "
+        "The largest force of a cycle (dashed) changes with speed, as the mesh frequency changes "
+        f"relative to the natural frequencies: {peaks}.",
         picture=_draw(evidence.study, ours, parts),
         figures={"mean_force": ours["mean"].mean(axis=0), "largest_force": largest},
     )
@@ -62,7 +62,7 @@ def _claim(
     name: str, ours: dict[str, np.ndarray], printed: dict[str, np.ndarray], axis: int, why: str
 ) -> Claim:
     return Claim(
-        says=f"the forces grow with {name}",
+        says=f"the forces increase with {name}",
         ours=_changes(ours, axis),
         printed=_changes(printed, axis),
         holds=all(rises(force, axis) for force in ours.values()),
@@ -76,7 +76,7 @@ def _changes(forces: dict[str, np.ndarray], axis: int) -> str:
 
 
 def _draw(study: Study, forces: dict[str, np.ndarray], parts: dict[str, float]) -> Figure:
-    """Parts of the force solid in the mean and dashed at their largest; the torque by itself."""
+    """Components of the force: means solid, largest values dashed; torque in its own panel."""
     figure, (speed, ratio, torque) = panels(3, 3.0)
     speeds, ratios = study.grid.speeds, study.grid.lambda_ratios
     mean, largest = forces["mean"], forces["largest"]

@@ -30,12 +30,13 @@ def power_loss(evidence: Evidence) -> Entry:
             _claim("lambda", ours, printed, 1),
             _claim("speed", ours, printed, 2),
         ),
-        remarks=f"The ratio is not defined in the paper; here it is the sliding power f Vs (16) of "
+        remarks="The paper does not define the ratio; here it is the sliding power f Vs (16) of "
         f"all teeth over the input power. The efficiency is {efficiency.min():.2%} to "
-        f"{efficiency.max():.2%}, by the energy ledger {own.min():.2%} to {own.max():.2%}. With "
-        f"the printed friction torque P/w and its signs the ledger shows {ledger.min():.2%} to "
-        f"{ledger.max():.2%}: friction puts in {gain:.2f} times what sliding should take "
-        f"out. The ledger closes to {residual:.1e} of the work put in.",
+        f"{efficiency.max():.2%}, and by the energy ledger {own.min():.2%} to {own.max():.2%}. "
+        "With the printed friction torque P/w and its signs, the efficiency by the ledger is "
+        f"{ledger.min():.2%} to {ledger.max():.2%}: friction supplies {gain:.2f} times the power "
+        f"that sliding should dissipate. The residual of the ledger is at most {residual:.1e} of "
+        "the input work.",
         picture=_draw(evidence.study, ours, printed),
         figures={
             "loss_ratio": ours,
@@ -51,12 +52,12 @@ def _ratio(study: Study) -> np.ndarray:
 
 def _claim(name: str, ours: np.ndarray, printed: np.ndarray, axis: int) -> Claim:
     return Claim(
-        says=f"the loss falls as {name} grows",
+        says=f"the loss decreases with {name}",
         ours=_change(ours, axis),
         printed=_change(printed, axis),
         holds=falls(ours, axis),
         printed_holds=falls(printed, axis),
-        why=f"the loss does not fall with {name}",
+        why=f"the loss does not decrease with {name}",
     )
 
 

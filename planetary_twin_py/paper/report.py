@@ -47,7 +47,15 @@ BUILDERS: tuple[Callable[[Evidence], Entry], ...] = (
 
 
 def entries(evidence: Evidence, progress: Callable[[str], None] = lambda _: None) -> list[Entry]:
-    """Every table and figure; `progress` is told the number of each that is done."""
+    """All tables and figures.
+
+    Args:
+        evidence: scenes and studies.
+        progress: called with the number of each completed entry.
+
+    Returns:
+        The entries in the order of the paper.
+    """
     found = []
     with style.applied():
         for build in BUILDERS:

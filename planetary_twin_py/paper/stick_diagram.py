@@ -1,4 +1,4 @@
-"""Figure 1 and Table 1: the bodies, how they are joined, and a stick diagram of them."""
+"""Figure 1 and Table 1: bodies, joints and stick diagram."""
 
 from __future__ import annotations
 
@@ -31,29 +31,29 @@ def bodies(evidence: Evidence) -> Entry:
         title="bodies and joints",
         claims=(
             Claim(
-                says="sun and ring turn on the ground, three planets on the carrier, which is "
+                says="sun and ring rotate on the ground, three planets on the carrier, which is "
                 "fixed to the ground",
-                ours=f"free to turn: {', '.join(free)}; held: {', '.join(held)}",
+                ours=f"free to rotate: {', '.join(free)}; held: {', '.join(held)}",
                 holds=set(free) == stated and held == ["carrier"],
                 kind="number",
             ),
         ),
-        remarks="The motor and the load are two bodies more, coupled elastically to "
-        f"{scene.drive.input.member} and {scene.drive.output.member}: the paper names neither, "
-        "but without their inertia the bare gears would stop within milliseconds.",
+        remarks="Motor and load are two additional bodies with elastic couplings to "
+        f"{scene.drive.input.member} and {scene.drive.output.member}. The paper mentions neither, "
+        "but without their inertia the gears would stop within milliseconds.",
         figures={"free": free, "held": held},
     )
 
 
 def _free_and_held(scene: Scene) -> tuple[list[str], list[str]]:
-    """Names of the bodies that turn and of those at rest, as the equations of motion have them."""
+    """Names of the bodies that rotate in the equations of motion, and of those at rest."""
     names, ground = body_names(scene), int(build_train(scene).bodies)
     free = [n for n, place in zip(names.names, names.place, strict=True) if place < ground]
     return free, [n for n in names.names if n not in free]
 
 
 def assembly(evidence: Evidence) -> Entry:
-    """The planets' positions and the meshing frequency, which the text states."""
+    """Positions of the planets and mesh frequency in sections 2 and 9."""
     scene = evidence.scene
     try:
         check_assembly(scene.gearset.tooth_numbers, np.radians(PRINTED_ANGLES).tolist())
@@ -79,18 +79,19 @@ def assembly(evidence: Evidence) -> Entry:
                 printed=f"{ring_held:g} Hz in the damping of `paper_printed`",
                 holds=math.isclose(frequency, 350.0),
                 kind="number",
-                why=f"350 Hz belongs to a held ring: the last form of (1e) gives {ring_held:g} Hz",
+                why=f"the last form of (1e), which gives {ring_held:g} Hz, is valid for a held "
+                "ring only",
             ),
         ),
-        remarks="Equations (1c) to (1e) hold for a held ring if their omega_r is read as the speed "
-        "of the carrier; with the carrier fixed, as Table 1 and section 7 say, they contradict "
+        remarks="Equations (1c) to (1e) are valid for a held ring if omega_r is read as the speed "
+        "of the carrier. With the carrier fixed, as in Table 1 and section 7, they contradict "
         "(1a).",
         figures={"meshing_frequency": frequency, "meshing_frequency_held_ring": ring_held},
     )
 
 
 def _meshing_frequency(scene: Scene) -> float:
-    """[Hz] at the scene's input speed."""
+    """Mesh frequency at the input speed of the scene [Hz]."""
     return abs(float(build_train(scene).cycles[0])) * scene.operating_point.input_speed / math.tau
 
 
@@ -107,19 +108,19 @@ def stick_diagram(evidence: Evidence) -> Entry:
         title="gearbox stick diagram",
         claims=(
             Claim(
-                says="sun, three planets, carrier and ring; power in at the sun (A), the carrier "
-                "(B) or both, out at the ring",
-                ours=f"{scene.gearset.planets} planets; in at {' or at '.join(inputs)}; out at "
-                f"the {scene.drive.output.member}",
+                says="sun, three planets, carrier and ring; input at the sun (A), the carrier (B) "
+                "or both, output at the ring",
+                ours=f"{scene.gearset.planets} planets; input at {' or at '.join(inputs)}; output "
+                f"at the {scene.drive.output.member}",
                 holds=scene.gearset.planets == 3
                 and inputs == ["sun", "sun and carrier"]
                 and scene.drive.output.member == "ring",
                 kind="number",
             ),
         ),
-        remarks="Drawn from the scene `paper`, to scale; scene `differential` has both inputs. "
-        "The paper's drawing is not in its text, so only what the caption and section 2 say is "
-        "compared.",
+        remarks="The figure is drawn from the scene `paper`, to scale; the scene `differential` "
+        "has both inputs. The drawing of the paper was not available, so the comparison is limited "
+        "to the caption and section 2.",
         picture=_draw(scene),
     )
 
@@ -158,7 +159,7 @@ def _front(axes: Axes, scene: Scene) -> None:
 
 
 def _section(axes: Axes, scene: Scene) -> None:
-    """Half of the section through the axis, as a stick diagram [mm]; lengths are free."""
+    """Upper half of the axial section as a stick diagram [mm]; axial lengths are arbitrary."""
     sun, planet, ring = (1e3 * pitch_radius(z, scene.gearset.module) for z in _teeth(scene))
     arm = sun + planet
     axes.plot([-34, 34], [0, 0], color="black", lw=0.8, ls="-.")

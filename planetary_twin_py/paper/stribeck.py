@@ -18,20 +18,22 @@ from .pitch_point import contact, static_load
 
 SLIDE_TO_ROLL = 0.2
 SPEEDS = np.logspace(-3.0, 2.0, 101)  # mean surface speed [m/s]
-BOUNDARY_REGIME = 0.08  # friction coefficient that asperities alone reach on steel
+BOUNDARY_REGIME = 0.08  # friction coefficient of asperities alone on steel
 COMPUTED = {"lubrication.lambda_ratio": "computed"}
 MIXED = {"lubrication.boundary": "load_sharing", "lubrication.rolling": "goksem_hargreaves"}
 
 
 class Curve(NamedTuple):
-    """Friction coefficient, rolling resistance included, against the lambda ratio."""
+    """Stribeck curve of a contact."""
 
     lambda_ratio: np.ndarray
+    """(n,)."""
     friction: np.ndarray
+    """Friction coefficient including rolling resistance, (n,)."""
 
     @property
     def lowest(self) -> int:
-        """Place of the minimum."""
+        """Index of the minimum."""
         return int(self.friction.argmin())
 
 
@@ -42,40 +44,39 @@ def stribeck_curve(evidence: Evidence) -> Entry:
     )
     mixed = _curve(evidence.scene.replace(**COMPUTED, **MIXED))
     highest = max(ours.friction.max(), printed.friction.max())
-    other = "; it takes {}, which neither scene has" if _is_stribeck(mixed) else ""
+    other = "; {}, which neither scene has" if _is_stribeck(mixed) else ""
     return Entry(
         number="Figure 6",
         title="Stribeck curve",
         claims=(
             Claim(
-                says="three regimes: friction is high without a film and falls to a minimum as "
+                says="three regimes: friction is high without a film and decreases to a minimum as "
                 "the film separates the flanks",
                 ours=_descent(ours),
                 printed=_descent(printed),
                 holds=_has_boundary_regime(ours),
                 printed_holds=_has_boundary_regime(printed),
-                why="asperities as Greenwood and Tripp have them carry a few per cent of the load "
-                f"at most, so friction stays below {highest:.3f} and there is no boundary regime"
-                + other.format("a law of load sharing"),
+                why="with the model of Greenwood and Tripp asperities carry at most a few per cent "
+                f"of the load, so friction is below {highest:.3f} and there is no boundary regime"
+                + other.format("this regime requires a law of load sharing"),
             ),
             Claim(
-                says="beyond the minimum it rises with eta V/W",
+                says="beyond the minimum it increases with eta V/W",
                 ours=_ascent(ours),
                 printed=_ascent(printed),
                 holds=_rises_at_last(ours),
                 printed_holds=_rises_at_last(printed),
-                why="Evans and Johnson's plateau only falls as the film grows"
-                + other.format("the film's rolling resistance"),
+                why="the plateau of Evans and Johnson decreases steadily with film thickness"
+                + other.format("an increase requires the rolling resistance of the film"),
             ),
         ),
-        remarks="One contact of the sun-planet mesh at a slide-to-roll ratio of "
-        f"{SLIDE_TO_ROLL:g} whose speed varies over the whole range, sigma "
+        remarks="The curves are for one contact of the sun-planet mesh at a slide-to-roll ratio of "
+        f"{SLIDE_TO_ROLL:g} and speeds over the whole range, with sigma = "
         f"{1e6 * evidence.scene.lubrication.composite_roughness:g} um. Both scenes prescribe the "
-        "lambda ratio; here it is computed, for it is what varies. The third curve is another "
-        "model than the paper's: scene `paper` with "
-        f"{', '.join(f'`{name}: {law}`' for name, law in MIXED.items())}. It has friction of "
-        f"{_descent(mixed)}, and then {_ascent(mixed)}. The shaded range is that of the paper's "
-        "study.",
+        "lambda ratio; here it is computed, because it is the variable. The third curve is another "
+        "model than the paper's: the scene `paper` with "
+        f"{', '.join(f'`{name}: {law}`' for name, law in MIXED.items())}. Its friction coefficient "
+        f"is {_descent(mixed)}, and {_ascent(mixed)}. The shaded range is that of the study.",
         picture=_draw(ours, printed, mixed),
         figures={
             "lambda_ratio": ours.lambda_ratio,
@@ -119,8 +120,8 @@ def _is_stribeck(curve: Curve) -> bool:
 
 def _ascent(curve: Curve) -> str:
     if not _rises_at_last(curve):
-        return "falls to the end"
-    return f"rises to {curve.friction[-1]:.3f} at {curve.lambda_ratio[-1]:.2g}"
+        return "decreases to the end"
+    return f"increases to {curve.friction[-1]:.3f} at {curve.lambda_ratio[-1]:.2g}"
 
 
 def _descent(curve: Curve) -> str:

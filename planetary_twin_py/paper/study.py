@@ -1,8 +1,8 @@
-"""The runs of the dynamic model that the tables and figures rest on.
+"""Runs of the dynamic model from which tables and figures are computed.
 
-The paper's study varies backlash, lambda ratio and speed (its section 7); its Fig. 7 needs the load
-varied as well. Every point is a run of its own from steady running, of which the settled part
-counts.
+The study of the paper varies backlash, lambda ratio and speed (section 7); Fig. 7 also requires
+different loads. Every point is a separate run that starts in a steady state; only the settled part
+is evaluated.
 """
 
 from __future__ import annotations
@@ -21,24 +21,27 @@ from ..simulation import simulate
 from ..units import rpm
 
 DURATION = 0.12  # [s]
-SETTLED = 0.04  # [s] from here on means are taken: whole mesh cycles at every speed of the study
+SETTLED = 0.04  # [s] start of means, which cover whole mesh cycles at every speed of the study
 TOLERANCE = 1e-4
-SAMPLE_RATE = 400_000.0  # [Hz] for largest forces; every other sample must show nearly as much
-RESOLVED = 1e-3  # of a largest force
+SAMPLE_RATE = 400_000.0  # [Hz] for largest forces, see `largest`
+RESOLVED = 1e-3  # largest relative difference of a largest force with every other sample
 REFERENCE_TORQUE = 63.0  # [N m] section 8.3
 
 
 class Grid(NamedTuple):
-    """Values the study combines."""
+    """Values that the study combines."""
 
-    backlashes: tuple[float, ...] = (2.0e-7, 2.5e-7, 3.0e-7, 3.5e-7)  # [m]
+    backlashes: tuple[float, ...] = (2.0e-7, 2.5e-7, 3.0e-7, 3.5e-7)
+    """[m]"""
     lambda_ratios: tuple[float, ...] = (1.0, 1.25, 1.5, 1.75, 2.0)
-    speeds: tuple[float, ...] = (1000.0, 2000.0, 3000.0)  # [rpm]
-    torques: tuple[float, ...] = (42.0, 52.5, 63.0, 73.5, 84.0)  # [N m] for Fig. 7
+    speeds: tuple[float, ...] = (1000.0, 2000.0, 3000.0)
+    """[rpm]"""
+    torques: tuple[float, ...] = (42.0, 52.5, 63.0, 73.5, 84.0)
+    """Of Fig. 7 [N m]."""
 
     @property
     def shape(self) -> tuple[int, int, int]:
-        """Of the study B x lambda x speed."""
+        """Number of backlashes, lambda ratios and speeds."""
         return len(self.backlashes), len(self.lambda_ratios), len(self.speeds)
 
 
@@ -46,49 +49,76 @@ class Point(NamedTuple):
     """One run."""
 
     scene: str
-    backlash: float  # [m]
+    """Name of the scene."""
+    backlash: float
+    """[m]"""
     lambda_ratio: float
-    speed: float  # [rpm]
-    torque: float  # [N m]
+    speed: float
+    """Input speed [rpm]."""
+    torque: float
+    """Input torque [N m]."""
 
 
 class MeshMeans(NamedTuple):
     """Means of the meshes of one kind, over planets and settled time."""
 
-    dte: float  # [m]
-    force: float  # [N]
-    largest_force: float  # over the cycle [N]
-    film: float  # [m]
-    boundary: float  # [N]
-    viscous: float  # [N]
-    power_loss: float  # of one mesh [W]
+    dte: float
+    """[m]"""
+    force: float
+    """[N]"""
+    largest_force: float
+    """Largest of all planets and samples [N]."""
+    film: float
+    """Film thickness [m]."""
+    boundary: float
+    """Boundary friction [N]."""
+    viscous: float
+    """Viscous friction [N]."""
+    power_loss: float
+    """Of one mesh [W]."""
 
 
 class Outcome(NamedTuple):
-    """What one run gives."""
+    """Results of one run."""
 
     sun: MeshMeans
+    """Of the sun-planet meshes."""
     ring: MeshMeans
-    input_power: float  # [W]
-    sliding_loss: float  # f Vs of all meshes [W]
-    ledger_efficiency: float  # by the energy ledger, over the whole run
-    residual: float  # of the ledger, over the work put in
+    """Of the planet-ring meshes."""
+    input_power: float
+    """[W]"""
+    sliding_loss: float
+    """f Vs of all meshes [W]."""
+    ledger_efficiency: float
+    """By the energy ledger of the whole run."""
+    residual: float
+    """Of the ledger, over the work of the driving machines."""
 
 
 class Study(NamedTuple):
     """All runs of one scene."""
 
     grid: Grid
-    points: tuple[Point, ...]  # the grid in the order of its axes, then the torques
+    points: tuple[Point, ...]
+    """Points of the grid in the order of its axes, then those of the torques."""
     outcomes: tuple[Outcome, ...]
+    """Results of the points."""
 
     def over_grid(self, quantity: Callable[[Outcome], float]) -> np.ndarray:
-        """`quantity` of every point, shape (backlashes, lambda ratios, speeds)."""
+        """A quantity of every point of the grid, (backlashes, lambda ratios, speeds).
+
+        Args:
+            quantity: function of the results of a point.
+        """
         count = math.prod(self.grid.shape)
         return np.array([quantity(o) for o in self.outcomes[:count]]).reshape(self.grid.shape)
 
     def over_torques(self, quantity: Callable[[Outcome], float]) -> np.ndarray:
-        """`quantity` at the torques of the grid, first backlash, lambda ratio and speed."""
+        """A quantity at the torques, for the first backlash, lambda ratio and speed, (torques,).
+
+        Args:
+            quantity: function of the results of a point.
+        """
         return np.array([quantity(o) for o in self.outcomes[math.prod(self.grid.shape) :]])
 
 
@@ -98,7 +128,17 @@ def run_studies(
     jobs: int,
     progress: Callable[[Iterable[Any], int], Iterable[Any]] = lambda runs, _: runs,
 ) -> dict[str, Study]:
-    """Run the study of every scene with `jobs` processes; `progress` wraps the runs as they end."""
+    """Run the study of every scene.
+
+    Args:
+        scenes: names of the scenes.
+        grid: values of the study.
+        jobs: number of processes.
+        progress: wrapper of the iterable of completed runs; its second argument is their number.
+
+    Returns:
+        Study by name of the scene.
+    """
     points = {scene: _points(scene, grid) for scene in scenes}
     every = [point for scene in scenes for point in points[scene]]
     if jobs == 1:
@@ -125,7 +165,14 @@ def _points(scene: str, grid: Grid) -> tuple[Point, ...]:
 
 
 def simulate_point(point: Point) -> Result:
-    """The run of one point."""
+    """Simulate one point.
+
+    Args:
+        point: of the study.
+
+    Returns:
+        The result.
+    """
     scene = load_scene(point.scene).replace(
         backlash=point.backlash,
         lambda_ratio=point.lambda_ratio,
@@ -136,7 +183,14 @@ def simulate_point(point: Point) -> Result:
 
 
 def run(point: Point) -> Outcome:
-    """Simulate one point, and take the means of its settled part."""
+    """Simulate one point and evaluate its settled part.
+
+    Args:
+        point: of the study.
+
+    Returns:
+        Means and power balance.
+    """
     result = simulate_point(point)
     settled = result.time > SETTLED
     planets = len(result.meshes) // 2
@@ -166,16 +220,16 @@ def _means(result: Result, settled: np.ndarray, meshes: slice) -> MeshMeans:
 
 
 def largest(samples: np.ndarray) -> float:
-    """Largest of all samples, where they are dense enough to show it.
+    """Largest of all samples, if their rate resolves it.
 
     Args:
-        samples: over time, shape (samples, ...).
+        samples: over time in any unit, (samples, ...).
 
     Returns:
         The largest value.
 
     Raises:
-        ArithmeticError: every other sample shows a value that is smaller by more than `RESOLVED`.
+        ArithmeticError: the largest value of every other sample is smaller by more than `RESOLVED`.
     """
     whole, half = float(samples.max()), float(min(samples[k::2].max() for k in (0, 1)))
     if not half >= (1.0 - RESOLVED) * whole:

@@ -12,7 +12,7 @@ from .judge import agrees
 from .pitch_point import RING, SUN, at_pitch_point
 
 MASSES = {"sun": 0.272, "ring": 0.779, "carrier": 1.5, "planet": 0.1}  # [kg] Table 4
-HALVED = {"sun": 0.136, "ring": 0.389, "carrier": 0.75, "planet": 0.05}  # [kg] its row j/r^2
+HALVED = {"sun": 0.136, "ring": 0.389, "carrier": 0.75, "planet": 0.05}  # [kg] row j/r^2
 DIAMETERS = {"sun": 0.024, "ring": 0.056, "carrier": 0.040, "planet": 0.016}  # [m]
 STEEL = 7800.0  # [kg/m^3]
 
@@ -47,10 +47,10 @@ def geometry(evidence: Evidence) -> Entry:
                 kind="number",
             ),
         ),
-        remarks=f"From these follow pitch radii of {radii_text} mm, base radii of {base_text} mm "
-        f"and, with an addendum of {gearset.addendum:g} module and a face width of "
-        f"{1e3 * gearset.face_width:g} mm (neither is in the paper), contact ratios of "
-        f"{ratios[SUN]:.4f} (sun-planet) and {ratios[RING]:.4f} (planet-ring).",
+        remarks=f"The pitch radii are {radii_text} mm and the base radii {base_text} mm. With an "
+        f"addendum of {gearset.addendum:g} module, which is not in the paper, the contact ratios "
+        f"are {ratios[SUN]:.4f} (sun-planet) and {ratios[RING]:.4f} (planet-ring). The face width "
+        f"of {1e3 * gearset.face_width:g} mm is not in the paper, either.",
         figures={"contact_ratios": ratios},
     )
 
@@ -90,15 +90,16 @@ def oil(evidence: Evidence) -> Entry:
                 holds=agrees(ours.oil_conductivity, 2000.0),
                 printed_holds=agrees(printed.oil_conductivity, 2000.0),
                 kind="number",
-                why="no oil conducts 2000 W/(m K), nor does steel (46); as a heat capacity in "
-                "J/(kg K) the number would be an oil's",
+                why="neither oil nor steel (46 W/(m K)) has a conductivity of 2000 W/(m K); 2000 "
+                "J/(kg K) would be the heat capacity of an oil",
             ),
         ),
-        remarks=f"It hardly matters: with 2000 in place of {ours.oil_conductivity:g} W/(m K) the "
-        f"viscous friction of the sun-planet mesh changes from {friction[0]:.1f} to "
-        f"{friction[1]:.1f} N, because the conductivity cancels where the film heats up. "
-        "Steel's properties, eps of (8), the temperature coefficient of viscosity and sigma are "
-        "not in the paper; `scene/packaged/paper.yaml` says what is chosen.",
+        remarks="The conductivity has little effect: with 2000 in place of "
+        f"{ours.oil_conductivity:g} W/(m K), the viscous friction of the sun-planet mesh changes "
+        f"from {friction[0]:.1f} to {friction[1]:.1f} N, because the conductivity cancels when the "
+        "film heats up. The properties of steel, eps of (8), the temperature coefficient of "
+        "viscosity and sigma are not in the paper; `scene/packaged/paper.yaml` lists the values "
+        "used.",
         figures={"viscous_friction_with_0.137_and_2000": friction},
     )
 
@@ -124,8 +125,8 @@ def masses(evidence: Evidence) -> Entry:
                 printed=f"J/r^2 = {_row(printed)} kg",
                 holds=all(agrees(ours[name], MASSES[name]) for name in MASSES),
                 kind="number",
-                why="the mass of the ring is 0.779 kg in Table 4 and 0.759 kg in (37); the row is "
-                "J/r^2, as (33) asks of (37), not mass",
+                why="the mass of the ring is 0.779 kg in Table 4 and 0.759 kg in (37); by (33) the "
+                "values of (37) are J/r^2 and not masses",
             ),
             Claim(
                 says=f"j/r^2 {_row(HALVED)} kg",
@@ -134,7 +135,7 @@ def masses(evidence: Evidence) -> Entry:
                 holds=all(agrees(ours[name], HALVED[name]) for name in HALVED),
                 printed_holds=all(agrees(printed[name], HALVED[name]) for name in HALVED),
                 kind="number",
-                why="j/r^2 is half of the row above, the rule of a solid disc, which no ring obeys",
+                why="j/r^2 is half of the row above, as for solid discs, which a ring is not",
             ),
             Claim(
                 says=f"base diameters {_row(DIAMETERS, scale=1e3)} mm",
@@ -150,9 +151,10 @@ def masses(evidence: Evidence) -> Entry:
                 kind="number",
             ),
         ),
-        remarks=f"A ring of 0.779 kg outside a pitch radius of 28 mm has j/r^2 of at least "
-        f"{slim:.2f} kg at a face width of {1e3 * gearset.face_width:g} mm, and never less than "
-        "its mass. A stiffness of the carrier's mesh means nothing: it has no teeth.",
+        remarks=f"For a ring of 0.779 kg outside a pitch radius of 28 mm, j/r^2 is at least "
+        f"{slim:.2f} kg at a face width of {1e3 * gearset.face_width:g} mm, and at any width at "
+        "least its mass. A contact stiffness of the carrier has no meaning, because it has no "
+        "teeth.",
         figures={"default": ours, "printed": printed, "base_diameters": base},
     )
 

@@ -1,4 +1,4 @@
-"""Figure 2: a pair of teeth with backlash, drawn with true involutes."""
+"""Figure 2: a tooth pair with backlash, drawn with true involutes."""
 
 from __future__ import annotations
 
@@ -33,26 +33,26 @@ def tooth_pair(evidence: Evidence) -> Entry:
         title="gear-pair backlash",
         claims=(
             Claim(
-                says="while one flank of a tooth carries, a gap B is left at the other",
-                ours=f"measured between the drawn flanks, over {ENLARGED:g}: {1e6 * drive:.3f} um "
-                f"at the one, {1e6 * coast:.3f} um at the other, with B = {1e6 * backlash:g} um",
+                says="while one flank of a tooth is in contact, there is a gap B at the other",
+                ours=f"gaps between the drawn flanks, divided by {ENLARGED:g}: {1e6 * drive:.3f} "
+                f"and {1e6 * coast:.3f} um, with B = {1e6 * backlash:g} um",
                 holds=abs(drive) < 1e-2 * backlash and agrees(coast, backlash, 1e-2),
                 kind="number",
             ),
         ),
-        remarks=f"True involutes of sun and planet, the gap drawn {ENLARGED:g} times too large. "
-        "Gears of module 0.8 mm are made with some 30 to 60 um of backlash, a hundred times what "
-        "the paper studies.",
+        remarks=f"The figure shows true involutes of sun and planet with a gap enlarged "
+        f"{ENLARGED:g} times. Gears of module 0.8 mm are manufactured with a backlash of 30 to 60 "
+        "um, about a hundred times the values of the paper.",
         picture=_draw(sun, planet, scene),
         figures={"gap_drive": drive, "gap_coast": coast},
     )
 
 
 def _outlines(scene: Scene, backlash: float) -> tuple[np.ndarray, np.ndarray]:
-    """Outlines (n, 2) of sun and planet [m], the pitch point at the origin, planet to the right.
+    """Outlines of sun and planet [m], (n, 2), with the pitch point at the origin.
 
-    The planet's teeth are thinner by the backlash on the line of action, and it is turned until
-    its driven flanks touch the sun's.
+    The teeth of the planet, which is on the right, are thinner by the backlash on the line of
+    action. The planet is rotated until its driven flanks contact those of the sun.
     """
     gearset = scene.gearset
     teeth, data = gearset.tooth_numbers, (gearset.module, gearset.pressure_angle, gearset.addendum)
@@ -67,7 +67,7 @@ def _outlines(scene: Scene, backlash: float) -> tuple[np.ndarray, np.ndarray]:
 
 
 def _thinned(gear: SpurGear, angle: float) -> np.ndarray:
-    """Outline of a gear whose flanks stand back by `angle` [rad]."""
+    """Outline of a gear whose flanks are offset into the tooth by `angle` [rad]."""
     tooth = gear.tooth(POINTS)
     pitch, own = 2.0 * math.pi / gear.teeth, len(tooth) - 3  # the last three are the root's
     tooth[:own, 1] -= angle * np.sign(tooth[:own, 1])
@@ -88,7 +88,7 @@ def _line(scene: Scene, side: float) -> np.ndarray:
 
 
 def _gap(sun: np.ndarray, planet: np.ndarray, scene: Scene, side: float) -> float:
-    """Gap [m] between the flanks nearest to the pitch point on a line of action."""
+    """Gap between the flanks nearest to the pitch point on a line of action [m]."""
     along = _line(scene, side)
     reach = 2.0 * scene.gearset.module  # more than half a base pitch
     gaps = [
@@ -101,10 +101,7 @@ def _gap(sun: np.ndarray, planet: np.ndarray, scene: Scene, side: float) -> floa
 
 
 def _crossings(outline: np.ndarray, along: np.ndarray, sense: float) -> list[float]:
-    """Distances [m] from the pitch point at which a line through it leaves a gear (sense 1).
-
-    With sense -1, at which it enters.
-    """
+    """Distances from the pitch point at which a line leaves (sense 1) or enters (-1) a gear [m]."""
     position = outline @ along
     height = outline @ np.array([-along[1], along[0]])
     crosses = height[:-1] * height[1:] < 0.0

@@ -28,7 +28,7 @@ def spectrum_plot(spectrum: MeshSpectrum, title: str, labels: tuple[str, str]) -
     """
     with applied():
         figure, (axes,) = panels(height=3.6)
-        seen = spectrum.seen & (spectrum.axis > 0.0)
+        seen = spectrum.in_band & (spectrum.axis > 0.0)
         axis, amplitude = spectrum.axis[seen], spectrum.amplitude[seen]
         top = 2.0 * float(amplitude.max()) or 1.0
         low = top * 10.0**-DECADES

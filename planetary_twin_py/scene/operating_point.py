@@ -50,10 +50,15 @@ class Tunable(NamedTuple):
     """Description of one field of the operating point."""
 
     name: str
+    """Name of the field."""
     unit: str
+    """SI unit; empty for a dimensionless number."""
     description: str
+    """Description in words."""
     minimum: float
+    """Smallest allowed value, in SI."""
     maximum: float
+    """Largest allowed value, in SI."""
 
     @property
     def range(self) -> str:
@@ -61,7 +66,14 @@ class Tunable(NamedTuple):
         return within(self.minimum, self.maximum, self.unit)
 
     def within(self, limit: float) -> Tunable:
-        """The same, limited to magnitudes of at most `limit`."""
+        """The description with a further limit.
+
+        Args:
+            limit: largest allowed magnitude, in SI.
+
+        Returns:
+            The description with the smaller of both ranges.
+        """
         return self._replace(minimum=max(self.minimum, -limit), maximum=min(self.maximum, limit))
 
 

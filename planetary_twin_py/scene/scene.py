@@ -183,7 +183,11 @@ def _validated(data: Any) -> Scene:
 
 
 def packaged_scenes() -> tuple[str, ...]:
-    """Names of the scenes in the package, sorted."""
+    """Names of the packaged scenes.
+
+    Returns:
+        The names, sorted.
+    """
     folder = resources.files(__package__) / "packaged"
     return tuple(sorted(Path(f.name).stem for f in folder.iterdir() if f.name.endswith(".yaml")))
 

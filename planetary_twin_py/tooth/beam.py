@@ -1,12 +1,12 @@
 """Bending, shear and axial compression of a tooth as a tapered cantilever.
 
-Potential-energy method: the energy of a unit force, integrated along the tooth over the sections
-that it really has (Weber and Banaschek 1953; Yang and Lin 1987). The force acts where its line
-crosses the centre line, and the beam ends there, as Weber has it; what the tooth yields between
-the flank and the centre line belongs to the contact. Integrating up to the loaded point of the
-flank instead, as most later papers do, makes the tooth 5 to 15 % too soft against finite elements.
+Potential-energy method: the strain energy of a unit force is integrated over the true sections of
+the tooth (Weber and Banaschek 1953; Yang and Lin 1987). As in Weber, the force acts at the
+intersection of its line of action with the centre line, and the beam ends there; the deformation
+between flank and centre line is part of the contact. Most later papers integrate up to the loaded
+point of the flank instead; the tooth is then 5 to 15 % too compliant compared with finite elements.
 
-The thickness is a function of the height, so the same integrals serve any shape: an involute
+The thickness is a function of the height, so the same integrals apply to any shape: an involute
 with its fillet, a cracked tooth, a prism.
 """
 
@@ -29,15 +29,13 @@ _NODES, _WEIGHTS = legendre.leggauss(12)
 
 
 class Load(NamedTuple):
-    """Unit forces on a flank, each (m,).
-
-    `crossing` is the height above the root [m] where the line of action crosses the centre line of
-    the tooth; `angle` [rad] that between the force and the normal to the centre line, positive
-    where it presses the tooth onto its root.
-    """
+    """Unit forces on a flank."""
 
     crossing: Floats
+    """Height above the root at which the line of action crosses the centre line [m], (m,)."""
     angle: Floats
+    """Between the force and the normal to the centre line [rad], (m,), positive if the force
+    compresses the tooth."""
 
 
 def beam_compliance(
@@ -45,11 +43,16 @@ def beam_compliance(
 ) -> Floats:
     """Displacement along a unit force, times the face width [m^2/N], (m,).
 
-    The section at the height x, `thickness`(x) [m] thick, carries the moment
-    cos(angle) (crossing - x), the shear force cos(angle) and the axial force sin(angle); bending
-    and compression are those of plane strain, for teeth are wide. `knots` [m] are the heights at
-    which the thickness is not smooth. A line of action that crosses below the root (crossing < 0)
-    counts negative: the body under the tooth then takes more than its moment.
+    The section at height x carries the moment cos(angle) (crossing - x), the shear force
+    cos(angle) and the axial force sin(angle) (Weber and Banaschek 1953; Yang and Lin 1987). Bending
+    and compression are in plane strain, because teeth are wide. If the line of action crosses the
+    centre line below the root, the integral is negative: it corrects the larger moment on the body.
+
+    Args:
+        thickness: of the section [m], as a function of its height [m].
+        knots: heights at which the thickness is not smooth [m].
+        load: unit forces, (m,).
+        material: of the tooth.
     """
     height, weight = _quadrature(load.crossing, knots)
     thick = thickness(height)
@@ -62,7 +65,7 @@ def beam_compliance(
 
 
 def _quadrature(top: Floats, knots: Sequence[float]) -> tuple[Floats, Floats]:
-    """Points and weights (m, n) of a Gauss rule from 0 to each `top` (m,), piece by piece."""
+    """Points and weights (m, n) of a piecewise Gauss rule from 0 to each `top` (m,)."""
     lows = (0.0, *knots)
     highs = (*knots, np.inf)
     low = np.array(lows)[:, None]

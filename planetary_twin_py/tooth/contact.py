@@ -1,6 +1,6 @@
-"""Local compliance where two flanks touch, per face width.
+"""Local compliance of the contact of two flanks, per face width.
 
-Not the lubricated contact: how far the flanks approach each other under load.
+It is the elastic approach of the flanks under load, without lubrication.
 """
 
 from __future__ import annotations
@@ -18,34 +18,43 @@ Floats = NDArray[np.float64]
 
 
 class Contact(NamedTuple):
-    """Where two flanks touch, each (m,).
-
-    `radius` [m] is the reduced radius of curvature, 1/R = 1/R1 +- 1/R2; `depths` [m] are the
-    distances from the contact to the centre lines of the two teeth.
-    """
+    """Contacts of two flanks."""
 
     radius: Floats
+    """Reduced radius of curvature, 1/R = 1/R1 +- 1/R2 [m], (m,)."""
     depths: tuple[Floats, Floats]
+    """Distances from the contact to the centre lines of the two teeth [m], (m,) each."""
 
 
-ContactLaw = Callable[[Contact, Material], Floats]  # approach per load, times contact length
+ContactLaw = Callable[[Contact, Material], Floats]  # approach/load, times contact length [m^2/N]
 
 
 def yang_sun(contact: Contact, material: Material) -> Floats:
-    """4 (1 - nu^2)/(pi E) [m^2/N], whatever the load and curvature (Yang and Sun 1985).
+    """Contact compliance 4 (1 - nu^2)/(pi E) [m^2/N], (m,) (Yang and Sun 1985).
 
-    From the half-width of the contact alone: it leaves out most of what the teeth yield between
-    flank and centre line, a factor of 2 to 4 on this term.
+    It does not depend on load and curvature. Because it follows from the half-width of the contact
+    alone, it omits most of the deformation between flank and centre line, and is too small by a
+    factor of 2 to 4.
+
+    Args:
+        contact: contacts of two flanks, (m,).
+        material: of both teeth.
     """
     return np.full_like(contact.radius, 4.0 / (math.pi * material.plane_strain_modulus))
 
 
 def weber_banaschek(line_load: float) -> ContactLaw:
-    """Approach of the two centre lines per load, at `line_load` [N/m] (Weber and Banaschek 1953).
+    """Approach of the two centre lines per load (Weber and Banaschek 1953).
 
-    For each tooth 2 (1 - nu^2)/(pi E) [ln(2 t/b) - nu/(2 (1 - nu))], t the depth and b the Hertzian
-    half-width: the strains below a Hertzian contact. A secant at this load; a tenfold load makes
-    a pair about a tenth stiffer.
+    Each tooth contributes 2 (1 - nu^2)/(pi E) [ln(2 t/b) - nu/(2 (1 - nu))] with the depth t and
+    the Hertzian half-width b, from the strains below a Hertzian contact. The law is a secant at the
+    given load; a ten times larger load makes a pair about 10 % stiffer.
+
+    Args:
+        line_load: load per contact length [N/m].
+
+    Returns:
+        The contact law.
 
     Raises:
         ValueError: the load is not positive.

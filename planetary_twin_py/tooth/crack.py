@@ -1,10 +1,10 @@
 """A crack at the root of a tooth.
 
-It starts at the critical section of ISO 6336-3 and runs straight into the tooth. What lies above
-it, between its tip and the cracked flank, carries nothing: there the section ends at the tip of
-the crack, up to where the tooth is thinner than that anyway (Wu, Zuo and Parey 2008; Chen and
-Shao 2011). Contact and gear body are as without a crack. The crack is as wide as the face, on the
-side that the load opens; it stays on its own side of the centre line.
+The crack starts at the critical section of ISO 6336-3 and is straight. The material above it,
+between its tip and the cracked flank, carries no load: sections end at the depth of the crack tip,
+unless the tooth is thinner there (Wu, Zuo and Parey 2008; Chen and Shao 2011). Contact and gear
+body are as without a crack. The crack extends over the whole face width, is on the side in tension,
+and does not pass the centre line.
 """
 
 from __future__ import annotations
@@ -23,16 +23,24 @@ Floats = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class Crack:
-    """Crack of length `depth` [m] at `angle` [rad] to the centre line of the tooth."""
+    """A crack."""
 
     depth: float = 0.0
+    """Length [m]."""
     angle: float = math.radians(70.0)
+    """To the centre line of the tooth [rad]."""
 
     def thickness(self, profile: ToothProfile) -> Callable[[Floats], Floats]:
-        """Thickness [m] of what still bends of the tooth `profile`, by height [m].
+        """Thickness of the remaining sections.
+
+        Args:
+            profile: of the tooth.
+
+        Returns:
+            Thickness [m] as a function of the height [m].
 
         Raises:
-            ValueError: the crack has a negative length or passes the centre line.
+            ValueError: the length is negative, or the crack passes the centre line.
         """
         start = profile.critical_height
         half = 0.5 * float(profile.thickness(np.array(start)))

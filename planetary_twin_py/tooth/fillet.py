@@ -1,9 +1,9 @@
-"""Root fillets: what joins the involute flank to the root circle.
+"""Root fillets, which connect the involute flank to the root circle.
 
-Both are curves from the root circle (t = 0) to the flank (t = 1), as radius [m] and half angle
-[rad] of the tooth. An external tooth gets the trochoid that the basic rack of ISO 53 cuts; where
-the rack undercuts, the curve ends where it meets what is left of the involute. An internal tooth
-gets the circular arc that touches the flank and the root circle.
+A fillet is a curve from the root circle (t = 0) to the flank (t = 1), given as radius [m] and half
+angle [rad] of the tooth. The fillet of an external tooth is the trochoid that the basic rack of ISO
+53 cuts; with undercut it ends at the intersection with the remaining involute. The fillet of an
+internal tooth is the circular arc tangent to the flank and the root circle.
 """
 
 from __future__ import annotations
@@ -23,10 +23,16 @@ Fillet = Callable[[Floats], tuple[Floats, Floats]]
 
 
 def fillet(gear: SpurGear) -> Fillet:
-    """The fillet of a gear: a function of t in [0, 1] that gives radius [m] and half angle [rad].
+    """Fillet of a gear.
+
+    Args:
+        gear: the gear.
+
+    Returns:
+        Function of t in [0, 1], any shape, that returns radius [m] and half angle [rad].
 
     Raises:
-        ValueError: the pressure angle leaves no room between the teeth at the root circle.
+        ValueError: the pressure angle leaves no space between the teeth at the root circle.
     """
     return _arc(gear) if gear.internal else _trochoid(gear)
 
@@ -34,8 +40,9 @@ def fillet(gear: SpurGear) -> Fillet:
 def _trochoid(gear: SpurGear) -> Fillet:
     """Envelope of the rounded tip of a rack tooth that rolls on the pitch circle.
 
-    The point with its normal at the angle psi to the pitch line is cut when that normal passes
-    through the pitch point; psi falls from 90 deg at the root circle to the pressure angle.
+    A point of the tip with its normal at the angle psi to the pitch line cuts when this normal
+    passes through the pitch point; psi decreases from 90 deg at the root circle to the pressure
+    angle.
     """
     pitch, alpha = gear.pitch_radius, gear.pressure_angle
     depth = DEDENDUM * gear.module
@@ -45,7 +52,7 @@ def _trochoid(gear: SpurGear) -> Fillet:
             f"pressure_angle = {math.degrees(alpha):g} deg: the rack tooth that cuts the gear is "
             f"pointed above its tip; must be below {math.degrees(math.atan(math.pi / 5)):.4g} deg"
         )
-    full = room * math.cos(alpha) / (1.0 - math.sin(alpha))  # both corners in one round tip
+    full = room * math.cos(alpha) / (1.0 - math.sin(alpha))  # one arc for both corners
     rounding = min(TIP_ROUNDING * gear.module, full)
     centre = depth - rounding
     offset = 0.25 * math.pi * gear.module - centre * math.tan(alpha) - rounding / math.cos(alpha)
@@ -62,13 +69,13 @@ def _trochoid(gear: SpurGear) -> Fillet:
 
 
 def _undercuts(gear: SpurGear, centre: float, rounding: float) -> bool:
-    """The straight flank of the rack reaches past the start of the involute."""
+    """Whether the straight flank of the rack extends beyond the start of the involute."""
     reach = centre + rounding * math.sin(gear.pressure_angle)
     return reach > gear.pitch_radius * math.sin(gear.pressure_angle) ** 2
 
 
 def _undercut(gear: SpurGear, cut: Fillet) -> float:
-    """psi where the trochoid meets the involute outside the base circle."""
+    """Angle psi at which the trochoid meets the involute outside the base circle."""
 
     def excess(psi: float) -> float:
         radius, half = cut(np.array(psi))
@@ -77,21 +84,21 @@ def _undercut(gear: SpurGear, cut: Fillet) -> float:
     grid = np.linspace(0.5 * math.pi, gear.pressure_angle, 400)
     radius, half = cut(grid)
     within = np.flatnonzero(half < gear.half_thickness(radius))
-    if not len(within):  # the involute loses less than the grid shows
+    if not len(within):  # undercut below the resolution of the grid
         return gear.pressure_angle
     return _root(excess, grid[within[-1]], grid[within[-1] + 1])
 
 
 def _arc(gear: SpurGear) -> Fillet:
-    """Circle that touches the involute flank and the root circle of an internal gear.
+    """Circle tangent to the involute flank and the root circle of an internal gear.
 
-    Its centre lies on the tangent of the base circle through the point where it touches the
-    flank, `rounding` short of that point.
+    Its centre is on the tangent of the base circle through its contact point with the flank, at the
+    distance `rounding` before this point.
     """
     base, root = gear.base_radius, gear.root_radius
 
     def touch(rounding: float) -> tuple[float, float, float]:
-        """String length to the flank; directions of centre and flank normal from the gap [rad]."""
+        """Tangent length to the flank [m]; directions of centre and flank normal [rad]."""
         string = rounding + math.sqrt((root - rounding) ** 2 - base**2)
         tooth = float(gear.half_thickness(np.array(math.hypot(base, string))))
         foot = math.pi / gear.teeth - tooth - math.atan2(string, base)
@@ -103,7 +110,7 @@ def _arc(gear: SpurGear) -> Fillet:
             f"with {gear.teeth} internal teeth meet before its root circle"
         )
     rounding = TIP_ROUNDING * gear.module
-    if touch(rounding)[1] < 0.0:  # the two arcs of a gap would overlap: one round bottom instead
+    if touch(rounding)[1] < 0.0:  # the two arcs of a gap would overlap: use one arc
         rounding = _root(lambda r: touch(r)[1], 0.0, rounding)
     _, middle, normal = touch(rounding)
 
@@ -116,7 +123,7 @@ def _arc(gear: SpurGear) -> Fillet:
 
 
 def _root(function: Callable[[float], float], low: float, high: float) -> float:
-    """Where `function` vanishes between `low` and `high`."""
+    """Root of `function` between `low` and `high`."""
     from scipy.optimize import brentq  # takes half a second to load, and few gears need it
 
     return float(brentq(function, low, high))

@@ -1,17 +1,17 @@
 """The gear body under the root of a loaded tooth, as an elastic ring.
 
-Sainsot, Velex and Duverger (2004) put the stresses that the tooth passes on to its root (linear
-in bending, uniform in shear and compression) on an elastic ring held at its other edge, solved
-it after Muskhelishvili, and fitted L*, M*, P*, Q* to the result for 1.4 <= h <= 7 and root half
-angles of 0.01 to 0.12 rad. Here the series itself is summed: no range, external and internal
-gears alike (an internal gear is loaded at the inner edge and held at the outer), and the
-neighbouring tooth's share comes with it. P* and Q* are theirs within a tenth; the rotation
-L* is 5.2 as on Weber's half-plane, not 6.9, which against finite elements is the better value.
-Plane strain; all lengths in units of the root radius.
+Sainsot, Velex and Duverger (2004) apply the stresses of the tooth on its root (linear for bending,
+uniform for shear and compression) to an elastic ring that is held at its other edge. They solve it
+by Muskhelishvili's method and fit L*, M*, P*, Q* to the result for 1.4 <= h <= 7 and root half
+angles of 0.01 to 0.12 rad. This module sums the series itself, so there is no limit of the range,
+internal gears are included (loaded at the inner edge and held at the outer), and the displacement
+of the neighbouring tooth follows, too. P* and Q* agree with theirs within 10 %. The rotation L* is
+5.2, as on Weber's half-plane, and not 6.9; it is closer to finite elements. Plane strain; all
+lengths are in units of the root radius.
 
-Per harmonic the displacement 2 G (u_r + i u_t) and the stress s_r - i s_rt are linear in four
+For each harmonic the displacement 2 G (u_r + i u_t) and the stress s_r - i s_rt are linear in four
 potentials a r^(n+1), b r^(1-n), c r^(n-1), d r^(-n-1) (Muskhelishvili 1953, section 59); for n = 1
-the logarithms that carry a net force take the place of b.
+logarithms, which carry the net force, replace b.
 """
 
 from __future__ import annotations
@@ -24,29 +24,32 @@ from numpy.typing import NDArray
 Floats = NDArray[np.float64]
 Complex = NDArray[np.complex128]
 
-HARMONICS = 40.0  # times 1/half angle of the root: what is left out is below 1e-3
+HARMONICS = 40.0  # times 1/half angle of the root: the truncation error is below 1e-3
 
 
 @dataclass(frozen=True)
 class GearBody:
-    """Ring between the root circle and the circle at which it is held.
-
-    `held` is the radius of that circle in root radii: below 1 for an external gear (its hub),
-    above 1 for an internal gear (its housing). `half_angle` [rad] is that of the tooth's root.
-    """
+    """Ring between the root circle and the circle at which it is held."""
 
     held: float
+    """Radius of the held circle [root radii]: below 1 for an external gear (hub), above 1 for an
+    internal gear (housing)."""
     half_angle: float
+    """Of the root of a tooth [rad]."""
     poisson_ratio: float
 
     def compliance(self, neighbour: float = 0.0) -> Floats:
-        """Matrix (3, 3) of E times displacement over load per face width, in root radii.
+        """Compliance of the root of a tooth (method of Sainsot, Velex and Duverger 2004).
 
-        Rows: rotation of a tooth's root, its displacements across and along the tooth. Columns:
-        moment about the middle of the root arc, force across, force towards the body. The loads
-        are on the tooth, the displacements those of the tooth at the angle `neighbour` [rad] from
-        it, each in the axes of its own tooth; they are means over the root, weighted so that load
-        times displacement is work.
+        Args:
+            neighbour: angle from the loaded tooth to the displaced tooth [rad].
+
+        Returns:
+            Matrix of E times displacement over load per face width, in root radii, (3, 3). Rows:
+            rotation of the root, displacements across and along the displaced tooth. Columns:
+            moment about the middle of the root arc, force across and force towards the body on the
+            loaded tooth. Displacements are means over the root, weighted so that load times
+            displacement is work.
         """
         orders, factors = self._tractions()
         moved = self._response(orders, factors)
@@ -84,11 +87,11 @@ class GearBody:
         return response
 
     def _systems(self, n: Floats) -> tuple[Floats, Floats]:
-        """Conditions (N, 4, 4) on (a, b*, c, d*): stress at r = 1 and no displacement where held.
+        """Boundary conditions (N, 4, 4), and displacements at r = 1 (N, 2, 4), of (a, b*, c, d*).
 
-        With them what gives the displacements at r = 1, (N, 2, 4). The rows are the factors of
-        exp(i n t) and the conjugates of those of exp(-i n t). Each column is scaled by its
-        largest value, which is at one of the two edges.
+        The conditions give the stress at r = 1 and zero displacement at the held edge. The rows are
+        the factors of exp(i n t) and the conjugates of those of exp(-i n t). Each column is scaled
+        by its largest value, which is at one of the two edges.
         """
         kappa = 3.0 - 4.0 * self.poisson_ratio
         powers = np.stack([n + 1.0, 1.0 - n, n - 1.0, -n - 1.0], axis=-1)
@@ -111,10 +114,10 @@ class GearBody:
         return np.concatenate([stress, displacement(self.held)], axis=1), displacement(1.0)
 
     def _mean(self, stress: Complex) -> Complex:
-        """Order 0: breathing (real part) and turning against the held edge (imaginary)."""
+        """Order 0: radial expansion (real part) and rotation (imaginary part)."""
         kappa, held = 3.0 - 4.0 * self.poisson_ratio, self.held
-        # s = 2 Re a + d; 2 G u = kappa a r - a* r - d*/r, which vanishes where held.
-        breathing = stress.real / (2.0 + (kappa - 1.0) * held**2)
-        radial = (kappa - 1.0) * breathing * (1.0 - held**2)
-        turning = stress.imag * (1.0 - held**-2)
-        return radial + 1j * turning
+        # s = 2 Re a + d; 2 G u = kappa a r - a* r - d*/r, which is zero at the held edge.
+        expansion = stress.real / (2.0 + (kappa - 1.0) * held**2)
+        radial = (kappa - 1.0) * expansion * (1.0 - held**2)
+        rotation = stress.imag * (1.0 - held**-2)
+        return radial + 1j * rotation

@@ -1,4 +1,4 @@
-"""What the teeth are made of."""
+"""Material of the teeth."""
 
 from __future__ import annotations
 
@@ -6,9 +6,10 @@ from typing import NamedTuple
 
 
 class Material(NamedTuple):
-    """An isotropic elastic material: `youngs_modulus` [Pa], `poisson_ratio` [-]."""
+    """An isotropic elastic material."""
 
     youngs_modulus: float
+    """[Pa]"""
     poisson_ratio: float
 
     @property
@@ -18,5 +19,5 @@ class Material(NamedTuple):
 
     @property
     def plane_strain_modulus(self) -> float:
-        """E/(1 - nu^2) [Pa]: what bending and Hertz see in a tooth much wider than thick."""
+        """E/(1 - nu^2) [Pa]: modulus for bending and contact of a tooth much wider than thick."""
         return self.youngs_modulus / (1.0 - self.poisson_ratio**2)

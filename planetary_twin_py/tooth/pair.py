@@ -1,8 +1,7 @@
 """Stiffness of a pair of teeth along its path of contact.
 
-Two teeth, each on its gear body, and the contact between them in series. Positions are base
-pitches past the pitch point, as everywhere; single and double contact follow from which pairs
-are within the path.
+The compliances of two teeth, their gear bodies and the contact are in series. Positions are in base
+pitches after the pitch point. The number of pairs in contact follows from the path of contact.
 """
 
 from __future__ import annotations
@@ -26,14 +25,14 @@ Floats = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class ToothPair:
-    """Two teeth in mesh: `first` (sun, or planet at the ring) drives, on the given path.
-
-    The path stays on the line of action between the base circles, see `gearset.geometry`.
-    """
+    """Two teeth in mesh."""
 
     first: Tooth
+    """Of the driving gear: the sun, or the planet in mesh with the ring."""
     second: Tooth
+    """Of the driven gear."""
     path: PathOfContact
+    """Between the base circles, see `gearset.geometry`."""
     contact: ContactLaw
     spall: Spall = NO_SPALL
 
@@ -45,8 +44,8 @@ class ToothPair:
     def _ends(self) -> tuple[float, float]:
         return -self.path.approach, self.path.recess
 
-    def _strings(self, position: Floats) -> tuple[Floats, Floats]:
-        """Distance of the contact from where the line of action touches each base circle [m]."""
+    def _tangent_lengths(self, position: Floats) -> tuple[Floats, Floats]:
+        """Distance of the contact from the tangent point on each base circle [m]."""
         first, second = self._gears
         moved = position * base_pitch(first.module, first.pressure_angle)
         tangent = math.tan(first.pressure_angle)
@@ -56,24 +55,32 @@ class ToothPair:
         )
 
     def radii(self, position: Floats) -> tuple[Floats, Floats]:
-        """Radii [m] of the contact point on both gears, for positions in base pitches (m,)."""
-        strings = self._strings(position)
+        """Radii of the contact point on both gears [m], (m,) each.
+
+        Args:
+            position: after the pitch point [base pitches], (m,).
+        """
+        lengths = self._tangent_lengths(position)
         first, second = (
-            np.hypot(gear.base_radius, string)
-            for gear, string in zip(self._gears, strings, strict=True)
+            np.hypot(gear.base_radius, length)
+            for gear, length in zip(self._gears, lengths, strict=True)
         )
         return first, second
 
     def compliance(self, position: Floats) -> Floats:
-        """Approach of the gears per unit load, times face width [m^2/N], (m,)."""
+        """Approach of the gears per unit load, times face width [m^2/N], (m,).
+
+        Args:
+            position: after the pitch point [base pitches], (m,).
+        """
         radii = self.radii(position)
         beams = self.first.beam(radii[0]) + self.second.beam(radii[1])
         bodies = self.first.body(radii[0]) + self.second.body(radii[1])
         return beams + bodies + self._local(position)
 
     def _local(self, position: Floats) -> Floats:
-        """Compliance of the contact itself."""
-        first, second = self._strings(position)
+        """Compliance of the contact."""
+        first, second = self._tangent_lengths(position)
         curvature = 1.0 / first + (-1.0 if self.second.gear.internal else 1.0) / second
         at = self.radii(position)
         depths = self.first.profile.depth(at[0]), self.second.profile.depth(at[1])
@@ -81,27 +88,35 @@ class ToothPair:
         return local / self.spall.contact_share(position)
 
     def stiffness(self, position: Floats, face_width: float) -> Floats:
-        """Stiffness [N/m] along the line of action, for positions in base pitches (m,).
+        """Stiffness along the line of action [N/m], (m,).
 
-        The law holds on the path of contact and goes on smoothly a little beyond its ends.
+        The law is valid on the path of contact, and smooth slightly beyond its ends.
+
+        Args:
+            position: after the pitch point [base pitches], (m,).
+            face_width: [m].
         """
         return face_width / self.compliance(position)
 
     def double_contact_stiffness(self, position: Floats, face_width: float) -> Floats:
-        """Stiffness [N/m] of this pair and the one a base pitch ahead, on shared gear bodies.
+        """Stiffness of this pair and the next pair ahead, on common gear bodies [N/m], (m,).
 
-        A load on one tooth also moves its neighbour, so two pairs are less than twice as stiff as
-        one (Xie, Hua, Han and Huang 2018): with compliances c_ij the stiffness is the sum of the
-        elements of the inverse matrix. Both pairs share the approach of the gears.
+        A load on one tooth also displaces its neighbour, so two pairs are less than twice as stiff
+        as one (Xie, Hua, Han and Huang 2018). Both pairs have the same approach of the gears; the
+        stiffness is therefore the sum of the elements of the inverse of the compliances c_ij.
+
+        Args:
+            position: of this pair after the pitch point [base pitches], (m,).
+            face_width: [m].
         """
         here, ahead, shared = self._two_pairs(position)
         return face_width * (here + ahead - 2.0 * shared) / (here * ahead - shared**2)
 
     @property
     def shared_body_factor(self) -> float:
-        """Stiffness of two pairs over the sum of what each has alone, mean over double contact.
+        """Stiffness of two pairs over the sum of their own, mean over double contact.
 
-        1 where the path never holds two pairs.
+        It is 1 if there is no double contact.
         """
         low, high = self._ends
         if high - low <= 1.0:
@@ -111,10 +126,10 @@ class ToothPair:
         return float(np.mean(together / (1.0 / here + 1.0 / ahead)))
 
     def _two_pairs(self, position: Floats) -> tuple[Floats, Floats, Floats]:
-        """Compliances of this pair, of the one ahead, and what a load on one moves the other."""
+        """Compliances of this pair and of the pair ahead, and their coupling [m^2/N]."""
         near, far = self.radii(position), self.radii(position + 1.0)
-        # The load points against the motion of the driving gear and along that of the driven one,
-        # and the other pair is ahead.
+        # The load is opposite to the motion of the driving gear and along that of the driven gear;
+        # the other pair is ahead.
         shared = self.first.body_coupling(near[0], far[0], 1)
         shared = shared + self.second.body_coupling(far[1], near[1], 1)
         return self.compliance(position), self.compliance(position + 1.0), shared
@@ -128,7 +143,22 @@ def sun_planet_pair(
     material: Material,
     contact: ContactLaw,
 ) -> ToothPair:
-    """The external mesh: `module` [m], `pressure_angle` [rad], `addendum` [modules]."""
+    """Tooth pair of the external mesh.
+
+    Args:
+        teeth: tooth numbers.
+        module: [m].
+        pressure_angle: [rad].
+        addendum: [modules].
+        material: of both gears.
+        contact: law of the contact.
+
+    Returns:
+        The pair.
+
+    Raises:
+        ValueError: the teeth are impossible, see `SpurGear` and `gearset.geometry`.
+    """
     sun, planet = (
         Tooth(SpurGear(z, module, pressure_angle, addendum), material, HUB)
         for z in (teeth.sun, teeth.planet)
@@ -144,7 +174,22 @@ def planet_ring_pair(
     material: Material,
     contact: ContactLaw,
 ) -> ToothPair:
-    """The internal mesh: `module` [m], `pressure_angle` [rad], `addendum` [modules]."""
+    """Tooth pair of the internal mesh.
+
+    Args:
+        teeth: tooth numbers.
+        module: [m].
+        pressure_angle: [rad].
+        addendum: [modules].
+        material: of both gears.
+        contact: law of the contact.
+
+    Returns:
+        The pair.
+
+    Raises:
+        ValueError: the teeth are impossible, see `SpurGear` and `gearset.geometry`.
+    """
     planet = Tooth(SpurGear(teeth.planet, module, pressure_angle, addendum), material, HUB)
     ring = Tooth(SpurGear(teeth.ring, module, pressure_angle, addendum, True), material, RIM)
     return ToothPair(planet, ring, planet_ring_path(teeth, pressure_angle, addendum), contact)

@@ -1,8 +1,8 @@
-"""The loaded tooth: its thickness from the root circle upwards, and where a load points.
+"""Profile of a loaded tooth: thickness as a function of height, and direction of the load.
 
-The centre line of the tooth is the axis; sections stand square on it. Heights count from the
-chord at which the fillets end on the root circle, towards the tip, for external and internal
-teeth alike. So nothing depends on whether the root or the base circle is the larger.
+Sections are normal to the centre line of the tooth. Heights of external and internal teeth are
+measured towards the tip, from the chord between the ends of the fillets on the root circle. They
+do not depend on whether the root circle or the base circle is larger.
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ from ..gearset.involute import SpurGear
 from .beam import Load
 from .fillet import Fillet, fillet
 
-POINTS = 400  # of the outline on the fillet, and again on the flank
+POINTS = 400  # of the outline on the fillet, and on the flank
 CRITICAL_TANGENT = {False: math.radians(30.0), True: math.radians(60.0)}  # by SpurGear.internal
 
 Floats = NDArray[np.float64]
@@ -26,7 +26,7 @@ Floats = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class ToothProfile:
-    """One tooth of `gear` with its root fillets."""
+    """A tooth of a gear with its root fillets."""
 
     gear: SpurGear
 
@@ -42,16 +42,16 @@ class ToothProfile:
 
     @cached_property
     def flank_start(self) -> float:
-        """Radius at which the fillet passes into the involute [m]."""
+        """Radius at which the involute starts [m]."""
         return float(self.fillet(np.array(1.0))[0])
 
     @cached_property
     def outline(self) -> tuple[Floats, Floats]:
-        """Height and half thickness [m] from root to tip, the first POINTS of them the fillet."""
+        """Height and half thickness [m] from root to tip; the first `POINTS` are on the fillet."""
         radii = np.linspace(self.flank_start, self.gear.tip_radius, POINTS + 1)[1:]
         fillet_height, fillet_half = self._chord(*self.fillet(np.linspace(0.0, 1.0, POINTS)))
         height, half = self._chord(radii, self.gear.half_thickness(radii))
-        # An internal tooth's root circle bulges a little below its chord.
+        # The root circle of an internal tooth is partly below its chord.
         rising = np.maximum.accumulate(np.append(fillet_height, height))
         return rising, np.append(fillet_half, half)
 
@@ -59,7 +59,8 @@ class ToothProfile:
     def critical_height(self) -> float:
         """Height [m] of the critical section of ISO 6336-3.
 
-        There the tangent of the fillet makes 30 deg (internal teeth: 60 deg) with the centre line.
+        The angle between the tangent of the fillet and the centre line is 30 deg there, for
+        internal teeth 60 deg.
         """
         height, half = (x[:POINTS] for x in self.outline)
         steepness = np.arctan2(np.diff(half), np.diff(height))  # rises from -90 deg
@@ -68,19 +69,29 @@ class ToothProfile:
 
     @property
     def knots(self) -> tuple[float, float]:
-        """Heights [m] where the law of the thickness changes: critical section, end of fillet."""
+        """Heights at which the thickness is not smooth: critical section, end of the fillet [m]."""
         return self.critical_height, float(self.outline[0][POINTS - 1])
 
     def thickness(self, height: Floats) -> Floats:
-        """Thickness [m] of the section at `height` [m], any shape."""
+        """Thickness of sections [m], any shape.
+
+        Args:
+            height: of the sections [m], any shape.
+        """
         return 2.0 * np.interp(height, *self.outline)
 
     def load(self, radius: Floats) -> Load:
-        """Unit forces normal to the flank at `radius` [m], (m,).
+        """Unit forces normal to the flank.
 
-        The angle to the normal of the centre line is the pressure angle at the load less the half
-        angle of the tooth there; on an internal tooth, where the flank leans the other way, it
-        is their sum, tan(a) + pi/2z - inv(alpha).
+        The angle to the normal of the centre line is the pressure angle at the load minus the half
+        angle of the tooth there. On an internal tooth, whose flank is inclined to the other side,
+        it is their sum, tan(a) + pi/2z - inv(alpha).
+
+        Args:
+            radius: of the loaded points [m], (m,).
+
+        Returns:
+            The unit forces, (m,).
         """
         half = self.gear.half_thickness(radius)
         local = np.arccos(self.gear.base_radius / radius)
@@ -89,7 +100,11 @@ class ToothProfile:
         return Load(height - half_chord * np.tan(angle), angle)
 
     def depth(self, radius: Floats) -> Floats:
-        """Distance [m] along the line of action from the flank to the centre line, (m,)."""
+        """Distance along the line of action from the flank to the centre line [m], (m,).
+
+        Args:
+            radius: of the points on the flank [m], (m,).
+        """
         return radius * np.sin(self.gear.half_thickness(radius)) / np.cos(self.load(radius).angle)
 
     def _chord(self, radius: Floats, half: Floats) -> tuple[Floats, Floats]:

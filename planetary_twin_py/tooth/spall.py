@@ -1,4 +1,4 @@
-"""A spall: a stretch of the flank over which part of the face width has broken out."""
+"""A spall: part of the flank over which a share of the face width has broken out."""
 
 from __future__ import annotations
 
@@ -11,19 +11,25 @@ Floats = NDArray[np.float64]
 
 
 class Spall(NamedTuple):
-    """Where contact is lost: `start` to `end` in base pitches past the pitch point.
+    """Part of the path of contact with a shorter contact line.
 
-    `width` is the share of the face width that is lost there, at least 0 and below 1. Only the
-    contact is shorter (Chaari, Baccar, Abbes and Haddar 2008); the pit is taken as too shallow for
-    the tooth to bend more. The law jumps at both ends of the stretch.
+    Only the contact line is shorter (Chaari, Baccar, Abbes and Haddar 2008). The pit is assumed to
+    be too shallow to affect bending. The stiffness is discontinuous at both ends.
     """
 
     start: float = 0.0
+    """After the pitch point [base pitches]."""
     end: float = 0.0
+    """After the pitch point [base pitches]."""
     width: float = 0.0
+    """Lost share of the face width, at least 0 and below 1."""
 
     def contact_share(self, position: Floats) -> Floats:
-        """Share of the face width in contact, for positions in base pitches."""
+        """Share of the face width in contact, any shape.
+
+        Args:
+            position: after the pitch point [base pitches], any shape.
+        """
         within = (self.start <= position) & (position <= self.end)
         return np.where(within, 1.0 - self.width, 1.0)
 

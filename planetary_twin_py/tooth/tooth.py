@@ -18,16 +18,13 @@ from .profile import ToothProfile
 
 Floats = NDArray[np.float64]
 
-HUB = 0.5  # [-] radius at which an external gear is held, of its root radius
-RIM = 1.2  # [-] and that at which an internal gear is held
+HUB = 0.5  # [root radii] radius at which an external gear is held
+RIM = 1.2  # [root radii] radius at which an internal gear is held
 
 
 @dataclass(frozen=True)
 class Tooth:
-    """A tooth of `gear`, with or without a `crack`, on a body held rigidly at one edge.
-
-    `held` is the radius of that edge in root radii (h = 1/held of Sainsot et al. 2004): that of
-    the shaft or bearing inside an external gear, of the housing around an internal one.
+    """A tooth on a gear body that is rigidly held at one edge.
 
     Raises:
         ValueError: the held edge is on the wrong side of the root circle.
@@ -36,6 +33,8 @@ class Tooth:
     gear: SpurGear
     material: Material
     held: float
+    """Radius of the held edge [root radii], 1/h of Sainsot et al. 2004: of the shaft or bearing in
+    an external gear, or of the housing around an internal gear."""
     crack: Crack = NO_CRACK
 
     def __post_init__(self) -> None:
@@ -49,23 +48,31 @@ class Tooth:
         return ToothProfile(self.gear)
 
     def beam(self, radius: Floats) -> Floats:
-        """Bending, shear and compression: displacement times face width over load [m^2/N], (m,).
+        """Compliance of bending, shear and compression, times face width [m^2/N], (m,).
 
-        The unit force is normal to the flank at `radius` [m].
+        Args:
+            radius: of the points on the flank at which a normal force acts [m], (m,).
         """
         profile = self.profile
         thickness = self.crack.thickness(profile)
         return beam_compliance(thickness, profile.knots, profile.load(radius), self.material)
 
     def body(self, radius: Floats) -> Floats:
-        """Foundation: displacement along a unit force, times face width [m^2/N], (m,)."""
+        """Compliance of the gear body, times face width [m^2/N], (m,).
+
+        Args:
+            radius: of the points on the flank at which a normal force acts [m], (m,).
+        """
         return self.body_coupling(radius, radius, 0)
 
     def body_coupling(self, radius: Floats, loaded: Floats, teeth: int) -> Floats:
-        """What a load at the radius `loaded` [m] of a tooth moves another one, `teeth` further on.
+        """Displacement of a tooth per load on another, times face width [m^2/N], (m,).
 
-        Displacement at `radius` [m] along that tooth's own line of action, times face width over
-        load [m^2/N], (m,).
+        Args:
+            radius: of the displaced points [m], (m,); the displacement is along the line of action
+                of that tooth.
+            loaded: radius of the loaded points of the other tooth [m], (m,).
+            teeth: number of teeth from the loaded to the displaced tooth.
         """
         pitch = 2.0 * math.pi / self.gear.teeth
         body = GearBody(self.held, self.profile.root_half_angle, self.material.poisson_ratio)
@@ -77,6 +84,6 @@ class Tooth:
         """Moment [root radii], force across and force onto the root of unit loads, (3, m)."""
         crossing, angle = self.profile.load(radius)
         half = self.profile.root_half_angle
-        middle = math.sin(half) / half - math.cos(half)  # of the arc, beyond its chord
+        middle = math.sin(half) / half - math.cos(half)  # height of the arc above its chord
         arm = crossing / self.gear.root_radius - (-middle if self.gear.internal else middle)
         return np.array([arm * np.cos(angle), np.cos(angle), np.sin(angle)])

@@ -8,7 +8,7 @@ import numpy as np
 import rerun as rr
 from numpy.typing import NDArray
 
-from ..analysis.stretches import even_stretches, thinned
+from ..analysis.segments import reduced_rate, uniform_segments
 from ..recording.runs.reader import Recording
 from . import timeline
 
@@ -20,12 +20,12 @@ MOST = 300  # windows; in recordings longer than 30 s their distance is larger
 
 @dataclass(frozen=True)
 class Frames:
-    """Centres of the windows, `time` [s] and `stamp` [ns] (n,), and the gap-free `stretches`."""
+    """Centres of the windows, `time` [s] and `stamp` [ns] (n,), and `segments` without gaps."""
 
     recording: Recording
     time: Array
     stamp: NDArray[np.int64]
-    stretches: list[slice]
+    segments: list[slice]
 
     @property
     def index(self) -> list[rr.TimeColumn]:
@@ -36,7 +36,7 @@ class Frames:
     def remark(self) -> str | None:
         """Warning if samples are decimated somewhere."""
         wave = self.recording.waveform
-        return None if wave is None else thinned(wave.time, self.stretches)
+        return None if wave is None else reduced_rate(wave.time, self.segments)
 
     def lasting(self, seconds: float, cycles: float) -> float:
         """Duration of a window [s].
@@ -46,13 +46,13 @@ class Frames:
             cycles: minimum number of mesh cycles at the median speed.
 
         Returns:
-            The larger of both, limited to the longest gap-free stretch of samples.
+            The larger of both, limited to the longest uniformly sampled segment.
         """
         wave, mesh = self.recording.waveform, self.recording.state["mesh_frequency"]
         assert wave is not None
         usual = float(np.nanmedian(mesh)) if np.isfinite(mesh).any() else 0.0
         longest = max(
-            (float(wave.time[part.stop - 1] - wave.time[part.start]) for part in self.stretches),
+            (float(wave.time[part.stop - 1] - wave.time[part.start]) for part in self.segments),
             default=0.0,
         )
         return min(max(seconds, cycles / usual if usual > 0.0 else 0.0), max(seconds, longest))
@@ -75,7 +75,7 @@ class Frames:
         """
         wave, now = self.recording.waveform, self.time[number]
         assert wave is not None
-        for part in self.stretches:
+        for part in self.segments:
             first, last = wave.time[part.start], wave.time[part.stop - 1]
             if first <= now <= last and last - first >= duration:
                 begin = min(max(now - 0.5 * duration, first), last - duration)
@@ -95,4 +95,4 @@ def frames(recording: Recording) -> Frames | None:
     time = np.linspace(first, last, max(count, 2))
     row = np.minimum(np.searchsorted(wave.time, time), len(wave.time) - 1)
     stamp = wave.stamp[row] + np.rint(1e9 * (time - wave.time[row])).astype(np.int64)
-    return Frames(recording, time, stamp, even_stretches(wave.time))
+    return Frames(recording, time, stamp, uniform_segments(wave.time))

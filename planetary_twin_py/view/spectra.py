@@ -9,7 +9,7 @@ import numpy as np
 import rerun as rr
 from numpy.typing import NDArray
 
-from ..analysis.aliases import CARRIED, alias_remark, alias_share
+from ..analysis.aliases import NEGLIGIBLE, alias_remark, alias_share
 from ..analysis.orders import order_spectrum
 from ..analysis.signals import relative_angle
 from ..analysis.spectrum import amplitude_spectrum
@@ -65,7 +65,7 @@ def _alias_remark(
     """Warning about the window with the largest aliasing, or None."""
     shares = np.array([alias_share(*each) if len(each[0]) else 0.0 for each in found])
     worst = int(np.argmax(shares))
-    if shares[worst] <= CARRIED:
+    if shares[worst] <= NEGLIGIBLE:
         return None
     highest = None if scene is None else float(natural_modes(scene).frequencies.max())
     mesh, rate = float(frames.state("mesh_frequency")[worst]), 2.0 * float(found[worst][0][-1])

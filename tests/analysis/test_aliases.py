@@ -8,13 +8,13 @@ import pytest
 
 import planetary_twin_py as pt
 from planetary_twin_py.analysis.aliases import (
-    CARRIED,
+    NEGLIGIBLE,
+    alias_frequency,
     alias_remark,
     alias_share,
+    aliased_harmonic,
     edge_amplitude,
-    fitting_rate,
-    folded,
-    folded_harmonic,
+    recommended_rate,
 )
 from planetary_twin_py.analysis.mesh_spectrum import frequency_spectrum_of, order_spectrum_of
 from planetary_twin_py.analysis.signals import Signal
@@ -29,16 +29,16 @@ def test_a_sampled_tone_stands_where_it_folds_to(tone):
     (line,) = strongest_lines(
         *amplitude_spectrum(np.sin(2.0 * np.pi * tone * time + 0.3), 20_000.0), 1
     )
-    assert line.place == pytest.approx(folded(tone, 20_000.0), abs=0.01)
+    assert line.place == pytest.approx(alias_frequency(tone, 20_000.0), abs=0.01)
     assert line.amplitude == pytest.approx(1.0, rel=1e-3)
 
 
 def test_the_harmonic_that_folds_to_a_place_is_found_and_none_where_none_does():
     # 2700 Hz: 4 x is 10 800 and folds to 9200, 5 x is 13 500 and folds to 6500
-    assert folded_harmonic(9200.0, 2700.0, 20_000.0, 5.0) == 4
-    assert folded_harmonic(6500.0, 2700.0, 20_000.0, 5.0) == 5
-    assert folded_harmonic(9300.0, 2700.0, 20_000.0, 5.0) is None
-    assert folded_harmonic(2700.0, 2700.0, 20_000.0, 5.0) is None
+    assert aliased_harmonic(9200.0, 2700.0, 20_000.0, 5.0) == 4
+    assert aliased_harmonic(6500.0, 2700.0, 20_000.0, 5.0) == 5
+    assert aliased_harmonic(9300.0, 2700.0, 20_000.0, 5.0) is None
+    assert aliased_harmonic(2700.0, 2700.0, 20_000.0, 5.0) is None
 
 
 def signal_of(speed, rate, duration=0.2):
@@ -58,9 +58,9 @@ def test_lines_of_a_fast_run_that_are_no_harmonics_are_folded_ones(fast, spectru
     found = spectrum_of(fast, 30)
     foreign = [line for line in found.lines(12) if found.harmonic(line.place) is None]
     assert {found.alias(line) for line in foreign} >= {9, 10, 11, 12}
-    assert found.alias_share > CARRIED
+    assert found.alias_share > NEGLIGIBLE
     fine = frequency_spectrum_of(signal_of(pt.rpm(6000), 1e6), 30)
-    assert fine.alias_share <= CARRIED
+    assert fine.alias_share <= NEGLIGIBLE
     assert all(fine.harmonic(line.place) for line in fine.lines(12))
     assert not any(fine.alias(line) for line in fine.lines(12))
 
@@ -86,16 +86,16 @@ def test_samples_that_carry_a_signal_are_not_remarked_upon():
     frequency = np.linspace(0.0, 100.0, 101)
     amplitude = np.exp(-frequency / 10.0)
     assert edge_amplitude(frequency, amplitude) == pytest.approx(math.exp(-8.0))
-    assert alias_share(frequency, amplitude) <= CARRIED < alias_share(frequency, amplitude + 0.1)
+    assert alias_share(frequency, amplitude) <= NEGLIGIBLE < alias_share(frequency, amplitude + 0.1)
     assert alias_share(frequency, np.zeros(101)) == 0.0
 
 
 def test_the_remark_names_rates_heights_and_harmonics():
     line = alias_remark(20_000.0, 0.034, 11_000.0, 500.0)
-    assert "20000 samples per second" in line and "3.4 %" in line
-    assert "harmonics of the meshing from 20 on" in line and "4.4e+04 Hz" in line
+    assert "sample rate of 20000 Hz is too low" in line and "3.4 %" in line
+    assert "mesh harmonics from 20 on" in line and "4.4e+04 Hz" in line
     assert "harmonics" not in alias_remark(20_000.0, 0.034, None, None)
-    assert fitting_rate(20_000.0, None) == 40_000.0
+    assert recommended_rate(20_000.0, None) == 40_000.0
 
 
 def test_a_line_above_the_aliases_is_none(fast):

@@ -134,7 +134,7 @@ def test_lines_of_samples_without_a_scene_are_not_named(tmp_path):
     assert line["harmonic"] is None
 
 
-def test_lost_blocks_are_reported_and_the_longest_interval_is_analysed(file):
+def test_lost_blocks_leave_the_longest_segment_and_are_reported(file):
     recording = read_recording(file)
     wave = recording.waveform
     lost = np.r_[0 : 20 * BLOCK, 25 * BLOCK : 70 * BLOCK]
@@ -150,7 +150,7 @@ def test_users_errors_are_one_line_each(file, tmp_path):
     for arguments, reason in [
         ([tmp_path / "missing"], "no such file"),
         ([tmp_path / "missing.npz"], "no such file"),
-        ([tmp_path / "a.npz"], "no samples of `simulate`"),
+        ([tmp_path / "a.npz"], "not a file of `simulate`"),
         ([file, "--mesh", "sun"], "mesh = 'sun': must be one of sun_planet_1"),
         ([file, "--quantity", "noise"], "quantity = 'noise': must be one of dte"),
         ([file, "--from", "7"], "from 7 to 1 s"),
@@ -159,7 +159,7 @@ def test_users_errors_are_one_line_each(file, tmp_path):
         ([file, "--band", "a:b", "--order"], "band = 'a:b': must be low:high in orders"),
         ([file, "--band", "nan:5"], "band = 'nan:5'"),
         ([file, "--band", "1m:2m"], "band = '1m:2m'"),
-        ([file, "--band", "1e6:2e6"], "nothing there: the spectrum has a value each"),
+        ([file, "--band", "1e6:2e6"], "must contain a value of the spectrum, which has one every"),
         ([file, "--out", "a.pdf"], "must end in .png or .csv"),
         ([file, "--out", tmp_path / "no" / "a.csv"], "a.csv"),
     ]:

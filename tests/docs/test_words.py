@@ -15,7 +15,8 @@ DIALECT = re.compile(
     re.IGNORECASE,
 )
 ROOMS = (
-    "cli", "doctor", "explanation", "plots", "recording", "robot", "scene", "studies", "view",
+    "analysis", "cli", "doctor", "explanation", "gearset", "modal", "paper", "plots", "recording",
+    "robot", "scene", "studies", "tooth", "view",
 )  # fmt: skip
 MODULES = (
     "accuracy", "batch", "ledger_check", "printable", "quality_control", "quantities", "result",

@@ -47,9 +47,12 @@ def test_the_reported_number_of_planets_fits_and_one_more_does_not(size):
 @pytest.mark.parametrize(
     ("angles", "words"),
     [
-        ((0, 90, 90, 270), ["planets 2 and 3", "are 0 mm apart", "tip diameter of 17.6 mm"]),
+        (
+            (0, 90, 90, 270),
+            ["planets 2 and 3", "is 0 mm and must", "tip diameter of 17.6 mm"],
+        ),
         ((0, 90, 91, 270), ["planets 2 and 3", "0.3491 mm"]),
-        ((0, 120, 480), ["planets 2 and 3", "are 0 mm"]),
+        ((0, 120, 480), ["planets 2 and 3", "is 0 mm"]),
         ((0, 90, 180, 345.6), ["planets 1 and 4"]),
         ([360 * n / 7 for n in range(7)], ["17.35", "at most 6 planets fit, equally spaced"]),
     ],

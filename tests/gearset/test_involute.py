@@ -101,7 +101,7 @@ def test_outline_runs_once_around_from_tip_to_root_circle(gear):
 def test_teeth_that_cannot_be_drawn_are_refused_in_one_line():
     with pytest.raises(ValueError, match="teeth = 6: the tooth is pointed"):
         SpurGear(6, MODULE, math.radians(38))
-    with pytest.raises(ValueError, match="teeth = 25: the ring's tips lie inside"):
+    with pytest.raises(ValueError, match="teeth = 25: the ring's tips are inside"):
         SpurGear(25, MODULE, math.radians(20), internal=True)
 
 

@@ -34,7 +34,8 @@ def test_verdict(claims, verdict):
 def test_a_claim_that_only_the_printed_form_reaches_counts_but_is_explained():
     found = entry(claim("number", False, True, "ours differs"))
     assert found.verdict is Verdict.REPRODUCED
-    assert found.reason == "as printed only: ours differs"
+    only = "one statement is reached in the printed form only, because ours differs"
+    assert found.reason == only
 
 
 def test_reasons_are_given_once_and_only_where_something_is_missed():

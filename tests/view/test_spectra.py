@@ -30,7 +30,7 @@ def recording(tmp_path):
 
 def test_the_file_contains_spectrum_order_map_and_phase_portrait(recording, tmp_path):
     (remark,) = save(recording, load_scene("paper"), tmp_path / "a.rrd")
-    assert "do not carry this signal" in remark  # its DTE has lines next to 25 kHz
+    assert "too low for this signal" in remark  # its DTE has lines next to 25 kHz
     printed = subprocess.run(
         [RERUN, "rrd", "print", tmp_path / "a.rrd"], capture_output=True, text=True, check=True
     ).stdout
@@ -87,12 +87,15 @@ def test_windows_of_slow_gears_have_as_many_mesh_cycles_as_samples_allow(recordi
     assert windows.lasting(0.2, 64) == 0.2
 
 
-def test_thinned_samples_are_reported(recording):
+def test_a_reduced_sample_rate_is_reported(recording):
     assert frames(recording).remark is None
     wave = recording.waveform
     kept = np.r_[0 : 50 * BLOCK, 50 * BLOCK : 100 * BLOCK : 8]
     wave.time, wave.stamp, wave.dte = wave.time[kept], wave.stamp[kept], wave.dte[kept]
-    assert "some samples come at 6250 in place of 50000 Hz" in frames(recording).remark
+    assert (
+        "reduced in places, from 50000 to 6250 Hz: components above 3125 Hz"
+        in frames(recording).remark
+    )
 
 
 def test_without_samples_there_is_nothing_to_show(recording):
