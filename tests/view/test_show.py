@@ -35,7 +35,7 @@ def test_rerun_verifies_the_file_and_finds_gears_curves_and_changes(tmp_path):
     assert remark is None
     rrd = tmp_path / "one.rrd"
     (remark,) = save(recording, scene, rrd)  # its DTE has lines next to 25 kHz
-    assert "do not carry this signal" in remark
+    assert "too low for this signal" in remark
     verified = rerun("verify", rrd)
     assert "without error" in verified.stdout + verified.stderr
     printed = rerun("print", "-vv", rrd).stdout
@@ -88,5 +88,5 @@ def test_details_of_a_long_recording_are_shown_where_something_happens(tmp_path,
     (remark,) = save(recording, None, tmp_path / "a.rrd")
     assert remark.startswith("single samples are shown for the start and the changes (0.4 s of 1.0")
     remark, aliases = save(recording, None, tmp_path / "b.rrd", detail=(0.3, 0.5))
-    assert "do not carry this signal" in aliases
+    assert "too low for this signal" in aliases
     assert remark.startswith("single samples are shown for 0.3 to 0.5 s (0.2 s of 1.0 s)")

@@ -52,12 +52,12 @@ class Meter(Client):
 
     @property
     def received(self) -> int:
-        """Number of messages since the start of the measurement."""
+        """Return the number of messages since the start of the measurement."""
         return len(self._numbers)
 
     @property
     def lost(self) -> int:
-        """Number of messages missing between the first and the last received."""
+        """Return the number of messages missing between the first and the last received."""
         numbers = list(self._numbers)
         return numbers[-1] - numbers[0] + 1 - len(numbers) if numbers else 0
 

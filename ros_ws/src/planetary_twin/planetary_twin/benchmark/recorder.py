@@ -62,7 +62,7 @@ class Throughput(NamedTuple):
 
     @property
     def megabytes(self) -> float:
-        """Recorded megabytes per second."""
+        """Return the recorded megabytes per second."""
         return self.best.rate * self.size * 1e-6
 
 

@@ -30,7 +30,7 @@ class Tally:
 
     @property
     def lost(self) -> int:
-        """Number of messages published but not in the file."""
+        """Return the number of messages published but not in the file."""
         return self.published - self.recorded
 
 
