@@ -15,10 +15,11 @@ from diagnostic_msgs.msg import DiagnosticArray
 from planetary_twin.telemetry import STALL
 from planetary_twin_msgs.msg import GearboxState, RecorderStatus
 from planetary_twin_msgs.srv import Step
+from std_msgs.msg import String
 from std_srvs.srv import SetBool
 
 from .conftest import Program, Start
-from .other_recorder import NAME, TOPICS
+from .other_recorder import COUNTS, LATCHED, NAME, TOPICS
 from .peer import TWIN, Peer
 from .recordings import counts
 from .reported import figures, listen_to_reports
@@ -161,6 +162,7 @@ def test_another_recorder_receives_all_if_its_queue_is_long_enough(
     peer: Peer, start: Start, other: Program, rate: float, stall: float
 ) -> None:
     """At real time its queue of 10 limits a stall; above, the twin waits for it."""
+    received = peer.listen(String, COUNTS, LATCHED)
     twin = Twin(peer, start, other, NAME, rate)
     twin.advance(0.05)
     waits = rate > 1.0 or rate == 0.0
@@ -168,9 +170,8 @@ def test_another_recorder_receives_all_if_its_queue_is_long_enough(
         pass
     twin.advance(0.05)
     sent = published(twin.end())
-    other.terminate()
-    output, _ = other.communicate()
-    assert json.loads(output) == {f"{TWIN}/{topic}": sent[f"{TWIN}/{topic}"] for topic in TOPICS}
+    expected = {f"{TWIN}/{topic}": sent[f"{TWIN}/{topic}"] for topic in TOPICS}
+    peer.until(lambda: received and json.loads(received[-1].data) == expected)
 
 
 def test_a_twin_waits_for_its_recorder_and_for_no_other_subscriber(

@@ -29,7 +29,7 @@ _NAMES = (
     "; a heading must be a field of gearbox_state or operating_point, with a unit in brackets "
     "unless it is SI"
 )
-_HEADING = re.compile(r"(.*?)\s*(?:\[(.*)\])?")
+_HEADING = re.compile(r"(.*?)\s*(?:\[(.*)\])?", re.DOTALL)
 
 
 class Measurements(NamedTuple):
