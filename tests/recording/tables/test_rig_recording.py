@@ -172,6 +172,7 @@ def with_time(*time):
         (with_time(0.0, 120.0, 240.0), "a row every 120 s: must be at most 60 s"),
         (with_column("power_los", [1, 2, 3]), "no such quantity; did you mean power_loss?"),
         (with_column("Drehzahl [rpm]", [1, 2, 3]), "no such quantity; a heading must be a"),
+        (with_column("line\nbreak", [1, 2, 3]), r"column 'line\nbreak': no such"),
         (with_column("sun_planet_dte_rms_4", [1, 2, 3]), "column 'sun_planet_dte_rms_4': no such"),
         (with_column("power_loss", [1, 2, 3]), "column 'power_loss': power_loss is given twice"),
         (with_column("efficiency", ["a", "b", "c"]), "row 1: efficiency = 'a': must be a number"),
