@@ -110,17 +110,7 @@ def identify(
             f"{len(parameters)} parameters; use more observables or more operating points"
         )
     parameters = with_initial_magnitudes(runs.residuals(weighted), parameters)
-    minimum = find_least(runs.residuals(weighted), parameters)
-    for _ in range(ROUNDS):
-        closer = weigh(minimum.values)
-        if closer.near(weighted, SETTLED):
-            break
-        weighted = closer
-        minimum = minimise(runs.residuals(weighted), parameters, minimum.values)
-        if not explained(minimum):
-            minimum = min(
-                minimum, find_least(runs.residuals(weighted), parameters), key=lambda m: m.sum
-            )
+    weighted, minimum = _minimise(runs, weigh, weighted, parameters)
     found = conclude(
         runs.residuals(weighted), parameters, minimum, weighted.freedom, search.confidence
     )
@@ -138,6 +128,27 @@ def identify(
         simulations=runs.count,
         wall_time=time.perf_counter() - began,
     )
+
+
+def _minimise(
+    runs: Simulations,
+    weigh: Callable[[Array], WeightedReadings],
+    weighted: WeightedReadings,
+    parameters: tuple[Parameter, ...],
+) -> tuple[WeightedReadings, Minimum]:
+    """Find the minimum, with the noise estimated from the residuals there, by iteration."""
+    minimum = find_least(runs.residuals(weighted), parameters)
+    for _ in range(ROUNDS):
+        closer = weigh(minimum.values)
+        if closer.near(weighted, SETTLED):
+            break
+        weighted = closer
+        minimum = minimise(runs.residuals(weighted), parameters, minimum.values)
+        if not explained(minimum):
+            minimum = min(
+                minimum, find_least(runs.residuals(weighted), parameters), key=lambda m: m.sum
+            )
+    return weighted, minimum
 
 
 def _check(search: Search) -> None:
