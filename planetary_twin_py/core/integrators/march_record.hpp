@@ -1,0 +1,31 @@
+#pragma once
+
+#include <cstdint>
+
+#include "integrators/control.hpp"
+#include "integrators/periodic_record.hpp"
+#include "integrators/propagation_records.hpp"
+#include "integrators/step_sums_record.hpp"
+#include "integrators/workspace.hpp"
+#include "train/evaluation.hpp"
+#include "train/state.hpp"
+#include "train/step_constants.hpp"
+
+namespace gearbox {
+
+struct alignas(64) March {
+    State begin;
+    State end;
+    StepConstants moment;
+    StepConstants aside;  // room for where a mesh stands at an event
+    Evaluation first;  // forces at `begin`
+    Evaluation last;  // forces at `end`, with the contacts of `begin`
+    State dense;  // x and v within the step
+    Control control;
+    Workspace work;
+    Propagation run;
+    Repetition repetition;
+    StepSums sums;  // of what the meshes show, over the last step and those before
+};
+
+}  // namespace gearbox

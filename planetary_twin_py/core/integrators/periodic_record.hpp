@@ -1,0 +1,48 @@
+#pragma once
+
+#include <cstdint>
+
+#include "integrators/propagation_records.hpp"
+#include "mesh/mesh_sums.hpp"
+#include "train/state.hpp"
+
+namespace gearbox {
+
+struct alignas(64) Place {
+    State state;
+    double after;  // start of the cycle [s]
+    double turned;  // by the motor since then [turns]
+    alignas(64) double energy[11];  // growth of the ledger since then [J], [N m s]
+};
+
+struct alignas(64) CycleStep {
+    Place begin;
+    Place end;
+    bool collocated;
+    alignas(64) double power[11];  // at its end, see EVALUATION
+    alignas(64) double rubbing[16];
+    ModalMotion motion;
+    MeshSums sums;
+};
+
+struct alignas(64) Repetition {
+    std::int64_t cycles;  // mesh cycles until all is as before, 0: never
+    std::int64_t numerator;  // turns of the motor meanwhile, as a fraction
+    std::int64_t denominator;
+    double pause;  // [s] for which the train must not stray at least
+    std::int64_t passed;  // mesh cycles since it was last looked whether the train repeats
+    std::int64_t age;  // times that it was since something acted from outside
+    std::int64_t anchor_age;
+    State anchor;  // from which the train has not strayed since
+    bool recording;
+    bool playing;
+    std::int64_t steps;  // on the tape
+    std::int64_t place;  // of the step on the tape that comes next
+    std::int64_t known;  // contact states known when the last step was put on the tape
+    State start;  // clock, turns and ledger where the present cycle starts; the fraction of the ...
+    std::int64_t part;  // ... turn is that of the first cycle, and this many denominators
+    Place whole;  // end of the cycle
+    CycleStep tape[4096];
+};
+
+}  // namespace gearbox
