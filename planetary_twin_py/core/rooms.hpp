@@ -1,0 +1,52 @@
+#pragma once
+
+// Room of the arrays in the records, and what their entries are.
+
+#include <cstdint>
+
+namespace gearbox {
+
+constexpr int REGISTER = 4;            // arrays over bodies and meshes come in whole registers
+constexpr int BODIES = 4 * REGISTER;   // 7 planets, sun, ring, carrier, machines and the ground
+constexpr int MESHES = 4 * REGISTER;
+constexpr int MACHINES = 3;            // two motors and a load
+constexpr int AXES = 2;                // rigid motions of the train: one for each motor
+constexpr int KINDS = 2;               // of meshes: sun-planet, planet-ring
+constexpr int GEARS = 3;               // that a mesh joins: first gear, second gear, carrier
+constexpr int PAIRS = 3;               // tooth pairs in contact at most: contact ratios up to 3
+constexpr int TOTAL = PAIRS;           // place of the sum over the pairs
+constexpr int SEGMENTS = 32;           // breakpoints: 4 of each pair and those of faults
+constexpr int TERMS = 6;               // coefficients of a polynomial
+constexpr int LINES = 6;               // errors of form: 4 harmonics, the runout of 2 gears
+constexpr int FAULTS = 4;
+constexpr int ROOM = (PAIRS + 1) * MESHES;  // all tooth pairs, and what whole registers write beyond
+constexpr int MEMBERS = 3;             // sun, ring, carrier
+constexpr int JOINTS = BODIES + MEMBERS;
+
+// Sides of a mesh.
+constexpr std::int64_t DRIVE_SIDE = 1, OPEN = 0, COAST_SIDE = -1;
+
+// Places of the machines.
+constexpr int MOTOR = 0, LOAD_MACHINE = 1, SECOND_MOTOR = 2;
+
+// Entries of `State.energy` and of the powers by which they grow: work [J] and angular impulse
+// [N m s] that each machine has put in, then what tooth friction, damping, bearings and churning
+// have taken and what the meshes have put in by changing their shape [J].
+constexpr int WORK = 0, IMPULSE = MACHINES;
+constexpr int FRICTION = 2 * MACHINES, DAMPING = FRICTION + 1, BEARING = FRICTION + 2,
+              CHURNING = FRICTION + 3, STIFFNESS_WORK = FRICTION + 4;
+constexpr int LEDGER = 2 * MACHINES + 5;
+
+// Rows of the answer of `observe`.
+constexpr int DTE = 0, MESH_FORCE = 1, BOUNDARY = 2, VISCOUS = 3, FILM = 4, LAMBDA = 5,
+              POWER_LOSS = 6, MESH_POWER = 7;
+constexpr int QUANTITIES = 8;
+
+// Rows of the integrals in MeshSums: those of `observe`, then the square of the transmission error,
+// the time for which a force acts, that for which it acts without viscous friction, and that for
+// which film and lambda ratio are known.
+constexpr int SQUARE = QUANTITIES, CONTACT = QUANTITIES + 1, CLIPPED = QUANTITIES + 2,
+              FILMED = QUANTITIES + 3;
+constexpr int SUMS = QUANTITIES + 4;
+
+}  // namespace gearbox
