@@ -2,8 +2,7 @@
 
 Each public module here holds one command, a function with the name of the module. Other packages
 add commands through the entry-point group `planetary_twin.commands`; the ROS package adds those
-that need ROS. They may use `_arguments`, `_console`, `_fail`, `_figures`, `_interrupts` and
-`_settings`.
+that need ROS. What commands share, in both packages, is in `terminal`.
 A command is loaded on first use and imports heavy modules only when it runs, so that `--help` and
 completion are fast.
 """
@@ -16,9 +15,9 @@ import sys
 
 import typer
 
+from ..terminal.interrupts import interrupt, repeat_lost, repeat_no_more
 from ._commands import Group
 from ._help import PLAIN
-from ._interrupts import interrupt, repeat_lost, repeat_no_more
 
 
 def build_app() -> typer.Typer:

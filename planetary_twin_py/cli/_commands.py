@@ -12,7 +12,7 @@ from typing import Any
 import typer
 from typer.core import TyperGroup
 
-from ._fail import fail
+from ..terminal.messages import fail
 from ._help import PLAIN, Command
 
 GROUP = "planetary_twin.commands"

@@ -7,8 +7,8 @@ from typing import Any
 
 from typer.core import TyperCommand
 
-from ._fail import fail
-from ._fields import field_options
+from ..terminal.completion import field_options
+from ..terminal.messages import fail
 
 PLAIN = None  # Rich would read "[s]" as markup
 _EXAMPLE = "\n\nExample: "

@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING
 
 import typer
 
-from ._fail import fail
+from ..terminal.messages import fail
 
 if TYPE_CHECKING:
     import rerun as rr

@@ -7,9 +7,9 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from ._fail import fail, need, remark
-from ._output import check_file
-from ._settings import say_units
+from ..terminal.messages import fail, need, remark
+from ..terminal.output_files import check_file
+from ..terminal.settings import say_units
 
 if TYPE_CHECKING:
     import pyarrow as pa

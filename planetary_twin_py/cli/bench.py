@@ -9,10 +9,10 @@ from typing import Annotated
 
 import typer
 
-from ._arguments import JsonOption
-from ._fail import fail, need
-from ._figures import console_beside, put_figures
-from ._output import output_file
+from ..terminal.arguments import JsonOption
+from ..terminal.json_output import console_beside, put_figures
+from ..terminal.messages import fail, need
+from ..terminal.output_files import output_file
 
 
 def bench(

@@ -7,10 +7,10 @@ from typing import Annotated
 
 import typer
 
-from ._arguments import SceneArgument, SetOption, ToleranceOption
-from ._durations import SECONDS
-from ._fail import fail, remark
-from ._settings import changed_scene, settings
+from ..terminal.arguments import SceneArgument, SetOption, ToleranceOption
+from ..terminal.durations import SECONDS
+from ..terminal.messages import fail, remark
+from ..terminal.settings import changed_scene, settings
 from ._study import PICTURES, TABLES, axis, check_suffix, progress, put
 
 

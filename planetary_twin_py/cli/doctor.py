@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING
 
 import typer
 
-from ._arguments import JsonOption
-from ._figures import console_beside, put_figures
+from ..terminal.arguments import JsonOption
+from ..terminal.json_output import console_beside, put_figures
 
 if TYPE_CHECKING:
     from ..doctor.finding import Finding

@@ -7,12 +7,12 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from ._arguments import JsonOption, SceneArgument
-from ._console import print_list
-from ._durations import SECONDS
-from ._fail import fail, remark
-from ._figures import console_beside, put_figures
-from ._interrupt import interruptible
+from ..terminal.arguments import JsonOption, SceneArgument
+from ..terminal.console import print_list
+from ..terminal.durations import SECONDS
+from ..terminal.interruptible import interruptible
+from ..terminal.json_output import console_beside, put_figures
+from ..terminal.messages import fail, remark
 
 if TYPE_CHECKING:
     from rich.table import Table

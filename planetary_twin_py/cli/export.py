@@ -7,9 +7,9 @@ from typing import Annotated
 
 import typer
 
-from ._arguments import FileArgument, NamespaceOption
-from ._console import make_console
-from ._fail import fail, need, remark
+from ..terminal.arguments import FileArgument, NamespaceOption
+from ..terminal.console import make_console
+from ..terminal.messages import fail, need, remark
 
 
 def export(

@@ -6,9 +6,9 @@ from typing import Annotated
 
 import typer
 
-from ._arguments import JsonOption
-from ._fail import fail
-from ._figures import console_beside, put_figures
+from ..terminal.arguments import JsonOption
+from ..terminal.json_output import console_beside, put_figures
+from ..terminal.messages import fail
 
 
 def fields(

@@ -7,11 +7,11 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from ._arguments import FileArgument, JsonOption, NamespaceOption
-from ._durations import SECONDS
-from ._fail import fail, need, remark
-from ._figures import console_beside, put_figures
-from ._settings import settings
+from ..terminal.arguments import FileArgument, JsonOption, NamespaceOption
+from ..terminal.durations import SECONDS
+from ..terminal.json_output import console_beside, put_figures
+from ..terminal.messages import fail, need, remark
+from ..terminal.settings import settings
 
 if TYPE_CHECKING:
     from rich.console import Console

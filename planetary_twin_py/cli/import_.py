@@ -8,11 +8,11 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from ._arguments import SetOption, complete_scene
-from ._console import busy, make_console
-from ._fail import fail, need
-from ._output import check_recording
-from ._settings import changed_scene, settings
+from ..terminal.arguments import SetOption, complete_scene
+from ..terminal.console import busy, make_console
+from ..terminal.messages import fail, need
+from ..terminal.output_files import check_recording
+from ..terminal.settings import changed_scene, settings
 
 if TYPE_CHECKING:
     from ..recording.tables.rig_recording import Imported

@@ -7,10 +7,10 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from ._arguments import FileArgument, JsonOption
-from ._console import busy
-from ._fail import fail, need, remark
-from ._figures import console_beside, put_figures
+from ..terminal.arguments import FileArgument, JsonOption
+from ..terminal.console import busy
+from ..terminal.json_output import console_beside, put_figures
+from ..terminal.messages import fail, need, remark
 
 if TYPE_CHECKING:
     from rich.console import Console

@@ -7,11 +7,11 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from ._arguments import JsonOption, SceneArgument, SetOption
-from ._fail import fail, need
-from ._figures import console_beside, put_figures
-from ._output import output_file
-from ._settings import changed_scene, settings
+from ..terminal.arguments import JsonOption, SceneArgument, SetOption
+from ..terminal.json_output import console_beside, put_figures
+from ..terminal.messages import fail, need
+from ..terminal.output_files import output_file
+from ..terminal.settings import changed_scene, settings
 
 if TYPE_CHECKING:
     from rich.table import Table

@@ -7,9 +7,9 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from ._arguments import JsonOption
-from ._fail import fail, need
-from ._figures import console_beside, put_figures
+from ..terminal.arguments import JsonOption
+from ..terminal.json_output import console_beside, put_figures
+from ..terminal.messages import fail, need
 from ._study import PICTURES
 
 if TYPE_CHECKING:

@@ -7,7 +7,7 @@ from typing import Annotated
 
 import typer
 
-from ._fail import fail, remark
+from ..terminal.messages import fail, remark
 from ._study import PICTURES, TABLES, check_suffix, put
 
 

@@ -7,10 +7,10 @@ from typing import Annotated
 
 import typer
 
-from ._arguments import FileArgument
-from ._console import busy, make_console
-from ._fail import fail, need, remark
-from ._output import check_recording
+from ..terminal.arguments import FileArgument
+from ..terminal.console import busy, make_console
+from ..terminal.messages import fail, need, remark
+from ..terminal.output_files import check_recording
 
 
 def recover(

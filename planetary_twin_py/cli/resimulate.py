@@ -7,12 +7,12 @@ from typing import Annotated
 
 import typer
 
-from ._arguments import FileArgument, NamespaceOption, SetOption
-from ._console import make_console
-from ._durations import SECONDS
-from ._fail import fail, need, remark
-from ._output import check_recording
-from ._settings import say_units, settings
+from ..terminal.arguments import FileArgument, NamespaceOption, SetOption
+from ..terminal.console import make_console
+from ..terminal.durations import SECONDS
+from ..terminal.messages import fail, need, remark
+from ..terminal.output_files import check_recording
+from ..terminal.settings import say_units, settings
 
 
 def resimulate(

@@ -8,14 +8,20 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from ._arguments import DurationOption, JsonOption, SceneArgument, SetOption, ToleranceOption
-from ._console import print_list
-from ._durations import SECONDS
-from ._fail import fail, need, remark
-from ._figures import console_beside, put_figures
-from ._interrupt import interruptible
-from ._output import check_file, check_recording
-from ._settings import changed_scene, settings
+from ..terminal.arguments import (
+    DurationOption,
+    JsonOption,
+    SceneArgument,
+    SetOption,
+    ToleranceOption,
+)
+from ..terminal.console import print_list
+from ..terminal.durations import SECONDS
+from ..terminal.interruptible import interruptible
+from ..terminal.json_output import console_beside, put_figures
+from ..terminal.messages import fail, need, remark
+from ..terminal.output_files import check_file, check_recording
+from ..terminal.settings import changed_scene, settings
 
 if TYPE_CHECKING:
     from rich.console import Console

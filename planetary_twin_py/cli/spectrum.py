@@ -10,12 +10,12 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from ._arguments import JsonOption, complete_recording
-from ._console import busy
-from ._durations import SECONDS
-from ._fail import fail, need, remark
-from ._figures import console_beside, put_figures
-from ._output import output_file
+from ..terminal.arguments import JsonOption, complete_recording
+from ..terminal.console import busy
+from ..terminal.durations import SECONDS
+from ..terminal.json_output import console_beside, put_figures
+from ..terminal.messages import fail, need, remark
+from ..terminal.output_files import output_file
 
 if TYPE_CHECKING:
     from rich.console import Console

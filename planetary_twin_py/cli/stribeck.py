@@ -7,9 +7,9 @@ from typing import Annotated
 
 import typer
 
-from ._arguments import SceneArgument, SetOption
-from ._fail import fail, remark
-from ._settings import changed_scene, settings
+from ..terminal.arguments import SceneArgument, SetOption
+from ..terminal.messages import fail, remark
+from ..terminal.settings import changed_scene, settings
 from ._study import PICTURES, TABLES, axis, check_suffix, progress, put, warn
 
 

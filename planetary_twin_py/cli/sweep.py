@@ -9,10 +9,10 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from ._arguments import SceneArgument, ToleranceOption
-from ._durations import SECONDS
-from ._fail import fail, need, remark
-from ._settings import changed_scene, settings
+from ..terminal.arguments import SceneArgument, ToleranceOption
+from ..terminal.durations import SECONDS
+from ..terminal.messages import fail, need, remark
+from ..terminal.settings import changed_scene, settings
 from ._study import PICTURES, TABLES, axis, check_suffix, progress, put, warn
 
 if TYPE_CHECKING:

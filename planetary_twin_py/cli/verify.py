@@ -6,9 +6,9 @@ from typing import TYPE_CHECKING, Any
 
 import typer
 
-from ._arguments import FileArgument, JsonOption, NamespaceOption
-from ._fail import fail, need
-from ._figures import console_beside, put_figures
+from ..terminal.arguments import FileArgument, JsonOption, NamespaceOption
+from ..terminal.json_output import console_beside, put_figures
+from ..terminal.messages import fail, need
 
 if TYPE_CHECKING:
     from rich.console import Console

@@ -12,12 +12,12 @@ from typing import TYPE_CHECKING, Annotated, NamedTuple
 
 import typer
 
-from ._arguments import complete_recording, complete_scene
-from ._console import busy
-from ._durations import SECONDS, read_seconds
-from ._fail import fail, need, remark
+from ..terminal.arguments import complete_recording, complete_scene
+from ..terminal.console import busy
+from ..terminal.durations import SECONDS, read_seconds
+from ..terminal.messages import fail, need, remark
+from ..terminal.output_files import output_file
 from ._live import print_address, view_live
-from ._output import output_file
 
 if TYPE_CHECKING:
     from ..recording.runs.reader import Recording

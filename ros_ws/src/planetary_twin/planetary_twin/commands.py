@@ -9,12 +9,12 @@ from typing import Annotated, Any
 
 import typer
 
-from planetary_twin_py.cli._arguments import JsonOption, SceneArgument
-from planetary_twin_py.cli._durations import SECONDS
-from planetary_twin_py.cli._fail import fail, need, remark
-from planetary_twin_py.cli._figures import console_beside, put_figures
-from planetary_twin_py.cli._interrupts import interrupt
-from planetary_twin_py.cli._settings import changed_scene, settings
+from planetary_twin_py.terminal.arguments import JsonOption, SceneArgument
+from planetary_twin_py.terminal.durations import SECONDS
+from planetary_twin_py.terminal.interrupts import interrupt
+from planetary_twin_py.terminal.json_output import console_beside, put_figures
+from planetary_twin_py.terminal.messages import fail, need, remark
+from planetary_twin_py.terminal.settings import changed_scene, settings
 
 from .pacing import check_rate_factor
 

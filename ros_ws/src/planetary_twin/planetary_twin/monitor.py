@@ -15,7 +15,7 @@ from rich.console import Console
 from rich.live import Live
 from rich.table import Table
 
-from planetary_twin_py.cli._console import make_console
+from planetary_twin_py.terminal.console import make_console
 
 from .remote import Remote
 from .reports import real_time_figures

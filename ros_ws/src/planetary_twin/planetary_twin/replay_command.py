@@ -9,8 +9,8 @@ from typing import Annotated, Any
 
 import typer
 
-from planetary_twin_py.cli._arguments import FileArgument
-from planetary_twin_py.cli._fail import fail, need
+from planetary_twin_py.terminal.arguments import FileArgument
+from planetary_twin_py.terminal.messages import fail, need
 
 from .commands import interrupt_on_signals
 

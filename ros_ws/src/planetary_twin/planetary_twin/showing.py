@@ -8,7 +8,7 @@ from typing import Any
 from rich.console import Console
 from rich.progress import BarColumn, Progress, TextColumn
 
-from planetary_twin_py.cli._console import make_console
+from planetary_twin_py.terminal.console import make_console
 
 from .managed import run_node
 from .network import stay_on_this_machine

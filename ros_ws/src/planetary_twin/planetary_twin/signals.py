@@ -13,7 +13,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from types import FrameType
 
-from planetary_twin_py.cli._interrupts import interrupt, repeat_lost, repeat_no_more
+from planetary_twin_py.terminal.interrupts import interrupt, repeat_lost, repeat_no_more
 
 _NUMBERS = (signal.SIGINT, signal.SIGTERM)
 

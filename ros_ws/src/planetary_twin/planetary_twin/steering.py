@@ -9,10 +9,10 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from planetary_twin_py.cli._arguments import complete_parameter
-from planetary_twin_py.cli._console import make_console
-from planetary_twin_py.cli._fail import fail, note
-from planetary_twin_py.cli._settings import in_words
+from planetary_twin_py.terminal.arguments import complete_parameter
+from planetary_twin_py.terminal.console import make_console
+from planetary_twin_py.terminal.messages import fail, note
+from planetary_twin_py.terminal.settings import in_words
 
 if TYPE_CHECKING:
     from .remote import Remote

@@ -7,9 +7,9 @@ from typing import Annotated
 
 import typer
 
-from planetary_twin_py.cli._arguments import JsonOption
-from planetary_twin_py.cli._fail import fail
-from planetary_twin_py.cli._figures import console_beside, put_figures
+from planetary_twin_py.terminal.arguments import JsonOption
+from planetary_twin_py.terminal.json_output import console_beside, put_figures
+from planetary_twin_py.terminal.messages import fail
 
 
 def bench_live(

@@ -40,7 +40,7 @@ except KeyboardInterrupt:
 
 HANDLERS = {
     "commands": (
-        "from planetary_twin_py.cli._interrupts import interrupt, repeat_lost",
+        "from planetary_twin_py.terminal.interrupts import interrupt, repeat_lost",
         "repeat_lost(interrupt); signal.signal(signal.SIGINT, interrupt)",
     ),
     "nodes": (

@@ -8,9 +8,9 @@ from typing import Annotated
 
 import typer
 
-from ._durations import SECONDS
-from ._fields import scene_fields
-from ._output import output_file
+from .completion import scene_fields
+from .durations import SECONDS
+from .output_files import output_file
 
 RECORDINGS = Path("recordings")
 _PACKAGED = Path(__file__).parents[1] / "scene" / "packaged"

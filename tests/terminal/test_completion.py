@@ -8,7 +8,7 @@ import pytest
 from command_line import run
 
 from planetary_twin_py import packaged_scenes
-from planetary_twin_py.cli._arguments import (
+from planetary_twin_py.terminal.arguments import (
     complete_parameter,
     complete_recording,
     complete_scene,

@@ -24,7 +24,7 @@ def make_console(stderr: bool = False, markup: bool = True) -> Console:
         stderr: whether to print to standard error.
         markup: whether Rich markup in strings is interpreted.
     """
-    from ._tables import TableConsole
+    from .tables import TableConsole
 
     console = TableConsole(stderr=stderr, markup=markup)
     if not (console.file.isatty() or os.environ.get("COLUMNS")):

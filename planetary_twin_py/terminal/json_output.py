@@ -7,8 +7,8 @@ import sys
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from ._console import make_console
-from ._fail import fail
+from .console import make_console
+from .messages import fail
 
 if TYPE_CHECKING:
     from rich.console import Console

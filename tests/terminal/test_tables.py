@@ -7,7 +7,7 @@ from rich.table import Table
 from typer.testing import CliRunner
 
 from planetary_twin_py.cli import build_app
-from planetary_twin_py.cli._tables import TableConsole
+from planetary_twin_py.terminal.tables import TableConsole
 
 WIDTHS = (60, 80, 100)
 SAMPLE = "recordings/sample"

@@ -5,7 +5,7 @@ import typer
 from typer.testing import CliRunner
 
 from planetary_twin_py.cli import build_app
-from planetary_twin_py.cli._durations import read_seconds
+from planetary_twin_py.terminal.durations import read_seconds
 
 
 @pytest.mark.parametrize(

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
-from ._fail import note
+from .messages import note
 
 if TYPE_CHECKING:
     from ..scene import Scene

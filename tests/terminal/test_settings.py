@@ -5,7 +5,7 @@ from typer.testing import CliRunner
 
 import planetary_twin_py as pt
 from planetary_twin_py.cli import build_app
-from planetary_twin_py.cli._settings import settings
+from planetary_twin_py.terminal.settings import settings
 
 SHORT = ("simulate", "paper", "--duration", "0.002")
 

@@ -8,7 +8,7 @@ from typing import TypeVar
 
 import typer
 
-from ._fail import fail
+from .messages import fail
 
 Target = TypeVar("Target", Path, str)
 
