@@ -6,8 +6,7 @@ STAMPS := $(VENV)/stamps
 INSTALL := $(BIN)/uv pip install --quiet --python $(BIN)/python --no-deps --no-build-isolation
 INTERFACES := $(wildcard $(foreach spec,msgs_spec tools/tf2_msgs,$(addprefix $(spec)/,\
 	package.xml CMakeLists.txt msg/* srv/*)))
-KERNELS := $(wildcard $(addprefix planetary_twin_py/,_*.py dynamics/*.py integrators/*.py losses/*.py lubrication/*.py mesh/*.py \
-	quasi_static/*.py))
+CORE := $(shell find planetary_twin_py/core planetary_twin_py/_core -name '*.?pp' -o -name '*.txt' -o -name '*.py')
 NODES := $(shell find ros_ws/src/planetary_twin -not -path '*/build*' -not -path '*.egg-info*' \
 	-not -name '*.pyc' -not -name __pycache__)
 
@@ -19,7 +18,7 @@ endif
 
 .PHONY: setup run test test-all test-exhaustive test-model test-nodes test-fast soak bench view picture sample studies gallery measured docs lint lock clean
 
-setup: $(STAMPS)/interfaces $(STAMPS)/kernels $(STAMPS)/nodes
+setup: $(STAMPS)/interfaces $(STAMPS)/model $(STAMPS)/core $(STAMPS)/nodes
 
 run: setup
 	@$(BIN)/planetary-twin run $(ARGS)
@@ -57,6 +56,7 @@ soak: setup
 
 lint: setup
 	$(BIN)/ruff check && $(BIN)/ruff format --check && $(BIN)/mypy
+	@$(BIN)/clang-format --dry-run --Werror $(filter %.hpp %.cpp,$(CORE))
 
 bench: setup
 	@$(BIN)/planetary-twin bench $(ARGS)
@@ -105,7 +105,7 @@ lock: setup
 		--no-header --no-annotate --upgrade pyproject.toml --output-file requirements.lock
 
 clean:
-	rm -rf $(VENV) build *.egg-info ros_ws/build ros_ws/install ros_ws/log docs/_build
+	rm -rf $(VENV) build *.egg-info planetary_twin_py/_core/*.so planetary_twin_py/_core/*.pyi ros_ws/build ros_ws/install ros_ws/log docs/_build
 
 $(STAMPS)/dependencies: requirements.lock
 	$(eval FOUND := $(shell PYTHON='$(PYTHON)' tools/check_machine 2>&1))
@@ -117,13 +117,13 @@ $(STAMPS)/interfaces: $(STAMPS)/dependencies tools/build_interfaces tools/ros_fr
 	tools/build_interfaces $(VENV)
 	@touch $@
 
+# Python reads the model from here; the core is compiled below, each time its sources change.
 $(STAMPS)/model: $(STAMPS)/dependencies pyproject.toml
-	$(INSTALL) --editable .
+	$(INSTALL) --config-setting wheel.cmake=false --config-setting editable.mode=inplace --editable .
 	@touch $@
 
-# Compiles the numerical kernels into the user's cache, so that the first run starts at once.
-$(STAMPS)/kernels: $(STAMPS)/model $(KERNELS)
-	$(BIN)/python -c 'import planetary_twin_py as pt; [pt.Twin(pt.load_scene("paper").replace(dynamics=kind)) for kind in ("torsional", "quasi_static")]'
+$(STAMPS)/core: $(STAMPS)/dependencies tools/build_core $(CORE)
+	tools/build_core $(VENV)
 	@touch $@
 
 $(STAMPS)/nodes: $(STAMPS)/dependencies tools/install_nodes $(NODES)

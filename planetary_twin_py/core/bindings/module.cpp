@@ -1,6 +1,9 @@
 #include "bindings/records.hpp"
 
-NB_MODULE(_core, m) {
+// One module for each level of x86-64 (CMake names it); Python sees one place for all of them, so
+// what was pickled on one machine is found on another.
+NB_MODULE(CORE_MODULE, m) {
+    m.attr("__name__") = "planetary_twin_py._core";
     m.doc() = "Compiled core of planetary_twin_py.";
     gearbox::bind_records(m);
 }

@@ -32,15 +32,14 @@ struct extents<Element[count]> {
     }
 };
 
-// NumPy view of an array that `owner` keeps alive.
+// NumPy view of an array that `owner` keeps alive; the type stub tells what it holds.
 template <class Array>
-nb::object view(Array& array, nb::handle owner) {
+auto view(Array& array, nb::handle owner) {
     std::vector<size_t> shape;
     extents<Array>::append(shape);
     using scalar = typename extents<Array>::scalar;
-    return nb::cast(nb::ndarray<nb::numpy, scalar>(
-                        reinterpret_cast<scalar*>(&array), shape.size(), shape.data(), owner),
-                    nb::rv_policy::reference);
+    return nb::ndarray<nb::numpy, scalar>(
+        reinterpret_cast<scalar*>(&array), shape.size(), shape.data(), owner);
 }
 
 // Copy values into an array; they may be fewer than its room.
@@ -60,20 +59,21 @@ public:
         this->def("__init__",
                   [](nb::pointer_and_handle<Record> self, nb::kwargs values) {
                       std::memset(static_cast<void*>(self.p), 0, sizeof(Record));
-                      new (self.p) Record;
+                      new (self.p) Record{};
                       nb::inst_mark_ready(self.h);
                       for (auto [key, value] : values) nb::setattr(self.h, key, value);
                   });
-        this->def("copy", [](const Record& self) { return Record(self); },
-                  "A copy of the record.");
-        this->def("__copy__", [](const Record& self) { return Record(self); });
+        // On the heap: some records are larger than the stack of a thread.
+        this->def("copy", [](const Record& self) { return new Record(self); },
+                  nb::rv_policy::take_ownership, "A copy of the record.");
+        this->def("__copy__", [](const Record& self) { return new Record(self); },
+                  nb::rv_policy::take_ownership);
         this->def("raw",
                   [](nb::handle_t<Record> self) {
                       Record* record = nb::inst_ptr<Record>(self);
                       size_t size[1] = {sizeof(Record)};
-                      return nb::cast(nb::ndarray<nb::numpy, std::uint8_t>(
-                                          reinterpret_cast<std::uint8_t*>(record), 1, size, self),
-                                      nb::rv_policy::reference);
+                      return nb::ndarray<nb::numpy, std::uint8_t>(
+                          reinterpret_cast<std::uint8_t*>(record), 1, size, self);
                   },
                   "The memory of the record as bytes.");
     }
@@ -94,7 +94,9 @@ public:
                     return view(nb::inst_ptr<Record>(self)->*member, self);
                 },
                 [member](nb::handle_t<Record> self, nb::handle values) {
-                    fill(view(nb::inst_ptr<Record>(self)->*member, self), values);
+                    fill(nb::cast(view(nb::inst_ptr<Record>(self)->*member, self),
+                                 nb::rv_policy::reference),
+                         values);
                 });
         } else {
             this->def_rw(name, member);
