@@ -1,0 +1,33 @@
+#pragma once
+
+// Drag of a disc that turns in a housing full of oil, or of oil and air (Daily and Nece 1960).
+//
+// Torque on both sides C_m rho w^2 r^5/2, with C_m = 2 pi/(G Re), 3.7 G^0.1 Re^-0.5, 0.08 G^(-1/6)
+// Re^-0.25 and 0.102 G^0.1 Re^-0.2 for laminar and turbulent flow with merged and separate boundary
+// layers; the largest holds. Re = w r^2/nu, G the axial gap over r. J. Basic Eng. 82, 217-230.
+
+#include <cmath>
+#include <numbers>
+
+#include "vector/math.hpp"
+
+namespace gearbox {
+
+// Torque [N m] on both sides of a disc, zero at rest; radius [m], axial gap over radius G [-],
+// density [kg/m^3] and viscosity [m^2/s] of what it turns in, speed [rad/s] of either sign.
+inline double disc_torque(double radius, double gap_ratio, double density,
+                          double kinematic_viscosity, double speed) {
+    double w = std::abs(speed), nu = kinematic_viscosity, g = gap_ratio;
+    // Each is written out, so that nothing is divided by a speed that may vanish.
+    double laminar_merged = std::numbers::pi * nu * w / g;
+    double laminar = 1.85 * std::pow(g, 0.1) * std::pow(w, 1.5) * std::sqrt(nu) * radius;
+    double turbulent_merged = 0.04 * std::pow(g, -1.0 / 6.0) * std::pow(w, 1.75)
+                              * std::pow(nu, 0.25) * std::pow(radius, 1.5);
+    double turbulent = 0.051 * std::pow(g, 0.1) * std::pow(w, 1.8) * std::pow(nu, 0.2)
+                       * std::pow(radius, 1.6);
+    double largest = at_least(at_least(laminar_merged, laminar),
+                              at_least(turbulent_merged, turbulent));
+    return density * radius * radius * radius * largest;
+}
+
+}  // namespace gearbox

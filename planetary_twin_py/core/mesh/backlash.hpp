@@ -1,0 +1,62 @@
+#pragma once
+
+// When flanks meet and part.
+//
+// A mesh is on its drive side, on its coast side, or open. Its force must push: in contact it ends
+// where the force falls below zero, which damping makes happen while the flanks are still squeezed;
+// open, contact begins where both squeeze and force are positive, with a jump of the force by its
+// damping. (Al-shyyab and Kahraman 2007 for the dead zone; the flanks never pull.)
+
+#include <algorithm>
+
+#include "mesh/damping.hpp"
+#include "mesh/deflection.hpp"
+#include "train/model.hpp"
+
+namespace gearbox {
+
+struct Stand {
+    double advance, pace, slack;  // mesh cycles since the start of the step, [1/s], [m]
+};
+
+struct LengthAndReach {
+    double length, reach;  // a length and tau times its rate [m]
+};
+
+// By how far errors of form widen the play of an open mesh on each side. `deflection` counts the
+// errors of the flanks of a closed mesh already.
+inline LengthAndRate widening(const Train& train, const StepConstants& step, std::int64_t i,
+                              std::int64_t side, double advance, double pace) {
+    if (side != OPEN || train.lines[train.kind[i]] == 0) return {0.0, 0.0};
+    return radial_error(train, i, step.line_angle, advance, pace);
+}
+
+// Play [m] left to a mesh on `side`, from its deflection and what widens its play; see `departure`.
+inline double play_left(const Load& load, std::int64_t side, LengthAndReach motion,
+                        LengthAndReach wider, double slack) {
+    double d = motion.length, half = load.half_backlash;
+    double push = d + load.release * motion.reach;
+    if (side != OPEN) return static_cast<double>(side) * push - half + slack;
+    double gap = wider.length, slower = wider.length + load.release * wider.reach;
+    double drive = at_most(d - gap, push - slower), coast = at_most(-d - gap, -push - slower);
+    return slack - at_least(drive, coast) + half;
+}
+
+// Play [m] that mesh i has left before its contact changes; negative: it has changed.
+//
+// Contact ends where d - b + tau d', which is F/k, falls below zero, and begins where that and
+// d - b are positive, on whichever side. Both by a slack: without load, flanks rest against each
+// other with no force, and would part and meet without end. (With a regulatory factor the force
+// does not count.) Radial errors of form widen the play of an open mesh on both sides.
+inline double departure(const Model& model, const State& state, const StepConstants& step,
+                        std::int64_t i, const double* x, const double* v, Stand stand) {
+    const Train& train = model.train;
+    auto [advance, pace, slack] = stand;
+    auto [d, rate, error_rate] = deflection(train, step, i, x, v, advance, pace);
+    double tau = damping_time(train, train.kind[i], passing_rate(train, step, v));
+    LengthAndRate wider = widening(train, step, i, state.side[i], advance, pace);
+    return play_left(model.load, state.side[i], {d, tau * rate},
+                     {wider.length, tau * wider.rate}, slack);
+}
+
+}  // namespace gearbox

@@ -1,0 +1,78 @@
+#pragma once
+
+// Where each mesh stands in its cycle: which teeth are in contact, and where on their path.
+//
+// A mesh cycle is the passage of one tooth. The rigid frame gives whole turns as integers, so cycles
+// stay exact however long the gearbox turns; whole cycles are counted modulo the teeth of a gear.
+
+#include <cmath>
+
+#include "rooms.hpp"
+#include "train/state.hpp"
+#include "train/train.hpp"
+
+namespace gearbox {
+
+// Mesh cycles by which the train is ahead of the rigid frame.
+inline double cycle_shift(const Train& train, const double* x) {
+    return train.sun_advance * x[train.sun] + train.carrier_advance * x[train.carrier];
+}
+
+// Mesh cycles of the rigid frame since the start, modulo `modulus`.
+inline double frame_cycle(const Train& train, const State& state, std::int64_t modulus) {
+    double total = 0.0;
+    for (int a = 0; a < AXES; ++a) {
+        std::int64_t denominator = train.cycles_denominator[a];
+        std::int64_t period = denominator * modulus;
+        std::int64_t turns = static_cast<std::int64_t>(state.turns[a]);
+        std::int64_t whole = turns * train.cycles_numerator[a] % period;
+        if (whole < 0) whole += period;
+        total += static_cast<double>(whole) / static_cast<double>(denominator)
+                 + train.cycles[a] * state.fraction[a];
+    }
+    double m = static_cast<double>(modulus);
+    return total - m * std::floor(total / m);
+}
+
+// Cycles since tooth pair 0 of mesh i was at the pitch point, from the mesh `cycle` that the train
+// has reached since the start, modulo `modulus`. The coast flanks see the motion mirrored, half a
+// pitch later.
+inline double cycle_on_side(const Train& train, std::int64_t i, std::int64_t side, double cycle,
+                            std::int64_t modulus) {
+    cycle = static_cast<double>(side) * (cycle - train.phase[i]);
+    if (side == COAST_SIDE) cycle += 0.5;
+    double m = static_cast<double>(modulus);
+    return cycle - m * std::floor(cycle / m);
+}
+
+// The same at a state.
+inline double counted_cycle(const Train& train, const State& state, std::int64_t i,
+                            std::int64_t side, std::int64_t modulus) {
+    double cycle = frame_cycle(train, state, modulus) + cycle_shift(train, state.x);
+    return cycle_on_side(train, i, side, cycle, modulus);
+}
+
+// Fraction of its cycle at which mesh i stands on one side, in [0, 1).
+inline double mesh_cycle(const Train& train, const State& state, std::int64_t i,
+                         std::int64_t side) {
+    return counted_cycle(train, state, i, side, 1);
+}
+
+// Segment of the table of tooth pairs at a fraction of the cycle; at an edge, the one ahead.
+inline std::int64_t find_segment(const Train& train, std::int64_t kind, double cycle,
+                                 double direction) {
+    std::int64_t last = train.segments[kind] - 1, segment = 0;
+    while (segment < last && train.edge[kind][segment + 1] <= cycle) ++segment;
+    if (direction < 0.0 && cycle == train.edge[kind][segment])
+        segment = segment > 0 ? segment - 1 : last;
+    return segment;
+}
+
+// The representative of `cycle` modulo 1 that lies in or next to a segment.
+inline double nearest_to_segment(const Train& train, std::int64_t kind, std::int64_t segment,
+                                 double cycle) {
+    double middle = 0.5 * (train.edge[kind][segment] + train.edge[kind][segment + 1]);
+    return cycle - std::floor(cycle - middle + 0.5);
+}
+
+}  // namespace gearbox

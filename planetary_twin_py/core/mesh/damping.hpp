@@ -1,0 +1,32 @@
+#pragma once
+
+// The damping time tau of c = tau k, which may follow the rate at which teeth pass.
+
+#include <cmath>
+#include <numbers>
+
+#include "rooms.hpp"
+#include "train/step_constants.hpp"
+#include "train/train.hpp"
+#include "vector/math.hpp"
+
+namespace gearbox {
+
+// Mesh cycles per second that the speeds of the motors stand for, unsigned.
+inline double passing_rate(const Train& train, const StepConstants& step, const double* v) {
+    double rate = step.cycle_rate;
+    for (int a = 0; a < AXES; ++a) {
+        std::int64_t motor = train.coupling[2 * a][0];
+        rate += train.cycles[a] * v[motor] * train.inverse_radius[motor]
+                / (2.0 * std::numbers::pi);
+    }
+    return std::abs(rate);
+}
+
+// tau [s] of a kind of mesh at the rate at which teeth pass [1/s].
+inline double damping_time(const Train& train, std::int64_t kind, double rate) {
+    return train.damping_time[kind]
+           + train.damping_cycles / at_least(rate, train.lowest_frequency);
+}
+
+}  // namespace gearbox

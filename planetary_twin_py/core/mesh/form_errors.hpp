@@ -1,0 +1,88 @@
+#pragma once
+
+// Errors of form: the static transmission error e that the teeth themselves put into a mesh.
+//
+// A mesh is squeezed by side (d - e) - b on its side, b half the backlash. e = e_T + side e_R: the
+// tangential part e_T shifts both flanks of a tooth the same way, the radial part e_R draws them
+// away from the other gear's and widens the play. Harmonics of the meshing frequency are e_T alone;
+// runout, which returns with the turn of a gear, has both parts and leans by the pressure angle, the
+// other way on the other flank. All are sines of the mesh cycle.
+
+#include <cmath>
+#include <numbers>
+
+#include "mesh/cycle.hpp"
+
+namespace gearbox {
+
+struct LengthAndRate {
+    double length, rate;  // [m], [m/s]
+};
+
+// Angle [rad] by which line n of a kind of mesh advances in a mesh cycle.
+inline double line_order(const Train& train, std::int64_t kind, std::int64_t n) {
+    return 2.0 * std::numbers::pi * train.line_harmonic[kind][n]
+           / static_cast<double>(train.line_period[kind][n]);
+}
+
+// Fill angle[i] with where the sines of mesh i stand [rad].
+inline void place_lines(const Train& train, const State& state, std::int64_t i,
+                        double (*angle)[LINES]) {
+    std::int64_t kind = train.kind[i], planets = train.meshes / 2;
+    for (std::int64_t n = 0; n < train.lines[kind]; ++n) {
+        std::int64_t counter = train.line_of_planet[kind][n] ? i % planets : i;
+        std::int64_t period = train.line_period[kind][n];
+        double cycle = counted_cycle(train, state, counter, DRIVE_SIDE, period);
+        double turn = cycle * train.line_harmonic[kind][n] / static_cast<double>(period);
+        angle[i][n] = 2.0 * std::numbers::pi * turn + train.line_phase[kind][n];
+    }
+}
+
+// e_R [m] of mesh i and its rate, by which the play is wider on each side: `advance` mesh cycles
+// after `place_lines`, at `pace` mesh cycles per second.
+inline LengthAndRate radial_error(const Train& train, std::int64_t i,
+                                  const double (*angle)[LINES], double advance, double pace) {
+    std::int64_t kind = train.kind[i];
+    double error = 0.0, rate = 0.0;
+    for (std::int64_t n = train.harmonics[kind]; n < train.lines[kind]; ++n) {
+        double order = line_order(train, kind, n);
+        double turned = angle[i][n] + order * advance;
+        error += train.line_radial[kind][n] * std::cos(turned);
+        rate -= train.line_radial[kind][n] * order * pace * std::sin(turned);
+    }
+    return {error, rate};
+}
+
+// e [m] of mesh i and its rate; `side` +1: of the drive flanks, -1: of the coast flanks, 0: e_T
+// alone. The other arguments are those of `radial_error`.
+inline LengthAndRate form_error(const Train& train, std::int64_t i, double side,
+                                const double (*angle)[LINES], double advance, double pace) {
+    std::int64_t kind = train.kind[i];
+    double error = 0.0, rate = 0.0;
+    for (std::int64_t n = 0; n < train.lines[kind]; ++n) {
+        double order = line_order(train, kind, n);
+        double turned = angle[i][n] + order * advance;
+        error += train.line_tangential[kind][n] * std::sin(turned);
+        rate += train.line_tangential[kind][n] * order * pace * std::cos(turned);
+    }
+    LengthAndRate radial = radial_error(train, i, angle, advance, pace);
+    return {error + side * radial.length, rate + side * radial.rate};
+}
+
+// Second derivative of e [m/s^2] of mesh i on a side, at `place_lines`, at `pace` cycles/s.
+inline double form_error_bend(const Train& train, std::int64_t i, double side,
+                              const double (*angle)[LINES], double pace) {
+    std::int64_t kind = train.kind[i];
+    double bend = 0.0;
+    for (std::int64_t n = 0; n < train.lines[kind]; ++n) {
+        double rate = line_order(train, kind, n) * pace;
+        bend -= train.line_tangential[kind][n] * (rate * rate) * std::sin(angle[i][n]);
+    }
+    for (std::int64_t n = train.harmonics[kind]; n < train.lines[kind]; ++n) {
+        double rate = line_order(train, kind, n) * pace;
+        bend -= side * train.line_radial[kind][n] * (rate * rate) * std::cos(angle[i][n]);
+    }
+    return bend;
+}
+
+}  // namespace gearbox

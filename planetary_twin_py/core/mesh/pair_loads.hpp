@@ -1,0 +1,58 @@
+#pragma once
+
+// How the tooth pairs of a mesh share a given force, e.g. a recorded one.
+//
+// The pairs have the stiffnesses k and the missing material g of `faulty_mesh_force`, at the squeeze
+// q at which they carry the force F: F = sum of k (q - g) over the pairs with q > g. Damping acts on
+// all pairs in proportion to k, so it does not change the shares, except for a worn pair that only
+// just touches.
+
+#include <cmath>
+
+#include "mesh/cycle.hpp"
+#include "mesh/faults.hpp"
+#include "mesh/stiffness.hpp"
+
+namespace gearbox {
+
+// Fill the loads (PAIRS,) that add up to `force`, pairs that would pull taken out in turn.
+inline void balance_pairs(const Train& train, const StepConstants& step, std::int64_t i,
+                          std::int64_t segment, double u, double force, double* load) {
+    std::int64_t present = train.present[train.kind[i]][segment];
+    for (std::int64_t p = 0; p < present; ++p) load[p] = 1.0;
+    for (std::int64_t pass = 0; pass < present; ++pass) {
+        double stiffness = 0.0, squeeze = force;
+        for (std::int64_t p = 0; p < present; ++p) {
+            if (!(load[p] > 0.0)) continue;
+            auto [k, gap] = pair_stiffness(train, step, i, segment, p, u);
+            stiffness += k;
+            squeeze += k * gap;
+        }
+        squeeze /= stiffness;
+        for (std::int64_t p = 0; p < present; ++p) {
+            if (!(load[p] > 0.0)) continue;
+            auto [k, gap] = pair_stiffness(train, step, i, segment, p, u);
+            load[p] = at_least(k * (squeeze - gap), 0.0);
+        }
+    }
+}
+
+// Fill position [base pitches] and load [N] (PAIRS,) of the pairs of mesh i under a force [N] that
+// is not zero. `cycles` are those of the train, `counted` (FAULTS,) the same by the gear of each
+// fault; `step` is room for the faults.
+inline void share_force(const Train& train, StepConstants& step, std::int64_t i, double cycles,
+                        const double* counted, double force, double* position, double* load) {
+    std::int64_t kind = train.kind[i], side = force > 0.0 ? DRIVE_SIDE : COAST_SIDE;
+    double cycle = cycle_on_side(train, i, side, cycles, 1);
+    std::int64_t segment = find_segment(train, kind, cycle, 1.0);
+    for (std::int64_t f = 0; f < train.faults; ++f) {
+        double own = cycle_on_side(train, i, side, counted[f], train.fault_teeth[f]);
+        auto whole = static_cast<std::int64_t>(std::nearbyint(own - cycle));
+        mark_fault(train, i, side, segment, f, whole, step.faulty);
+    }
+    for (int p = 0; p < PAIRS; ++p) position[p] = cycle + train.shift[kind][segment][p];
+    double u = cycle - train.edge[kind][segment];
+    balance_pairs(train, step, i, segment, u, std::abs(force), load);
+}
+
+}  // namespace gearbox

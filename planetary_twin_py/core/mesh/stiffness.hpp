@@ -1,0 +1,73 @@
+#pragma once
+
+// Stiffness of a mesh and of its tooth pairs, from the tables of the train.
+
+#include "rooms.hpp"
+#include "train/step_constants.hpp"
+#include "train/train.hpp"
+
+namespace gearbox {
+
+struct ValueAndSlope {
+    double value, slope;  // slope per mesh cycle
+};
+
+// A polynomial and its derivative at u.
+inline ValueAndSlope polynomial(const double* coefficient, double u, std::int64_t terms) {
+    double value = 0.0, slope = 0.0;
+    for (std::int64_t n = terms - 1; n >= 0; --n) {
+        slope = slope * u + value;
+        value = value * u + coefficient[n];
+    }
+    return {value, slope};
+}
+
+// Sum of the weights of the tooth pairs of a mesh `u` cycles into a segment.
+inline ValueAndSlope total_weight(const Train& train, std::int64_t kind, std::int64_t segment,
+                                  double u) {
+    return polynomial(train.weight[kind][segment][TOTAL], u, train.terms);
+}
+
+// Stiffness [N/m] of a mesh without faults at a fraction of its cycle.
+inline double mesh_stiffness(const Train& train, std::int64_t kind, std::int64_t segment,
+                             double cycle) {
+    double total = total_weight(train, kind, segment, cycle - train.edge[kind][segment]).value;
+    return train.stiffness_base[kind] + train.stiffness_gain[kind] * total;
+}
+
+struct FaultEffect {
+    double factor, growth, gap;  // on the stiffness, per cycle, missing material [m]
+};
+
+// What the faults of a tooth pair do to it.
+inline FaultEffect fault_effect(const Train& train, const StepConstants& step, std::int64_t i,
+                                std::int64_t segment, std::int64_t pair, double u) {
+    FaultEffect effect{1.0, 0.0, 0.0};
+    for (std::int64_t f = 0; f < train.faults; ++f) {
+        if (!step.faulty[i][pair][f]) continue;
+        auto [value, slope] = polynomial(train.fault_factor[f][train.kind[i]][segment][pair], u,
+                                         TERMS);
+        effect.growth = effect.growth * value + effect.factor * slope;
+        effect.factor *= value;
+        effect.gap += train.fault_gap[f];
+    }
+    return effect;
+}
+
+struct StiffnessAndGap {
+    double stiffness, gap;  // [N/m], missing material [m]
+};
+
+// Stiffness of a tooth pair `u` cycles into a segment, faults counted.
+inline StiffnessAndGap pair_stiffness(const Train& train, const StepConstants& step,
+                                      std::int64_t i, std::int64_t segment, std::int64_t pair,
+                                      double u) {
+    std::int64_t kind = train.kind[i];
+    double total = total_weight(train, kind, segment, u).value;
+    double per_weight = train.stiffness_base[kind] / total + train.stiffness_gain[kind];
+    double weight = polynomial(train.weight[kind][segment][pair], u, train.terms).value;
+    FaultEffect effect = fault_effect(train, step, i, segment, pair, u);
+    return {per_weight * weight * effect.factor, effect.gap};
+}
+
+}  // namespace gearbox

@@ -1,0 +1,42 @@
+#pragma once
+
+// Energy stored in the train, the other side of the ledger.
+
+#include "mesh/contact_change.hpp"
+#include "train/body_speed.hpp"
+#include "train/model.hpp"
+
+namespace gearbox {
+
+struct Energies {
+    double kinetic, elastic;  // [J]
+};
+
+// Kinetic energy of all bodies, machines included [J].
+inline double kinetic(const Model& model, const State& state) {
+    const Train& train = model.train;
+    double total = 0.0;
+    for (std::int64_t j = 0; j < train.bodies; ++j) {
+        double speed = body_speed(train, state, state.v, j) * train.radius[j];
+        total += 0.5 * train.mass[j] * speed * speed;
+    }
+    return total;
+}
+
+// Elastic energy of meshes in contact and of the couplings [J]; `step` is room to work in.
+inline double elastic(const Model& model, const State& state, StepConstants& step) {
+    const Train& train = model.train;
+    double total = 0.0;
+    for (std::int64_t i = 0; i < train.meshes; ++i) total += stored_energy(model, state, step, i);
+    for (std::int64_t c = 0; c < train.machines; ++c) {
+        double twist = state.x[train.coupling[c][0]] - state.x[train.coupling[c][1]];
+        total += 0.5 * train.coupling_stiffness[c] * twist * twist;
+    }
+    return total;
+}
+
+inline Energies stored(const Model& model, const State& state, StepConstants& step) {
+    return {kinetic(model, state), elastic(model, state, step)};
+}
+
+}  // namespace gearbox

@@ -1,0 +1,113 @@
+#pragma once
+
+// Equations of motion: forces on every body, and the powers of the energy ledger.
+//
+// J_s th_s'' = T_s - r_bs sum F_sp + Q_s and so on for every body (Salagianni et al. 2017, eqs.
+// (18)-(20), with friction as the generalised force Q_j = -f dVs/dw_j instead of P/w). In the
+// coordinates x = r theta all mesh forces enter with the signs of `Train.sign`.
+
+#include <cmath>
+#include <numbers>
+
+#include "mesh/mesh_forces.hpp"
+#include "train/body_speed.hpp"
+#include "train/drag.hpp"
+#include "tribology/tooth_friction.hpp"
+
+namespace gearbox {
+
+// Friction of the tooth pairs and drag, in out.rubbing; the meshes have their forces.
+inline void apply_friction(const Model& model, const State& state, const StepConstants& step,
+                           const double* v, Evaluation& out) {
+    const Train& train = model.train;
+    for (double& force : out.rubbing) force = 0.0;
+    if (train.friction) {
+        share_loads(model, step, out);
+        turn_pairs(train, step, v, out.pairs);
+        evaluate(model, out.pairs);
+        if (train.printed_torque)
+            collect_printed(train, step, v, out.pairs, out.dragging);
+        else
+            collect(train, out.pairs, out.dragging);
+        for (std::int64_t i = 0; i < train.meshes; ++i) {
+            double copies = train.copies[i];
+            out.power[FRICTION] += copies * out.dragging.power[i];
+            for (int j = 0; j < GEARS; ++j) {
+                double force = out.dragging.torque[j][i] * train.lever[j][i];
+                out.rubbing[train.body[i][j]] += copies * force;
+            }
+        }
+    }
+    if (train.joints + train.discs > 0) apply_drag(model, state, v, out);
+}
+
+// Shafts between the machines and their members.
+inline void apply_couplings(const Train& train, const double* x, const double* v,
+                            Evaluation& out) {
+    for (std::int64_t c = 0; c < train.machines; ++c) {
+        std::int64_t machine = train.coupling[c][0], member = train.coupling[c][1];
+        double rate = v[machine] - v[member];
+        double damping = train.coupling_damping[c] * rate;
+        double total = train.coupling_stiffness[c] * (x[machine] - x[member]) + damping;
+        out.force[machine] -= total;
+        out.force[member] += total;
+        out.power[DAMPING] += damping * rate;
+    }
+}
+
+// Torques of the motors, which keep their speeds, and of the load.
+inline void apply_machines(const Model& model, const State& state, const StepConstants& step,
+                           const double* x, const double* v, double delay, const double* trim,
+                           Evaluation& out) {
+    const Train& train = model.train;
+    const Load& load = model.load;
+    for (std::int64_t c = 0; c < train.machines; ++c) {
+        std::int64_t body = train.coupling[c][0];
+        double speed = body_speed(train, state, v, body), torque = load.torque[c];
+        for (std::int64_t a = 0; a < train.axes; ++a) torque += load.trim_gain[c][a] * trim[a];
+        if (c != LOAD_MACHINE) {
+            std::int64_t own = c / 2;
+            double set_speed = state.set_speed[own] + step.slew[own] * delay;
+            torque += load.proportional[own] * (set_speed - speed);
+            for (std::int64_t a = 0; a < train.axes; ++a)
+                torque += load.inertia[own][a] * step.slew[a];
+        }
+        if (c == MOTOR && load.ripple != 0.0) {
+            double angle = 2.0 * std::numbers::pi * state.fraction[0] + state.speed[0] * delay;
+            angle += x[body] / train.radius[body];
+            torque += load.ripple * std::sin(load.ripple_order * angle);
+        }
+        out.force[body] += torque / train.radius[body];
+        out.power[WORK + c] = torque * speed;
+        out.power[IMPULSE + c] = torque;
+    }
+}
+
+// All forces together: pushes of the meshes, friction and drag, couplings, machines.
+inline void assemble_forces(const Model& model, const State& state, const StepConstants& step,
+                            const double* x, const double* v, double delay, const double* trim,
+                            Evaluation& out) {
+    const Train& train = model.train;
+    for (int j = 0; j < BODIES; ++j) out.force[j] = out.rubbing[j];
+    for (std::int64_t i = 0; i < train.meshes; ++i) {
+        double push = train.copies[i] * static_cast<double>(state.side[i]) * out.now.push[i];
+        for (int j = 0; j < GEARS; ++j) out.force[train.body[i][j]] -= push * train.sign[i][j];
+    }
+    apply_couplings(train, x, v, out);
+    apply_machines(model, state, step, x, v, delay, trim, out);
+    out.force[train.bodies] = 0.0;  // the ground
+}
+
+// Forces on all bodies in coordinates x, `delay` seconds after the start of a step.
+//
+// `state` gives the sides in contact, the segments and x at the start.
+inline void forces(const Model& model, const State& state, const StepConstants& step,
+                   const double* x, const double* v, double delay, const double* trim,
+                   Evaluation& out) {
+    move_meshes(model.train, x, v, out.now);
+    mesh_forces(model, state, step, x, v, delay, out);
+    apply_friction(model, state, step, v, out);
+    assemble_forces(model, state, step, x, v, delay, trim, out);
+}
+
+}  // namespace gearbox

@@ -1,0 +1,81 @@
+#pragma once
+
+// What holds during one step: where the meshes stand at its start, and what decides their force.
+
+#include <cmath>
+#include <numbers>
+
+#include "mesh/cycle.hpp"
+#include "mesh/damping.hpp"
+#include "mesh/faults.hpp"
+#include "mesh/form_errors.hpp"
+#include "train/model.hpp"
+#include "train/step_constants.hpp"
+
+namespace gearbox {
+
+// Copy side and segment of mesh i from the tables; an open one carries nothing anywhere.
+inline void take_segment(const Train& train, const State& state, StepConstants& step,
+                         std::int64_t i) {
+    std::int64_t kind = train.kind[i], segment = state.segment[i], side = state.side[i];
+    step.side[i] = static_cast<double>(side);
+    step.segment[i] = segment + 1;
+    step.base[i] = train.stiffness_base[kind];
+    step.gain[i] = train.stiffness_gain[kind];
+    step.fixed[i] = train.damping_time[kind];
+    step.external[i] = train.external[kind];
+    step.low[i] = train.edge[kind][segment];
+    step.high[i] = train.edge[kind][segment + 1];
+    for (std::int64_t t = 0; t < train.terms; ++t) {
+        for (std::int64_t p = 0; p < train.slots; ++p)
+            step.weight[p][t][i] = side != OPEN ? train.weight[kind][segment][p][t] : 0.0;
+        step.weight[TOTAL][t][i] = train.weight[kind][segment][TOTAL][t];
+    }
+    for (std::int64_t p = 0; p < train.slots; ++p) {
+        double shift = train.shift[kind][segment][p] * train.base_pitch;
+        step.rho1[p][i] = train.pitch_curvature[kind][0] + shift;
+        step.rho2[p][i] = train.pitch_curvature[kind][1] - train.external[kind] * shift;
+    }
+}
+
+// Fill what `step` holds of mesh i, whose drive side has gone through so many cycles.
+inline void place_mesh(const Train& train, const State& state, StepConstants& step, std::int64_t i,
+                       double cycles) {
+    std::int64_t side = state.side[i], kind = train.kind[i];
+    if (train.lines[kind] > 0) place_lines(train, state, i, step.line_angle);
+    if (step.segment[i] != state.segment[i] + 1 || step.side[i] != static_cast<double>(side))
+        take_segment(train, state, step, i);
+    if (side == OPEN) {
+        step.start[i] = step.low[i];
+        return;
+    }
+    double cycle = static_cast<double>(side) * (cycles - train.phase[i])
+                   + (side == COAST_SIDE ? 0.5 : 0.0);
+    step.start[i] = nearest_to_segment(train, kind, state.segment[i], cycle);
+    if (train.faults > 0) find_faults(train, state, i, side, step.start[i], step.faulty);
+}
+
+// Mesh cycles per second of the rigid frame, signed.
+inline double frame_cycle_rate(const Train& train, const State& state) {
+    double rate = 0.0;
+    for (int a = 0; a < AXES; ++a) rate += train.cycles[a] * state.speed[a];
+    return rate / (2.0 * std::numbers::pi);
+}
+
+// Fill `step` for a step that begins at `state`.
+inline void set_step_constants(const Model& model, const State& state, StepConstants& step) {
+    const Train& train = model.train;
+    step.cycle_rate = frame_cycle_rate(train, state);
+    for (std::int64_t a = 0; a < train.axes; ++a) {
+        double gap = model.load.target_speed[a] - state.set_speed[a];
+        step.slew[a] = gap != 0.0 ? std::copysign(model.load.slew_rate, gap) : 0.0;
+    }
+    for (int j = 0; j < BODIES; ++j)
+        step.rigid[j] = train.ratio[j][0] * state.speed[0] + train.ratio[j][1] * state.speed[1];
+    double rate = passing_rate(train, step, state.v);
+    for (int kind = 0; kind < KINDS; ++kind) step.tau[kind] = damping_time(train, kind, rate);
+    double cycles = frame_cycle(train, state, 1) + cycle_shift(train, state.x);
+    for (std::int64_t i = 0; i < train.meshes; ++i) place_mesh(train, state, step, i, cycles);
+}
+
+}  // namespace gearbox

@@ -1,0 +1,95 @@
+#pragma once
+
+// Tooth pairs that hold: static friction of all pairs, where the gears creep or stand still.
+//
+// The traction curve of a rolling contact gets narrower the slower its flanks roll. Below CREEPING
+// bristles join them instead, see `presliding.hpp`: each tooth pair has the share of its full
+// friction as a state of its own.
+
+#include <cmath>
+
+#include "rooms.hpp"
+#include "train/train.hpp"
+#include "tribology/oil.hpp"
+#include "tribology/presliding.hpp"
+#include "tribology/tooth_pairs.hpp"
+
+namespace gearbox {
+
+constexpr double CREEPING = 5e-3;  // [m/s] rolling speed below which tooth pairs hold
+constexpr double LEAST_FRICTION = 1e-12;  // [N] a pair with less has no bristles to bend
+
+// Whether the frame turns so slowly that tooth pairs hold.
+inline bool creeps(const Train& train, double cycle_rate) {
+    bool slow = train.rolling_advance * std::abs(cycle_rate) < CREEPING;
+    return slow && train.friction && !train.printed_torque;
+}
+
+// Let the pairs have the shares of friction that a state gives them.
+inline void place_bristles(ToothPairs& pairs, const double* share) {
+    if (!pairs.held) return;
+    for (int k = 0; k < ROOM; ++k) pairs.bristle[k] = share[k];
+}
+
+// Replace the friction of the traction curve by that of the bristles.
+//
+// Reads the friction of `evaluate` and the shares in `pairs.bristle`.
+inline void hold(const Oil& oil, ToothPairs& pairs) {
+    for (std::int64_t k = 0; k < pairs.count; ++k) {
+        double full = pairs.boundary[k] + pairs.viscous[k], share = pairs.bristle[k];
+        double force = share;
+        pairs.full[k] = full;
+        pairs.bristle_rate[k] = pairs.bristle_decay[k] = pairs.bristle_gain[k] = 0.0;
+        pairs.lost[k] = 0.0;
+        if (!(full <= LEAST_FRICTION)) {
+            double steady = pairs.friction[k] / full, slope = pairs.slope[k] / full;
+            auto [rate, decay, gain, slip] = bristle_rate(share, pairs.sliding[k], steady, slope,
+                                                          oil.presliding);
+            pairs.bristle_rate[k] = rate;
+            pairs.bristle_decay[k] = decay;
+            pairs.bristle_gain[k] = gain;
+            double damping = RELAXATION * rate;
+            force += damping;
+            pairs.lost[k] = full * (share * slip + damping * pairs.sliding[k]);
+        }
+        pairs.friction[k] = full * force;
+        pairs.boundary[k] *= std::abs(force);
+        pairs.viscous[k] *= std::abs(force);
+    }
+}
+
+// Fill the shares of friction (ROOM,) from the traction curve, as the pairs begin to hold.
+inline void steady_bristles(const ToothPairs& pairs, double* share) {
+    for (int k = 0; k < ROOM; ++k) share[k] = 0.0;
+    for (std::int64_t k = 0; k < pairs.count; ++k) {
+        double full = pairs.boundary[k] + pairs.viscous[k];
+        if (full > LEAST_FRICTION) share[k] = pairs.friction[k] / full;
+    }
+}
+
+// Carry the shares of the pairs of mesh i over from a segment to the next in a direction.
+//
+// A pair stands at cycle + shift: where the cycle begins again, its shift is one more.
+inline void pass_bristles(const Train& train, double* share, std::int64_t i, std::int64_t segment,
+                          std::int64_t direction) {
+    std::int64_t kind = train.kind[i], count = train.segments[kind];
+    std::int64_t after = (segment + direction + count) % count;
+    double wrapped = after != segment + direction ? static_cast<double>(direction) : 0.0;
+    const double *before = train.shift[kind][segment], *now = train.shift[kind][after];
+    double old[PAIRS] = {};
+    for (std::int64_t p = 0; p < train.slots; ++p) {
+        double& place = share[p * train.meshes + i];
+        old[p] = place;
+        place = 0.0;
+    }
+    for (std::int64_t q = 0; q < train.present[kind][segment]; ++q)
+        for (std::int64_t p = 0; p < train.present[kind][after]; ++p)
+            if (now[p] == before[q] + wrapped) share[p * train.meshes + i] = old[q];
+}
+
+// Flanks of mesh i part, or meet for the first time: nothing holds.
+inline void clear_bristles(const Train& train, double* share, std::int64_t i) {
+    for (std::int64_t p = 0; p < train.slots; ++p) share[p * train.meshes + i] = 0.0;
+}
+
+}  // namespace gearbox

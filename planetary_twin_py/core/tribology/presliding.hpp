@@ -1,0 +1,67 @@
+#pragma once
+
+// Static friction: flanks that hardly move against each other hold like springs before they slide.
+//
+// The elasto-plastic bristle of Dupont, Hayward, Armstrong and Altpeter 2002, Single state
+// elastoplastic friction models, IEEE Transactions on Automatic Control 47, 787-792, eqs. (6), (7)
+// and (10). Friction is a share z of what steady sliding would give, and z follows the sliding V:
+//
+//     delta dz/dt = V (1 - a(z, V) z/z_s(V)),
+//
+// z_s the share in steady sliding, delta the presliding displacement. The bristle is elastic (a = 0)
+// below a part of z_s, so a load that swings below break-away moves nothing for good; above it the
+// contact yields until it slides (a = 1). While the flanks roll, z_s is the traction curve and the
+// same equation says how bristles that leave the contact are replaced. The friction is that share
+// and a part that damps, z + RELAXATION dz/dt, of the full friction.
+
+#include <cmath>
+#include <numbers>
+
+#include "vector/math.hpp"
+
+namespace gearbox {
+
+constexpr double ELASTIC = 0.7;  // part of the steady share below which nothing slides
+// Damping of the bristles over their stiffness [s], sigma_1/sigma_0 of the model: as in Canudas de
+// Wit, Olsson, Astrom and Lischinsky 1995, it damps what swings on them about half critically.
+constexpr double RELAXATION = 2e-5;
+constexpr double LEAST_STEADY = 1e-9;   // share below which the layer is the inverse slope
+constexpr double LEAST_SLOPE = 1e-300;  // [s/m]
+
+struct Yielding {
+    double part, growth;  // a of the model, and da/dz
+};
+
+// From the magnitudes of both shares.
+inline Yielding yielding(double share, double steady) {
+    double elastic = ELASTIC * steady;
+    if (share <= elastic) return {0.0, 0.0};
+    if (share >= steady) return {1.0, 0.0};
+    double phase = std::numbers::pi / (steady - elastic);
+    double angle = phase * (share - 0.5 * (steady + elastic));
+    return {0.5 + 0.5 * std::sin(angle), 0.5 * phase * std::cos(angle)};
+}
+
+struct BristleRate {
+    double rate;   // dz/dt [1/s]
+    double decay;  // -d(dz/dt)/dz [1/s], not below zero
+    double gain;   // d(dz/dt)/dV [1/m], not below zero
+    double slip;   // the part of the sliding that dissipates, a V z/z_s [m/s]
+};
+
+// How the share z [-] changes at the sliding V [m/s]; steady share z_s [-] at that speed, of its
+// sign, its slope dz_s/dV [s/m], displacement delta [m].
+inline BristleRate bristle_rate(double share, double sliding, double steady, double slope,
+                                double displacement) {
+    bool small = std::abs(steady) < LEAST_STEADY;
+    double layer = small ? 1.0 / at_least(slope, LEAST_SLOPE) : sliding / steady;
+    double bend = small ? 0.0 : (1.0 - layer * slope) / steady;  // of that layer with V
+    auto [part, growth] = yielding(std::abs(share), std::abs(steady));
+    if (share * sliding < 0.0) part = growth = 0.0;
+    double slip = part * layer * share;
+    double decay = layer * (part + growth * std::abs(share)) / displacement;
+    double gain = at_least(1.0 - part * share * bend, 0.0) / displacement;
+    return {(sliding - slip) / displacement, decay, gain, slip};
+}
+
+}  // namespace gearbox

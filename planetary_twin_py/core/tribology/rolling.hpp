@@ -1,0 +1,23 @@
+#pragma once
+
+// Rolling resistance of a film: pushing oil into the contact costs a force on both surfaces.
+//
+// Goksem and Hargreaves 1978, isothermal line contact: F_R = 4.318 (G U)^0.658 W^0.0126 R L/alpha
+// with the groups of `film.hpp`. It takes F_R (|u1| + |u2|), and grows with the speed where traction
+// no longer does: the rising end of a Stribeck curve.
+
+#include "vector/math.hpp"
+
+namespace gearbox {
+
+constexpr double ROLLING_COEFFICIENT = 4.318, ROLLING_SPEED = 0.658, ROLLING_LOAD = 0.0126;
+
+// Force F_R [N] on each surface, from R L/alpha [N] and the logarithms of U, G and W.
+inline double rolling_resistance(double size, double log_speed_group, double log_material_group,
+                                 double log_load_group) {
+    double groups = ROLLING_SPEED * (log_speed_group + log_material_group)
+                    + ROLLING_LOAD * log_load_group;
+    return ROLLING_COEFFICIENT * size * exp(groups);
+}
+
+}  // namespace gearbox

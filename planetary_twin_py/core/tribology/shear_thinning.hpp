@@ -1,0 +1,68 @@
+#pragma once
+
+// Viscous friction of a film that thins under shear, up to its limiting stress.
+//
+// The law of Ree and Eyring with a limiting stress (Johnson and Tevaarwerk 1977; Arana, Larranaga
+// and Ulacia 2019, eq. (7)), tau = min(tau0 asinh(eta Vs/(h tau0)), Lambda p), holds from the
+// Newtonian film under a light load to the plateau under a heavy one. eta = eta0 exp(alpha p) (Barus
+// 1893), so that tau0 and alpha are those of the plateau law of Evans and Johnson; the limiting
+// stress bounds what that viscosity exaggerates at high pressure. tau is averaged over the elliptic
+// pressure of the contact: at the mean pressure alone, friction under a light load comes out too low
+// by up to half.
+//
+// The film warms by dT = tau Vs (h/(8 K) + 1.06/2 sqrt(b/V)/sqrt(K' rho' c')) (ibid., eqs. (27) and
+// (28), two bodies of one material at one speed), and its viscosity falls by exp(-beta_T dT).
+
+#include <cmath>
+#include <numbers>
+
+#include "tribology/constants.hpp"
+#include "vector/math.hpp"
+
+namespace gearbox {
+
+// Bounds eta/(tau0 h) to e^200 s/m; long before that the stress is the limiting one.
+constexpr double LARGEST_GAIN = 200.0;
+constexpr double NEWTONIAN = 1e-5;  // asinh(x) is x below, more exactly than by a logarithm
+
+// Gauss rule for the mean over a line contact, orthogonal to the moments of p/p0 = sqrt(1 - x^2),
+// x in [0, 1]: pressures over the largest one, and weights.
+constexpr double LOW_PRESSURE = 0.39937356388239625, HIGH_PRESSURE = 0.9144479484659753;
+constexpr double LOW_WEIGHT = 0.2505459190576126, HIGH_WEIGHT = 1.0 - LOW_WEIGHT;
+
+struct FilmShear {
+    double friction, growth;  // stress [Pa] or friction [N]; with the speed [Pa s/m] or [N s/m]
+};
+
+// Shear stress at one pressure [Pa], and its growth with the speed.
+//
+// With x = eta Vs/(h tau0) of the cool film, s = tau/tau0 and c = beta_T dT/s, the warm film has
+// sinh(s) = x exp(-c s). One step of Newton from asinh(x) gives asinh(x)/(1 + c tanh(asinh(x))),
+// which is exact both for small x and for large x.
+inline FilmShear shear_stress(const ShearThinning& film, double pressure, double log_film,
+                              double softening, double speed) {
+    double exponent = film.log_shear_time + film.pressure_viscosity * pressure - log_film;
+    double gain = exp(at_most(exponent, LARGEST_GAIN));
+    double x = gain * speed;
+    double root = std::sqrt(1.0 + x * x);
+    double inverse = film.shear_stress / (root + softening * x);
+    double angle = x > NEWTONIAN ? log(x + root) : x;
+    double stress = angle * root * inverse, limit = film.limiting_stress * pressure;
+    return {at_most(stress, limit), stress < limit ? gain * inverse : 0.0};
+}
+
+// Friction of the film [N], and its growth with the sliding speed at the film's temperature.
+//
+// Arguments as of `viscous_friction`, and the magnitude of the sliding speed Vs [m/s].
+inline FilmShear film_shear(const ShearThinning& film, double load, double area, double log_film,
+                            double log_heat, double speed) {
+    double peak = 4.0 / std::numbers::pi * load / area;
+    double heating = film.film_heating * exp(log_film) + film.flash_heating * exp(log_heat);
+    double softening = heating * speed;
+    FilmShear low = shear_stress(film, LOW_PRESSURE * peak, log_film, softening, speed);
+    FilmShear high = shear_stress(film, HIGH_PRESSURE * peak, log_film, softening, speed);
+    return {area * (LOW_WEIGHT * low.friction + HIGH_WEIGHT * high.friction),
+            area * (LOW_WEIGHT * low.growth + HIGH_WEIGHT * high.growth)};
+}
+
+}  // namespace gearbox

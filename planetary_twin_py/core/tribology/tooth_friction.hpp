@@ -1,0 +1,153 @@
+#pragma once
+
+// Friction of all loaded tooth pairs of the train, side by side.
+//
+// The pairs of all meshes stand in columns, so that the laws of friction run over them in vector
+// registers; then each is applied as a generalised force Q_j = -f dVs/dw_j, which takes exactly f Vs
+// out of the motion, whatever turns and whatever is held.
+
+#include <cmath>
+
+#include "rooms.hpp"
+#include "train/evaluation.hpp"
+#include "train/model.hpp"
+#include "train/step_constants.hpp"
+#include "tribology/bristles.hpp"
+#include "tribology/tooth_contact.hpp"
+#include "vector/cholesky.hpp"
+
+namespace gearbox {
+
+// Friction reverses within a layer as wide as at this part of the rolling speed without vibration,
+// at least: where vibration stops the gears, the layer would vanish and no step could resolve it.
+constexpr double SLOWEST = 0.1;
+constexpr double NARROWEST = 5e-3;  // slide-to-roll ratio: friction reversing within less is a step
+constexpr double SLOWEST_TURN = 1e-3;  // [rad/s] below which the printed torque fades out
+
+// Speeds of the gears of all pairs.
+inline void turn_pairs(const Train& train, const StepConstants& step, const double* v,
+                       ToothPairs& pairs) {
+    std::int64_t meshes = train.meshes;
+    double rolling = SLOWEST * train.rolling_advance * std::abs(step.cycle_rate);
+    pairs.slowest_rolling = at_least(rolling, SLOWEST_ROLLING);
+    double turn[BODIES];  // speeds of the bodies [rad/s]
+    for (int j = 0; j < BODIES; ++j) turn[j] = step.rigid[j] + v[j] * train.inverse_radius[j];
+    for (std::int64_t i = 0; i < meshes; ++i) {
+        double frame = turn[train.body[i][2]];
+        double speed1 = turn[train.body[i][0]] - frame, speed2 = turn[train.body[i][1]] - frame;
+        for (std::int64_t p = 0; p < train.slots; ++p) {
+            pairs.speed1[p * meshes + i] = speed1;
+            pairs.speed2[p * meshes + i] = speed2;
+        }
+    }
+}
+
+// Sliding speed [m/s] within which friction reverses at the pitch point.
+//
+// Both flanks roll there at r sin(alpha) w = tan(alpha) p_b f_m, at either kind of mesh.
+inline double friction_layer(const Train& train, const Oil& oil, double cycle_rate) {
+    double rolling = train.rolling_advance * std::abs(cycle_rate);
+    return at_least(oil.sliding_threshold, NARROWEST) * at_least(rolling, CREEPING);
+}
+
+// Film and friction of `pairs.count` pairs.
+void evaluate(const Model& model, ToothPairs& pairs);
+
+// Add up what the pairs of each mesh do: -f dVs/dw and -F_R d(u1 + u2)/dw of both gears.
+inline void collect(const Train& train, const ToothPairs& pairs, DragOfMeshes& out) {
+    for (std::int64_t i = 0; i < train.meshes; ++i)
+        out.torque[0][i] = out.torque[1][i] = out.power[i] = 0.0;
+    for (std::int64_t p = 0; p < train.slots; ++p) {
+        for (std::int64_t i = 0; i < train.meshes; ++i) {
+            std::int64_t k = p * train.meshes + i;
+            double f = pairs.friction[k], rolling = pairs.rolling[k];
+            out.torque[0][i] -= (f + rolling) * pairs.rho1[k];
+            out.torque[1][i] -= (f - rolling) * pairs.external[k] * pairs.rho2[k];
+            out.power[i] += f * pairs.sliding[k] + pairs.rolling_power[k];
+        }
+    }
+    for (std::int64_t i = 0; i < train.meshes; ++i)
+        out.torque[2][i] = -(out.torque[0][i] + out.torque[1][i]);
+}
+
+// Friction torque as Salagianni et al. 2017 print it.
+//
+// T = P/w (17) on both gears, with the sign of (18)-(20): it drives every gear the way it turns, and
+// so puts in twice what is lost. Divided by (w^2 + w0^2)/w, as 0/0 would stand at rest.
+inline void collect_printed(const Train& train, const StepConstants& step, const double* v,
+                            const ToothPairs& pairs, DragOfMeshes& out) {
+    collect(train, pairs, out);
+    for (std::int64_t i = 0; i < train.meshes; ++i) {
+        double lost = out.power[i], power = 0.0;
+        for (int gear = 0; gear < 2; ++gear) {
+            std::int64_t body = train.body[i][gear];
+            double speed = step.rigid[body] + v[body] * train.inverse_radius[body];
+            double torque = lost * speed / (speed * speed + SLOWEST_TURN * SLOWEST_TURN);
+            out.torque[gear][i] = torque;
+            power -= torque * speed;
+        }
+        out.torque[2][i] = 0.0;
+        out.power[i] = power;
+    }
+}
+
+// Fill dVs/dv (GEARS,) of pair k for the coordinates of its gears and the carrier.
+inline void sliding_row(const Train& train, const ToothPairs& pairs, std::int64_t k, double* row) {
+    std::int64_t i = k % train.meshes;
+    double rho1 = pairs.rho1[k], rho2 = pairs.external[k] * pairs.rho2[k];
+    row[0] = rho1 * train.lever[0][i];
+    row[1] = rho2 * train.lever[1][i];
+    row[2] = -(rho1 + rho2) * train.lever[2][i];
+}
+
+// matrix[body, body] += factor * row row^T, of the `size` bodies.
+inline void add_outer(Matrix matrix, const std::int64_t* body, const double* row, int size,
+                      double factor) {
+    for (int a = 0; a < size; ++a)
+        for (int b = 0; b < size; ++b) matrix[body[a]][body[b]] += factor * row[a] * row[b];
+}
+
+// Add to `matrix` what friction adds to the damping matrix: slope dVs/dv dVs/dv^T.
+//
+// Large where little slides: at the pitch point, and for everything near standstill. Where the
+// forces on the bodies would turn the sliding round within h seconds, the slope is that of the chord
+// to rest: beside it the tangent is flat, and steps would throw the sliding to and fro. `row`
+// (GEARS,) is room to work in.
+inline void friction_damping(const Train& train, const ToothPairs& pairs, const double* force,
+                             double h, double* row, Matrix matrix) {
+    for (std::int64_t k = 0; k < pairs.count; ++k) {
+        std::int64_t i = k % train.meshes;
+        sliding_row(train, pairs, k, row);
+        double sliding = pairs.sliding[k], slope = pairs.slope[k], gain = 0.0;
+        for (int j = 0; j < GEARS; ++j) {
+            std::int64_t body = train.body[i][j];
+            gain += h * row[j] * force[body] / train.mass[body];
+        }
+        if (sliding * (sliding + gain) < 0.0)
+            slope = at_least(slope, pairs.friction[k] / sliding);
+        add_outer(matrix, train.body[i], row, GEARS, train.copies[i] * slope);
+    }
+}
+
+// Copy what `friction_damping` reads.
+inline void copy_friction(const ToothPairs& source, ToothPairs& target) {
+    target.count = source.count;
+    for (std::int64_t k = 0; k < source.count; ++k) {
+        target.rho1[k] = source.rho1[k];
+        target.rho2[k] = source.rho2[k];
+        target.external[k] = source.external[k];
+        target.friction[k] = source.friction[k];
+        target.sliding[k] = source.sliding[k];
+        target.slope[k] = source.slope[k];
+    }
+    if (!source.held) return;
+    for (int k = 0; k < ROOM; ++k) {
+        target.bristle[k] = source.bristle[k];
+        target.full[k] = source.full[k];
+        target.bristle_rate[k] = source.bristle_rate[k];
+        target.bristle_decay[k] = source.bristle_decay[k];
+        target.bristle_gain[k] = source.bristle_gain[k];
+    }
+}
+
+}  // namespace gearbox
