@@ -5,11 +5,11 @@
 #include <stdexcept>
 
 #include "mesh/form_errors.hpp"
-#include "mesh/mesh_force.hpp"
+#include "mesh/deflection.hpp"
 #include "quasi_static/mesh_springs.hpp"
 #include "quasi_static/statics.hpp"
 #include "train/body_speed.hpp"
-#include "train/cycle.hpp"
+#include "mesh/cycle.hpp"
 #include "train/equations.hpp"
 #include "train/observe.hpp"
 
@@ -28,11 +28,11 @@ constexpr double PLACE = 0.01;  // mesh cycles over which stiffness changes by a
 constexpr double LIGHTEST_FORCE = 1.0;  // [N] smaller forces do not tighten the tolerance further
 
 // Whether stiffness and play were those of the sides and tooth pairs that carry now.
-bool keeps_sides(const Train& train, const Equilibrium& run, const double* shown, double slack) {
-    const double* force = shown + MESH_FORCE * train.meshes;
+bool keeps_sides(const Train& train, const Equilibrium& run, const double (*shown)[MESHES],
+                 double slack) {
     for (std::int64_t i = 0; i < train.meshes; ++i) {
         if (std::abs(run.force[i]) > slack && run.state.side[i] != run.lean[i]) return false;
-        if (std::abs(force[i] - run.force[i]) > slack) return false;
+        if (std::abs(shown[MESH_FORCE][i] - run.force[i]) > slack) return false;
     }
     return true;
 }
@@ -44,7 +44,7 @@ bool rubs_as_before(const Model& model, Equilibrium& run, double slack) {
     std::fill(std::begin(evaluation.power), std::end(evaluation.power), 0.0);
     for (std::int64_t i = 0; i < model.train.meshes; ++i)
         evaluation.now.push[i] = std::abs(run.force[i]);
-    friction(model, run.state, run.moment, run.state.v, evaluation);
+    apply_friction(model, run.state, run.step, run.state.v, evaluation);
     bool still = true;
     for (std::int64_t j = 0; j < model.train.bodies; ++j) {
         double change = std::abs(evaluation.rubbing[j] - run.before[j]);
@@ -71,7 +71,7 @@ void check_jump(const Model& model, const Equilibrium& run) {
     for (std::int64_t i = 0; i < model.train.meshes; ++i) {
         double side = static_cast<double>(run.state.side[i]);
         double d = mesh_motion(model.train, i, run.state.x) - run.error[i];
-        double radial = radial_error(model.train, i, run.moment.line_angle, 0.0, 0.0).value;
+        double radial = radial_error(model.train, i, run.step.line_angle, 0.0, 0.0).length;
         if (side != 0.0 && side * d - radial < load.half_backlash)
             throw std::invalid_argument(
                 "mesh.backlash = 'regulatory_factor': without dynamics every mesh must carry "
@@ -98,7 +98,8 @@ Equilibrium first_guess(std::int64_t lean) {
     return run;
 }
 
-void settle(const Model& model, double tolerance, Equilibrium& run, double* shown) {
+void settle(const Model& model, double tolerance, Equilibrium& run,
+            double (*shown)[MESHES]) {
     const Train& train = model.train;
     State& state = run.state;
     bool kept = false;
@@ -109,7 +110,7 @@ void settle(const Model& model, double tolerance, Equilibrium& run, double* show
         balance_torques(model, run);
         double mean = carry(model, run);
         deflect(model, run);
-        observe(model, state, run.moment, state.x, state.v, 0.0, run.evaluation, shown);
+        observe(model, state, run.step, state.x, state.v, 0.0, run.evaluation, shown);
         double slack = tolerance * std::max(mean, LIGHTEST_FORCE);
         if (!free) slack = std::max(slack, DITHER);
         double moved = std::abs(cycle_shift(train, state.x) - shift);

@@ -9,6 +9,7 @@
 // those of the dynamic model, applied to a state whose x squeezes every mesh by its static force.
 
 #include "quasi_static/equilibrium_record.hpp"
+#include "rooms.hpp"
 #include "train/model.hpp"
 
 namespace gearbox {
@@ -24,9 +25,10 @@ Equilibrium first_guess(std::int64_t lean);
 // model: the train, without mesh damping.
 // tolerance: error of mesh forces relative to their mean.
 // run: what it holds is the first guess.
-// shown: (QUANTITIES, meshes), see `observe`.
+// shown: (QUANTITIES, MESHES), see `observe`.
 //
 // Throws std::invalid_argument: there is no equilibrium, or it is not found.
-void settle(const Model& model, double tolerance, Equilibrium& run, double* shown);
+void settle(const Model& model, double tolerance, Equilibrium& run,
+            double (*shown)[MESHES]);
 
 }  // namespace gearbox

@@ -23,14 +23,14 @@ struct SpringForce {
 
 // Force of a planet on the ring.
 //
-// w: wind-up less errors of form and less what `rub` squeezes the sun mesh by [m].
+// w: wind-up less errors of form and less what `friction` squeezes the sun mesh by [m].
 // compliance: of both meshes in series [m/N].
-// rub: friction on the planet [N].
+// friction: friction on the planet [N].
 // steps: play passed with both meshes on the coast side, with one on each, and with both on the
 //     drive side [m].
-inline SpringForce ring_force(double w, double compliance, double rub, const double* steps) {
+inline SpringForce ring_force(double w, double compliance, double friction, const double* steps) {
     // where one of the meshes is free of load
-    double first = std::min(0.0, -rub), last = std::max(0.0, -rub);
+    double first = std::min(0.0, -friction), last = std::max(0.0, -friction);
     double growth = 1.0 / compliance;
     double force = (w - steps[2]) * growth;
     if (force > last) return {force, growth};
@@ -43,8 +43,8 @@ inline SpringForce ring_force(double w, double compliance, double rub, const dou
 }
 
 // A w [m] at which the planet has `force` on the ring: the inverse of `ring_force`.
-inline double wind_up_at(double force, double compliance, double rub, const double* steps) {
-    double first = std::min(0.0, -rub), last = std::max(0.0, -rub), step;
+inline double wind_up_at(double force, double compliance, double friction, const double* steps) {
+    double first = std::min(0.0, -friction), last = std::max(0.0, -friction), step;
     if (force > last)
         step = steps[2];
     else if (force < first)
@@ -60,7 +60,7 @@ inline double wind_up_at(double force, double compliance, double rub, const doub
 
 // Force of planet p on the ring at the wind-up w [m].
 inline SpringForce planet_force(const Springs& springs, std::int64_t p, double w) {
-    return ring_force(w - springs.error[p], springs.compliance[p], springs.rub[p],
+    return ring_force(w - springs.error[p], springs.compliance[p], springs.friction[p],
                       springs.steps[p]);
 }
 

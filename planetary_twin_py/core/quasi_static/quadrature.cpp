@@ -6,7 +6,7 @@
 #include <stdexcept>
 
 #include "quasi_static/motion.hpp"
-#include "train/cycle.hpp"
+#include "mesh/cycle.hpp"
 #include "train/set_step_constants.hpp"
 
 namespace gearbox {

@@ -22,7 +22,7 @@ struct Follower {
     const Model& model;
     double tolerance;  // see `settle`
     Equilibrium& run;
-    double* shown;  // (QUANTITIES, meshes)
+    double (*shown)[MESHES];  // (QUANTITIES,)
 };
 
 // Two times [s].

@@ -13,7 +13,10 @@ void sample(const Model& model, double tolerance, const State& origin, Equilibri
     const Train& train = model.train;
     State& state = run.state;
     turn_to(model, origin, delay(origin, at), state);
-    settle(model, tolerance, run, out.mesh_row(row));
+    double shown[QUANTITIES][MESHES];
+    settle(model, tolerance, run, shown);
+    for (int q = 0; q < QUANTITIES; ++q)
+        std::copy(shown[q], shown[q] + out.meshes, out.mesh_row(row) + q * out.meshes);
     out.drag[row * SAMPLE_DRAGS] = run.evaluation.power[BEARING];
     out.drag[row * SAMPLE_DRAGS + 1] = run.evaluation.power[CHURNING];
     std::copy(state.turns, state.turns + out.axes, out.turns + row * out.axes);

@@ -17,13 +17,13 @@ void place_spring(const Train& train, Equilibrium& run, std::int64_t p) {
     Springs& springs = run.springs;
     std::int64_t s = p, r = train.meshes / 2 + p;
     springs.copies[p] = train.copies[p];
-    double rub = springs.rub[p] = run.external[train.body[p][1]] / train.copies[p];
+    double friction = springs.friction[p] = run.external[train.body[p][1]] / train.copies[p];
     springs.compliance[p] = 1.0 / run.stiffness[s] + 1.0 / run.stiffness[r];
-    springs.error[p] = run.error[s] + run.error[r] + rub / run.stiffness[s];
+    springs.error[p] = run.error[s] + run.error[r] + friction / run.stiffness[s];
     double* steps = springs.steps[p];
     steps[0] = -run.play[s][COAST_PLAY] - run.play[r][COAST_PLAY];
     steps[2] = run.play[s][DRIVE_PLAY] + run.play[r][DRIVE_PLAY];
-    steps[1] = rub > 0.0 ? run.play[s][DRIVE_PLAY] - run.play[r][COAST_PLAY]
+    steps[1] = friction > 0.0 ? run.play[s][DRIVE_PLAY] - run.play[r][COAST_PLAY]
                          : run.play[r][DRIVE_PLAY] - run.play[s][COAST_PLAY];
 }
 
@@ -32,8 +32,8 @@ void choose_sides(const Train& train, Equilibrium& run) {
     for (std::int64_t i = 0; i < train.meshes; ++i) {
         double force = run.force[i];
         run.state.side[i] = force == 0.0 ? OPEN : force > 0.0 ? DRIVE_SIDE : COAST_SIDE;
-        if (static_cast<double>(run.state.side[i]) != run.moment.side[i])
-            take_segment(train, run.state, run.moment, i);
+        if (static_cast<double>(run.state.side[i]) != run.step.side[i])
+            take_segment(train, run.state, run.step, i);
     }
 }
 
@@ -75,7 +75,7 @@ void balance_torques(const Model& model, Equilibrium& run) {
     for (double& balance : run.balance) balance = 0.0;
     for (std::int64_t j = 0; j < train.bodies; ++j) {
         double speeding = 0.0;
-        for (std::int64_t a = 0; a < axes; ++a) speeding += train.ratio[j][a] * run.moment.slew[a];
+        for (std::int64_t a = 0; a < axes; ++a) speeding += train.ratio[j][a] * run.step.slew[a];
         run.external[j] =
             run.evaluation.rubbing[j] - train.mass[j] * train.radius[j] * speeding;
         for (std::int64_t a = 0; a < axes; ++a)
@@ -84,7 +84,7 @@ void balance_torques(const Model& model, Equilibrium& run) {
     double torque = load.torque[MOTOR];
     torque += load.ripple *
               std::sin(load.ripple_order * 2.0 * std::numbers::pi * run.state.fraction[0]);
-    for (std::int64_t a = 0; a < axes; ++a) torque += load.inertia[0][a] * run.moment.slew[a];
+    for (std::int64_t a = 0; a < axes; ++a) torque += load.inertia[0][a] * run.step.slew[a];
     run.torque[MOTOR] = torque;
     std::int64_t loaded = train.coupling[LOAD_MACHINE][0];
     run.torque[LOAD_MACHINE] = -(torque + run.balance[0]) / train.ratio[loaded][0];
@@ -107,12 +107,12 @@ double carry(const Model& model, Equilibrium& run) {
     for (std::int64_t p = 0; p < planets; ++p) {
         place_spring(train, run, p);
         copies += train.copies[p];
-        if (sun_turns) total -= train.copies[p] * run.springs.rub[p];
+        if (sun_turns) total -= train.copies[p] * run.springs.friction[p];
     }
     double w = share(total, planets, run.springs);
     for (std::int64_t p = 0; p < planets; ++p) {
         run.force[planets + p] = planet_force(run.springs, p, w).force;
-        run.force[p] = run.force[planets + p] + run.springs.rub[p];
+        run.force[p] = run.force[planets + p] + run.springs.friction[p];
     }
     choose_sides(train, run);
     wind(train, run, w);

@@ -29,12 +29,12 @@ void see_value(double value, int row, int n, std::int64_t i, double (*peak)[MESH
 
 }  // namespace
 
-void add_rates(const Train& train, const double* power, const double* shown, double weight,
-               double* out) {
+void add_rates(const Train& train, const double* power, const double (*shown)[MESHES],
+               double weight, double* out) {
     for (int e = 0; e < LEDGER; ++e) out[e] += weight * power[e];
     for (std::int64_t i = 0; i < train.meshes; ++i) {
         double* sums = out + LEDGER + i;
-        auto value = [&](int q) { return shown[q * train.meshes + i]; };
+        auto value = [&](int q) { return shown[q][i]; };
         for (int q = 0; q < QUANTITIES; ++q)
             if (!std::isnan(value(q))) sums[q * MESHES] += weight * value(q);
         bool touching = value(MESH_FORCE) != 0.0;
@@ -46,10 +46,10 @@ void add_rates(const Train& train, const double* power, const double* shown, dou
     out[TOTALS - 1] += weight;
 }
 
-void see_node(const Train& train, const double* shown, int n, double (*peak)[MESHES]) {
+void see_node(const Train& train, const double (*shown)[MESHES], int n, double (*peak)[MESHES]) {
     for (std::int64_t i = 0; i < train.meshes; ++i) {
-        see_value(shown[DTE * train.meshes + i], DTE_PEAK, n, i, peak);
-        see_value(shown[MESH_FORCE * train.meshes + i], FORCE_PEAK, n, i, peak);
+        see_value(shown[DTE][i], DTE_PEAK, n, i, peak);
+        see_value(shown[MESH_FORCE][i], FORCE_PEAK, n, i, peak);
     }
 }
 

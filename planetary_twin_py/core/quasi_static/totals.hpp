@@ -6,7 +6,6 @@
 
 #include "mesh/mesh_sums.hpp"
 #include "rooms.hpp"
-#include "train/observe.hpp"
 #include "train/train.hpp"
 
 namespace gearbox {
@@ -31,12 +30,12 @@ using Extremes = double[PEAKS][MESHES];
 // Add what grows at one instant, times `weight` [s], to the totals `out`.
 //
 // power: of the ledger (LEDGER,).
-// shown: by the meshes (QUANTITIES, meshes), see `observe`.
-void add_rates(const Train& train, const double* power, const double* shown, double weight,
-               double* out);
+// shown: by the meshes (QUANTITIES, MESHES), see `observe`.
+void add_rates(const Train& train, const double* power, const double (*shown)[MESHES],
+               double weight, double* out);
 
 // Raise `peak` to what is shown at node n of a panel, the first of them 0.
-void see_node(const Train& train, const double* shown, int n, double (*peak)[MESHES]);
+void see_node(const Train& train, const double (*shown)[MESHES], int n, double (*peak)[MESHES]);
 
 // Raise `peak` to the ends of the panel whose nodes have been seen.
 void see_ends(const Train& train, double (*peak)[MESHES]);
