@@ -6,6 +6,7 @@
 
 #include "mesh/faults.hpp"
 #include "mesh/form_errors.hpp"
+#include "mesh/stiffness.hpp"
 #include "mesh/deflection.hpp"
 #include "quasi_static/equilibrium.hpp"
 #include "mesh/cycle.hpp"
