@@ -3,7 +3,7 @@
 #include "train/initial_state.hpp"
 
 #include "bindings/arrays.hpp"
-#include "bindings/rooms.hpp"
+#include "bindings/parts.hpp"
 #include "rooms.hpp"
 
 namespace gearbox {

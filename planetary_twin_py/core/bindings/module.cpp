@@ -1,3 +1,4 @@
+#include "bindings/parts.hpp"
 #include "bindings/records.hpp"
 
 // One module for each level of x86-64 (CMake names it); Python sees one place for all of them, so
@@ -6,4 +7,7 @@ NB_MODULE(CORE_MODULE, m) {
     m.attr("__name__") = "planetary_twin_py._core";
     m.doc() = "Compiled core of planetary_twin_py.";
     gearbox::bind_records(m);
+    gearbox::bind_initial_state(m);
+    gearbox::bind_quasi_static(m);
+    gearbox::bind_peers(m);
 }

@@ -3,7 +3,7 @@
 #include <memory>
 
 #include "bindings/arrays.hpp"
-#include "bindings/rooms.hpp"
+#include "bindings/parts.hpp"
 #include "peers/fixed_step.hpp"
 #include "peers/foreign.hpp"
 #include "peers/right_hand_side.hpp"

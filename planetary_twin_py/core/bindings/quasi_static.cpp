@@ -5,7 +5,7 @@
 #include <nanobind/stl/pair.h>
 
 #include "bindings/arrays.hpp"
-#include "bindings/rooms.hpp"
+#include "bindings/parts.hpp"
 #include "quasi_static/equilibrium.hpp"
 #include "quasi_static/motion.hpp"
 #include "quasi_static/planet_load.hpp"
