@@ -6,12 +6,11 @@ is in the stub beside, which is made when it is built.
 
 from importlib import import_module
 from importlib.util import find_spec
-from types import ModuleType
 
 from .levels import runnable_levels
 
 
-def _load() -> ModuleType:
+def _load():
     for level in runnable_levels():
         if find_spec(f"{__name__}.{level}"):
             return import_module(f"{__name__}.{level}")

@@ -1,28 +1,63 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <deque>
+#include <unordered_map>
+
+#include "rooms.hpp"
 
 namespace gearbox {
 
-struct alignas(64) ContactModes {
-    std::int64_t count;
-    alignas(64) std::int64_t key[256][2];  // see `contact_key`
-    alignas(64) std::int64_t follower[256];  // the state that came next last time
-    std::int64_t last;  // state found last
-    alignas(64) double stiffness[256][16];  // of every mesh with its copies [N/m]
-    alignas(64) double form[256][16][16];
-    alignas(64) double share[256][16][16];
-    alignas(64) double motion[256][16][16];
-    alignas(64) double reach[256][16][16];
-    alignas(64) double square[256][16];  // w^2 [1/s^2]
-    alignas(64) std::int8_t varies[256];  // whether a stiffness changes within its segment
-    alignas(64) double step[256];  // that did last time such a state began, 0: none yet [s]
-    alignas(64) double past_step[256];  // see `memory`, 0: none yet [s]
-    alignas(64) double past_rest[256][6][16];
-    alignas(64) double past_rubbing[256][6][16];  // [N]
-    alignas(64) double pull[256][2];  // by which a sweep brings the next closer, per step length [1/s]
-    alignas(64) double shaft_damping[256][16];  // c of the couplings [1/s]
-    alignas(64) double mesh_damping[256][2][16];  // c/tau of each kind of mesh [1/s^2]
+inline constexpr int MOST_NODES = 5;  // points of collocation in a step
+
+// Numbers for the stiffnesses of sun and ring meshes: their segments, 0 where they are open.
+struct ContactKey {
+    std::int64_t sun;
+    std::int64_t ring;
+
+    bool operator==(const ContactKey&) const = default;
+};
+
+struct HashOfContacts {
+    std::size_t operator()(const ContactKey& key) const {
+        constexpr std::uint64_t golden = 0x9e3779b97f4a7c15;
+        auto mixed = (static_cast<std::uint64_t>(key.sun) * golden) ^
+                     static_cast<std::uint64_t>(key.ring);
+        mixed *= golden;
+        return static_cast<std::size_t>(mixed ^ (mixed >> 32));
+    }
+};
+
+// Modes of one contact state, of unit modal mass. `form[m]` is what mode m does to the bodies,
+// `share[j]` what body j does to the modes, `motion[m]` what mode m does to the meshes, and `reach`
+// its magnitude [1/sqrt(kg)].
+struct alignas(64) ContactState {
+    ContactKey key;
+    std::int64_t follower;  // the state that came next last time
+    double step;  // that did last time such a state began, 0: none yet [s]
+    double past_step;  // see the predictor, 0: none yet [s]
+    double pull[2];  // by which a sweep brings the next closer, per step length [1/s]
+    bool varies;  // whether a stiffness changes within its segment
+    alignas(64) double stiffness[MESHES];  // of every mesh with its copies [N/m]
+    alignas(64) double form[BODIES][BODIES];
+    alignas(64) double share[BODIES][BODIES];
+    alignas(64) double motion[BODIES][MESHES];
+    alignas(64) double reach[BODIES][MESHES];
+    alignas(64) double square[BODIES];  // w^2 [1/s^2]
+    alignas(64) double shaft_damping[BODIES];  // c of the couplings [1/s]
+    alignas(64) double mesh_damping[2][BODIES];  // c/tau of each kind of mesh [1/s^2]
+    alignas(64) double past_rest[MOST_NODES + 1][BODIES];
+    alignas(64) double past_rubbing[MOST_NODES + 1][BODIES];  // [N]
+};
+
+// Modes of the contact states met so far. They never move while they are kept.
+struct ContactModes {
+    std::deque<ContactState> states;
+    std::unordered_map<ContactKey, std::int64_t, HashOfContacts> places;
+    std::int64_t last = 0;  // state found last
+
+    std::int64_t count() const { return static_cast<std::int64_t>(states.size()); }
 };
 
 }  // namespace gearbox

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <vector>
 
 #include "integrators/propagation_records.hpp"
 #include "mesh/mesh_sums.hpp"
@@ -42,7 +43,7 @@ struct alignas(64) Repetition {
     State start;  // clock, turns and ledger where the present cycle starts; the fraction of the ...
     std::int64_t part;  // ... turn is that of the first cycle, and this many denominators
     Place whole;  // end of the cycle
-    CycleStep tape[4096];
+    std::vector<CycleStep> tape;
 };
 
 }  // namespace gearbox

@@ -48,7 +48,6 @@ struct alignas(64) Propagation {
     alignas(64) double now_d[16];
     alignas(64) double now_rate[16];
     std::int8_t suspect[16];  // may change its contact within the step
-    alignas(64) double least[16];
     alignas(64) double scan_d[8][16];  // at even times
     alignas(64) double scan_rate[8][16];
 };

@@ -1,0 +1,72 @@
+#pragma once
+
+// The shares of friction of pairs that hold, in the stages of Rosenbrock's method.
+//
+// Each share z depends on itself and on the sliding V of its pair alone, so it is eliminated before
+// the linear system of a stage is solved: (1/(gamma h) + decay) u_z = r_z + gain u_V. Its friction
+// is f (z + tau dz/dt), f the full one and tau `RELAXATION`; so a pair adds
+// f gain (1 + tau/(gamma h))/(1/(gamma h) + decay) to the damping matrix.
+
+#include "integrators/workspace.hpp"
+#include "train/declarations.hpp"
+#include "tribology/tooth_friction.hpp"
+
+namespace gearbox {
+
+// Add to `matrix` what the pairs add to the damping matrix; `step` is gamma h [s].
+inline void bristle_damping(const Train& train, const ToothPairs& pairs, double step, double* row,
+                            Matrix matrix) {
+    for (std::int64_t k = 0; k < pairs.count; ++k) {
+        std::int64_t i = k % train.meshes;
+        sliding_row(train, pairs, k, row);
+        double damping = pairs.full[k] * pairs.bristle_gain[k];
+        damping /= 1.0 / step + pairs.bristle_decay[k];
+        damping *= 1.0 + RELAXATION / step;
+        add_outer(matrix, train.body[i], row, GEARS, train.copies[i] * damping);
+    }
+}
+
+// Shares of friction at a stage, from those at the start and the stages before.
+inline void bend_bristles(ToothPairs& pairs, const double* share, const double* weights,
+                          const double (*bend)[ROOM], int stage) {
+    if (!pairs.held) return;
+    for (int k = 0; k < ROOM; ++k) {
+        double value = share[k];
+        for (int s = 0; s < stage; ++s) value += weights[s] * bend[s][k];
+        pairs.bristle[k] = value;
+    }
+}
+
+// Fill r_z of a stage in its row of `work.bend`; add to `right`, the right-hand side of the linear
+// system [N], what it pulls the bodies by. `start`: pairs at the start of the step, whose
+// derivatives the method uses; `weights`: C of the method, of the stages before.
+inline void pull_bristles(const Train& train, const ToothPairs& start, const ToothPairs& pairs,
+                          double h, double step, const double* weights, int stage, double* right,
+                          Workspace& work) {
+    for (std::int64_t k = 0; k < start.count; ++k) {
+        std::int64_t i = k % train.meshes;
+        double rate = pairs.bristle_rate[k];
+        for (int s = 0; s < stage; ++s) rate += weights[s] * work.bend[s][k] / h;
+        work.bend[stage][k] = rate;
+        sliding_row(train, start, k, work.row);
+        double decay = start.bristle_decay[k];
+        double pull = train.copies[i] * start.full[k] * rate / (1.0 / step + decay);
+        pull *= 1.0 - RELAXATION * decay;
+        for (int j = 0; j < GEARS; ++j) right[train.body[i][j]] -= pull * work.row[j];
+    }
+}
+
+// u_z of a stage from its r_z and the solution u_v in `right`; `step` is gamma h [s].
+inline void solve_bristles(const Train& train, const ToothPairs& start, double step,
+                           const double* right, int stage, Workspace& work) {
+    for (std::int64_t k = 0; k < start.count; ++k) {
+        std::int64_t i = k % train.meshes;
+        sliding_row(train, start, k, work.row);
+        double sliding = 0.0;
+        for (int j = 0; j < GEARS; ++j) sliding += work.row[j] * right[train.body[i][j]];
+        double rate = work.bend[stage][k] + start.bristle_gain[k] * sliding;
+        work.bend[stage][k] = rate / (1.0 / step + start.bristle_decay[k]);
+    }
+}
+
+}  // namespace gearbox

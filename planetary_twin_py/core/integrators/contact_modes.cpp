@@ -1,0 +1,126 @@
+#include "integrators/contact_modes.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "mesh/stiffness.hpp"
+#include "vector/symmetric_eigen.hpp"
+
+namespace gearbox {
+
+namespace {
+
+constexpr double FIRST_PULL = 1e4;  // [1/s]
+// Relative change of a stiffness within its segment that rounding does not explain.
+constexpr double STEADY = 1e-9;
+
+// Stiffness of every mesh with its copies; `varies` where one changes within its segment.
+void find_stiffness(const Train& train, const State& state, ContactState& modes) {
+    for (std::int64_t i = 0; i < train.meshes; ++i) {
+        double k = 0.0;
+        if (state.side[i] != OPEN) {
+            std::int64_t kind = train.kind[i], segment = state.segment[i];
+            const double* edge = &train.edge[kind][segment];
+            k = mesh_stiffness(train, kind, segment, 0.5 * (edge[0] + edge[1]));
+            double at_edge = mesh_stiffness(train, kind, segment, edge[0]);
+            modes.varies |= std::fabs(at_edge - k) > STEADY * k;
+            k *= train.copies[i];
+        }
+        modes.stiffness[i] = k;
+    }
+}
+
+void add_spring(double (*matrix)[BODIES], const std::int64_t* place, const double* sign, int size,
+                double k, const double* scale) {
+    for (int a = 0; a < size; ++a)
+        for (int b = 0; b < size; ++b) {
+            std::int64_t p = place[a], q = place[b];
+            matrix[p][q] += k * sign[a] * scale[p] * sign[b] * scale[q];
+        }
+}
+
+// K between the bodies and the ground, in coordinates of unit mass [1/s^2].
+void stiffness_matrix(const Train& train, const ContactState& modes, const double* scale,
+                      double (*matrix)[BODIES]) {
+    constexpr double ends[2] = {1.0, -1.0};
+    for (std::int64_t i = 0; i < train.meshes; ++i)
+        add_spring(matrix, train.body[i], train.sign[i], GEARS, modes.stiffness[i], scale);
+    for (std::int64_t c = 0; c < train.machines; ++c)
+        add_spring(matrix, train.coupling[c], ends, 2, train.coupling_stiffness[c], scale);
+}
+
+// What mode m does to the meshes, and what damps it.
+void spread_mode(const Train& train, ContactState& modes, std::int64_t m) {
+    for (std::int64_t i = 0; i < train.meshes; ++i) {
+        double motion = 0.0;
+        for (int a = 0; a < GEARS; ++a)
+            motion += train.sign[i][a] * modes.form[m][train.body[i][a]];
+        modes.motion[m][i] = motion;
+        modes.reach[m][i] = std::fabs(motion);
+        modes.mesh_damping[train.kind[i]][m] += modes.stiffness[i] * motion * motion;
+    }
+    for (std::int64_t c = 0; c < train.machines; ++c) {
+        double twist = modes.form[m][train.coupling[c][0]] - modes.form[m][train.coupling[c][1]];
+        modes.shaft_damping[m] += train.coupling_damping[c] * twist * twist;
+    }
+}
+
+void solve_modes(const Train& train, const State& state, ContactState& modes) {
+    modes.pull[0] = modes.pull[1] = FIRST_PULL;
+    modes.varies = train.faults > 0 || train.lines[0] + train.lines[1] > 0;
+    double scale[BODIES] = {}, squares[BODIES], matrix[BODIES][BODIES] = {};
+    for (std::int64_t j = 0; j < train.bodies; ++j) scale[j] = 1.0 / std::sqrt(train.mass[j]);
+    find_stiffness(train, state, modes);
+    stiffness_matrix(train, modes, scale, matrix);
+    symmetric_eigen(matrix, static_cast<int>(train.bodies), squares);
+    for (std::int64_t m = 0; m < train.bodies; ++m) {
+        modes.square[m] = std::max(squares[m], 0.0);
+        for (std::int64_t j = 0; j < train.bodies; ++j)
+            modes.form[m][j] = modes.share[j][m] = matrix[j][m] * scale[j];
+        spread_mode(train, modes, m);
+    }
+}
+
+std::int64_t search(const Train& train, const State& state, ContactModes& known,
+                    const ContactKey& key) {
+    if (auto found = known.places.find(key); found != known.places.end()) return found->second;
+    if (known.count() == CONTACT_STATES) {
+        known.states.clear();
+        known.places.clear();
+        known.last = 0;
+    }
+    std::int64_t n = known.count();
+    ContactState& modes = known.states.emplace_back();
+    modes = ContactState{};
+    modes.key = key;
+    solve_modes(train, state, modes);
+    known.places.emplace(key, n);
+    return n;
+}
+
+}  // namespace
+
+ContactKey contact_key(const Train& train, const State& state) {
+    ContactKey key{0, 0};
+    for (std::int64_t i = 0; i < train.meshes; ++i) {
+        std::int64_t segment = state.side[i] != OPEN ? state.segment[i] + 1 : 0;
+        std::int64_t& own = train.kind[i] == 0 ? key.sun : key.ring;
+        own = own * (SEGMENTS + 1) + segment;
+    }
+    return key;
+}
+
+std::int64_t find_modes(const Train& train, const State& state, ContactModes& known) {
+    ContactKey key = contact_key(train, state);
+    if (known.count() > 0) {
+        if (known.states[known.last].key == key) return known.last;
+        std::int64_t likely = known.states[known.last].follower;
+        if (likely < known.count() && known.states[likely].key == key)
+            return known.last = likely;
+    }
+    std::int64_t n = search(train, state, known, key);
+    known.states[known.last].follower = n;
+    return known.last = n;
+}
+
+}  // namespace gearbox

@@ -1,0 +1,23 @@
+#pragma once
+
+// Undamped modes of the train for the meshes that are in contact and the stiffness they have.
+//
+// Between two contact events the train is nearly linear: M x'' + C x' + K x = rest. In the modes of
+// K the left side falls apart into oscillators q'' + c q' + w^2 q, whose motion is known exactly
+// whatever the step. Each contact state has its modes; they are kept, because meshing returns to
+// the same states in every cycle.
+
+#include "integrators/contact_modes_record.hpp"
+#include "train/state.hpp"
+#include "train/train.hpp"
+
+namespace gearbox {
+
+inline constexpr std::int64_t CONTACT_STATES = 1024;  // kept at most
+
+ContactKey contact_key(const Train& train, const State& state);
+
+// Place in `known` of the modes of the contacts of `state`, which are computed once.
+std::int64_t find_modes(const Train& train, const State& state, ContactModes& known);
+
+}  // namespace gearbox

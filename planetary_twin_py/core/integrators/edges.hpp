@@ -1,0 +1,108 @@
+#pragma once
+
+// Tooth pairs that enter and leave: when they will, and that they have. They do so on the edges of
+// the segments of the mesh cycle, see `mesh/tooth_pairs.py`.
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "integrators/march_record.hpp"
+#include "integrators/step_control.hpp"
+#include "mesh/contact_change.hpp"
+#include "mesh/cycle.hpp"
+#include "train/model.hpp"
+
+namespace gearbox {
+
+// Mesh cycles within which a tooth pair counts as having entered or left.
+inline constexpr double EDGE = 1e-9;
+
+struct NextEvent {
+    double time;  // [s]
+    std::int64_t mesh;  // NO_MESH: a change of the set-point's slope
+};
+
+// Time to the next tooth pair event or change of the set-point's slope, and the mesh.
+inline NextEvent next_event(const Model& model, const March& march) {
+    const Train& train = model.train;
+    const State& state = march.begin;
+    const StepConstants& constants = march.moment;
+    double pace = constants.cycle_rate + cycle_shift(train, state.v);
+    NextEvent nearest{std::numeric_limits<double>::infinity(), NO_MESH};
+    for (std::int64_t i = 0; i < train.meshes; ++i) {
+        double rate = static_cast<double>(state.side[i]) * pace;
+        if (rate == 0.0) continue;
+        std::int64_t edge = state.segment[i] + (rate > 0.0 ? 1 : 0);
+        double time = (train.edge[train.kind[i]][edge] - constants.start[i]) / rate;
+        if (time < nearest.time) nearest = {time, i};
+    }
+    for (std::int64_t a = 0; a < train.axes; ++a) {
+        if (constants.slew[a] == 0.0) continue;
+        double time = (model.load.target_speed[a] - state.set_speed[a]) / constants.slew[a];
+        if (time < nearest.time) nearest = {time, NO_MESH};
+    }
+    nearest.time = std::max(nearest.time, SHORTEST_STEP);
+    return nearest;
+}
+
+// A step of about h that does not leave a tiny one before the event.
+inline double planned(double event, double h, double stretch) {
+    if (event <= stretch * h) return event;
+    return event < 2.0 * h ? 0.5 * event : h;
+}
+
+// Mesh cycles that the train has advanced over the step.
+inline double cycles_of_step(const Train& train, const March& march) {
+    double advance = march.moment.cycle_rate * march.control.step;
+    return advance + (cycle_shift(train, march.end.x) - cycle_shift(train, march.begin.x));
+}
+
+// Time [s] by which mesh i is short of the edge of its segment at the end of the step.
+inline double time_to_edge(const Model& model, const March& march, std::int64_t i) {
+    const Train& train = model.train;
+    const State& begin = march.begin;
+    double side = static_cast<double>(begin.side[i]);
+    double rate = side * (march.moment.cycle_rate + cycle_shift(train, march.end.v));
+    std::int64_t edge = begin.segment[i] + (rate > 0.0 ? 1 : 0);
+    double left = train.edge[train.kind[i]][edge] - march.moment.start[i];
+    return (left - side * cycles_of_step(train, march)) / rate;
+}
+
+// Whether mesh i has come to the edge of its segment that lies in a direction.
+inline bool at_edge(const Train& train, const State& end, std::int64_t i, int direction) {
+    std::int64_t kind = train.kind[i], segment = end.segment[i];
+    double cycle = mesh_cycle(train, end, i, end.side[i]);
+    cycle = nearest_to_segment(train, kind, segment, cycle);
+    if (direction > 0) return cycle >= train.edge[kind][segment + 1] - EDGE;
+    return cycle <= train.edge[kind][segment] + EDGE;
+}
+
+// Change the segment of mesh i until it has come to the edge of its own no more.
+inline void pass_edge(const Model& model, March& march, std::int64_t i, int direction) {
+    const Train& train = model.train;
+    for (std::int64_t k = 0; k < train.segments[train.kind[i]]; ++k) {
+        if (march.end.side[i] == OPEN || !at_edge(train, march.end, i, direction)) return;
+        change_segment(model, march.end, march.aside, i, direction);
+        march.control.pair_events += static_cast<std::int64_t>(train.copies[i]);
+        march.control.changed = true;
+    }
+}
+
+// Change the segment of every mesh that has come to the edge of its own.
+inline void pass_edges(const Model& model, March& march) {
+    const Train& train = model.train;
+    const StepConstants& constants = march.moment;
+    double advance = cycles_of_step(train, march);
+    double pace = constants.cycle_rate + cycle_shift(train, march.end.v);
+    for (std::int64_t i = 0; i < train.meshes; ++i) {
+        double cycle = constants.start[i] + constants.side[i] * advance;
+        double ahead = constants.side[i] * pace;
+        if (ahead > 0.0 && cycle >= constants.high[i] - EDGE)
+            pass_edge(model, march, i, 1);
+        else if (ahead < 0.0 && cycle <= constants.low[i] + EDGE)
+            pass_edge(model, march, i, -1);
+    }
+}
+
+}  // namespace gearbox

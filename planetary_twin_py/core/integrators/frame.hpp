@@ -1,0 +1,52 @@
+#pragma once
+
+// The frame of the motors, in which bodies are placed, and how it turns with the clock.
+
+#include <cmath>
+#include <numbers>
+
+#include "integrators/march_record.hpp"
+#include "run/clock.hpp"
+#include "train/model.hpp"
+
+namespace gearbox {
+
+inline constexpr double TURN = 2.0 * std::numbers::pi;  // [rad]
+
+// Turn the frame with motor a; whole turns are counted apart.
+inline void turn_frame(State& state, std::int64_t a, double turns) {
+    double fraction = state.fraction[a] + turns;
+    state.turns[a] += std::floor(fraction);
+    state.fraction[a] = fraction - std::floor(fraction);
+}
+
+// Let the frame catch up with the motors: their x and v become zero.
+inline void rebase(const Train& train, State& state) {
+    for (std::int64_t a = 0; a < train.axes; ++a) {
+        std::int64_t motor = train.coupling[2 * a][0];
+        double angle = state.x[motor] / train.radius[motor];
+        double rate = state.v[motor] / train.radius[motor];
+        for (std::int64_t j = 0; j < train.bodies; ++j) {
+            state.x[j] -= train.ratio[j][a] * train.radius[j] * angle;
+            state.v[j] -= train.ratio[j][a] * train.radius[j] * rate;
+        }
+        state.x[motor] = 0.0;
+        state.v[motor] = 0.0;
+        state.speed[a] += rate;
+        turn_frame(state, a, angle / TURN);
+    }
+}
+
+// Let clock, set-points and frame of `end` run on for h seconds.
+inline void pass_time(const Model& model, March& march, double h) {
+    const State& begin = march.begin;
+    State& end = march.end;
+    run_on(begin, end, h);
+    for (std::int64_t a = 0; a < model.train.axes; ++a) {
+        end.set_speed[a] = begin.set_speed[a] + march.moment.slew[a] * h;
+        turn_frame(end, a, begin.speed[a] * h / TURN);
+    }
+    march.control.step = h;
+}
+
+}  // namespace gearbox

@@ -1,0 +1,40 @@
+#pragma once
+
+// What lies within the last step: its interpolant, and samples from it.
+
+#include <cstring>
+
+#include "integrators/propagation.hpp"
+#include "integrators/rosenbrock.hpp"
+#include "integrators/step_control.hpp"
+#include "run/samples.hpp"
+
+namespace gearbox {
+
+// x and v within the last step, as its method would have them had it ended there.
+//
+// Polynomials through the ends of a stiff step do not know how flanks settle within it. Its ends
+// stand, whatever the load has become since.
+inline void interpolate(const Model& model, March& march, double delay) {
+    State& dense = march.dense;
+    if (march.control.collocated) {
+        with_lanes(model.train, [&](auto lanes) {
+            propagate<lanes>(march, delay, dense.x, dense.v);
+        });
+        return;
+    }
+    bool at_begin = delay <= SHORTEST_STEP;
+    if (at_begin || delay >= march.control.step - SHORTEST_STEP) {
+        const State& nearest = at_begin ? march.begin : march.end;
+        std::memcpy(dense.x, nearest.x, sizeof dense.x);
+        std::memcpy(dense.v, nearest.v, sizeof dense.v);
+        std::memcpy(dense.bristle, nearest.bristle, sizeof dense.bristle);
+        return;
+    }
+    rosenbrock_step(model, march.begin, march.moment, delay, march.first, dense, march.work);
+}
+
+// Write what the train shows `delay` seconds after the start of the last step, within it.
+void sample(const Model& model, March& march, double delay, const Samples& out, std::int64_t row);
+
+}  // namespace gearbox

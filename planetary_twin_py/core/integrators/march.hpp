@@ -1,0 +1,39 @@
+#pragma once
+
+// Drive the one-step methods from event to event and sample what lies between.
+//
+// Events are tooth pairs entering or leaving, flanks meeting or parting, and the speed set-point
+// reaching its target. Steps end on them, so the equations are smooth within every step. The window
+// a caller asks for never clips a step: samples come from the step's interpolant, and the state at
+// the end of the window is that of the last step begun. So the path does not depend on the windows.
+//
+// Steps are made by collocation; where that is unfit, Rosenbrock's method takes over for a while.
+// Where nothing changes any more from one mesh cycle to the next, none are made.
+
+#include "integrators/march_record.hpp"
+#include "run/clock.hpp"
+#include "run/samples.hpp"
+#include "train/model.hpp"
+
+namespace gearbox {
+
+// Start a new step where the last one ended.
+void begin_step(const Model& model, March& march);
+
+// One accepted step of at most `longest` seconds from `begin`, ending on the first event. Throws
+// NoFiniteState.
+void one_step(const Model& model, March& march, double longest);
+
+// Let the step stand; `mesh` changes its contact at its end (NO_MESH: none).
+void accept(const Model& model, March& march, std::int64_t mesh);
+
+// Integrate to `until`, and fill `out` with `samples`, none of them later, and one at `until`.
+// No step that is made passes `bound`. Throws NoFiniteState.
+void advance(const Model& model, March& march, const Instant& until, const Instant& bound,
+             Sampling samples, const Samples& out);
+
+// Take back what lies beyond `until`, which is within the last step: what changes from outside,
+// changes there, and the next step begins at it. Throws NoFiniteState.
+void cut(const Model& model, March& march, const Instant& until);
+
+}  // namespace gearbox

@@ -1,0 +1,231 @@
+#include "integrators/periodic.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <limits>
+
+#include "integrators/frame.hpp"
+#include "mesh/add_sums.hpp"
+#include "mesh/deflection.hpp"
+#include "train/body_speed.hpp"
+#include "train/equations.hpp"
+#include "train/set_step_constants.hpp"
+#include "tribology/bristles.hpp"
+
+namespace gearbox {
+
+namespace {
+
+constexpr std::int64_t TAPE = 4096;  // steps of the longest cycle that is kept
+// Of the tolerance, by which a train that repeats may miss where it was.
+constexpr double MISSED_SHARE = 0.3;
+constexpr double SETTLED = 0.25;  // of all cycles so far, for which the train must not stray
+// Change of the transmission errors, in static deflections, when the teeth are a mesh cycle late.
+constexpr double PHASE = 20.0;
+
+Instant now_of(const State& state) { return {state.seconds, state.time}; }
+
+// Whether a mesh cycle begins at the end of the step.
+bool comes_round(const March& march) {
+    const State &begin = march.begin, &end = march.end;
+    return begin.segment[0] != 0 && end.segment[0] == 0 && end.side[0] != OPEN;
+}
+
+bool same_contacts(const Train& train, const State& a, const State& b) {
+    for (std::int64_t i = 0; i < train.meshes; ++i)
+        if (a.side[i] != b.side[i] || a.segment[i] != b.segment[i]) return false;
+    return true;
+}
+
+// How far meshes, couplings and speeds of two states are apart in what the meshes yield [m].
+double distance_of_bodies(const Train& train, const Control& control, const State& a,
+                          const State& b) {
+    double largest = 0.0;
+    for (std::int64_t i = 0; i < train.meshes; ++i)
+        largest = std::max(largest, std::fabs(mesh_motion(train, i, a.x) - mesh_motion(train, i, b.x)));
+    double stiffness = std::min(train.stiffness[0], train.stiffness[1]);
+    for (std::int64_t c = 0; c < train.machines; ++c) {
+        std::int64_t p = train.coupling[c][0], q = train.coupling[c][1];
+        double twist = a.x[p] - a.x[q] - b.x[p] + b.x[q];
+        largest = std::max(largest, std::fabs(twist) * train.coupling_stiffness[c] / stiffness);
+    }
+    for (std::int64_t j = 0; j < train.bodies; ++j) {
+        double speed = body_speed(train, a, a.v, j) - body_speed(train, b, b.v, j);
+        largest = std::max(largest, std::fabs(speed) * train.radius[j] / control.quickness);
+    }
+    return largest;
+}
+
+// How far two states are apart in what the meshes yield, relative to the static deflection.
+double distance(const Model& model, const March& march, const State& a, const State& b) {
+    const Train& train = model.train;
+    const Control& control = march.control;
+    constexpr double apart = std::numeric_limits<double>::infinity();
+    if (!same_contacts(train, a, b)) return apart;
+    double largest = distance_of_bodies(train, control, a, b);
+    for (std::int64_t k = 0; k < train.axes; ++k) {
+        double target = model.load.target_speed[k];
+        if (a.set_speed[k] != target || b.set_speed[k] != target) return apart;
+        double late = (a.trim[k] - b.trim[k]) * train.cycles[k] / TURN;
+        largest = std::max(largest, std::fabs(late) * PHASE * control.deflection);
+    }
+    if (control.creeping)
+        for (std::int64_t k = 0; k < train.slots * train.meshes; ++k)
+            largest = std::max(largest, std::fabs(a.bristle[k] - b.bristle[k]) * control.deflection);
+    return largest / control.deflection;
+}
+
+// Fill `place` with a state, as it lies after the start of the cycle.
+void keep(const State& start, const State& state, Place& place) {
+    place.state = state;
+    place.after = delay(start, now_of(state));
+    place.turned = state.turns[0] - start.turns[0] + (state.fraction[0] - start.fraction[0]);
+    for (int e = 0; e < LEDGER; ++e) place.energy[e] = state.energy[e] - start.energy[e];
+}
+
+// Put the step just made on the tape, unless there is no room or its modes were lost.
+void record_step(March& march) {
+    Repetition& repetition = march.repetition;
+    const std::int64_t known = march.run.known.count(), place = repetition.steps;
+    if (place == TAPE) repetition.cycles = 0;
+    if (place == TAPE || known < repetition.known) {
+        repetition.recording = false;
+        return;
+    }
+    if (place == 0) repetition.start = march.begin;
+    if (place == static_cast<std::int64_t>(repetition.tape.size())) repetition.tape.emplace_back();
+    CycleStep& step = repetition.tape[place];
+    keep(repetition.start, march.begin, step.begin);
+    keep(repetition.start, march.end, step.end);
+    step.collocated = march.control.collocated;
+    std::memcpy(step.power, march.last.power, sizeof step.power);
+    std::memcpy(step.rubbing, march.last.rubbing, sizeof step.rubbing);
+    step.motion = march.run.motion;
+    step.sums = march.sums.step;
+    repetition.steps = place + 1;
+    repetition.known = known;
+}
+
+// Let the cycle end as exactly as set-point and teeth say; whether it does.
+bool close_cycle(const Model& model, March& march) {
+    Repetition& repetition = march.repetition;
+    const Train& train = model.train;
+    const State& end = march.end;
+    Place& whole = repetition.whole;
+    const std::int64_t motor = train.coupling[0][0];
+    keep(repetition.start, end, whole);
+    double took = whole.after;
+    double turned = whole.turned + end.x[motor] / train.radius[motor] / TURN;
+    double turns = static_cast<double>(repetition.numerator) /
+                   static_cast<double>(repetition.denominator);
+    whole.turned = std::copysign(turns, turned);
+    whole.after = whole.turned * TURN / model.load.target_speed[0];
+    repetition.place = repetition.steps;
+    repetition.part = 0;
+    double late = std::max(std::fabs(took / whole.after - 1.0),
+                           std::fabs(turned / whole.turned - 1.0));
+    return late * static_cast<double>(repetition.cycles) * PHASE <=
+           MISSED_SHARE * march.control.tolerance;
+}
+
+// Whether the train has stayed near its anchor for long enough to repeat.
+bool has_settled(const Repetition& repetition, const State& end) {
+    auto since = static_cast<double>(repetition.age - repetition.anchor_age);
+    double stayed = delay(repetition.anchor, now_of(end));
+    return !(since < SETTLED * static_cast<double>(repetition.age) || stayed < repetition.pause);
+}
+
+void look(const Model& model, March& march) {
+    Repetition& repetition = march.repetition;
+    const State& end = march.end;
+    ++repetition.age;
+    bool near = distance(model, march, end, repetition.anchor) <=
+                MISSED_SHARE * march.control.tolerance;
+    if (repetition.recording) {
+        repetition.recording = false;
+        repetition.playing = near && close_cycle(model, march);
+    } else if (near) {
+        if (!has_settled(repetition, end)) return;
+        repetition.recording = true;
+        repetition.steps = repetition.known = 0;
+    }
+    repetition.anchor_age = repetition.age;
+    repetition.anchor = end;
+}
+
+// Move the start on by a cycle; the motor's turns are counted in whole parts.
+void begin_cycle(Repetition& repetition) {
+    State& start = repetition.start;
+    const Place& whole = repetition.whole;
+    run_on(start, start, whole.after);
+    for (int e = 0; e < LEDGER; ++e) start.energy[e] += whole.energy[e];
+    repetition.part += whole.turned > 0.0 ? repetition.numerator : -repetition.numerator;
+    std::int64_t turns = repetition.part / repetition.denominator;
+    if (repetition.part % repetition.denominator < 0) --turns;  // towards minus infinity
+    repetition.part -= turns * repetition.denominator;
+    start.turns[0] += static_cast<double>(turns);
+    repetition.place = 0;
+}
+
+// Let `state` be at a place in the present cycle.
+void stand(const Repetition& repetition, const Place& place, State& state) {
+    const State& start = repetition.start;
+    state = place.state;
+    run_on(start, state, place.after);
+    double part = static_cast<double>(repetition.part) / static_cast<double>(repetition.denominator);
+    double turns = start.fraction[0] + place.turned + part;
+    state.turns[0] = start.turns[0] + std::floor(turns);
+    state.fraction[0] = turns - std::floor(turns);
+    for (int e = 0; e < LEDGER; ++e) state.energy[e] = start.energy[e] + place.energy[e];
+}
+
+// Step of the cycle that ends at or after `until`; those before it are summed up.
+const CycleStep& step_until(const Model& model, March& march, const Instant& until) {
+    Repetition& repetition = march.repetition;
+    while (true) {
+        if (repetition.place == repetition.steps) begin_cycle(repetition);
+        const CycleStep& step = repetition.tape[repetition.place++];
+        ++march.control.repeated;
+        if (delay(repetition.start, until) <= step.end.after) return step;
+        add_sums(step.sums, march.sums.total, model.train.lanes);
+    }
+}
+
+}  // namespace
+
+void watch(const Model& model, March& march) {
+    Repetition& repetition = march.repetition;
+    if (repetition.cycles == 0) return;
+    if (repetition.recording) record_step(march);
+    if (!comes_round(march)) return;
+    if (++repetition.passed < repetition.cycles) return;
+    repetition.passed = 0;
+    look(model, march);
+}
+
+void forget(March& march) {
+    Repetition& repetition = march.repetition;
+    repetition.age = repetition.anchor_age = repetition.passed = 0;
+    repetition.recording = repetition.playing = false;
+}
+
+void play(const Model& model, March& march, const Instant& until) {
+    Repetition& repetition = march.repetition;
+    const CycleStep& step = step_until(model, march, until);
+    stand(repetition, step.begin, march.begin);
+    stand(repetition, step.end, march.end);
+    march.control.collocated = step.collocated;
+    march.control.step = step.end.after - step.begin.after;
+    std::memcpy(march.last.power, step.power, sizeof step.power);
+    std::memcpy(march.last.rubbing, step.rubbing, sizeof step.rubbing);
+    march.run.motion = step.motion;
+    march.sums.step = step.sums;
+    const State& begin = march.begin;
+    set_step_constants(model, begin, march.moment);
+    if (step.collocated) return;  // else dense output makes the step anew
+    place_bristles(march.first.pairs, begin.bristle);
+    forces(model, begin, march.moment, begin.x, begin.v, 0.0, begin.trim, march.first);
+}
+
+}  // namespace gearbox

@@ -1,0 +1,27 @@
+#pragma once
+
+// Steady running: mesh cycles that come back to where they began are not computed again.
+//
+// Once all that the train depends on has come round, so that it stands where it stood to a small
+// share of the tolerance, and has done so for longer than anything in it takes to settle, its last
+// cycle is kept and repeats until something acts on the train from outside. Dense output reads a
+// repeated step as it reads a computed one.
+//
+// The cycle lasts as long as the speed set-point takes for it: the speed loop would not let it drift.
+
+#include "integrators/march_record.hpp"
+#include "run/clock.hpp"
+#include "train/model.hpp"
+
+namespace gearbox {
+
+// Look whether the step just made ends where the train has been before.
+void watch(const Model& model, March& march);
+
+// Something acts on the train from outside: it must settle anew.
+void forget(March& march);
+
+// Go on to the step of the cycle that ends at or after `until`.
+void play(const Model& model, March& march, const Instant& until);
+
+}  // namespace gearbox

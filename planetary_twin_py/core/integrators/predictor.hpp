@@ -1,0 +1,48 @@
+#pragma once
+
+// What the last passage through a contact state says of the next.
+//
+// Meshing returns to the same contacts in every cycle. In steady running the rest of the motion
+// then grows from the start of the step as it did the last time, so it needs no further sweep. It is
+// a guess: where it is wrong, the sweeps find out.
+
+#include <cmath>
+
+#include "integrators/propagation.hpp"
+
+namespace gearbox {
+
+inline constexpr double ALIKE = 0.25;  // relative difference of the lengths of two steps compared
+inline constexpr int START = MOST_NODES;  // row of what was at the start
+
+// Let rest and friction grow over the step as they did when it was last made.
+template <int L>
+void recall(March& march) {
+    Propagation& run = march.run;
+    const ContactState& past = contacts_of(run);
+    if (!(std::fabs(past.past_step - run.motion.step) < ALIKE * run.motion.step)) return;
+    for (int n = 0; n < run.nodes.count; ++n)
+        for (int m = 0; m < L; ++m) {
+            run.rest[n][m] += past.past_rest[n][m] - past.past_rest[START][m];
+            run.evaluation[n].rubbing[m] += past.past_rubbing[n][m] - past.past_rubbing[START][m];
+        }
+}
+
+// Keep how rest and friction grew over the first step in a contact state.
+template <int L>
+void remember(March& march) {
+    Propagation& run = march.run;
+    ContactState& past = contacts_of(run);
+    past.past_step = run.motion.step;
+    for (int m = 0; m < L; ++m) {
+        double damped = run.damper[m] * run.p[m];
+        past.past_rest[START][m] = run.force[m] + damped + run.spring[m] * run.q[m];
+        past.past_rubbing[START][m] = march.first.rubbing[m];
+    }
+    for (int n = 0; n < run.nodes.count; ++n) {
+        copy<L>(run.rest[n], past.past_rest[n]);
+        copy<L>(run.evaluation[n].rubbing, past.past_rubbing[n]);
+    }
+}
+
+}  // namespace gearbox

@@ -1,0 +1,185 @@
+#include "integrators/rosenbrock.hpp"
+
+#include <cstring>
+
+#include "integrators/bristle_stage.hpp"
+#include "integrators/rosenbrock_coefficients.hpp"
+#include "mesh/cycle.hpp"
+#include "mesh/mesh_forces.hpp"
+#include "mesh/stiffness.hpp"
+#include "train/body_speed.hpp"
+#include "train/equations.hpp"
+#include "tribology/tooth_friction.hpp"
+#include "vector/cholesky.hpp"
+
+namespace gearbox {
+
+namespace {
+
+using namespace ros34pw2;
+
+constexpr double ENDS[2] = {1.0, -1.0};
+
+// K, and M/(gamma h) + C + gamma h K, of the contacts at the middle of the step.
+void assemble_meshes(const Model& model, const State& state, const StepConstants& constants,
+                     double h, Workspace& work) {
+    const Train& train = model.train;
+    const double step = GAMMA * h, pace = constants.cycle_rate + cycle_shift(train, state.v);
+    for (std::int64_t i = 0; i < train.meshes; ++i) {
+        if (state.side[i] == OPEN) continue;
+        std::int64_t kind = train.kind[i];
+        double side = static_cast<double>(state.side[i]), copies = train.copies[i];
+        double drift = copies * push_drift(model, state, constants, i, pace);
+        for (int j = 0; j < GEARS; ++j)
+            work.drift[train.body[i][j]] -= side * drift * train.sign[i][j];
+        double cycle = constants.start[i] + side * pace * 0.5 * h;
+        double k = copies * mesh_stiffness(train, kind, state.segment[i], cycle);
+        add_outer(work.stiffness, train.body[i], train.sign[i], GEARS, k);
+        add_outer(work.system, train.body[i], train.sign[i], GEARS,
+                  k * (constants.tau[kind] + step));
+    }
+}
+
+void assemble(const Model& model, const State& state, const StepConstants& constants, double h,
+              const Evaluation& first, Workspace& work) {
+    const Train& train = model.train;
+    const double step = GAMMA * h;
+    std::memset(work.stiffness, 0, sizeof work.stiffness);
+    std::memset(work.system, 0, sizeof work.system);
+    std::memset(work.drift, 0, sizeof work.drift);
+    assemble_meshes(model, state, constants, h, work);
+    for (std::int64_t c = 0; c < train.machines; ++c) {
+        double k = train.coupling_stiffness[c];
+        add_outer(work.stiffness, train.coupling[c], ENDS, 2, k);
+        add_outer(work.system, train.coupling[c], ENDS, 2, train.coupling_damping[c] + step * k);
+    }
+    if (train.friction) {
+        if (first.pairs.held)
+            bristle_damping(train, first.pairs, step, work.row, work.system);
+        else
+            friction_damping(train, first.pairs, first.force, h, work.row, work.system);
+    }
+    for (std::int64_t j = 0; j <= train.bodies; ++j) work.system[j][j] += train.mass[j] / step;
+}
+
+// Bodies and trim at stage i, and what its right-hand sides take from the stages before.
+void place_stage(const Train& train, const State& state, double h, int i, Workspace& work) {
+    for (std::int64_t j = 0; j <= train.bodies; ++j) {
+        double x = state.x[j], v = state.v[j], cx = 0.0, cv = 0.0;
+        for (int s = 0; s < i; ++s) {
+            x += STAGE.a[i][s] * work.ux[s][j];
+            v += STAGE.a[i][s] * work.uv[s][j];
+            cx += STAGE.c[i][s] * work.ux[s][j];
+            cv += STAGE.c[i][s] * work.uv[s][j];
+        }
+        work.x[j] = x;
+        work.v[j] = v;
+        work.rx[j] = v + cx / h;
+        work.rv[j] = train.mass[j] * cv / h;
+    }
+    for (std::int64_t a = 0; a < train.axes; ++a) {
+        work.trim[a] = state.trim[a];
+        for (int s = 0; s < i; ++s) work.trim[a] += h * ALPHA[i][s] * work.trim_rate[s][a];
+    }
+}
+
+// What the ledger and the trim get from stage i.
+void add_stage(const Train& train, const State& state, const StepConstants& constants, double h,
+               int i, const Evaluation& out, Workspace& work) {
+    for (std::int64_t a = 0; a < train.axes; ++a) {
+        double speed = body_speed(train, state, work.v, train.coupling[2 * a][0]);
+        double set_speed = state.set_speed[a] + constants.slew[a] * STAGE.abscissa[i] * h;
+        work.trim_rate[i][a] = set_speed - speed;
+    }
+    for (int e = 0; e < LEDGER; ++e) work.energy[e] += h * B[i] * out.power[e];
+    for (std::int64_t c = 0; c < train.machines; ++c)
+        work.way[c] += h * B[i] * work.v[train.coupling[c][0]];
+}
+
+// Stage i: evaluate, then solve for ux[i] and uv[i].
+void make_stage(const Model& model, const State& state, const StepConstants& constants, double h,
+                int i, Evaluation& first, Workspace& work) {
+    const Train& train = model.train;
+    const std::int64_t bodies = train.bodies + 1;
+    const double g = 1.0 / (GAMMA * h);
+    place_stage(train, state, h, i, work);
+    Evaluation& out = i == 0 ? first : work.evaluation;
+    if (i > 0) {
+        bend_bristles(out.pairs, state.bristle, STAGE.a[i], work.bend, i);
+        forces(model, state, constants, work.x, work.v, STAGE.abscissa[i] * h, work.trim, out);
+    }
+    add_stage(train, state, constants, h, i, out, work);
+    double* right = work.uv[i];
+    for (std::int64_t j = 0; j < bodies; ++j) {
+        double value = out.force[j] + work.rv[j] + h * STAGE.drift_weight[i] * work.drift[j];
+        for (std::int64_t k = 0; k < bodies; ++k)
+            value -= work.stiffness[j][k] * work.rx[k] / g;
+        right[j] = value;
+    }
+    if (first.pairs.held)
+        pull_bristles(train, first.pairs, out.pairs, h, GAMMA * h, STAGE.c[i], i, right, work);
+    solve(work.system, bodies - 1, right);
+    right[bodies - 1] = 0.0;
+    for (std::int64_t j = 0; j < bodies; ++j) work.ux[i][j] = (work.rx[j] + right[j]) / g;
+    work.ux[i][bodies - 1] = 0.0;
+    if (first.pairs.held) solve_bristles(train, first.pairs, GAMMA * h, right, i, work);
+}
+
+// Let the machines do their work over the way that the step makes.
+//
+// A shaft is wound up by far more than it swings: what its end is wrong by, times all of its
+// torque, would be missing in the ledger, though both ends of the shaft agree on it.
+void work_over_the_way(const Train& train, const State& state, double h, const State& out,
+                       Workspace& work) {
+    for (std::int64_t c = 0; c < train.machines; ++c) {
+        std::int64_t body = train.coupling[c][0];
+        double force = work.energy[IMPULSE + c] / (h * train.radius[body]);
+        work.energy[WORK + c] += force * (out.x[body] - state.x[body] - work.way[c]);
+    }
+}
+
+void begin_sums(const State& state, State& out, Workspace& work) {
+    std::memset(work.energy, 0, sizeof work.energy);
+    std::memset(work.way, 0, sizeof work.way);
+    std::memset(work.error_x, 0, sizeof work.error_x);
+    std::memset(work.error_v, 0, sizeof work.error_v);
+    std::memset(work.error_bristle, 0, sizeof work.error_bristle);
+    std::memcpy(out.x, state.x, sizeof out.x);
+    std::memcpy(out.v, state.v, sizeof out.v);
+    std::memcpy(out.bristle, state.bristle, sizeof out.bristle);
+    std::memcpy(out.trim, state.trim, sizeof out.trim);
+}
+
+// Add stage i to the new state and the local errors.
+void sum_stage(const Model& model, double h, int i, const Evaluation& first, State& out,
+               Workspace& work) {
+    const Train& train = model.train;
+    for (std::int64_t a = 0; a < train.axes; ++a) out.trim[a] += h * B[i] * work.trim_rate[i][a];
+    for (std::int64_t j = 0; j <= train.bodies; ++j) {
+        out.x[j] += STAGE.weight[i] * work.ux[i][j];
+        out.v[j] += STAGE.weight[i] * work.uv[i][j];
+        work.error_x[j] += STAGE.error_weight[i] * work.ux[i][j];
+        work.error_v[j] += STAGE.error_weight[i] * work.uv[i][j];
+    }
+    if (!first.pairs.held) return;
+    for (std::int64_t k = 0; k < first.pairs.count; ++k) {
+        out.bristle[k] += STAGE.weight[i] * work.bend[i][k];
+        work.error_bristle[k] += STAGE.error_weight[i] * work.bend[i][k];
+    }
+}
+
+}  // namespace
+
+void rosenbrock_step(const Model& model, const State& state, const StepConstants& constants,
+                     double h, Evaluation& first, State& out, Workspace& work) {
+    assemble(model, state, constants, h, first, work);
+    factorise(work.system, model.train.bodies);
+    begin_sums(state, out, work);
+    for (int i = 0; i < STAGES; ++i) {
+        make_stage(model, state, constants, h, i, first, work);
+        sum_stage(model, h, i, first, out, work);
+    }
+    work_over_the_way(model.train, state, h, out, work);
+}
+
+}  // namespace gearbox

@@ -1,0 +1,259 @@
+#include "integrators/step_sums.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+#include "integrators/contact_sums.hpp"
+#include "integrators/propagation.hpp"
+#include "integrators/step_ledger.hpp"
+#include "mesh/deflection.hpp"
+#include "train/equations.hpp"
+
+namespace gearbox {
+
+namespace {
+
+constexpr std::int64_t POINTS = 129;  // room
+constexpr double NEAR = 0.02;  // of a step, by which it may end beside its last node
+
+// Films at the nodes; at two of them without friction, as nothing else asks for them.
+void add_films_of_nodes(const Model& model, March& march) {
+    Propagation& run = march.run;
+    ContactSums& contacts = march.sums.contacts;
+    const double h = march.control.step;
+    if (model.train.friction) {
+        for (std::int64_t n = 0; n < run.nodes.count; ++n)
+            add_films(model.train, run.evaluation[n].pairs, march.sums.weight[n], contacts);
+        return;
+    }
+    std::int64_t early = std::max<std::int64_t>(run.nodes.count - 4, 0), late = run.nodes.count - 2;
+    double t = run.nodes.abscissa[early] * run.motion.step;
+    double u = run.nodes.abscissa[late] * run.motion.step;
+    double weight = h * (u - 0.5 * h) / (u - t);  // of the early one, exact for straight lines
+    for (std::int64_t n : {early, late}) {
+        Evaluation& work = run.evaluation[n];
+        find_contacts(model, march.moment, run.node_v[n], work);
+        add_films(model.train, work.pairs, n == early ? weight : h - weight, contacts);
+    }
+}
+
+// Films at the times of the look. Beyond the end of a step whose flanks part, nodes show films of no
+// load.
+template <int L>
+void add_films_of_look(const Model& model, March& march) {
+    const Train& train = model.train;
+    StepSums& sums = march.sums;
+    Evaluation& work = march.work.evaluation;
+    double *x = march.dense.x, *v = march.dense.v;
+    for (std::int64_t k = 0; k < sums.look.count; ++k) {
+        double at = sums.look.at[k];
+        propagate<L>(march, at, x, v);
+        move_meshes(train, x, v, work.now);
+        mesh_forces(model, march.begin, march.moment, x, v, at, work);
+        find_contacts(model, march.moment, v, work);
+        add_films(train, work.pairs, sums.look.weight[k], sums.contacts);
+    }
+}
+
+// Fill the look at the start and the nodes of a step by collocation.
+template <int L>
+void look_at_nodes(March& march) {
+    const Propagation& run = march.run;
+    Look& look = march.sums.look;
+    look.count = run.nodes.count + 1;
+    look.at[0] = look.weight[0] = 0.0;
+    sum_rows<L>(run.known.states[run.motion.modes].motion, run.q, look.d[0]);
+    copy<L>(march.first.now.push, look.push[0]);
+    for (std::int64_t n = 0; n < run.nodes.count; ++n) {
+        look.at[n + 1] = run.nodes.abscissa[n] * run.motion.step;
+        look.weight[n + 1] = march.sums.weight[n];
+        copy<L>(run.node_d[n], look.d[n + 1]);
+        copy<L>(run.evaluation[n].now.push, look.push[n + 1]);
+    }
+}
+
+// Fill the look at `intervals` + 1 even times of a step by collocation.
+template <int L>
+void look_at_even_times(const Model& model, March& march, std::int64_t intervals) {
+    Propagation& run = march.run;
+    Look& look = march.sums.look;
+    Evaluation& work = march.work.evaluation;
+    State& dense = march.dense;
+    const ContactState& contacts = contacts_of(run);
+    set_even_times(look, 0.0, march.control.step, intervals);
+    for (std::int64_t k = 0; k < look.count; ++k) {
+        modes_at<L>(run, look.at[k]);
+        sum_rows_twice<L>(contacts.form, run.now_q, run.now_p, dense.x, dense.v);
+        sum_rows_twice<L>(contacts.motion, run.now_q, run.now_p, look.d[k], work.now.rate);
+        copy<L>(look.d[k], work.now.d);
+        mesh_forces(model, march.begin, march.moment, dense.x, dense.v, look.at[k], work);
+        copy<L>(work.now.push, look.push[k]);
+    }
+}
+
+// Fill the look at a step by collocation, and sum up its contacts and friction.
+template <int L>
+void add_collocated(const Model& model, March& march) {
+    const Train& train = model.train;
+    const Propagation& run = march.run;
+    StepSums& sums = march.sums;
+    const double h = march.control.step, part = h / run.motion.step;
+    clear_contacts(train, sums.contacts);
+    for (std::int64_t n = 0; n < run.nodes.count; ++n) {
+        sums.weight[n] = node_weight(run, n, part);
+        add_friction(train, run.evaluation[n], sums.weight[n], sums.contacts);
+    }
+    std::int64_t intervals = even_intervals(march, train, h);
+    if (std::fabs(h - run.motion.step) > NEAR * run.motion.step) {
+        look_at_even_times<L>(model, march, std::max(intervals, FEWEST));
+        add_films_of_look<L>(model, march);
+    } else {
+        if (intervals == 0)
+            look_at_nodes<L>(march);
+        else
+            look_at_even_times<L>(model, march, intervals);
+        add_films_of_nodes(model, march);
+    }
+    put_contacts(train, model.oil, sums.contacts, sums.step.integral);
+}
+
+// Let `sums.rates` hold what an evaluation shows of contacts and friction.
+void put_rates(const Model& model, const StepConstants& constants, const double* v,
+               Evaluation& work, StepSums& sums) {
+    if (!model.train.friction) find_contacts(model, constants, v, work);
+    clear_contacts(model.train, sums.contacts);
+    add_films(model.train, work.pairs, 1.0, sums.contacts);
+    add_friction(model.train, work, 1.0, sums.contacts);
+    put_contacts(model.train, model.oil, sums.contacts, sums.rates);
+}
+
+void add_rates(const Train& train, const StepSums& sums, double weight, double (*out)[MESHES]) {
+    for (int row = 0; row < SUMS; ++row)
+        for (std::int64_t i = 0; i < train.lanes; ++i) out[row][i] += weight * sums.rates[row][i];
+}
+
+// Fill the look at the ends of a stiff step, and sum up its contacts and friction.
+void add_ends(const Model& model, March& march) {
+    const Train& train = model.train;
+    const State& begin = march.begin;
+    StepSums& sums = march.sums;
+    Look& look = sums.look;
+    const double half = 0.5 * march.control.step;
+    look.count = 2;
+    look.at[0] = 0.0;
+    look.at[1] = 2.0 * half;
+    look.weight[0] = look.weight[1] = half;
+    std::memcpy(look.push[0], sums.push, sizeof look.push[0]);
+    if (sums.stale) {
+        Evaluation& work = march.work.evaluation;
+        forces(model, begin, march.moment, begin.x, begin.v, 0.0, begin.trim, work);
+        std::memcpy(look.push[0], work.now.push, sizeof look.push[0]);
+        put_rates(model, march.moment, begin.v, work, sums);
+    }
+    std::memset(sums.step.integral, 0, sizeof sums.step.integral);
+    add_rates(train, sums, half, sums.step.integral);
+    std::memcpy(look.push[1], march.last.now.push, sizeof look.push[1]);
+    std::memcpy(sums.push, march.last.now.push, sizeof sums.push);
+    put_rates(model, march.moment, march.end.v, march.last, sums);
+    add_rates(train, sums, half, sums.step.integral);
+    for (std::int64_t i = 0; i < train.meshes; ++i) {
+        look.d[0][i] = mesh_motion(train, i, begin.x);
+        look.d[1][i] = mesh_motion(train, i, march.end.x);
+    }
+}
+
+// Times of two values after the one between them, their inverses, and that of their distance.
+struct Around {
+    double left, right, lean, rise, bend;
+};
+
+// Vertex of the parabola through three values, if it lies between them; else the middle one.
+inline double vertex(const Around& at, double before, double here, double after) {
+    double a = (before - here) * at.lean, b = (after - here) * at.rise;
+    double curve = (b - a) * at.bend;
+    double slope = a - curve * at.left;
+    double place = -0.5 * slope / curve;
+    bool between = (at.left < place) & (place < at.right);
+    double found = here + 0.5 * slope * place;
+    return between ? found : here;
+}
+
+template <int L>
+void add_look_in_lanes(const StepConstants& constants, const Look& look, MeshSums& step) {
+    double mean[L] = {}, square[L] = {}, force_sum[L] = {}, dte[L] = {}, force_peak[L] = {};
+    for (std::int64_t n = 0; n < look.count; ++n) {
+        double weight = look.weight[n];
+        for (int i = 0; i < L; ++i) {
+            double d = look.d[n][i], force = std::max(look.push[n][i], 0.0);
+            mean[i] += weight * d;
+            square[i] += weight * d * d;
+            force_sum[i] += weight * constants.side[i] * force;
+            dte[i] = std::max(dte[i], std::fabs(d));
+            force_peak[i] = std::max(force_peak[i], force);
+        }
+    }
+    for (std::int64_t n = 1; n < look.count - 1; ++n) {
+        double left = look.at[n - 1] - look.at[n], right = look.at[n + 1] - look.at[n];
+        Around at{left, right, 1.0 / left, 1.0 / right, 1.0 / (right - left)};
+        for (int i = 0; i < L; ++i) {
+            double d = vertex(at, look.d[n - 1][i], look.d[n][i], look.d[n + 1][i]);
+            double push = vertex(at, look.push[n - 1][i], look.push[n][i], look.push[n + 1][i]);
+            dte[i] = std::max(dte[i], std::fabs(d));
+            force_peak[i] = std::max(force_peak[i], push);
+        }
+    }
+    copy<L>(mean, step.integral[DTE]);
+    copy<L>(square, step.integral[SQUARE]);
+    copy<L>(force_sum, step.integral[MESH_FORCE]);
+    copy<L>(dte, step.dte_peak);
+    copy<L>(force_peak, step.force_peak);
+}
+
+}  // namespace
+
+void sum_step(const Model& model, March& march) {
+    march.sums.step.time = march.control.step;
+    if (march.control.collocated)
+        with_lanes(model.train, [&](auto lanes) { add_collocated<lanes>(model, march); });
+    else
+        add_ends(model, march);
+    add_look(model.train, march.moment, march.sums.look, march.sums.step);
+}
+
+// Nodes resolve as many radians of a free wave as they are; even times one each. Waves below the
+// tolerance do not count.
+std::int64_t even_intervals(const March& march, const Train& train, double h) {
+    const Propagation& run = march.run;
+    const ModalMotion& motion = run.motion;
+    const double(*reach)[MESHES] = run.known.states[motion.modes].reach;
+    const double by_nodes = static_cast<double>(run.nodes.count);
+    double fastest = 0.0;
+    for (std::int64_t m = 0; m < train.lanes; ++m) {
+        double phase = motion.rate[m] * h;
+        if (!(phase > std::max(fastest, by_nodes)) || motion.slow[m] != motion.fast[m]) continue;
+        double swing = std::fabs(motion.free[0][m]) + std::fabs(motion.free[1][m]) / motion.rate[m];
+        double largest = *std::max_element(reach[m], reach[m] + train.meshes);
+        if (swing * largest > march.control.tolerance_x) fastest = phase;
+    }
+    // A phase beyond the room counts as the room; so does none that is not a number.
+    double halves = std::ceil(0.5 * std::min(fastest, static_cast<double>(POINTS)));
+    return std::min(2 * static_cast<std::int64_t>(halves), POINTS - 1);
+}
+
+void set_even_times(Look& look, double begin, double end, std::int64_t intervals) {
+    const double gap = (end - begin) / static_cast<double>(intervals);
+    look.count = intervals + 1;
+    for (std::int64_t k = 0; k < look.count; ++k) {
+        look.at[k] = begin + static_cast<double>(k) * gap;
+        look.weight[k] = gap / 3.0 * (k % 2 == 1 ? 4.0 : 2.0);
+    }
+    look.weight[0] = look.weight[intervals] = gap / 3.0;
+}
+
+void add_look(const Train& train, const StepConstants& constants, const Look& look,
+              MeshSums& step) {
+    with_lanes(train, [&](auto lanes) { add_look_in_lanes<lanes>(constants, look, step); });
+}
+
+}  // namespace gearbox

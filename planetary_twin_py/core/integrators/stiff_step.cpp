@@ -1,0 +1,122 @@
+#include "integrators/stiff_step.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <limits>
+
+#include "integrators/edges.hpp"
+#include "integrators/flanks.hpp"
+#include "integrators/frame.hpp"
+#include "integrators/rosenbrock.hpp"
+#include "integrators/step_control.hpp"
+#include "mesh/deflection.hpp"
+#include "train/equations.hpp"
+#include "tribology/bristles.hpp"
+#include "tribology/tooth_friction.hpp"
+
+namespace gearbox {
+
+namespace {
+
+constexpr double STIFF = 3.0;  // by which errors count more
+// Of the tolerance: error of the share of friction of a pair that holds.
+constexpr double BRISTLE_SHARE = 1.0;
+constexpr double ROUNDING = 1e-15;  // [m/s] errors of a speed below it are none
+constexpr std::int64_t EVALUATIONS = 4;  // of the equations in a step
+constexpr double ASTRAY = std::numeric_limits<double>::infinity();
+
+// One step of h from `begin` into `end`, without regard to events.
+void try_step(const Model& model, March& march, double h) {
+    const State& begin = march.begin;
+    State& end = march.end;
+    end = begin;
+    rosenbrock_step(model, begin, march.moment, h, march.first, end, march.work);
+    pass_time(model, march, h);
+    for (int e = 0; e < LEDGER; ++e) end.energy[e] = begin.energy[e] + march.work.energy[e];
+    place_bristles(march.last.pairs, end.bristle);
+    forces(model, begin, march.moment, end.x, end.v, h, end.trim, march.last);
+    march.control.evaluations += EVALUATIONS;
+}
+
+// Largest local error of a mesh or of the speed of a body, relative to its tolerance. Infinite where
+// the step went astray: a comparison with NaN would let it pass.
+double error_norm(const Model& model, const March& march) {
+    const Train& train = model.train;
+    const Workspace& work = march.work;
+    const Control& control = march.control;
+    double largest = 0.0, total = 0.0;
+    for (std::int64_t i = 0; i < train.meshes; ++i) {
+        double tau = march.moment.tau[train.kind[i]];
+        double error = std::fabs(mesh_motion(train, i, work.error_x));
+        // Damping turns an error of the rate into one of the force, k tau times as large.
+        double slip = std::max(std::fabs(mesh_motion(train, i, work.error_v)) - ROUNDING, 0.0);
+        largest = std::max(largest, std::max(error, tau * slip) / control.tolerance_x);
+    }
+    for (std::int64_t j = 0; j < train.bodies; ++j) {
+        largest = std::max(largest, std::fabs(work.error_v[j]) / control.tolerance_v);
+        total += work.error_v[j];
+    }
+    for (std::int64_t k = 0; control.creeping && k < train.slots * train.meshes; ++k) {
+        double error = std::fabs(work.error_bristle[k]);
+        largest = std::max(largest, error / (BRISTLE_SHARE * control.tolerance));
+        total += error;
+    }
+    return std::isfinite(total) ? largest : ASTRAY;
+}
+
+struct Controlled {
+    double step;
+    double factor;  // by which the next may be longer
+};
+
+// Try steps from h downwards until the error is allowed.
+Controlled controlled_step(const Model& model, March& march, double h) {
+    while (true) {
+        try_step(model, march, h);
+        double error = STIFF * error_norm(model, march);
+        double factor = error > 0.0 ? SAFETY * std::pow(error, -1.0 / ROSENBROCK_ORDER) : GROW;
+        if (error <= 1.0 || (h <= SHORTEST_STEP && error < ASTRAY)) return {h, factor};
+        if (h <= SHORTEST_STEP) throw NoFiniteState{};
+        ++march.control.rejected;
+        h = std::max(h * std::max(SHRINK, factor), SHORTEST_STEP);
+    }
+}
+
+// Forces at the start of the step.
+void find_first_forces(const Model& model, March& march) {
+    Control& control = march.control;
+    const State& begin = march.begin;
+    Evaluation &first = march.first, &last = march.last;
+    if (control.changed || control.collocated) {
+        place_bristles(first.pairs, begin.bristle);
+        forces(model, begin, march.moment, begin.x, begin.v, 0.0, begin.trim, first);
+        ++control.evaluations;
+        control.changed = false;
+    } else {  // forces do not depend on the frame in which x is measured
+        std::memcpy(first.force, last.force, sizeof first.force);
+        std::memcpy(first.power, last.power, sizeof first.power);
+        copy_friction(last.pairs, first.pairs);
+    }
+}
+
+}  // namespace
+
+std::int64_t stiff_step(const Model& model, March& march, double longest, double event) {
+    Control& control = march.control;
+    find_first_forces(model, march);
+    control.collocated = false;
+    double trial = std::min(planned(event, std::min(control.next_stiff, longest), 1.0), longest);
+    auto [h, factor] = controlled_step(model, march, trial);
+    double candidate = h * std::min(GROW, std::max(SHRINK, factor));
+    // A step cut short by an event says little about the steps to come.
+    control.next_stiff = factor >= 1.0 ? std::max(candidate, control.next_stiff) : candidate;
+    control.detour = std::max<std::int64_t>(control.detour - 1, 0);
+    ++control.stiff_steps;
+    FlankEvent flank = first_flank_event(model, march);
+    if (flank.mesh != NO_MESH && h > SHORTEST_STEP && !at_event(model, march, flank.mesh))
+        try_step(model, march, std::max(flank.when, SHORTEST_STEP));
+    return flank.mesh;
+}
+
+}  // namespace gearbox

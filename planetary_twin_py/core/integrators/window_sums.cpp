@@ -1,0 +1,61 @@
+#include "integrators/window_sums.hpp"
+
+#include <algorithm>
+
+#include "integrators/contact_sums.hpp"
+#include "integrators/interpolant.hpp"
+#include "integrators/step_sums.hpp"
+#include "mesh/add_sums.hpp"
+#include "mesh/deflection.hpp"
+#include "mesh/mesh_forces.hpp"
+
+namespace gearbox {
+
+namespace {
+
+// Let the last step count from `begin` to `end` [s] after its start.
+void count_part(const Model& model, March& march, double begin, double end) {
+    if (end <= begin) return;
+    const Train& train = model.train;
+    StepSums& sums = march.sums;
+    Look& look = sums.look;
+    Evaluation& work = march.work.evaluation;
+    const double *x = march.dense.x, *v = march.dense.v;
+    std::int64_t intervals = FEWEST;
+    if (march.control.collocated)
+        intervals = std::max(even_intervals(march, train, end - begin), FEWEST);
+    set_even_times(look, begin, end, intervals);
+    clear_contacts(train, sums.contacts);
+    for (std::int64_t k = 0; k < look.count; ++k) {
+        interpolate(model, march, look.at[k]);
+        move_meshes(train, x, v, work.now);
+        std::copy(work.now.d, work.now.d + train.lanes, look.d[k]);
+        mesh_forces(model, march.begin, march.moment, x, v, look.at[k], work);
+        std::copy(work.now.push, work.now.push + train.lanes, look.push[k]);
+        find_contacts(model, march.moment, v, work);
+        add_films(train, work.pairs, look.weight[k], sums.contacts);
+        add_friction(train, work, look.weight[k], sums.contacts);
+    }
+    sums.part.time = end - begin;
+    put_contacts(train, model.oil, sums.contacts, sums.part.integral);
+    add_look(train, march.moment, look, sums.part);
+    add_sums(sums.part, sums.total, train.lanes);
+}
+
+}  // namespace
+
+void count_step(const Model& model, March& march) {
+    StepSums& sums = march.sums;
+    if (sums.taken == 0.0)
+        add_sums(sums.step, sums.total, model.train.lanes);
+    else
+        count_part(model, march, sums.taken, march.control.step);
+    sums.taken = 0.0;
+}
+
+void count_until(const Model& model, March& march, double delay) {
+    count_part(model, march, march.sums.taken, delay);
+    march.sums.taken = delay;
+}
+
+}  // namespace gearbox
