@@ -251,7 +251,11 @@ inline void bind_records(nb::module_& m) {
         .FIELD(ModalMotion, fast)
         .FIELD(ModalMotion, particular)
         .FIELD(ModalMotion, free);
+    nb::class_<ContactKey>(m, "ContactKey")
+        .def_ro("sun", &ContactKey::sun)
+        .def_ro("ring", &ContactKey::ring);
     record<ContactState>(m, "ContactState")
+        .FIELD(ContactState, key)
         .FIELD(ContactState, follower)
         .FIELD(ContactState, step)
         .FIELD(ContactState, past_step)
