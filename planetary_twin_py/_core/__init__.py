@@ -6,11 +6,12 @@ is in the stub beside, which is made when it is built.
 
 from importlib import import_module
 from importlib.util import find_spec
+from types import ModuleType
 
 from .levels import runnable_levels
 
 
-def _load():
+def _load() -> ModuleType:
     for level in runnable_levels():
         if find_spec(f"{__name__}.{level}"):
             return import_module(f"{__name__}.{level}")

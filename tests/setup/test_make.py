@@ -59,14 +59,15 @@ def test_second_setup_does_nothing():
     [
         ("msgs_spec/msg/GearboxState.msg", {"tools/build_interfaces"}),
         ("ros_ws/src/planetary_twin/setup.py", {"tools/install_nodes"}),
-        ("planetary_twin_py/dynamics/equations.py", {".venv/bin/python"}),
+        ("planetary_twin_py/core/train/train.hpp", {"tools/build_core"}),
+        ("planetary_twin_py/dynamics/train.py", set()),
         (
             "requirements.lock",
             {
                 "tools/make_venv",
                 "tools/build_interfaces",
                 ".venv/bin/uv",
-                ".venv/bin/python",
+                "tools/build_core",
                 "tools/install_nodes",
             },
         ),

@@ -5,6 +5,7 @@ import re
 import shutil
 import subprocess
 import sys
+import tarfile
 import tomllib
 import zipfile
 from pathlib import Path
@@ -14,6 +15,8 @@ import pytest
 from catkin_pkg.package import parse_package
 from packaging.requirements import Requirement
 from packaging.version import Version
+
+from planetary_twin_py._core.levels import NEEDS
 
 ROOT = Path(__file__).parents[2]
 PROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text())["project"]
@@ -25,8 +28,8 @@ NOT_THE_MODELS = ("ros", "rclpy", "rerun", "mcap", "matplotlib", "pyarrow", "dis
 
 
 @pytest.fixture(scope="module")
-def wheel(tmp_path_factory):
-    """The wheel of the files that are kept, built without a network."""
+def built(tmp_path_factory):
+    """Folder of the source archive, made of the files that are kept, and of the wheel made of it."""
     folder = tmp_path_factory.mktemp("wheel")
     listed = subprocess.run(
         ["git", "ls-files", "-co", "--exclude-standard"],
@@ -38,12 +41,35 @@ def wheel(tmp_path_factory):
             shutil.copy(ROOT / name, folder / "source" / name, follow_symlinks=False)
     uv = [Path(sys.prefix, "bin/uv"), "--offline", "--quiet"]
     subprocess.run(
-        [*uv, "build", "--wheel", "--no-build-isolation", "--python", sys.executable,
+        [*uv, "build", "--no-build-isolation", "--python", sys.executable,
          "--out-dir", folder, folder / "source"],
         check=True,
     )  # fmt: skip
-    (made,) = folder.glob("*.whl")
+    return folder
+
+
+@pytest.fixture(scope="module")
+def wheel(built):
+    (made,) = built.glob("*.whl")
     return made
+
+
+def test_the_source_archive_holds_what_is_compiled_and_nothing_that_was(built):
+    (archive,) = built.glob("*.tar.gz")
+    with tarfile.open(archive) as opened:
+        held = {name.partition("/")[2] for name in opened.getnames()}
+    core = (ROOT / "planetary_twin_py/core").rglob("*.?pp")
+    assert {str(file.relative_to(ROOT)) for file in core} <= held
+    assert not [name for name in held if name.endswith((".so", ".pyi", ".pyc"))]
+
+
+def test_the_wheel_holds_the_core_for_every_level_and_its_stub_but_no_source(wheel):
+    held = zipfile.ZipFile(wheel).namelist()
+    core = [name for name in held if name.startswith("planetary_twin_py/_core/")]
+    assert {Path(name).name.split(".")[0] for name in core if name.endswith(".so")} == set(NEEDS)
+    assert "planetary_twin_py/_core/__init__.pyi" in core
+    assert not [name for name in held if name.endswith((".hpp", ".cpp", "CMakeLists.txt"))]
+    assert "-none-" not in wheel.name
 
 
 @pytest.fixture(scope="module")
@@ -61,6 +87,7 @@ def test_the_wheel_holds_the_package_and_what_it_reads(wheel):
         str(file.relative_to(ROOT))
         for pattern in ("**/*.py", "scene/packaged/*.yaml", "recording/ros2/msg/*.msg", "py.typed")
         for file in kept.glob(pattern)
+        if not file.is_relative_to(kept / "core")
     }
     needed |= {
         f"planetary_twin_py/recording/ros2/msg/{m.name}" for m in ROOT.glob("msgs_spec/msg/*")

@@ -1,7 +1,8 @@
 #pragma once
 
-// A record as a Python class: scalars are attributes, arrays are NumPy views of the record's memory,
-// nested records are references into it. A record never moves, so views stay valid with its owner.
+// A record as a Python class: scalars are attributes, arrays are NumPy views of the record's
+// memory, nested records are references into it. A record never moves, so views stay valid with its
+// owner.
 
 #include <cstring>
 #include <new>
@@ -38,8 +39,8 @@ auto view(Array& array, nb::handle owner) {
     std::vector<size_t> shape;
     extents<Array>::append(shape);
     using scalar = typename extents<Array>::scalar;
-    return nb::ndarray<nb::numpy, scalar>(
-        reinterpret_cast<scalar*>(&array), shape.size(), shape.data(), owner);
+    return nb::ndarray<nb::numpy, scalar>(reinterpret_cast<scalar*>(&array), shape.size(),
+                                          shape.data(), owner);
 }
 
 // Copy values into an array; they may be fewer than its room.
@@ -56,36 +57,39 @@ template <class Record>
 class record : public nb::class_<Record> {
 public:
     record(nb::module_& module, const char* name) : nb::class_<Record>(module, name) {
-        this->def("__init__",
-                  [](nb::pointer_and_handle<Record> self, nb::kwargs values) {
-                      std::memset(static_cast<void*>(self.p), 0, sizeof(Record));
-                      new (self.p) Record{};
-                      nb::inst_mark_ready(self.h);
-                      for (auto [key, value] : values) nb::setattr(self.h, key, value);
-                  });
+        this->def("__init__", [](nb::pointer_and_handle<Record> self, nb::kwargs values) {
+            std::memset(static_cast<void*>(self.p), 0, sizeof(Record));
+            new (self.p) Record{};
+            nb::inst_mark_ready(self.h);
+            for (auto [key, value] : values) nb::setattr(self.h, key, value);
+        });
         // On the heap: some records are larger than the stack of a thread.
-        this->def("copy", [](const Record& self) { return new Record(self); },
-                  nb::rv_policy::take_ownership, "A copy of the record.");
-        this->def("__copy__", [](const Record& self) { return new Record(self); },
-                  nb::rv_policy::take_ownership);
-        this->def("raw",
-                  [](nb::handle_t<Record> self) {
-                      Record* record = nb::inst_ptr<Record>(self);
-                      size_t size[1] = {sizeof(Record)};
-                      return nb::ndarray<nb::numpy, std::uint8_t>(
-                          reinterpret_cast<std::uint8_t*>(record), 1, size, self);
-                  },
-                  "The memory of the record as bytes.");
+        this->def(
+            "copy", [](const Record& self) { return new Record(self); },
+            nb::rv_policy::take_ownership, "A copy of the record.");
+        this->def(
+            "__copy__", [](const Record& self) { return new Record(self); },
+            nb::rv_policy::take_ownership);
+        this->def(
+            "raw",
+            [](nb::handle_t<Record> self) {
+                Record* record = nb::inst_ptr<Record>(self);
+                size_t size[1] = {sizeof(Record)};
+                return nb::ndarray<nb::numpy, std::uint8_t>(reinterpret_cast<std::uint8_t*>(record),
+                                                            1, size, self);
+            },
+            "The memory of the record as bytes.");
     }
 
     template <class Member>
-    record& field(const char* name, Member Record::*member) {
-        if constexpr (std::is_class_v<typename extents<Member>::scalar> && std::is_array_v<Member>) {
+    record& field(const char* name, Member Record::* member) {
+        if constexpr (std::is_class_v<typename extents<Member>::scalar> &&
+                      std::is_array_v<Member>) {
             this->def_prop_ro(name, [member](nb::handle_t<Record> self) {
                 nb::list parts;
                 for (auto& part : nb::inst_ptr<Record>(self)->*member)
                     parts.append(nb::cast(&part, nb::rv_policy::reference_internal, self));
-                return parts;
+                return nb::borrow<nb::typed<nb::list, typename extents<Member>::scalar>>(parts);
             });
         } else if constexpr (std::is_array_v<Member>) {
             this->def_prop_rw(
@@ -95,7 +99,7 @@ public:
                 },
                 [member](nb::handle_t<Record> self, nb::handle values) {
                     fill(nb::cast(view(nb::inst_ptr<Record>(self)->*member, self),
-                                 nb::rv_policy::reference),
+                                  nb::rv_policy::reference),
                          values);
                 });
         } else {

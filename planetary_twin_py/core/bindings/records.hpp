@@ -422,7 +422,7 @@ inline void bind_records(nb::module_& m) {
         .FIELD(March, sums);
     record<Equilibrium>(m, "Equilibrium")
         .FIELD(Equilibrium, state)
-        .FIELD(Equilibrium, moment)
+        .FIELD(Equilibrium, step)
         .FIELD(Equilibrium, evaluation)
         .FIELD(Equilibrium, before)
         .FIELD(Equilibrium, lean)
@@ -438,13 +438,13 @@ inline void bind_records(nb::module_& m) {
         .FIELD(Springs, copies)
         .FIELD(Springs, error)
         .FIELD(Springs, compliance)
-        .FIELD(Springs, rub)
+        .FIELD(Springs, friction)
         .FIELD(Springs, steps);
     record<Problem>(m, "Problem")
         .FIELD(Problem, model)
         .FIELD(Problem, start)
         .FIELD(Problem, state)
-        .FIELD(Problem, moment)
+        .FIELD(Problem, step)
         .FIELD(Problem, evaluation);
     record<Film>(m, "Film")
         .FIELD(Film, log_coefficient)

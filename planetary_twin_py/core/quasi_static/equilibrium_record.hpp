@@ -11,7 +11,7 @@ namespace gearbox {
 
 struct alignas(64) Equilibrium {
     State state;
-    StepConstants moment;
+    StepConstants step;
     Evaluation evaluation;
     alignas(64) double before[16];  // what rubbed in the pass before [N]
     alignas(64) std::int64_t lean[16];  // side to which an open mesh would close

@@ -13,7 +13,7 @@ struct alignas(64) Problem {
     Model model;
     State start;
     State state;
-    StepConstants moment;
+    StepConstants step;
     Evaluation evaluation;
 };
 

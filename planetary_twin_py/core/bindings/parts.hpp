@@ -1,0 +1,14 @@
+#pragma once
+
+// The parts of the module, each bound in a file of its own.
+
+#include <nanobind/nanobind.h>
+
+namespace gearbox {
+
+void bind_initial_state(nanobind::module_& m);
+void bind_quasi_static(nanobind::module_& m);
+void bind_integrators(nanobind::module_& m);
+void bind_peers(nanobind::module_& m);
+
+}  // namespace gearbox

@@ -1,0 +1,192 @@
+// Quasi-static running, for `planetary_twin_py.quasi_static`.
+
+#include <memory>
+
+#include <nanobind/stl/pair.h>
+
+#include "bindings/arrays.hpp"
+#include "bindings/parts.hpp"
+#include "quasi_static/equilibrium.hpp"
+#include "quasi_static/motion.hpp"
+#include "quasi_static/planet_load.hpp"
+#include "quasi_static/quadrature.hpp"
+#include "quasi_static/sampling.hpp"
+#include "quasi_static/second_coupling.hpp"
+#include "quasi_static/totals.hpp"
+
+namespace gearbox {
+
+namespace {
+
+using Steps = std::tuple<double, double, double>;
+
+using Shown = double[QUANTITIES][MESHES];
+
+// (QUANTITIES, meshes), without the room beyond.
+nb::object shown_array(const Shown& shown, std::int64_t meshes) {
+    double packed[QUANTITIES * MESHES];
+    for (int q = 0; q < QUANTITIES; ++q)
+        std::copy(shown[q], shown[q] + meshes, packed + q * meshes);
+    return new_array(packed, {std::size_t(QUANTITIES), std::size_t(meshes)});
+}
+
+nb::object py_settle(const Model& model, double tolerance, Equilibrium& run) {
+    Shown shown;
+    {
+        nb::gil_scoped_release release;
+        settle(model, tolerance, run, shown);
+    }
+    return shown_array(shown, model.train.meshes);
+}
+
+auto py_integrate(const Model& model, double tolerance, const State& origin, Equilibrium& run,
+                  std::pair<double, double> span) {
+    Shown shown;
+    double out[TOTALS], peak[PEAKS][MESHES] = {};
+    {
+        nb::gil_scoped_release release;
+        integrate({model, tolerance, run, shown}, origin, {span.first, span.second}, out, peak);
+    }
+    return nb::make_tuple(new_array(out, {TOTALS}), new_array(&peak[0][0], {PEAKS, MESHES}));
+}
+
+auto py_divide_cycle(const Model& model, double tolerance, const State& origin, Equilibrium& run,
+                     const ConstArray& edges, double period) {
+    Shown shown;
+    Panels panels;
+    {
+        nb::gil_scoped_release release;
+        panels = divide_cycle({model, tolerance, run, shown}, origin,
+                              {edges.data(), edges.size()}, period);
+    }
+    std::size_t m = panels.phase.size();
+    return nb::make_tuple(new_array(panels.phase.data(), {m}),
+                          new_array(panels.totals.data()->data(), {m, TOTALS}),
+                          new_array(panels.peaks.data()->data(), {m, PEAKS, MESHES}));
+}
+
+void py_follow(const Model& model, double tolerance, State& mark, Equilibrium& run,
+               const ConstArray& edges, const InstantTuple& until, bool stop, const Array& totals,
+               const Array& peak) {
+    check_size("totals", totals.size(), TOTALS);
+    check_size("peak", peak.size(), PEAKS * MESHES);
+    nb::gil_scoped_release release;
+    Shown shown;
+    follow({model, tolerance, run, shown}, mark, {edges.data(), edges.size()}, instant_of(until),
+           stop, totals.data(), reinterpret_cast<double (*)[MESHES]>(peak.data()));
+}
+
+void py_sample(const Model& model, double tolerance, const State& origin, Equilibrium& run,
+               const InstantTuple& at, const SamplesTuple& out, std::int64_t row) {
+    Samples samples = samples_of(out);
+    if (row < 0 || row >= samples.rows) throw nb::index_error("row");
+    nb::gil_scoped_release release;
+    sample(model, tolerance, origin, run, instant_of(at), samples, row);
+}
+
+void py_sample_all(const Model& model, double tolerance, State& origin, Equilibrium& run,
+                   const SamplingTuple& at, const SamplesTuple& out) {
+    Samples samples = samples_of(out);
+    nb::gil_scoped_release release;
+    sample_all(model, tolerance, origin, run, sampling_of(at), samples);
+}
+
+void py_add_rates(const Train& train, const ConstArray& power, const ConstArray& shown,
+                  double weight, const Array& out) {
+    check_size("power", power.size(), LEDGER);
+    check_size("shown", shown.size(), std::size_t(QUANTITIES * train.meshes));
+    check_size("out", out.size(), TOTALS);
+    Shown room;
+    for (int q = 0; q < QUANTITIES; ++q)
+        std::copy_n(shown.data() + q * train.meshes, train.meshes, room[q]);
+    add_rates(train, power.data(), room, weight, out.data());
+}
+
+double py_steepest_torque(const Model& model, double tolerance, std::int64_t lean,
+                          const State& origin, const ConstArray& speed) {
+    check_size("speed", speed.size(), AXES);
+    nb::gil_scoped_release release;
+    return steepest_torque(model, tolerance, lean, origin, speed.data());
+}
+
+template <double inverse(double, double, double, const double*)>
+double with_steps(double value, double compliance, double friction, const Steps& steps) {
+    double room[] = {std::get<0>(steps), std::get<1>(steps), std::get<2>(steps)};
+    return inverse(value, compliance, friction, room);
+}
+
+void bind_planet_load(nb::module_& m) {
+    m.def(
+        "ring_force",
+        [](double w, double compliance, double friction, const Steps& steps) {
+            double room[] = {std::get<0>(steps), std::get<1>(steps), std::get<2>(steps)};
+            SpringForce found = ring_force(w, compliance, friction, room);
+            return std::make_pair(found.force, found.growth);
+        },
+        nb::arg("w"), nb::arg("compliance"), nb::arg("friction"), nb::arg("steps"),
+        "Force [N] of a planet on the ring and its growth with the wind-up w [N/m].");
+    m.def("wind_up_at", &with_steps<wind_up_at>, nb::arg("force"), nb::arg("compliance"),
+          nb::arg("friction"), nb::arg("steps"),
+          "A wind-up [m] at which a planet has a force on the ring.");
+    m.def(
+        "planet_force",
+        [](const Springs& springs, std::int64_t p, double w) {
+            SpringForce found = planet_force(springs, p, w);
+            return std::make_pair(found.force, found.growth);
+        },
+        nb::arg("springs"), nb::arg("p"), nb::arg("w"),
+        "Force [N] of planet p on the ring at a wind-up [m], and its growth with it.");
+    m.def("share", &share, nb::arg("total"), nb::arg("planets"), nb::arg("springs"),
+          "The wind-up [m] at which the planets have `total` [N] on the ring.");
+}
+
+}  // namespace
+
+void bind_quasi_static(nb::module_& m) {
+    m.attr("TOTALS") = TOTALS;
+    m.attr("PEAKS") = PEAKS;
+    bind_planet_load(m);
+    m.def(
+        "first_guess", [](std::int64_t lean) { return first_guess(lean); }, nb::arg("lean"),
+        "An equilibrium still to be found, the teeth on the side `lean`.");
+    m.def("settle", &py_settle, nb::arg("model"), nb::arg("tolerance"), nb::arg("run"),
+          "Bring `run` into equilibrium; what the meshes show (QUANTITIES, meshes).");
+    m.def(
+        "turn_to",
+        [](const Model& model, const State& origin, double after, State& state) {
+            turn_to(model, origin, after, state);
+        },
+        nb::arg("model"), nb::arg("origin"), nb::arg("after"), nb::arg("state"),
+        "Put `state` where the motors are `after` seconds after `origin`.");
+    m.def(
+        "roll",
+        [](const Model& model, State& origin, const InstantTuple& until) {
+            roll(model, origin, instant_of(until));
+        },
+        nb::arg("model"), nb::arg("origin"), nb::arg("until"),
+        "Move `origin` to the last whole second before `until`.");
+    m.def("integrate", &py_integrate, nb::arg("model"), nb::arg("tolerance"), nb::arg("origin"),
+          nb::arg("run"), nb::arg("span"),
+          "Totals (TOTALS,) and peaks (PEAKS, MESHES) of a span of time since `origin` [s].");
+    m.def("divide_cycle", &py_divide_cycle, nb::arg("model"), nb::arg("tolerance"),
+          nb::arg("origin"), nb::arg("run"), nb::arg("edges"), nb::arg("period"),
+          "Panels of one mesh cycle: edges (m,), totals up to them (m, TOTALS), and the peaks of\n"
+          "the panel before each (m, PEAKS, MESHES).");
+    m.def("follow", &py_follow, nb::arg("model"), nb::arg("tolerance"), nb::arg("mark"),
+          nb::arg("run"), nb::arg("edges"), nb::arg("until"), nb::arg("stop"), nb::arg("totals"),
+          nb::arg("peak"), "Move `mark` panel by panel, as long as they end by `until`.");
+    m.def("sample_equilibrium", &py_sample, nb::arg("model"), nb::arg("tolerance"),
+          nb::arg("origin"), nb::arg("run"), nb::arg("at"), nb::arg("out"), nb::arg("row"),
+          "Write the sample at an instant into a row of `out`.");
+    m.def("sample_equilibria", &py_sample_all, nb::arg("model"), nb::arg("tolerance"),
+          nb::arg("origin"), nb::arg("run"), nb::arg("samples"), nb::arg("out"),
+          "Fill all rows of `out`; `origin` moves along.");
+    m.def("add_rates", &py_add_rates, nb::arg("train"), nb::arg("power"), nb::arg("shown"),
+          nb::arg("weight"), nb::arg("out"),
+          "Add what grows at one instant, times `weight` [s], to the totals `out` (TOTALS,).");
+    m.def("steepest_torque", &py_steepest_torque, nb::arg("model"), nb::arg("tolerance"),
+          nb::arg("lean"), nb::arg("origin"), nb::arg("speed"),
+          "Largest change of the second motor's torque per mesh cycle [N m].");
+}
+
+}  // namespace gearbox

@@ -1,0 +1,37 @@
+"""Make the type stub of the built core: stub.py FOLDER, in which planetary_twin_py/_core is built.
+
+It is nanobind's, but that the fields of a record are named where it is made, so that a type checker
+finds one that is misspelt there too, and that an array takes whatever NumPy makes an array of.
+"""
+
+import re
+import sys
+from pathlib import Path
+
+from nanobind import stubgen
+
+ANYTHING = "def __init__(self, **kwargs) -> None: ..."
+ARRAY_SETTER = re.compile(r"(def \w+\(self, arg: )object(, /\) -> None)")
+SETTER = re.compile(r"\.setter\n +def (\w+)\(self, arg: (.+), /\)")
+CLASS = re.compile(r"^class \w+.*:\n(?:(?: .*)?\n)+", re.MULTILINE)
+
+
+def with_fields(record: re.Match[str]) -> str:
+    """Name the fields of a record in its constructor."""
+    fields = "".join(f", {name}: {kind} = ..." for name, kind in SETTER.findall(record[0]))
+    if not fields:
+        return record[0]
+    return record[0].replace(ANYTHING, f"def __init__(self, *{fields}) -> None: ...")
+
+
+def main(folder: Path) -> None:
+    """Write the stub beside what it describes."""
+    out = folder / "planetary_twin_py/_core/__init__.pyi"
+    stubgen.main(["-q", "-i", str(folder), "-m", "planetary_twin_py._core", "-o", str(out)])
+    text = ARRAY_SETTER.sub(r"\1numpy.typing.ArrayLike\2", out.read_text())
+    text = text.replace("import numpy\n", "import numpy\nimport numpy.typing\n", 1)
+    out.write_text(CLASS.sub(with_fields, text))
+
+
+if __name__ == "__main__":
+    main(Path(sys.argv[1]))

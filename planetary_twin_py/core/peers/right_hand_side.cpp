@@ -1,0 +1,104 @@
+#include "peers/right_hand_side.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "mesh/backlash.hpp"
+#include "mesh/cycle.hpp"
+#include "mesh/deflection.hpp"
+#include "mesh/faults.hpp"
+#include "rooms.hpp"
+#include "train/body_speed.hpp"
+#include "train/equations.hpp"
+#include "train/observe.hpp"
+#include "train/set_step_constants.hpp"
+
+namespace gearbox {
+
+namespace {
+
+// Fill what is known of the bodies and the motors at time t.
+void place_bodies(Problem& problem, double t, const double* y) {
+    const Train& train = problem.model.train;
+    const Load& load = problem.model.load;
+    const State& start = problem.start;
+    State& state = problem.state;
+    for (std::int64_t j = 0; j < train.bodies; ++j) {
+        state.x[j] = start.x[j] + y[j];
+        state.v[j] = start.v[j] + y[train.bodies + j];
+    }
+    for (std::int64_t a = 0; a < train.axes; ++a) {
+        state.trim[a] = start.trim[a] + y[2 * train.bodies + a];
+        state.speed[a] = start.speed[a];
+        double turn = start.fraction[a] + start.speed[a] * t / (2.0 * std::numbers::pi);
+        double whole = std::floor(turn);
+        state.turns[a] = start.turns[a] + whole;
+        state.fraction[a] = turn - whole;
+        double gap = load.target_speed[a] - start.set_speed[a], slewed = load.slew_rate * t;
+        state.set_speed[a] = start.set_speed[a] + std::max(-slewed, std::min(gap, slewed));
+    }
+}
+
+// Find the flanks in contact and the segments of their tooth pairs.
+void find_contacts(Problem& problem) {
+    const Train& train = problem.model.train;
+    State& state = problem.state;
+    StepConstants& step = problem.step;
+    const double *x = state.x, *v = state.v;
+    double pace = step.cycle_rate + cycle_shift(train, v);
+    double cycles = frame_cycle(train, state, 1) + cycle_shift(train, x);
+    for (std::int64_t i = 0; i < train.meshes; ++i) {
+        if (departure(problem.model, state, step, i, x, v, {0.0, pace, 0.0}) >= 0.0) continue;
+        double d = deflection(train, step, i, x, v, 0.0, pace).d;
+        std::int64_t side = d > 0.0 ? DRIVE_SIDE : COAST_SIDE;
+        // As `mesh_cycle`, but the cycles of the frame, which take long to count, are counted once.
+        double cycle = static_cast<double>(side) * (cycles - train.phase[i]);
+        cycle += side == COAST_SIDE ? 0.5 : 0.0;
+        cycle -= std::floor(cycle);
+        state.side[i] = side;
+        state.segment[i] =
+            find_segment(train, train.kind[i], cycle, static_cast<double>(side) * pace);
+        take_segment(train, state, step, i);
+        step.start[i] = cycle;
+        if (train.faults > 0) find_faults(train, state, i, side, cycle, step.faulty);
+    }
+}
+
+}  // namespace
+
+void place_problem(Problem& problem, double t, const double* y) {
+    place_bodies(problem, t, y);
+    std::fill(problem.state.side, problem.state.side + problem.model.train.meshes, OPEN);
+    set_step_constants(problem.model, problem.state, problem.step);
+    find_contacts(problem);
+}
+
+void derivative(Problem& problem, double t, const double* y, double* dy) {
+    place_problem(problem, t, y);
+    const Train& train = problem.model.train;
+    const State& state = problem.state;
+    std::int64_t n = train.bodies;
+    forces(problem.model, state, problem.step, state.x, state.v, 0.0, state.trim,
+           problem.evaluation);
+    for (std::int64_t j = 0; j < n; ++j) {
+        dy[j] = state.v[j];
+        dy[n + j] = problem.evaluation.force[j] / train.mass[j];
+    }
+    for (std::int64_t a = 0; a < train.axes; ++a)
+        dy[2 * n + a] =
+            state.set_speed[a] - body_speed(train, state, state.v, train.coupling[2 * a][0]);
+}
+
+double show_problem(Problem& problem, double t, const double* y, double* dte) {
+    place_problem(problem, t, y);
+    const State& state = problem.state;
+    std::int64_t meshes = problem.model.train.meshes;
+    double shown[QUANTITIES][MESHES], lost = 0.0;
+    observe(problem.model, state, problem.step, state.x, state.v, 0.0, problem.evaluation, shown);
+    std::copy(shown[DTE], shown[DTE] + meshes, dte);
+    for (std::int64_t i = 0; i < meshes; ++i) lost += shown[POWER_LOSS][i];
+    return lost;
+}
+
+}  // namespace gearbox

@@ -1,0 +1,131 @@
+#include "quasi_static/equilibrium.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "mesh/form_errors.hpp"
+#include "mesh/deflection.hpp"
+#include "quasi_static/mesh_springs.hpp"
+#include "quasi_static/statics.hpp"
+#include "train/body_speed.hpp"
+#include "mesh/cycle.hpp"
+#include "train/equations.hpp"
+#include "train/observe.hpp"
+
+namespace gearbox {
+
+namespace {
+
+constexpr int MOST_PASSES = 60;
+constexpr int BRISK_PASSES = 5;  // then oscillating friction is under-relaxed
+constexpr int FREE_PASSES = 20;  // then tooth pairs stay: at a jump of the stiffness they may not
+                                 // come to rest
+constexpr double DITHER = 0.05;  // [N] below which, then, the friction of a mesh that hardly
+                                 // touches counts as settled
+constexpr double PLACE = 0.01;  // mesh cycles over which stiffness changes by as much as counts
+                                // for the tolerance
+constexpr double LIGHTEST_FORCE = 1.0;  // [N] smaller forces do not tighten the tolerance further
+
+// Whether stiffness and play were those of the sides and tooth pairs that carry now.
+bool keeps_sides(const Train& train, const Equilibrium& run, const double (*shown)[MESHES],
+                 double slack) {
+    for (std::int64_t i = 0; i < train.meshes; ++i) {
+        if (std::abs(run.force[i]) > slack && run.state.side[i] != run.lean[i]) return false;
+        if (std::abs(shown[MESH_FORCE][i] - run.force[i]) > slack) return false;
+    }
+    return true;
+}
+
+// Whether friction and drag of these forces are those the forces were found with.
+bool rubs_as_before(const Model& model, Equilibrium& run, double slack) {
+    Evaluation& evaluation = run.evaluation;
+    std::copy(std::begin(evaluation.rubbing), std::end(evaluation.rubbing), run.before);
+    std::fill(std::begin(evaluation.power), std::end(evaluation.power), 0.0);
+    for (std::int64_t i = 0; i < model.train.meshes; ++i)
+        evaluation.now.push[i] = std::abs(run.force[i]);
+    apply_friction(model, run.state, run.step, run.state.v, evaluation);
+    bool still = true;
+    for (std::int64_t j = 0; j < model.train.bodies; ++j) {
+        double change = std::abs(evaluation.rubbing[j] - run.before[j]);
+        still = still && change <= slack * model.train.body_copies[j];
+    }
+    return still;
+}
+
+// Guess the friction anew: nothing where its sense has just changed, else midway.
+//
+// The friction of a light load is large beside it, so an idle planet is thrown from flank to flank,
+// pass by pass, while it is at rest amid its play.
+void rest_the_idle(const Train& train, Equilibrium& run) {
+    for (std::int64_t j = 0; j < train.bodies; ++j) {
+        double now = run.evaluation.rubbing[j], before = run.before[j];
+        run.evaluation.rubbing[j] = now * before < 0.0 ? 0.0 : 0.5 * (now + before);
+    }
+}
+
+// A force that jumps where flanks meet cannot carry less than its jump at rest.
+void check_jump(const Model& model, const Equilibrium& run) {
+    const Load& load = model.load;
+    if (load.half_backlash == load.offset) return;
+    for (std::int64_t i = 0; i < model.train.meshes; ++i) {
+        double side = static_cast<double>(run.state.side[i]);
+        double d = mesh_motion(model.train, i, run.state.x) - run.error[i];
+        double radial = radial_error(model.train, i, run.step.line_angle, 0.0, 0.0).length;
+        if (side != 0.0 && side * d - radial < load.half_backlash)
+            throw std::invalid_argument(
+                "mesh.backlash = 'regulatory_factor': without dynamics every mesh must carry "
+                "more than its stiffness times the backlash");
+    }
+}
+
+// Let the machines balance the friction that has been found; book what they give.
+void book_machines(const Model& model, Equilibrium& run) {
+    balance_torques(model, run);
+    const Train& train = model.train;
+    for (std::int64_t c = 0; c < train.machines; ++c) {
+        double speed = body_speed(train, run.state, run.state.v, train.coupling[c][0]);
+        run.evaluation.power[WORK + c] = run.torque[c] * speed;
+        run.evaluation.power[IMPULSE + c] = run.torque[c];
+    }
+}
+
+}  // namespace
+
+Equilibrium first_guess(std::int64_t lean) {
+    Equilibrium run{};
+    std::fill(std::begin(run.lean), std::end(run.lean), lean);
+    return run;
+}
+
+void settle(const Model& model, double tolerance, Equilibrium& run,
+            double (*shown)[MESHES]) {
+    const Train& train = model.train;
+    State& state = run.state;
+    bool kept = false;
+    for (int n = 0; n < MOST_PASSES; ++n) {
+        bool free = n < FREE_PASSES;
+        double shift = cycle_shift(train, state.x);
+        if (free || !kept) place_springs(model, run);
+        balance_torques(model, run);
+        double mean = carry(model, run);
+        deflect(model, run);
+        observe(model, state, run.step, state.x, state.v, 0.0, run.evaluation, shown);
+        double slack = tolerance * std::max(mean, LIGHTEST_FORCE);
+        if (!free) slack = std::max(slack, DITHER);
+        double moved = std::abs(cycle_shift(train, state.x) - shift);
+        kept = keeps_sides(train, run, shown, slack);
+        bool rests = kept && (moved <= PLACE * tolerance || !free);
+        if (rubs_as_before(model, run, slack) && rests) {
+            check_jump(model, run);
+            book_machines(model, run);
+            return;
+        }
+        if (n >= BRISK_PASSES) rest_the_idle(train, run);
+    }
+    throw std::invalid_argument(
+        "dynamics = 'quasi_static': no static equilibrium is found, some planet has none between "
+        "its flanks; soften the entry of teeth (mesh.ramp) or load the train more");
+}
+
+}  // namespace gearbox

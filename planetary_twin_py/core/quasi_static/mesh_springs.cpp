@@ -1,0 +1,86 @@
+#include "quasi_static/mesh_springs.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "mesh/faults.hpp"
+#include "mesh/form_errors.hpp"
+#include "mesh/stiffness.hpp"
+#include "mesh/deflection.hpp"
+#include "quasi_static/equilibrium.hpp"
+#include "mesh/cycle.hpp"
+#include "train/set_step_constants.hpp"
+
+namespace gearbox {
+
+namespace {
+
+constexpr double LEAST_STIFFNESS = 1e-9;  // of a healthy mesh whose only pair is just entering
+
+// A spring and where it begins.
+struct Spring {
+    double stiffness;  // [N/m]
+    double gap;  // missing material [m]
+};
+
+// Side and tooth pairs of a mesh: an open one is where it would close.
+void place_pairs(const Train& train, Equilibrium& run, std::int64_t i, double rate) {
+    State& state = run.state;
+    if (state.side[i] != OPEN) run.lean[i] = state.side[i];
+    std::int64_t side = state.side[i] = run.lean[i];
+    double cycle = mesh_cycle(train, state, i, side);
+    state.segment[i] =
+        find_segment(train, train.kind[i], cycle, std::copysign(1.0, side * rate));
+}
+
+// The pairs of mesh i that carry, as one spring: pair by pair, since each may have its faults.
+Spring faulty_spring(const Model& model, const Equilibrium& run, std::int64_t i, double healthy) {
+    const Train& train = model.train;
+    const StepConstants& step = run.step;
+    std::int64_t segment = run.state.segment[i], kind = train.kind[i], side = run.state.side[i];
+    double u = step.start[i] - train.edge[kind][segment];
+    double squeeze = side * (mesh_motion(train, i, run.state.x) - run.error[i]);
+    squeeze -= run.play[i][side == DRIVE_SIDE ? DRIVE_PLAY : COAST_PLAY];
+    std::int64_t count = train.present[kind][segment];
+    double least = std::numeric_limits<double>::infinity();
+    for (std::int64_t p = 0; p < count; ++p)
+        least = std::min(least, fault_effect(train, step, i, segment, p, u).gap);
+    double total = total_weight(train, kind, segment, u).value;
+    double stiffness = 0.0, first = 0.0;
+    for (std::int64_t p = 0; p < count; ++p) {
+        auto effect = fault_effect(train, step, i, segment, p, u);
+        if (effect.gap > std::max(squeeze, least)) continue;
+        double weight = polynomial(train.weight[kind][segment][p], u, train.terms).value;
+        double k = std::max(healthy * effect.factor * weight / total, LEAST_STIFFNESS * healthy);
+        stiffness += k;
+        first += k * effect.gap;
+    }
+    return {stiffness, first / stiffness};
+}
+
+}  // namespace
+
+void place_springs(const Model& model, Equilibrium& run) {
+    const Train& train = model.train;
+    const StepConstants& step = run.step;
+    double rate = frame_cycle_rate(train, run.state);
+    for (std::int64_t i = 0; i < train.meshes; ++i) place_pairs(train, run, i, rate);
+    set_step_constants(model, run.state, run.step);
+    for (std::int64_t i = 0; i < train.meshes; ++i) {
+        run.error[i] = form_error(train, i, 0.0, step.line_angle, 0.0, 0.0).length;
+        double play = model.load.offset + radial_error(train, i, step.line_angle, 0.0, 0.0).length;
+        int carrying = run.state.side[i] == DRIVE_SIDE ? DRIVE_PLAY : COAST_PLAY;
+        // Below zero only with a regulatory factor, whose forces grow from no deflection at all:
+        // what a flank that does not carry stands off is positive.
+        run.play[i][DRIVE_PLAY] = run.play[i][COAST_PLAY] = std::abs(play);
+        run.play[i][carrying] = play;
+        Spring spring{
+            mesh_stiffness(train, train.kind[i], run.state.segment[i], step.start[i]), 0.0};
+        if (train.faults > 0) spring = faulty_spring(model, run, i, spring.stiffness);
+        run.stiffness[i] = spring.stiffness;
+        run.play[i][carrying] += spring.gap;
+    }
+}
+
+}  // namespace gearbox

@@ -1,0 +1,19 @@
+#pragma once
+
+// Rigid motion: every motor at its set-point, every body by the tooth numbers.
+
+#include "run/clock.hpp"
+#include "train/model.hpp"
+#include "train/state.hpp"
+
+namespace gearbox {
+
+// Put frame, speeds and clock of `state` where the motors are `after` seconds after `origin`, which
+// may be `state` itself. Set-points run to their targets at the slew rate.
+void turn_to(const Model& model, const State& origin, double after, State& state);
+
+// Move `origin` to the last whole second before `until`, second by second. Turns are counted off
+// there, so that angles stay exact and do not depend on who asks when.
+void roll(const Model& model, State& origin, const Instant& until);
+
+}  // namespace gearbox

@@ -1,0 +1,70 @@
+#pragma once
+
+// How planets share the load: each is a spring with play between sun and ring.
+//
+// The transmission errors of a planet's two meshes add up to w = x_s + x_r - 2 x_c, whatever the
+// planet does, so one wind-up w squeezes all planets. The force F on the ring and F + R on the sun
+// (R: friction on the planet) follow from w by pieces of straight lines.
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+
+#include "quasi_static/springs.hpp"
+
+namespace gearbox {
+
+// A force [N] and its growth with the wind-up [N/m].
+struct SpringForce {
+    double force;
+    double growth;
+};
+
+// Force of a planet on the ring.
+//
+// w: wind-up less errors of form and less what `friction` squeezes the sun mesh by [m].
+// compliance: of both meshes in series [m/N].
+// friction: friction on the planet [N].
+// steps: play passed with both meshes on the coast side, with one on each, and with both on the
+//     drive side [m].
+inline SpringForce ring_force(double w, double compliance, double friction, const double* steps) {
+    // where one of the meshes is free of load
+    double first = std::min(0.0, -friction), last = std::max(0.0, -friction);
+    double growth = 1.0 / compliance;
+    double force = (w - steps[2]) * growth;
+    if (force > last) return {force, growth};
+    force = (w - steps[1]) * growth;
+    if (force > last) return {last, 0.0};
+    if (force > first) return {force, growth};
+    force = (w - steps[0]) * growth;
+    if (force < first) return {force, growth};
+    return {first, 0.0};
+}
+
+// A w [m] at which the planet has `force` on the ring: the inverse of `ring_force`.
+inline double wind_up_at(double force, double compliance, double friction, const double* steps) {
+    double first = std::min(0.0, -friction), last = std::max(0.0, -friction), step;
+    if (force > last)
+        step = steps[2];
+    else if (force < first)
+        step = steps[0];
+    else if (first < force && force < last)
+        step = steps[1];
+    else if (first == last)
+        step = 0.5 * (steps[0] + steps[2]);
+    else
+        step = 0.5 * (steps[1] + (force == last ? steps[2] : steps[0]));
+    return compliance * force + step;
+}
+
+// Force of planet p on the ring at the wind-up w [m].
+inline SpringForce planet_force(const Springs& springs, std::int64_t p, double w) {
+    return ring_force(w - springs.error[p], springs.compliance[p], springs.friction[p],
+                      springs.steps[p]);
+}
+
+// The wind-up w [m] at which the planets with their copies have `total` [N] on the ring.
+double share(double total, std::int64_t planets, const Springs& springs);
+
+}  // namespace gearbox

@@ -1,0 +1,42 @@
+#include "quasi_static/sampling.hpp"
+
+#include <algorithm>
+#include <numbers>
+
+#include "quasi_static/motion.hpp"
+#include "train/body_speed.hpp"
+
+namespace gearbox {
+
+void sample(const Model& model, double tolerance, const State& origin, Equilibrium& run,
+            const Instant& at, const Samples& out, std::int64_t row) {
+    const Train& train = model.train;
+    State& state = run.state;
+    turn_to(model, origin, delay(origin, at), state);
+    double shown[QUANTITIES][MESHES];
+    settle(model, tolerance, run, shown);
+    for (int q = 0; q < QUANTITIES; ++q)
+        std::copy(shown[q], shown[q] + out.meshes, out.mesh_row(row) + q * out.meshes);
+    out.drag[row * SAMPLE_DRAGS] = run.evaluation.power[BEARING];
+    out.drag[row * SAMPLE_DRAGS + 1] = run.evaluation.power[CHURNING];
+    std::copy(state.turns, state.turns + out.axes, out.turns + row * out.axes);
+    for (std::int64_t j = 0; j < train.bodies; ++j) {
+        double angle = 0.0;
+        for (std::int64_t a = 0; a < train.axes; ++a)
+            angle += train.ratio[j][a] * 2.0 * std::numbers::pi * state.fraction[a];
+        out.speed[row * out.bodies + j] = body_speed(train, state, state.v, j);
+        out.angle[row * out.bodies + j] = angle;
+    }
+}
+
+void sample_all(const Model& model, double tolerance, State& origin, Equilibrium& run,
+                Sampling samples, const Samples& out) {
+    for (std::int64_t row = 0; row < out.rows; ++row) {
+        Instant at = due(samples);
+        roll(model, origin, at);
+        sample(model, tolerance, origin, run, at, out, row);
+        samples = after(samples);
+    }
+}
+
+}  // namespace gearbox

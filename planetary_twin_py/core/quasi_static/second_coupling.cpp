@@ -1,0 +1,42 @@
+#include "quasi_static/second_coupling.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+
+#include "mesh/cycle.hpp"
+#include "quasi_static/motion.hpp"
+#include "train/set_step_constants.hpp"
+
+namespace gearbox {
+
+namespace {
+
+constexpr int PLACES = 256;  // of a mesh cycle; a jump of the torque counts as a slope from one to
+                             // the next
+constexpr double RIGID = 1e9;  // times the stiffness: a coupling that friction does not wind
+
+}  // namespace
+
+double steepest_torque(const Model& model, double tolerance, std::int64_t lean,
+                       const State& origin, const double* speed) {
+    auto rigid = std::make_unique<Model>(model);
+    rigid->train.coupling_stiffness[SECOND_MOTOR] *= RIGID;
+    State begin = origin;
+    for (int a = 0; a < AXES; ++a)
+        rigid->load.target_speed[a] = begin.set_speed[a] = begin.speed[a] = speed[a];
+    double rate = std::abs(frame_cycle_rate(rigid->train, begin));
+    if (rate == 0.0) return 0.0;
+    auto run = std::make_unique<Equilibrium>(first_guess(lean));
+    double shown[QUANTITIES][MESHES], before = 0.0, steepest = 0.0;
+    for (int n = 0; n <= PLACES; ++n) {
+        turn_to(*rigid, begin, n / (PLACES * rate), run->state);
+        settle(*rigid, tolerance, *run, shown);
+        double torque = run->torque[SECOND_MOTOR];
+        if (n > 0) steepest = std::max(steepest, std::abs(torque - before));
+        before = torque;
+    }
+    return steepest * PLACES;
+}
+
+}  // namespace gearbox

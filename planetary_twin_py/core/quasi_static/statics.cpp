@@ -1,0 +1,139 @@
+#include "quasi_static/statics.hpp"
+
+#include <cmath>
+#include <numbers>
+
+#include "quasi_static/equilibrium.hpp"
+#include "quasi_static/planet_load.hpp"
+#include "rooms.hpp"
+#include "train/set_step_constants.hpp"
+
+namespace gearbox {
+
+namespace {
+
+// A planet as a spring between sun and ring.
+void place_spring(const Train& train, Equilibrium& run, std::int64_t p) {
+    Springs& springs = run.springs;
+    std::int64_t s = p, r = train.meshes / 2 + p;
+    springs.copies[p] = train.copies[p];
+    double friction = springs.friction[p] = run.external[train.body[p][1]] / train.copies[p];
+    springs.compliance[p] = 1.0 / run.stiffness[s] + 1.0 / run.stiffness[r];
+    springs.error[p] = run.error[s] + run.error[r] + friction / run.stiffness[s];
+    double* steps = springs.steps[p];
+    steps[0] = -run.play[s][COAST_PLAY] - run.play[r][COAST_PLAY];
+    steps[2] = run.play[s][DRIVE_PLAY] + run.play[r][DRIVE_PLAY];
+    steps[1] = friction > 0.0 ? run.play[s][DRIVE_PLAY] - run.play[r][COAST_PLAY]
+                         : run.play[r][DRIVE_PLAY] - run.play[s][COAST_PLAY];
+}
+
+// Let the meshes be on the sides that their forces ask for.
+void choose_sides(const Train& train, Equilibrium& run) {
+    for (std::int64_t i = 0; i < train.meshes; ++i) {
+        double force = run.force[i];
+        run.state.side[i] = force == 0.0 ? OPEN : force > 0.0 ? DRIVE_SIDE : COAST_SIDE;
+        if (static_cast<double>(run.state.side[i]) != run.step.side[i])
+            take_segment(train, run.state, run.step, i);
+    }
+}
+
+// Let couplings and members yield; w [m] is what the ring stands behind the sun.
+void wind(const Train& train, Equilibrium& run, double w) {
+    double* x = run.state.x;
+    std::int64_t planets = train.meshes / 2, loaded = train.coupling[LOAD_MACHINE][1];
+    x[loaded] = 0.0;
+    for (std::int64_t c = 0; c < train.machines; c += 2) {  // the motors stay with their frame
+        std::int64_t machine = train.coupling[c][0], member = train.coupling[c][1];
+        x[member] = -run.external[machine] / train.coupling_stiffness[c];
+    }
+    x[train.bodies] = 0.0;
+    double wound = x[train.sun] + x[train.body[planets][1]] - 2.0 * x[train.carrier];
+    x[loaded] = (w - wound) / (loaded == train.carrier ? -2.0 : 1.0);
+}
+
+// d [m] of a mesh that carries its force.
+double stretch(const Equilibrium& run, std::int64_t i) {
+    double play = run.force[i] > 0.0 ? run.play[i][DRIVE_PLAY] : -run.play[i][COAST_PLAY];
+    return run.error[i] + play + run.force[i] / run.stiffness[i];
+}
+
+// d [m] of the sun mesh of an idle planet, amid its play; w [m]: wind-up.
+double idle_stretch(const Equilibrium& run, std::int64_t p, double w) {
+    double low = run.springs.steps[p][0], high = run.springs.steps[p][2];
+    double passed = w - run.springs.error[p] - low;
+    passed = high > low ? passed / (high - low) : 0.0;
+    double both = run.play[p][DRIVE_PLAY] + run.play[p][COAST_PLAY];
+    return run.error[p] - run.play[p][COAST_PLAY] + passed * both;
+}
+
+}  // namespace
+
+void balance_torques(const Model& model, Equilibrium& run) {
+    const Train& train = model.train;
+    const Load& load = model.load;
+    std::int64_t axes = train.axes;
+    for (double& balance : run.balance) balance = 0.0;
+    for (std::int64_t j = 0; j < train.bodies; ++j) {
+        double speeding = 0.0;
+        for (std::int64_t a = 0; a < axes; ++a) speeding += train.ratio[j][a] * run.step.slew[a];
+        run.external[j] =
+            run.evaluation.rubbing[j] - train.mass[j] * train.radius[j] * speeding;
+        for (std::int64_t a = 0; a < axes; ++a)
+            run.balance[a] += train.ratio[j][a] * train.radius[j] * run.external[j];
+    }
+    double torque = load.torque[MOTOR];
+    torque += load.ripple *
+              std::sin(load.ripple_order * 2.0 * std::numbers::pi * run.state.fraction[0]);
+    for (std::int64_t a = 0; a < axes; ++a) torque += load.inertia[0][a] * run.step.slew[a];
+    run.torque[MOTOR] = torque;
+    std::int64_t loaded = train.coupling[LOAD_MACHINE][0];
+    run.torque[LOAD_MACHINE] = -(torque + run.balance[0]) / train.ratio[loaded][0];
+    if (axes > 1) {
+        double taken = train.ratio[loaded][1] * run.torque[LOAD_MACHINE];
+        run.torque[SECOND_MOTOR] = -(taken + run.balance[1]);
+    }
+    for (std::int64_t c = 0; c < train.machines; ++c) {
+        std::int64_t machine = train.coupling[c][0], member = train.coupling[c][1];
+        run.external[machine] += run.torque[c] / train.radius[machine];
+        run.external[member] += run.external[machine];
+    }
+}
+
+double carry(const Model& model, Equilibrium& run) {
+    const Train& train = model.train;
+    std::int64_t planets = train.meshes / 2, ring = train.body[planets][1];
+    bool sun_turns = train.sun != train.bodies;
+    double total = run.external[sun_turns ? train.sun : ring], copies = 0.0;
+    for (std::int64_t p = 0; p < planets; ++p) {
+        place_spring(train, run, p);
+        copies += train.copies[p];
+        if (sun_turns) total -= train.copies[p] * run.springs.friction[p];
+    }
+    double w = share(total, planets, run.springs);
+    for (std::int64_t p = 0; p < planets; ++p) {
+        run.force[planets + p] = planet_force(run.springs, p, w).force;
+        run.force[p] = run.force[planets + p] + run.springs.friction[p];
+    }
+    choose_sides(train, run);
+    wind(train, run, w);
+    return std::abs(total) / copies;
+}
+
+void deflect(const Model& model, Equilibrium& run) {
+    const Train& train = model.train;
+    double* x = run.state.x;
+    std::int64_t planets = train.meshes / 2;
+    double sun = x[train.sun], ring = x[train.body[planets][1]], carrier = x[train.carrier];
+    for (std::int64_t p = 0; p < planets; ++p) {
+        double d, w = sun + ring - 2.0 * carrier;
+        if (run.force[p] != 0.0)
+            d = stretch(run, p);
+        else if (run.force[planets + p] != 0.0)
+            d = w - stretch(run, planets + p);
+        else
+            d = idle_stretch(run, p, w);
+        x[train.body[p][1]] = d - sun + carrier;
+    }
+}
+
+}  // namespace gearbox

@@ -1,0 +1,222 @@
+#include "train/initial_state.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+
+#include "mesh/cycle.hpp"
+#include "mesh/deflection.hpp"
+#include "mesh/form_errors.hpp"
+#include "mesh/stiffness.hpp"
+#include "rooms.hpp"
+#include "train/equations.hpp"
+#include "train/set_step_constants.hpp"
+#include "tribology/bristles.hpp"
+#include "tribology/tooth_friction.hpp"
+#include "vector/cholesky.hpp"
+
+namespace gearbox {
+
+namespace {
+
+constexpr double ENDS[2] = {1.0, -1.0};  // of a coupling
+constexpr int CYCLE_POINTS = 64;  // places in the mesh cycle over which friction is averaged
+constexpr int BALANCING_PASSES = 12;  // each leaves some per cent of what friction was off by
+constexpr int SETTLING_PASSES = 3;  // the first winds up the couplings, the others find the tooth
+                                    // pairs there
+
+// A train that is brought into balance.
+struct Start {
+    const Model& model;
+    double force;  // mean force of every mesh [N]
+    State& state;
+    StepConstants step;
+    Balance balance;
+};
+
+// Let every mesh have the tooth pairs that belong to its place in the cycle.
+void place_pairs(Start& start) {
+    const Train& train = start.model.train;
+    State& state = start.state;
+    double rate = frame_cycle_rate(train, state);
+    for (std::int64_t i = 0; i < train.meshes; ++i) {
+        std::int64_t side = state.side[i];
+        if (side == OPEN) continue;
+        double direction = std::copysign(1.0, static_cast<double>(side) * rate);
+        double cycle = mesh_cycle(train, state, i, side);
+        state.segment[i] = find_segment(train, train.kind[i], cycle, direction);
+    }
+    set_step_constants(start.model, state, start.step);
+}
+
+// Let a body stay where it is.
+void hold_body(Balance& balance, std::int64_t body) {
+    for (int j = 0; j < BODIES; ++j) balance.stiffness[body][j] = balance.stiffness[j][body] = 0.0;
+    balance.stiffness[body][body] = 1.0;
+    balance.force[body] = 0.0;
+}
+
+// Move x by what springs of meshes and couplings yield to `balance.force`, the motors held.
+void yield_to_forces(Start& start) {
+    const Train& train = start.model.train;
+    Balance& balance = start.balance;
+    std::fill(&balance.stiffness[0][0], &balance.stiffness[0][0] + BODIES * BODIES, 0.0);
+    for (std::int64_t i = 0; i < train.meshes; ++i) {
+        double k = mesh_stiffness(train, train.kind[i], start.state.segment[i],
+                                  start.step.start[i]);
+        add_outer(balance.stiffness, train.body[i], train.sign[i], GEARS, train.copies[i] * k);
+    }
+    for (std::int64_t c = 0; c < train.machines; ++c)
+        add_outer(balance.stiffness, train.coupling[c], ENDS, 2, train.coupling_stiffness[c]);
+    for (std::int64_t a = 0; a < train.axes; ++a) hold_body(balance, train.coupling[2 * a][0]);
+    factorise(balance.stiffness, train.bodies);
+    solve(balance.stiffness, train.bodies, balance.force);
+    for (std::int64_t j = 0; j < train.bodies; ++j) start.state.x[j] += balance.force[j];
+}
+
+// Move x to where the forces on every body balance, the tooth pairs being those in contact.
+//
+// The motors stand still. More meshes than bodies are to carry the mean force: all of them do only
+// if all are equally stiff at this angle.
+void balance_mean_forces(Start& start) {
+    const Train& train = start.model.train;
+    const Load& load = start.model.load;
+    const State& state = start.state;
+    double* force = start.balance.force;
+    std::fill(force, force + BODIES, 0.0);
+    for (std::int64_t i = 0; i < train.meshes; ++i) {
+        double k = mesh_stiffness(train, train.kind[i], state.segment[i], start.step.start[i]);
+        double d = deflection(train, start.step, i, state.x, state.v, 0.0, 0.0).d;
+        double push = start.force + k * (static_cast<double>(state.side[i]) * load.offset - d);
+        for (int g = 0; g < GEARS; ++g)
+            force[train.body[i][g]] += train.copies[i] * train.sign[i][g] * push;
+    }
+    for (std::int64_t c = 0; c < train.machines; ++c) {
+        std::int64_t machine = train.coupling[c][0], member = train.coupling[c][1];
+        double pull = load.torque[c] / train.radius[machine];
+        pull -= train.coupling_stiffness[c] * (state.x[machine] - state.x[member]);
+        force[machine] += pull;
+        force[member] -= pull;
+    }
+    yield_to_forces(start);
+}
+
+// Choose x so that every mesh and coupling carries its mean load at the present motor angle.
+//
+// The couplings wind up by a good part of a mesh cycle, which moves the tooth pairs, whose stiffness
+// decides how far the meshes yield.
+void balance_at_angle(Start& start) {
+    for (int n = 0; n < SETTLING_PASSES; ++n) {
+        place_pairs(start);
+        balance_mean_forces(start);
+    }
+    place_pairs(start);
+}
+
+// Forces without those of a changing speed; into `balance.evaluation`.
+void forces_at_constant_speed(const Model& model, Start& start) {
+    State& state = start.state;
+    std::fill(start.step.slew, start.step.slew + AXES, 0.0);
+    forces(model, state, start.step, state.x, state.v, 0.0, state.trim, start.balance.evaluation);
+}
+
+// Torque against the rigid motion of a motor [N m].
+double drag(const Start& start, std::int64_t axis) {
+    const Train& train = start.model.train;
+    double total = 0.0;
+    for (std::int64_t j = 0; j < train.bodies; ++j)
+        total -= train.ratio[j][axis] * start.balance.evaluation.force[j] * train.radius[j];
+    return total;
+}
+
+// Drag of each motor's motion: friction, all else being balanced; a mean over a mesh cycle from
+// motor angle zero, where `state` is left.
+void mean_drag(Start& start, double* drags) {
+    const Train& train = start.model.train;
+    std::fill(drags, drags + AXES, 0.0);
+    for (int point = 0; point < CYCLE_POINTS; ++point) {
+        start.state.fraction[0] = point / (CYCLE_POINTS * std::abs(train.cycles[0]));
+        balance_at_angle(start);
+        forces_at_constant_speed(start.model, start);
+        for (std::int64_t a = 0; a < train.axes; ++a) drags[a] += drag(start, a) / CYCLE_POINTS;
+    }
+    start.state.fraction[0] = 0.0;
+}
+
+// Let every mesh touch where its flanks are: errors of form beyond its deflection part them.
+void choose_sides(Start& start) {
+    const Train& train = start.model.train;
+    double half = start.model.load.half_backlash;
+    for (std::int64_t i = 0; i < train.meshes; ++i) {
+        double side = static_cast<double>(start.state.side[i]);
+        double d = mesh_motion(train, i, start.state.x);
+        double own = form_error(train, i, side, start.step.line_angle, 0.0, 0.0).length;
+        if (side * (d - own) >= half) continue;
+        double other = form_error(train, i, -side, start.step.line_angle, 0.0, 0.0).length;
+        start.state.side[i] = side * (other - d) <= half ? OPEN : -start.state.side[i];
+    }
+    place_pairs(start);
+}
+
+// Move x to where all forces balance, those of friction too, as where the gears creep.
+//
+// The motors stand still. Fills the torques that are missing along the motion of each.
+void balance_friction(Start& start, double* drags) {
+    forces_at_constant_speed(start.model, start);
+    const double* force = start.balance.evaluation.force;
+    std::copy(force, force + BODIES, start.balance.force);
+    yield_to_forces(start);
+    place_pairs(start);
+    forces_at_constant_speed(start.model, start);
+    for (std::int64_t a = 0; a < start.model.train.axes; ++a) drags[a] = drag(start, a);
+}
+
+// Let the machines give the drag along each rigid motion, by the trim of the speed loop.
+void trim(const Model& model, const double* drags, State& state) {
+    const Train& train = model.train;
+    double effect[AXES][AXES] = {};  // torque along motion a per trim b
+    for (std::int64_t c = 0; c < train.machines; ++c)
+        for (std::int64_t a = 0; a < train.axes; ++a)
+            for (std::int64_t b = 0; b < train.axes; ++b)
+                effect[a][b] += train.ratio[train.coupling[c][0]][a] * model.load.trim_gain[c][b];
+    if (train.axes == 1) {
+        state.trim[0] += drags[0] / effect[0][0];
+        return;
+    }
+    double determinant = effect[0][0] * effect[1][1] - effect[0][1] * effect[1][0];
+    state.trim[0] += (drags[0] * effect[1][1] - drags[1] * effect[0][1]) / determinant;
+    state.trim[1] += (drags[1] * effect[0][0] - drags[0] * effect[1][0]) / determinant;
+}
+
+bool is_closed(const Train& train, const State& state) {
+    return std::all_of(state.side, state.side + train.meshes,
+                       [](std::int64_t side) { return side != OPEN; });
+}
+
+}  // namespace
+
+State initial_state(const Model& model, const double* speed, double force) {
+    const Train& train = model.train;
+    State state{};
+    std::copy(speed, speed + AXES, state.speed);
+    std::copy(speed, speed + AXES, state.set_speed);
+    std::fill(state.side, state.side + train.meshes, force >= 0.0 ? DRIVE_SIDE : COAST_SIDE);
+    auto steady = std::make_unique<Model>(model);
+    steady->load.ripple = 0.0;
+    std::fill(std::begin(steady->load.proportional), std::end(steady->load.proportional), 0.0);
+    auto start = std::unique_ptr<Start>(new Start{*steady, force, state, {}, {}});
+    double drags[AXES];
+    mean_drag(*start, drags);
+    balance_at_angle(*start);
+    choose_sides(*start);
+    trim(model, drags, state);
+    if (is_closed(train, state) && creeps(train, frame_cycle_rate(train, state))) {
+        for (int n = 0; n < BALANCING_PASSES; ++n) {
+            balance_friction(*start, drags);
+            trim(model, drags, state);
+        }
+    }
+    return state;
+}
+
+}  // namespace gearbox
