@@ -29,7 +29,7 @@ NOT_THE_MODELS = ("ros", "rclpy", "rerun", "mcap", "matplotlib", "pyarrow", "dis
 
 @pytest.fixture(scope="module")
 def built(tmp_path_factory):
-    """Folder of the source archive, made of the files that are kept, and of the wheel made of it."""
+    """Folder of the source archive of the files that are kept, and of the wheel made of it."""
     folder = tmp_path_factory.mktemp("wheel")
     listed = subprocess.run(
         ["git", "ls-files", "-co", "--exclude-standard"],
