@@ -7,6 +7,8 @@ NB_MODULE(CORE_MODULE, m) {
     m.attr("__name__") = "planetary_twin_py._core";
     m.doc() = "Compiled core of planetary_twin_py.";
     gearbox::bind_records(m);
+    gearbox::bind_train(m);
+    gearbox::bind_tribology(m);
     gearbox::bind_initial_state(m);
     gearbox::bind_quasi_static(m);
     gearbox::bind_integrators(m);

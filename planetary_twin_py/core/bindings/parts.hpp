@@ -6,6 +6,8 @@
 
 namespace gearbox {
 
+void bind_train(nanobind::module_& m);
+void bind_tribology(nanobind::module_& m);
 void bind_initial_state(nanobind::module_& m);
 void bind_quasi_static(nanobind::module_& m);
 void bind_integrators(nanobind::module_& m);

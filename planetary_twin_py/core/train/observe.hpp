@@ -13,41 +13,48 @@ namespace gearbox {
 // Fill out[:, i] for every mesh i; film and lambda ratio are NaN without contact.
 //
 // Both are means over the tooth pairs, weighted by load. Friction forces are magnitudes. `work` is
-// room to work in.
+// room to work in; out (QUANTITIES, meshes) has rows of `room` entries.
 inline void observe(const Model& model, const State& state, const StepConstants& step,
                     const double* x, const double* v, double delay, Evaluation& work,
-                    double (*out)[MESHES]) {
+                    double* out, std::int64_t room) {
     const Train& train = model.train;
     const Oil& oil = model.oil;
     const MeshesNow& now = work.now;
     ToothPairs& pairs = work.pairs;
+    auto at = [=](int row, std::int64_t i) -> double& { return out[row * room + i]; };
     for (int row = 0; row < QUANTITIES; ++row)
-        for (int i = 0; i < MESHES; ++i) out[row][i] = 0.0;
+        for (std::int64_t i = 0; i < train.meshes; ++i) at(row, i) = 0.0;
     move_meshes(train, x, v, work.now);
     mesh_forces(model, state, step, x, v, delay, work);
     share_loads(model, step, work);
     for (std::int64_t i = 0; i < train.meshes; ++i) {
         double force = at_least(now.push[i], 0.0);
-        out[DTE][i] = mesh_motion(train, i, x);
-        out[MESH_FORCE][i] = static_cast<double>(state.side[i]) * force;
-        out[MESH_POWER][i] = force * train.base_pitch * std::abs(now.pace);
+        at(DTE, i) = mesh_motion(train, i, x);
+        at(MESH_FORCE, i) = static_cast<double>(state.side[i]) * force;
+        at(MESH_POWER, i) = force * train.base_pitch * std::abs(now.pace);
         if (state.side[i] == OPEN)
-            out[FILM][i] = out[LAMBDA][i] = std::numeric_limits<double>::quiet_NaN();
+            at(FILM, i) = at(LAMBDA, i) = std::numeric_limits<double>::quiet_NaN();
     }
     turn_pairs(train, step, v, pairs);
     evaluate(model, pairs);
     for (std::int64_t p = 0; p < train.slots; ++p) {
         for (std::int64_t i = 0; i < train.meshes; ++i) {
             std::int64_t k = p * train.meshes + i;
-            out[FILM][i] += pairs.share[k] * std::exp(pairs.log_film[k]);
-            out[LAMBDA][i] += pairs.share[k] * lambda_ratio_of(oil, pairs.log_film[k]);
+            at(FILM, i) += pairs.share[k] * std::exp(pairs.log_film[k]);
+            at(LAMBDA, i) += pairs.share[k] * lambda_ratio_of(oil, pairs.log_film[k]);
             if (!train.friction) continue;
-            out[BOUNDARY][i] += pairs.boundary[k];
-            out[VISCOUS][i] += pairs.viscous[k];
+            at(BOUNDARY, i) += pairs.boundary[k];
+            at(VISCOUS, i) += pairs.viscous[k];
             double lost = pairs.held ? pairs.lost[k] : pairs.friction[k] * pairs.sliding[k];
-            out[POWER_LOSS][i] += lost + pairs.rolling_power[k];
+            at(POWER_LOSS, i) += lost + pairs.rolling_power[k];
         }
     }
+}
+
+inline void observe(const Model& model, const State& state, const StepConstants& step,
+                    const double* x, const double* v, double delay, Evaluation& work,
+                    double (*out)[MESHES]) {
+    observe(model, state, step, x, v, delay, work, &out[0][0], MESHES);
 }
 
 }  // namespace gearbox

@@ -1,0 +1,45 @@
+#pragma once
+
+// NumPy arrays over bodies, meshes and pairs as arguments.
+
+#include <nanobind/nanobind.h>
+#include <nanobind/ndarray.h>
+
+#include <stdexcept>
+
+#include "rooms.hpp"
+
+namespace gearbox {
+
+namespace nb = nanobind;
+
+using Vector = nb::ndarray<const double, nb::ndim<1>, nb::c_contig, nb::device::cpu>;
+using Values = nb::ndarray<double, nb::ndim<1>, nb::c_contig, nb::device::cpu>;
+using Table = nb::ndarray<const double, nb::ndim<2>, nb::c_contig, nb::device::cpu>;
+using Rows = nb::ndarray<double, nb::ndim<2>, nb::c_contig, nb::device::cpu>;
+using Square = nb::ndarray<double, nb::shape<BODIES, BODIES>, nb::c_contig, nb::device::cpu>;
+using Lines = nb::ndarray<double, nb::shape<MESHES, LINES>, nb::c_contig, nb::device::cpu>;
+
+using release = nb::call_guard<nb::gil_scoped_release>;
+
+// The entries of an argument, of which there have to be `size` at least.
+template <class Array>
+inline auto entries(const Array& array, std::size_t size) {
+    if (array.size() < size) throw nb::value_error("an array is shorter than its room");
+    return array.data();
+}
+
+template <class Array>
+inline auto bodies(const Array& array) {
+    return entries(array, BODIES);
+}
+
+inline double (*matrix(const Square& array))[BODIES] {
+    return reinterpret_cast<double (*)[BODIES]>(array.data());
+}
+
+inline double (*lines(const Lines& array))[LINES] {
+    return reinterpret_cast<double (*)[LINES]>(array.data());
+}
+
+}  // namespace gearbox
