@@ -6,26 +6,32 @@ from fractions import Fraction
 
 import numpy as np
 
-from .._records import Record, new_record
+from .._core import (
+    COAST_SIDE,
+    DRIVE_SIDE,
+    LEDGER,
+    Control,
+    Model,
+    State,
+    first_guess,
+    kinetic,
+    roll,
+    sample_equilibria,
+    sample_equilibrium,
+    turn_to,
+)
 from ..dynamics.bodies import MOTOR
-from ..dynamics.energy import kinetic
-from ..dynamics.equations import MODEL
 from ..dynamics.mesh_sums import MeshSums
 from ..dynamics.oil import build_oil
 from ..dynamics.start import build_load
-from ..dynamics.state import COAST_SIDE, DRIVE_SIDE, LEDGER, STATE
 from ..dynamics.static_load import mesh_force
 from ..dynamics.train import build_train
 from ..integrators.clock import delay, instant, sampling
 from ..integrators.interpolant import Samples, new_samples
-from ..integrators.progress import CONTROL
 from ..runaway import Limits, RunawayError, squeeze
 from ..scene import OperatingPoint, Scene
 from ..tolerance import check_tolerance
-from .equilibrium import first_guess
 from .ledger import Ledger
-from .motion import roll, turn_to
-from .sampling import sample, sample_all
 from .second_coupling import check_second_coupling
 from .totals import ENERGY
 
@@ -48,37 +54,28 @@ class QuasiStaticEngine:
         still = scene.replace(**{"mesh.damping.law": "viscous", "mesh.damping.damping_ratio": 0.0})
         self.train = build_train(still)
         self._limits = Limits(scene, self.train)
-        self.control: Record = new_record(CONTROL)
+        self.control = Control()
         self.reached = Fraction(0)
         self.repeats = False  # there is nothing to compute again
         self._load(scene.operating_point, tolerance, self._start(), np.zeros(LEDGER))
-        self._compile()
 
-    def _compile(self) -> None:
-        """Have every kernel ready before the clock runs; at time zero none changes anything."""
-        self.advance(0.0, 1, 1.0, 0)
-        self.sample(0.0)
-        self.take_ledger()
-        self.take_mesh_sums(0.0)
-        self.stored()
-
-    def _start(self) -> Record:
+    def _start(self) -> State:
         control, point = self.scene.drive.speed_control, self.scene.operating_point
         speeds = [point.input_speed, point.second_input_speed]
         if control.start_speed is not None:
             speeds[0] = control.start_speed
-        axes = int(self.train.axes)
-        return new_record(STATE, speed=speeds[:axes], set_speed=speeds[:axes])
+        axes = self.train.axes
+        return State(speed=speeds[:axes], set_speed=speeds[:axes])
 
     def _load(
-        self, point: OperatingPoint, tolerance: float, origin: Record, energy: np.ndarray
+        self, point: OperatingPoint, tolerance: float, origin: State, energy: np.ndarray
     ) -> None:
         """Run on from `origin`, with so much in the ledger, at an operating point.
 
         Where that cannot be, nothing changes.
         """
         load, oil = build_load(self.scene, point, self.train), build_oil(self.scene, point)
-        model = new_record(MODEL, train=self.train, oil=oil, load=load)
+        model = Model(train=self.train, oil=oil, load=load)
         lean = (
             DRIVE_SIDE if mesh_force(self.scene, float(load.torque[MOTOR])) >= 0.0 else COAST_SIDE
         )
@@ -100,7 +97,7 @@ class QuasiStaticEngine:
         """
         samples = new_samples(self.train, room)
         at = sampling(first_sample, sample_rate)
-        sample_all(self.model, self.tolerance, self._origin, self._run, at, samples)
+        sample_equilibria(self.model, self.tolerance, self._origin, self._run, at, samples)
         try:
             self._limits.squeeze.check(squeeze(samples, self.train, self.model.load))
         except ArithmeticError as reason:
@@ -112,7 +109,8 @@ class QuasiStaticEngine:
     def sample(self, time: float | Fraction) -> Samples:
         """One sample at `time` [s], the end of the last window."""
         samples, run = new_samples(self.train, 1), first_guess(self._lean)
-        sample(self.model, self.tolerance, self._origin, run, instant(time), samples, 0)
+        at = instant(time)
+        sample_equilibrium(self.model, self.tolerance, self._origin, run, at, samples, 0)
         return samples
 
     def change(self, point: OperatingPoint, tolerance: float, time: float | Fraction) -> None:
@@ -124,7 +122,7 @@ class QuasiStaticEngine:
         energy = self._ledger.at(instant(time))[0][ENERGY]
         self._load(point, tolerance, self._standing(time), energy)
 
-    def _standing(self, time: float | Fraction) -> Record:
+    def _standing(self, time: float | Fraction) -> State:
         state = self._origin.copy()
         turn_to(self.model, self._origin, delay(self._origin, instant(time)), state)
         return state
@@ -150,4 +148,4 @@ class QuasiStaticEngine:
 
     def stored(self) -> tuple[float, float]:
         """Kinetic and elastic energy at `reached` [J]; what yields at rest does no work."""
-        return float(kinetic(self.model, self._standing(self.reached))), 0.0
+        return kinetic(self.model, self._standing(self.reached)), 0.0

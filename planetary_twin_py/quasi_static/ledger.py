@@ -10,19 +10,33 @@ import math
 
 import numpy as np
 
-from .._records import MESHES, Record
+from .._core import (
+    COAST_SIDE,
+    DRIVE_SIDE,
+    DTE,
+    MESH_FORCE,
+    MESHES,
+    PEAKS,
+    TOTALS,
+    Model,
+    State,
+    add_rates,
+    cycle_shift,
+    divide_cycle,
+    first_guess,
+    follow,
+    frame_cycle,
+    frame_cycle_rate,
+    integrate,
+    settle,
+    turn_to,
+)
 from ..dynamics.bodies import MOTOR
-from ..dynamics.cycle import cycle_shift, frame_cycle
 from ..dynamics.mesh_sums import MeshSums
-from ..dynamics.moment import frame_cycle_rate
-from ..dynamics.observe import DTE, MESH_FORCE, QUANTITIES
-from ..dynamics.state import COAST_SIDE, DRIVE_SIDE
 from ..integrators.clock import Instant, delay
-from .equilibrium import first_guess, settle
-from .motion import turn_to
-from .quadrature import ON_EDGE, divide_cycle, integrate, march
-from .totals import ENERGY, MEAN, PEAKS, TOTALS, Totals, add_rates, mesh_sums
+from .totals import ENERGY, MEAN, mesh_sums
 
+ON_EDGE = 1e-11  # mesh cycles within which a panel counts as ended
 SAME = 1e-12  # mesh cycles below which two edges are one
 
 
@@ -33,7 +47,7 @@ class Ledger:
         model: the train at that point.
         tolerance: relative error of the losses of a mesh cycle.
         lean: side of the teeth on which the mean torque presses.
-        origin: a STATE: where the motors are.
+        origin: where the motors are.
         energy: ledger so far (LEDGER,).
 
     Raises:
@@ -41,15 +55,14 @@ class Ledger:
     """
 
     def __init__(
-        self, model: Record, tolerance: float, lean: int, origin: Record, energy: np.ndarray
+        self, model: Model, tolerance: float, lean: int, origin: State, energy: np.ndarray
     ) -> None:
         self._model, self._tolerance, self._lean = model, tolerance, lean
         self._mark = origin.copy()
-        self._taken = Instant(int(origin.seconds), float(origin.time))
+        self._taken = Instant(origin.seconds, origin.time)
         self._totals, self._peak = np.zeros(TOTALS), np.zeros((PEAKS, MESHES))
         self._totals[ENERGY] = energy
         self._run = first_guess(lean)
-        self._shown = np.zeros((QUANTITIES, int(model.train.meshes)))
         self._repeats = _repeats(model)
         self._edges = self._corners(origin)
         self._cycle: tuple[np.ndarray, np.ndarray, np.ndarray] | None = None
@@ -69,18 +82,18 @@ class Ledger:
         totals, peak = self.at(time)
         self._totals[MEAN] -= totals[MEAN]
         self._peak[:], self._taken = 0.0, time
-        return mesh_sums(totals[MEAN], peak, int(self._model.train.meshes))
+        return mesh_sums(totals[MEAN], peak, self._model.train.meshes)
 
     def at(self, time: Instant) -> tuple[np.ndarray, np.ndarray]:
         """Totals at `time` (TOTALS,) since each was last taken, and peaks (PEAKS, MESHES)."""
-        march(
+        follow(
             self._model, self._tolerance, self._mark, self._run, self._edges, time, self._repeats,
-            Totals(self._totals, self._peak, self._shown),
+            self._totals, self._peak,
         )  # fmt: skip
         left = delay(self._mark, time)
         if not self._repeats or not self._is_steady():
             return self._with(*self._integral(0.0, left))
-        rate = abs(float(frame_cycle_rate(self._model.train, self._mark)))
+        rate = abs(frame_cycle_rate(self._model.train, self._mark))
         if rate == 0.0:
             rates, peak = self._rates(time)
             self._move(rates * left, peak, left)
@@ -120,38 +133,35 @@ class Ledger:
         self._totals, self._peak = self._with(gain, peak)
         turn_to(self._model, self._mark, time, self._mark)
 
-    def _panels(self, origin: Record) -> np.ndarray:
+    def _panels(self, origin: State) -> np.ndarray:
         """Edges of panels [mesh cycles of the frame], fine enough at the speed to come."""
         for speed in (self._model.load.target_speed, origin.set_speed):
             model, state = self._model.copy(), origin.copy()
             model.load.target_speed = speed
             state.set_speed = state.speed = speed
-            rate = float(frame_cycle_rate(model.train, state))
+            rate = frame_cycle_rate(model.train, state)
             if rate != 0.0:
                 phase = self._divide(model, state)[0]
-                first = float(frame_cycle(model.train, state, 1))
+                first = frame_cycle(model.train, state, 1)
                 return np.mod(first + math.copysign(1.0, rate) * phase[:-1], 1.0)
         return self._edges
 
-    def _divide(self, model: Record, origin: Record) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-        rate = float(frame_cycle_rate(model.train, origin))
-        first = float(frame_cycle(model.train, origin, 1))
+    def _divide(self, model: Model, origin: State) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        rate = frame_cycle_rate(model.train, origin)
+        first = frame_cycle(model.train, origin, 1)
         ahead = np.mod(math.copysign(1.0, rate) * (self._edges - first), 1.0)
         edges = np.unique(np.concatenate([[0.0, 1.0], ahead]))
         edges = edges[np.append(np.diff(edges) > SAME, True)]
         edges[0], edges[-1] = 0.0, 1.0
         run = first_guess(self._lean)
-        cycle: tuple[np.ndarray, np.ndarray, np.ndarray] = divide_cycle(
-            model, self._tolerance, origin, run, edges, 1.0 / abs(rate), self._shown
-        )
-        return cycle
+        return divide_cycle(model, self._tolerance, origin, run, edges, 1.0 / abs(rate))
 
-    def _corners(self, origin: Record) -> np.ndarray:
+    def _corners(self, origin: State) -> np.ndarray:
         """Mesh cycles of the frame at which a tooth pair begins or ends to enter or leave."""
         train, load, run = self._model.train, self._model.load, first_guess(self._lean)
         turn_to(self._model, origin, 0.0, run.state)
-        settle(self._model, self._tolerance, run, self._shown)
-        shift = float(cycle_shift(train, run.state.x))
+        settle(self._model, self._tolerance, run)
+        shift = cycle_shift(train, run.state.x)
         reverses = load.ripple >= abs(load.torque[MOTOR])
         sides = (DRIVE_SIDE, COAST_SIDE) if reverses else (self._lean,)
         corners = []
@@ -171,12 +181,8 @@ class Ledger:
 
         From a fresh guess: it leaves no trace.
         """
-        gain, peak = np.zeros(TOTALS), np.zeros((PEAKS, MESHES))
-        integrate(
-            self._model, self._tolerance, self._mark, first_guess(self._lean), (begin, end),
-            self._shown, gain, peak,
-        )  # fmt: skip
-        return gain, peak
+        run = first_guess(self._lean)
+        return integrate(self._model, self._tolerance, self._mark, run, (begin, end))
 
     def power(self, time: Instant) -> np.ndarray:
         """By which the ledger grows at `time`, which is not before the mark."""
@@ -186,15 +192,14 @@ class Ledger:
         """By which the totals grow at `time`, and the peaks of that instant."""
         run, rates, peak = first_guess(self._lean), np.zeros(TOTALS), np.zeros((PEAKS, MESHES))
         turn_to(self._model, self._mark, delay(self._mark, time), run.state)
-        settle(self._model, self._tolerance, run, self._shown)
+        shown = settle(self._model, self._tolerance, run)
         train = self._model.train
-        add_rates(train, run.evaluation.power, self._shown, 1.0, rates)
-        meshes = int(train.meshes)
-        peak[:2, :meshes] = np.abs(self._shown[[DTE, MESH_FORCE]])
+        add_rates(train, run.evaluation.power, shown, 1.0, rates)
+        peak[:2, : train.meshes] = np.abs(shown[[DTE, MESH_FORCE]])
         return rates, peak
 
 
-def _repeats(model: Record) -> bool:
+def _repeats(model: Model) -> bool:
     """Whether the powers of steady running depend on nothing but the place in the mesh cycle."""
     train = model.train
     periods = [train.line_period[kind, : train.lines[kind]] for kind in range(2)]

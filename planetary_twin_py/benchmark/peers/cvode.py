@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from .equations import rate
+from ..._core import derivative
 from .problem import Problem
 from .solver import Deadline, Solver, SolverError
 
@@ -23,7 +23,7 @@ def _cvode(method: str) -> Solver:
 
         def function(t: float, y: np.ndarray, dy: np.ndarray) -> None:
             deadline.check()
-            rate(problem.record, t, y, dy)
+            derivative(problem.record, t, y, dy)
 
         solver = CVODE(
             function, method=method, rtol=tolerance, atol=tolerance * problem.scale,

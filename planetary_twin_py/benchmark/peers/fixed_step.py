@@ -7,18 +7,23 @@ within it: the tolerance is taken as the step in mesh cycles.
 from __future__ import annotations
 
 import math
-from typing import Any
+from collections.abc import Callable
 
 import numpy as np
 
-from . import runge_kutta_4, semi_implicit_euler
+from ..._core import Problem as Record
+from ..._core import runge_kutta_4, semi_implicit_euler
 from .problem import Problem
 from .solver import Deadline, Solver, SolverError
 
 CHUNK = 50  # samples between two looks at the clock
 
 
-def _fixed_step(march: Any) -> Solver:
+# (problem, times, steps between two of them, y, samples), see the core.
+March = Callable[[Record, np.ndarray, int, np.ndarray, np.ndarray], None]
+
+
+def _fixed_step(march: March) -> Solver:
     def solve(
         problem: Problem, times: np.ndarray, tolerance: float, deadline: Deadline
     ) -> np.ndarray:
@@ -36,6 +41,6 @@ def _fixed_step(march: Any) -> Solver:
 
 
 SOLVERS: dict[str, Solver] = {
-    "rk4": _fixed_step(runge_kutta_4.march),
-    "semi_implicit_euler": _fixed_step(semi_implicit_euler.march),
+    "rk4": _fixed_step(runge_kutta_4),
+    "semi_implicit_euler": _fixed_step(semi_implicit_euler),
 }

@@ -7,16 +7,14 @@ from collections.abc import Callable
 
 import numpy as np
 
-from ..._records import Record, new_record
-from ...dynamics.equations import MODEL
-from ...dynamics.moment import frame_cycle_rate
+from ..._core import Model, derivative, frame_cycle_rate, repeat_derivative, show_states
+from ..._core import Problem as Record
 from ...dynamics.oil import build_oil
 from ...dynamics.start import build_load, start_state
 from ...dynamics.static_load import mesh_force
 from ...dynamics.train import build_train, lightest_body
 from ...engine import LIGHTEST_MESH_LOAD
 from ...scene import Scene
-from .equations import PROBLEM, rate, repeat, show
 
 CALLS = 100_000  # of the right-hand side, to time it
 
@@ -26,17 +24,15 @@ class Problem:
 
     def __init__(self, scene: Scene) -> None:
         train, point = build_train(scene), scene.operating_point
-        model = new_record(MODEL, train=train, oil=build_oil(scene, point))
-        model.load = build_load(scene, point, train)
-        self.record = np.zeros(1, PROBLEM)
+        load = build_load(scene, point, train)
+        model = Model(train=train, oil=build_oil(scene, point), load=load)
         start = start_state(scene, model)
-        self.record[0] = new_record(PROBLEM, model=model, start=start)
-        self._train: Record = train
-        self.bodies, self.axes = int(train.bodies), int(train.axes)
-        self.meshes = int(train.meshes)
+        self.record = Record(model=model, start=start)
+        self._train = train
+        self.bodies, self.axes, self.meshes = train.bodies, train.axes, train.meshes
         self.size = 2 * self.bodies + self.axes
         self.scale = self._scale(scene)
-        frequency = max(abs(frame_cycle_rate(train, start)), float(train.lowest_frequency))
+        frequency = max(abs(frame_cycle_rate(train, start)), train.lowest_frequency)
         self.mesh_period = 1.0 / frequency  # at the start [s]
 
     def _scale(self, scene: Scene) -> np.ndarray:
@@ -57,7 +53,7 @@ class Problem:
         def slope(t: float, y: np.ndarray) -> np.ndarray:
             check()
             dy = np.empty_like(y)
-            rate(record, t, y, dy)
+            derivative(record, t, y, dy)
             return dy
 
         return slope
@@ -65,15 +61,14 @@ class Problem:
     def seconds_per_call(self) -> float:
         """What the right-hand side takes, called from compiled code, over one mesh cycle [s]."""
         y, dy = np.zeros(self.size), np.zeros(self.size)
-        repeat(self.record, 0.0, y, dy, 1)  # compiles
         begin = time.thread_time()
-        repeat(self.record, self.mesh_period / CALLS, y, dy, CALLS)
+        repeat_derivative(self.record, self.mesh_period / CALLS, y, dy, CALLS)
         return (time.thread_time() - begin) / CALLS
 
     def observe(self, times: np.ndarray, states: np.ndarray) -> tuple[np.ndarray, float]:
         """Transmission errors (samples, meshes) [m] and mean power loss [W] of states at times."""
         dte = np.zeros((len(times), self.meshes))
-        return dte, float(show(self.record, times, np.ascontiguousarray(states), dte))
+        return dte, show_states(self.record, times, np.ascontiguousarray(states), dte)
 
 
 def sample_times(duration: float, sample_rate: float) -> np.ndarray:

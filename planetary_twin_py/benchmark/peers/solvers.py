@@ -50,7 +50,7 @@ def run(
     begin = time.perf_counter()
     problem, times = Problem(scene), sample_times(duration, sample_rate)
     setup = time.perf_counter() - begin
-    SOLVERS[name](problem, times[:1], tolerance, Deadline(math.inf))  # compiles
+    SOLVERS[name](problem, times[:1], tolerance, Deadline(math.inf))  # imports what it needs
     begin = time.thread_time()
     states = SOLVERS[name](problem, times, tolerance, Deadline(limit))
     seconds = time.thread_time() - begin
