@@ -181,6 +181,7 @@ void bind_equations(nb::module_& m) {
         forces(model, state, step, at, speeds, delay, trims, out);
     }, "model"_a, "state"_a, "step"_a, "x"_a, "v"_a, "delay"_a, "trim"_a, "out"_a,
     "Forces on all bodies in coordinates x, `delay` seconds after the start of a step.");
+    m.def("kinetic", &kinetic, "model"_a, "state"_a, "Kinetic energy of all bodies [J].");
     m.def("stored", [](const Model& model, const State& state, StepConstants& step) {
         auto [kinetic, elastic] = stored(model, state, step);
         return std::tuple(kinetic, elastic);
