@@ -6,14 +6,7 @@ import numpy as np
 import pytest
 from scipy.optimize import brentq
 
-from planetary_twin_py._records import new_record
-from planetary_twin_py.quasi_static.planet_load import (
-    SPRINGS,
-    planet_force,
-    ring_force,
-    share,
-    wind_up_at,
-)
+from planetary_twin_py._core import Springs, planet_force, ring_force, share, wind_up_at
 
 MESH = 1e8  # [N/m] of both meshes
 
@@ -58,15 +51,14 @@ def test_planets_and_their_copies_carry_the_total_together(total, play):
     random = np.random.default_rng(7)
     for _ in range(200):
         planets = int(random.integers(2, 8))
-        springs = new_record(
-            SPRINGS,
+        springs = Springs(
             copies=random.integers(1, 4, size=planets),
             error=random.normal(scale=random.choice([0.0, 1e-7, 1e-4]), size=planets),
             compliance=10.0 ** random.uniform(-12.0, -6.0, size=planets),
-            rub=random.normal(scale=random.choice([0.0, 1e-3, 5.0]), size=planets),
+            friction=random.normal(scale=random.choice([0.0, 1e-3, 5.0]), size=planets),
         )
         for p in range(planets):
-            springs.steps[p] = steps_of(springs.rub[p], (play, play), (play, play))
+            springs.steps[p] = steps_of(springs.friction[p], (play, play), (play, play))
         w = share(total, planets, springs)
         forces = [
             force

@@ -7,11 +7,9 @@ import pytest
 from power_flows import DIFFERENTIALS, flow_name, scene_of
 
 import planetary_twin_py as pt
+from planetary_twin_py._core import DITHER, first_guess, frame_cycle_rate, settle, turn_to
 from planetary_twin_py.dynamics.bodies import SECOND_MOTOR, base_radii
-from planetary_twin_py.dynamics.moment import frame_cycle_rate
 from planetary_twin_py.quasi_static.engine import QuasiStaticEngine
-from planetary_twin_py.quasi_static.equilibrium import DITHER, first_guess, settle
-from planetary_twin_py.quasi_static.motion import turn_to
 
 SOFT = "drive.second_input.coupling_stiffness"
 FLOWS = pytest.mark.parametrize("flow", DIFFERENTIALS, ids=flow_name)
@@ -52,10 +50,10 @@ def torques(flow, stiffness, backwards):
     model.train.coupling_stiffness[SECOND_MOTOR] *= stiffness / 1e6
     period = 1.0 / abs(frame_cycle_rate(model.train, engine._origin))
     times = np.linspace(0.0, period, 401)
-    found, shown = [], np.zeros_like(engine._ledger._shown)
+    found = []
     for time in times[::-1] if backwards else times:
         turn_to(model, engine._origin, time, run.state)
-        settle(model, 1e-6, run, shown)
+        settle(model, 1e-6, run)
         found.append(float(run.torque[SECOND_MOTOR]))
     return np.array(found[::-1] if backwards else found)
 

@@ -145,6 +145,7 @@ void bind_planet_load(nb::module_& m) {
 void bind_quasi_static(nb::module_& m) {
     m.attr("TOTALS") = TOTALS;
     m.attr("PEAKS") = PEAKS;
+    m.attr("DITHER") = DITHER;
     bind_planet_load(m);
     m.def(
         "first_guess", [](std::int64_t lean) { return first_guess(lean); }, nb::arg("lean"),

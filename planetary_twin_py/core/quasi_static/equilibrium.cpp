@@ -21,8 +21,6 @@ constexpr int MOST_PASSES = 60;
 constexpr int BRISK_PASSES = 5;  // then oscillating friction is under-relaxed
 constexpr int FREE_PASSES = 20;  // then tooth pairs stay: at a jump of the stiffness they may not
                                  // come to rest
-constexpr double DITHER = 0.05;  // [N] below which, then, the friction of a mesh that hardly
-                                 // touches counts as settled
 constexpr double PLACE = 0.01;  // mesh cycles over which stiffness changes by as much as counts
                                 // for the tolerance
 constexpr double LIGHTEST_FORCE = 1.0;  // [N] smaller forces do not tighten the tolerance further

@@ -17,6 +17,9 @@ namespace gearbox {
 // Columns of Equilibrium::play: the side whose flank carries.
 constexpr int DRIVE_PLAY = 0, COAST_PLAY = 1;
 
+// Where passes do not end: friction of a mesh that hardly touches counts as settled below this [N].
+constexpr double DITHER = 0.05;
+
 // An equilibrium still to be found, the teeth on the side `lean`.
 Equilibrium first_guess(std::int64_t lean);
 
