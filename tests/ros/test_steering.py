@@ -108,8 +108,8 @@ def test_the_monitor_shows_every_figure(points: list[OperatingPoint]) -> None:
     answer = command("monitor", "--duration", "2.5")
     assert answer.returncode == 0, answer.stderr
     for figure in FIGURES:
-        assert figure.name in answer.stdout
-    assert answer.stdout.count("input speed") >= 2
+        assert figure.title in answer.stdout
+    assert answer.stdout.count("Speed of the motor") >= 2
     assert "1000 " in answer.stdout and "mesh cycles" in answer.stdout
 
 
@@ -136,7 +136,7 @@ def test_every_figure_of_one_kind_of_mesh_names_it() -> None:
                 if name.startswith(kind):
                     getattr(state, name)[:] = level
             states.append(state)
-        moved = [figure.name for figure in FIGURES if len({figure.value(s) for s in states}) > 1]
+        moved = [figure.title for figure in FIGURES if len({figure.value(s) for s in states}) > 1]
         assert moved and all(kind.replace("_", "-") in name for name in moved)
 
 

@@ -7,6 +7,7 @@ from collections import deque
 
 from diagnostic_msgs.msg import DiagnosticArray
 from planetary_twin_msgs.msg import RecorderStatus
+from rclpy.duration import Duration
 from rclpy.lifecycle import LifecyclePublisher
 from rclpy.serialization import serialize_message
 from rclpy.timer import Timer
@@ -23,6 +24,7 @@ from .stamps import STEADY, StrictClock
 
 _DISCOVERY_PERIOD = 0.1  # [s]
 _STATUS_PERIOD = 1.0  # [s]
+_LAST_REPORT = Duration(seconds=1.0)  # longest wait for subscribers to receive it
 _OWN = 100  # newest reports of this node, which it does not record
 
 
@@ -113,6 +115,8 @@ class Logger(ManagedNode):
     def _on_failure(self, reason: str) -> None:
         self._stop_ticking()
         self._diagnose(self._report.failure(reason))
+        # A publisher that is destroyed takes along what its subscribers have not received yet.
+        self._diagnostics.wait_for_all_acked(_LAST_REPORT)
         self.fail(reason)
 
     def _report_status(self) -> None:

@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 import time
 from collections import deque
-from collections.abc import Callable
 from typing import NamedTuple
 
 import numpy as np
@@ -15,6 +14,7 @@ from rich.console import Console
 from rich.live import Live
 from rich.table import Table
 
+from planetary_twin_py.quantities import MESH, TRAIN, Quantity, side_title
 from planetary_twin_py.terminal.console import make_console
 
 from .remote import Remote
@@ -28,45 +28,41 @@ _SILENCE = 10.0  # [s] longest wait for a state
 
 
 class Figure(NamedTuple):
-    """One row of the table."""
+    """One row of the table: a field of GearboxState and its entry in the catalogue."""
 
-    name: str
-    unit: str
-    value: Callable[[GearboxState], float]
+    field: str
+    title: str
+    quantity: Quantity
+
+    def value(self, state: GearboxState) -> float:
+        """Return the value in the unit of plots, of all meshes of one kind; NaN if unknown."""
+        values = np.atleast_1d(np.asarray(getattr(state, self.field), dtype=float))
+        known = values[np.isfinite(values)]  # entries beyond the number of planets are NaN
+        return (
+            self.quantity.factor * float(self.quantity.over_meshes(known))
+            if known.size
+            else math.nan
+        )
 
 
-def _rpm(speed: float) -> float:
-    return speed * 30.0 / math.pi
+def _of_train(name: str) -> Figure:
+    return Figure(name, TRAIN[name].title, TRAIN[name])
 
 
-def _mean(values: object) -> float:
-    """Return the mean over the planets; entries beyond their number are NaN."""
-    array = np.asarray(values, dtype=float)
-    return float(np.nanmean(array)) if np.isfinite(array).any() else math.nan
+def _of_meshes(side: str, name: str) -> Figure:
+    return Figure(f"{side}_{name}", f"{MESH[name].title}, {side_title(side)}", MESH[name])
 
 
 FIGURES = (
-    Figure("input speed", "rpm", lambda s: _rpm(s.input_speed)),
-    Figure("input torque", "N m", lambda s: s.input_torque),
-    Figure("output speed", "rpm", lambda s: _rpm(s.output_speed)),
-    Figure("mesh frequency", "Hz", lambda s: s.mesh_frequency),
-    Figure("DTE sun-planet, mean", "um", lambda s: 1e6 * _mean(s.sun_planet_dte_mean)),
-    Figure("DTE sun-planet, rms", "um", lambda s: 1e6 * _mean(s.sun_planet_dte_rms)),
-    Figure("DTE planet-ring, mean", "um", lambda s: 1e6 * _mean(s.planet_ring_dte_mean)),
-    Figure("mesh force sun-planet, mean", "N", lambda s: _mean(s.sun_planet_mesh_force_mean)),
-    Figure(
-        "mesh force sun-planet, peak",
-        "N",
-        lambda s: float(np.nanmax(s.sun_planet_mesh_force_peak)),
-    ),
-    Figure("in contact, sun-planet", "%", lambda s: 100.0 * _mean(s.sun_planet_contact_fraction)),
-    Figure("film, sun-planet", "um", lambda s: 1e6 * _mean(s.sun_planet_film_thickness)),
-    Figure("lambda ratio, sun-planet", "-", lambda s: _mean(s.sun_planet_lambda_ratio)),
-    Figure("boundary friction, sun-planet", "N", lambda s: _mean(s.sun_planet_boundary_friction)),
-    Figure("viscous friction, sun-planet", "N", lambda s: _mean(s.sun_planet_viscous_friction)),
-    Figure("power loss", "W", lambda s: s.power_loss),
-    Figure("efficiency", "%", lambda s: 100.0 * s.efficiency),
+    *map(_of_train, ("input_speed", "input_torque", "output_speed", "mesh_frequency")),
+    *(_of_meshes("sun_planet", name) for name in MESH if name != "power_loss"),
+    _of_meshes("planet_ring", "dte_mean"),
+    *map(_of_train, ("power_loss", "efficiency")),
 )
+
+
+# Characters of a row beside its history: title, value, unit and the space between them.
+_BESIDE_HISTORY = max(len(figure.title) for figure in FIGURES) + 18
 
 
 def sparkline(values: list[float]) -> str:
@@ -95,14 +91,19 @@ class Monitor(Remote):
         self.node.create_subscription(GearboxState, "gearbox_state", self._on_state, 10)
         self.node.create_subscription(DiagnosticArray, "/diagnostics", self._on_diagnostics, 10)
 
-    def table(self) -> Table:
-        """Return the present table; raises `ConnectionError` if no state has been received."""
+    def table(self, width: int) -> Table:
+        """
+        Return the present table, at most `width` characters wide.
+
+        Raises `ConnectionError` if no state has been received.
+        """
         state = self.state
         if state is None:
             raise ConnectionError(
                 f"no twin publishes in {self.namespace}: start one with `planetary-twin run`"
             )
         report = self.report
+        shown_history = max(width - _BESIDE_HISTORY, 1)
         table = Table(box=None, header_style="bold", pad_edge=False)
         table.add_column(f"{self.namespace}  {state.simulated_time:.2f} s")
         table.add_column("value", justify="right")
@@ -112,7 +113,12 @@ class Monitor(Remote):
             value = figure.value(state)
             history.append(value)
             shown = "-" if math.isnan(value) else f"{value:.5g}"
-            table.add_row(figure.name, shown, figure.unit, sparkline(list(history)))
+            table.add_row(
+                figure.title,
+                shown,
+                figure.quantity.unit,
+                sparkline(list(history)[-shown_history:]),
+            )
         table.add_section()
         for name, key in (
             ("real time x", "real_time_factor"),
@@ -142,15 +148,15 @@ def watch(namespace: str, duration: float | None) -> None:
         if not console.is_terminal:
             _print(monitor, console, end)
             return
-        with Live(monitor.table(), console=console, refresh_per_second=8) as live:
+        with Live(monitor.table(console.width), console=console, refresh_per_second=8) as live:
             while time.monotonic() < end:
                 time.sleep(_LIVE_PERIOD)
-                live.update(monitor.table())
+                live.update(monitor.table(console.width))
 
 
 def _print(monitor: Monitor, console: Console, end: float) -> None:
     """Print a table once a second, for a file or a pipe."""
-    console.print(monitor.table())
+    console.print(monitor.table(console.width))
     while time.monotonic() + _PLAIN_PERIOD < end:
         time.sleep(_PLAIN_PERIOD)
-        console.print(monitor.table())
+        console.print(monitor.table(console.width))
