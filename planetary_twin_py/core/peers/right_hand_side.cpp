@@ -40,8 +40,40 @@ void place_bodies(Problem& problem, double t, const double* y) {
     }
 }
 
+// Of which side and segment (from 1 on) the tables in `step` are.
+struct TablesHeld {
+    double side[MESHES];
+    std::int64_t segment[MESHES];
+};
+
+// Let all meshes be open; the tables stay as they are.
+TablesHeld open_meshes(const Train& train, State& state, StepConstants& step) {
+    TablesHeld held;
+    for (std::int64_t i = 0; i < train.meshes; ++i) {
+        held.side[i] = step.side[i];
+        held.segment[i] = step.segment[i];
+        state.side[i] = OPEN;
+        step.side[i] = 0.0;
+        step.segment[i] = state.segment[i] + 1;
+    }
+    return held;
+}
+
+// As `take_segment`, which costs more than all else here, where other tables are held.
+void take_tables(const Train& train, const State& state, StepConstants& step, std::int64_t i,
+                 const TablesHeld& held) {
+    double side = static_cast<double>(state.side[i]);
+    std::int64_t segment = state.segment[i] + 1;
+    if (held.side[i] == side && held.segment[i] == segment) {
+        step.side[i] = side;
+        step.segment[i] = segment;
+    } else {
+        take_segment(train, state, step, i);
+    }
+}
+
 // Find the flanks in contact and the segments of their tooth pairs.
-void find_contacts(Problem& problem) {
+void find_contacts(Problem& problem, const TablesHeld& held) {
     const Train& train = problem.model.train;
     State& state = problem.state;
     StepConstants& step = problem.step;
@@ -49,7 +81,10 @@ void find_contacts(Problem& problem) {
     double pace = step.cycle_rate + cycle_shift(train, v);
     double cycles = frame_cycle(train, state, 1) + cycle_shift(train, x);
     for (std::int64_t i = 0; i < train.meshes; ++i) {
-        if (departure(problem.model, state, step, i, x, v, {0.0, pace, 0.0}) >= 0.0) continue;
+        if (departure(problem.model, state, step, i, x, v, {0.0, pace, 0.0}) >= 0.0) {
+            take_tables(train, state, step, i, held);
+            continue;
+        }
         double d = deflection(train, step, i, x, v, 0.0, pace).d;
         std::int64_t side = d > 0.0 ? DRIVE_SIDE : COAST_SIDE;
         // As `mesh_cycle`, but the cycles of the frame, which take long to count, are counted once.
@@ -59,7 +94,7 @@ void find_contacts(Problem& problem) {
         state.side[i] = side;
         state.segment[i] =
             find_segment(train, train.kind[i], cycle, static_cast<double>(side) * pace);
-        take_segment(train, state, step, i);
+        take_tables(train, state, step, i, held);
         step.start[i] = cycle;
         if (train.faults > 0) find_faults(train, state, i, side, cycle, step.faulty);
     }
@@ -69,9 +104,9 @@ void find_contacts(Problem& problem) {
 
 void place_problem(Problem& problem, double t, const double* y) {
     place_bodies(problem, t, y);
-    std::fill(problem.state.side, problem.state.side + problem.model.train.meshes, OPEN);
+    TablesHeld held = open_meshes(problem.model.train, problem.state, problem.step);
     set_step_constants(problem.model, problem.state, problem.step);
-    find_contacts(problem);
+    find_contacts(problem, held);
 }
 
 void derivative(Problem& problem, double t, const double* y, double* dy) {
