@@ -11,9 +11,8 @@ import math
 from collections.abc import Iterator
 from typing import TYPE_CHECKING, NamedTuple
 
-from ._records import Record
+from ._core import CREEPING, Control
 from .dynamics.bodies import rigid_ratios
-from .dynamics.creep import CREEPING
 from .gearset.geometry import pitch_radius
 from .scene import OperatingPoint, Scene
 
@@ -67,7 +66,7 @@ class Course(NamedTuple):
         )
 
 
-def course_so_far(control: Record, unsettled: float) -> Course:
+def course_so_far(control: Control, unsettled: float) -> Course:
     """Counters of a run from its start.
 
     Args:

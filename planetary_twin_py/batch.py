@@ -1,4 +1,4 @@
-"""Simulation of many scenes in threads; the kernels release the global interpreter lock."""
+"""Simulation of many scenes in threads; the core releases the global interpreter lock."""
 
 from __future__ import annotations
 

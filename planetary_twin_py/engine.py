@@ -12,23 +12,31 @@ from math import floor
 
 import numpy as np
 
-from ._records import AXES, Record, new_record
+from ._core import (
+    AUTO,
+    AXES,
+    COLLOCATION,
+    IMPULSE,
+    ROSENBROCK,
+    Control,
+    March,
+    Model,
+    advance,
+    begin_step,
+    count_until,
+    cut,
+    radau,
+    stored,
+)
 from .dynamics.cycle import common_cycles, turns_per_cycle
-from .dynamics.energy import stored
-from .dynamics.equations import MODEL
 from .dynamics.mesh_sums import MeshSums, clear, mesh_sums
 from .dynamics.oil import build_oil
 from .dynamics.speed_loop import bandwidth, check_speed_loop
 from .dynamics.start import build_load, start_state
-from .dynamics.state import IMPULSE
 from .dynamics.static_load import mesh_force, static_torques
 from .dynamics.train import build_train, lightest_body
 from .integrators.clock import NEVER, Sampling, delay, instant, sampling
 from .integrators.interpolant import Samples, new_samples
-from .integrators.march import advance, begin_step, cut
-from .integrators.progress import AUTO, COLLOCATION, MARCH, ROSENBROCK
-from .integrators.radau import radau
-from .integrators.window_sums import count_until
 from .runaway import Limits, RunawayError, squeeze
 from .scene import OperatingPoint, Scene
 from .tolerance import check_tolerance
@@ -63,8 +71,8 @@ class Engine:
         self.tolerance = tolerance
         self._may_repeat = method == "auto"
         self.train = build_train(scene)
-        self.model: Record = new_record(MODEL, train=self.train)
-        self.march: Record = new_record(MARCH)
+        self.model = Model(train=self.train)
+        self.march = March()
         # Parts of the march that every window looks at: finding them takes longer than the look.
         self._end, self._aside = self.march.end, self.march.aside
         self._repetition, self._last = self.march.repetition, self.march.last
@@ -83,10 +91,10 @@ class Engine:
                 check_speed_loop(scene, self.train, where)
         self._load(scene.operating_point)
         self.march.begin = self.march.end = start_state(scene, self.model)
-        self._compile()
+        self._prepare()
 
-    def _compile(self) -> None:
-        """Have every kernel ready before the clock runs; at time zero none changes anything."""
+    def _prepare(self) -> None:
+        """Go through all that a window calls; at time zero it changes nothing."""
         begin_step(self.model, self.march)
         self.march.end = self.march.begin  # tooth pairs may have begun to hold
         self.advance(0.0, 1, 1.0, 0)
@@ -212,13 +220,13 @@ class Engine:
         return int(self._end.seconds) + Fraction(float(self._end.time))
 
     @property
-    def control(self) -> Record:
+    def control(self) -> Control:
         """Step control and counters."""
         return self.march.control
 
     @property
     def repeats(self) -> bool:
-        """Whether steady running repeats itself, see `integrators.repetition`."""
+        """Whether steady running repeats itself, see core/integrators/periodic.hpp."""
         return bool(self._repetition.playing)
 
     @property

@@ -7,7 +7,7 @@ from typing import Protocol
 
 import numpy as np
 
-from ._records import Record
+from ._core import Control, Train
 from .dynamics.mesh_sums import MeshSums
 from .dynamics.speed_loop import check_speed_loop
 from .dynamics.train import build_train
@@ -20,14 +20,14 @@ from .scene import OperatingPoint, Scene
 class Run(Protocol):
     """A model that is advanced in time."""
 
-    train: Record
+    train: Train
 
     @property
     def reached(self) -> Fraction:
         """End of the ledger [s], at or after the end of the last window."""
 
     @property
-    def control(self) -> Record:
+    def control(self) -> Control:
         """Counters of steps and events, see `integrators.progress`."""
 
     @property

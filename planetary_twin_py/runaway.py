@@ -11,9 +11,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ._records import Record
+from ._core import DTE, Load, Train
 from .dynamics.bodies import MACHINE_NAMES, build_bodies, mesh_names
-from .dynamics.observe import DTE
 from .dynamics.static_load import static_torques
 from .integrators.interpolant import Samples
 from .scene import Scene
@@ -64,7 +63,7 @@ class Limits:
         train: from `dynamics.train.build_train`.
     """
 
-    def __init__(self, scene: Scene, train: Record) -> None:
+    def __init__(self, scene: Scene, train: Train) -> None:
         drive, meshes = scene.drive, mesh_names(scene)
         self.squeeze = Limit(
             "squeeze",
@@ -96,7 +95,7 @@ class Limits:
         """Of the torques of the machines."""
 
 
-def squeeze(samples: Samples, train: Record, load: Record) -> np.ndarray:
+def squeeze(samples: Samples, train: Train, load: Load) -> np.ndarray:
     """Lower bound of the mesh deflection along the line of action.
 
     It is |DTE| minus half the backlash and the largest form errors.
@@ -115,7 +114,7 @@ def squeeze(samples: Samples, train: Record, load: Record) -> np.ndarray:
     return np.asarray(np.maximum(pressed, 0.0))
 
 
-def _inertia(train: Record) -> float:
+def _inertia(train: Train) -> float:
     """Largest inertia of the whole train, referred to a motor [kg m^2]."""
     squares = train.mass * train.radius**2
     return float((squares[:, None] * train.ratio**2).sum(axis=0).max())

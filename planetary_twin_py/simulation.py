@@ -10,20 +10,25 @@ from typing import NamedTuple
 
 import numpy as np
 
-from .accuracy import AccuracyWarning, accuracy_warnings
-from .dynamics.bodies import body_names, mesh_names
-from .dynamics.mesh_sums import MeshSums, in_order
-from .dynamics.observe import (
+from ._core import (
+    BEARING,
     BOUNDARY,
+    CHURNING,
+    DAMPING,
     DTE,
     FILM,
+    FRICTION,
     LAMBDA,
     MESH_FORCE,
     MESH_POWER,
     POWER_LOSS,
+    STIFFNESS_WORK,
     VISCOUS,
+    WORK,
 )
-from .dynamics.state import BEARING, CHURNING, DAMPING, FRICTION, STIFFNESS_WORK, WORK
+from .accuracy import AccuracyWarning, accuracy_warnings
+from .dynamics.bodies import body_names, mesh_names
+from .dynamics.mesh_sums import MeshSums, in_order
 from .engine import METHODS
 from .integrators.interpolant import Samples
 from .ledger_check import LedgerWarning, balance_of_run, ledger_warning

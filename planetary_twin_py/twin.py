@@ -8,11 +8,22 @@ from typing import NamedTuple
 
 import numpy as np
 
+from ._core import (
+    BEARING,
+    BOUNDARY,
+    CHURNING,
+    DAMPING,
+    DTE,
+    FRICTION,
+    IMPULSE,
+    MESH_FORCE,
+    STIFFNESS_WORK,
+    VISCOUS,
+    WORK,
+)
 from .accuracy import Course, course_so_far, settling_rate, unsettled
 from .dynamics.bodies import Ratios, body_names, mesh_names
 from .dynamics.mesh_sums import in_order
-from .dynamics.observe import BOUNDARY, DTE, MESH_FORCE, VISCOUS
-from .dynamics.state import BEARING, CHURNING, DAMPING, FRICTION, IMPULSE, STIFFNESS_WORK, WORK
 from .gearset.kinematics import mesh_frequency
 from .integrators.interpolant import Samples
 from .run import start

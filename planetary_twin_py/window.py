@@ -7,10 +7,22 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ._core import (
+    BOUNDARY,
+    CLIPPED,
+    CONTACT,
+    DTE,
+    FILM,
+    FILMED,
+    LAMBDA,
+    MESH_FORCE,
+    POWER_LOSS,
+    SQUARE,
+    VISCOUS,
+)
 from .accuracy import Course
 from .dynamics.bodies import LOAD_MACHINE, MOTOR, SECOND_MOTOR
-from .dynamics.mesh_sums import CLIPPED, CONTACT, FILMED, SQUARE, MeshSums
-from .dynamics.observe import BOUNDARY, DTE, FILM, LAMBDA, MESH_FORCE, POWER_LOSS, VISCOUS
+from .dynamics.mesh_sums import MeshSums
 
 
 @dataclass(frozen=True)

@@ -1,61 +1,77 @@
-"""Records in memory: what fills a cache line begins with one, at every depth."""
+"""Records of the core in Python: where they lie, what they hold, and what they refuse."""
+
+import copy
+import inspect
 
 import numpy as np
 import pytest
 
-from planetary_twin_py._records import CACHE_LINE, REAL, SMALL, WHOLE, layout, new_record
-from planetary_twin_py.benchmark.peers.equations import PROBLEM
-from planetary_twin_py.dynamics.equations import EVALUATION, MODEL
-from planetary_twin_py.dynamics.moment import MOMENT
-from planetary_twin_py.integrators.progress import MARCH
-from planetary_twin_py.quasi_static.equilibrium import EQUILIBRIUM
+from planetary_twin_py import _core
+from planetary_twin_py._core import Equilibrium, Evaluation, March, Model, Problem, State, Train
 
-LAYOUTS = {
-    "evaluation": EVALUATION,
-    "model": MODEL,
-    "moment": MOMENT,
-    "march": MARCH,
-    "equilibrium": EQUILIBRIUM,
-    "problem": PROBLEM,
-}
+CACHE_LINE = 64  # [bytes] vector registers that straddle two lines take twice as long to load
+RECORDS = [kind for _, kind in inspect.getmembers(_core, inspect.isclass) if hasattr(kind, "raw")]
 
 
-def large_fields(kind, begin=0, name=""):
-    """Name and place of every field of a cache line or more, within records in records too."""
-    for field in kind.names:
-        inner, offset = kind.fields[field][:2]
-        if inner.itemsize >= CACHE_LINE:
-            yield f"{name}{field}", begin + offset
-        base, count = inner.base, inner.itemsize // inner.base.itemsize
-        if base.names is not None:
-            for n in range(count):
-                place = begin + offset + n * base.itemsize
-                yield from large_fields(base, place, f"{name}{field}.")
+def fields_of(kind):
+    return [
+        name for name, _ in inspect.getmembers(kind, lambda member: isinstance(member, property))
+    ]
 
 
-@pytest.mark.parametrize("kind", LAYOUTS.values(), ids=LAYOUTS)
+def large_fields(record, name=""):
+    """Name and address of every array of a cache line or more, within records in records too."""
+    for field in fields_of(type(record)):
+        value = getattr(record, field)
+        if isinstance(value, np.ndarray) and value.nbytes >= CACHE_LINE:
+            yield f"{name}{field}", value.ctypes.data
+        elif hasattr(value, "raw"):
+            yield from large_fields(value, f"{name}{field}.")
+
+
+@pytest.mark.parametrize("kind", [Evaluation, Model, March, Equilibrium, Problem])
 def test_what_fills_a_cache_line_begins_with_one(kind):
-    record = new_record(kind)
-    first = record.view(np.uint8).ctypes.data if hasattr(record, "ctypes") else None
-    begin = record.__array_interface__["data"][0] if first is None else first
-    places = dict(large_fields(kind, begin))
+    places = dict(large_fields(kind()))
     assert len(places) > 5
     assert {name for name, place in places.items() if place % CACHE_LINE} == set()
 
 
-def test_records_in_an_array_stay_aligned():
-    kind = layout(flag=SMALL, values=(REAL, (3,)), many=(REAL, (9,)), count=WHOLE)
-    outer = layout(one=WHOLE, inner=(kind, (3,)))
-    assert kind.itemsize % CACHE_LINE == 0
-    record = new_record(outer)
-    addresses = [record.inner[n].many.ctypes.data for n in range(3)]
-    assert [address % CACHE_LINE for address in addresses] == [0, 0, 0]
-    assert kind.fields["values"][1] % 8 == 0
+@pytest.mark.parametrize("kind", RECORDS, ids=lambda kind: kind.__name__)
+def test_a_new_record_is_zero_and_its_copy_is_another(kind):
+    record = kind()
+    for field in fields_of(kind):
+        value = getattr(record, field)
+        if isinstance(value, np.ndarray | int | float):
+            assert not np.any(value), field
+    assert type(copy.copy(record)) is kind
+    assert record.copy().raw().ctypes.data != record.raw().ctypes.data
 
 
 def test_a_new_record_holds_what_it_is_given_and_zeros():
-    kind = layout(scale=REAL, values=(REAL, (10,)), table=(WHOLE, (3, 4)))
-    record = new_record(kind, scale=2.0, values=[1.0, 2.0], table=np.ones((2, 2), dtype=int))
-    assert record.scale == 2.0
-    assert np.array_equal(record.values, [1.0, 2.0, *[0.0] * 8])
-    assert record.table.sum() == 4 and np.array_equal(record.table[:2, :2], np.ones((2, 2)))
+    train = Train(sun_advance=2.0, mass=[1.0, 2.0], body=np.ones((2, 2), dtype=int))
+    assert train.sun_advance == 2.0
+    assert np.array_equal(train.mass, [1.0, 2.0, *[0.0] * (_core.BODIES - 2)])
+    assert train.body.sum() == 4 and np.array_equal(train.body[:2, :2], np.ones((2, 2)))
+
+
+def test_arrays_and_inner_records_are_the_records_own():
+    model = Model(train=Train(mass=[1.0]))
+    mass = model.train.mass
+    mass[0] = 3.0
+    assert model.train.mass[0] == 3.0
+    kept = model.copy()
+    mass[0] = 4.0
+    assert (kept.train.mass[0], model.train.mass[0]) == (3.0, 4.0)
+    del model
+    assert mass[0] == 4.0  # the array keeps its record alive
+
+
+def test_what_does_not_fit_is_refused():
+    with pytest.raises(AttributeError):
+        Train(mas=[1.0])
+    with pytest.raises(AttributeError):
+        State().tim = 1.0
+    with pytest.raises(ValueError):
+        Train(mass=np.ones(_core.BODIES + 1))
+    with pytest.raises(TypeError):
+        State(time="late")

@@ -6,16 +6,16 @@ import numpy as np
 import pytest
 
 import planetary_twin_py as pt
-from planetary_twin_py.dynamics.observe import (
+from planetary_twin_py._core import (
     BOUNDARY,
     DTE,
     FILM,
+    FRICTION,
     LAMBDA,
     MESH_FORCE,
     POWER_LOSS,
     VISCOUS,
 )
-from planetary_twin_py.dynamics.state import FRICTION
 from planetary_twin_py.run import start
 from planetary_twin_py.window import mesh_statistics
 

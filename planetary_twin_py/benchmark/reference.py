@@ -14,16 +14,21 @@ from typing import Any
 import numpy as np
 from scipy.integrate import solve_ivp
 
-from .._records import AXES, Record, new_record
-from ..dynamics.body_speed import body_speed
-from ..dynamics.contact_events import departure
-from ..dynamics.cycle import cycle_shift
-from ..dynamics.equations import EVALUATION, forces
-from ..dynamics.observe import QUANTITIES, observe
-from ..dynamics.state import OPEN
+from .._core import (
+    AXES,
+    OPEN,
+    QUANTITIES,
+    Evaluation,
+    accept,
+    begin_step,
+    body_speed,
+    cycle_shift,
+    departure,
+    forces,
+    observe,
+)
 from ..engine import Engine
 from ..integrators.clock import delay, instant, run_on
-from ..integrators.march import accept, begin_step
 from ..scene import Scene
 
 RELATIVE, ABSOLUTE_X, ABSOLUTE_V = 1e-11, 1e-16, 1e-12
@@ -58,7 +63,7 @@ class Reference:
         self._model, self._march = self._engine.model, self._engine.march
         self._bodies, self._axes = int(self._engine.train.bodies), int(self._engine.train.axes)
         self._trim = np.zeros(AXES)
-        self._work: Record = new_record(EVALUATION)
+        self._work = Evaluation()
         self._x = np.zeros_like(self._march.begin.x)
         self._v = np.zeros_like(self._march.begin.v)
 

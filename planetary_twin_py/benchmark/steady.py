@@ -9,7 +9,7 @@ from typing import NamedTuple
 import numpy as np
 from rich.table import Table
 
-from ..dynamics.observe import DTE
+from .._core import DTE
 from ..engine import Engine
 from ..scene import Scene
 from .cases import Case
@@ -36,7 +36,7 @@ class Steady(NamedTuple):
     error_dte: float  # that aside
     error_power_loss: float
     speed: Speed  # from the start, without samples
-    setup_s: float  # building and starting the model, kernels compiled [s]
+    setup_s: float  # building and starting the model [s]
 
     def figures(self) -> dict[str, str | float | None]:
         """For JSON, which knows no NaN."""
@@ -151,7 +151,7 @@ def steady_markdown(rows: Sequence[Steady]) -> str:
 ## Steady running
 
 The default method, `auto`, in the same cases over {MINUTE:g} s. Once mesh cycles are periodic, they
-are not computed again (`integrators/repetition.py`).
+are not computed again (`core/integrators/periodic.hpp`).
 
 - *a minute*: simulated time over processor time from the start, without samples, with settling.
 - Errors are those of the last {COMPARED * 1e3:g} ms before {BY:g} s, against `{METHOD}` at

@@ -8,7 +8,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ..dynamics.observe import DTE, POWER_LOSS
+from .._core import DTE, POWER_LOSS
 from .cases import Case
 from .reference import Reference
 from .timing import METHOD, SAMPLE_RATE, end_to_end, run, speed
@@ -30,7 +30,7 @@ class Row(NamedTuple):
     rtf_low: float  # the slowest round
     rtf_high: float  # the fastest
     rtf_sampled: float  # with samples of all meshes, median
-    setup_s: float  # building and starting the model, kernels compiled [s]
+    setup_s: float  # building and starting the model [s]
     end_to_end_rtf: float = math.nan  # of WHOLE seconds over wall time, set-up and samples included
     note: str = ""  # why there are no figures (they are NaN)
 

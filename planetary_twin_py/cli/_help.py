@@ -35,7 +35,7 @@ class Command(TyperCommand):
         try:
             return super().invoke(ctx)
         except ArithmeticError as error:
-            from ..runaway import RunawayError  # imports numba, which is loaded by now
+            from ..runaway import RunawayError  # imports NumPy, which is loaded by now
 
             if not isinstance(error, RunawayError):
                 raise

@@ -50,7 +50,7 @@ def _as_figures(finding: Finding) -> dict[str, str]:
 
 
 def _findings() -> Iterator[Finding]:
-    from ..doctor import apart, cache, disk, environment, packages, viewer
+    from ..doctor import apart, core, disk, environment, packages, viewer
 
-    for part in (packages, cache, disk, viewer, environment, apart):
+    for part in (packages, core, disk, viewer, environment, apart):
         yield from part.check()

@@ -63,7 +63,7 @@ def _print(console: Console, result: Comparison) -> None:
     if result.not_recorded:
         console.print(f"not recorded      {result.not_recorded} states")
     if not result.same_makers:
-        console.print("recorded by       other kernels or another type of machine")
+        console.print("recorded by       another core or another type of machine")
     first = result.first_difference
     if first is None:
         console.print(f"result            {_conclusion(result)}", highlight=False, soft_wrap=True)

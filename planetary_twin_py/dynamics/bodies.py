@@ -8,7 +8,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from .._records import AXES
+from .._core import AXES
 from ..gearset.geometry import pitch_radius
 from ..gearset.kinematics import speeds_per_input
 from ..scene import Scene

@@ -4,45 +4,21 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
-from .._compile import kernel, law
-from .._records import BODIES, REAL, WHOLE, Record
-from ..losses.bearing import bearing_torque
-from ..losses.churning import disc_torque
+from .._core import NO_PLANET
 from ..scene import Scene
 from ..scene.losses import Bearing
 from .alike import planet_groups
 from .bodies import Bodies
-from .body_speed import body_speed
-from .state import BEARING, CHURNING
 
 MEMBERS = ("sun", "ring", "carrier")
-SLOWEST_TURN = 1e-2  # [rad/s] below which the sense of drag fades out
-NO_PLANET = -1
-JOINTS = BODIES + len(MEMBERS)  # room: a bearing of every body, a drag of every member
-
-DRAG_LAYOUT = {
-    "joints": WHOLE,  # bearings, and members with a drag of their own
-    "joint_body": (WHOLE, (JOINTS, 2)),  # what turns, and against what
-    "joint_planet": (WHOLE, (JOINTS,)),  # whose pin loads it, or NO_PLANET
-    "joint_idle": (REAL, (JOINTS,)),  # f0 dm^3 [m^3]
-    "joint_rubbing": (REAL, (JOINTS,)),  # f1 dm [m]
-    "joint_coulomb": (REAL, (JOINTS,)),  # [N m]
-    "joint_viscous": (REAL, (JOINTS,)),  # [N m s/rad]
-    "pin_share": REAL,  # load on a pin per sum of the forces of its planet's meshes [-]
-    "discs": WHOLE,
-    "disc_body": (WHOLE, (len(MEMBERS),)),
-    "disc_radius": (REAL, (len(MEMBERS),)),  # [m]
-    "disc_gap": REAL,  # [m]
-    "disc_fill": REAL,  # share of oil in what they turn in [-]
-}
 
 
 class _Joint(NamedTuple):
-    """What resists the rotation of one body against another; see `DRAG_LAYOUT`."""
+    """What resists the rotation of one body against another; see `Train`."""
 
     body: tuple[int, int]
     planet: int = NO_PLANET
@@ -52,8 +28,8 @@ class _Joint(NamedTuple):
     viscous: float = 0.0
 
 
-def build_drag(scene: Scene, bodies: Bodies) -> dict[str, object]:
-    """Fields of `DRAG_LAYOUT`."""
+def build_drag(scene: Scene, bodies: Bodies) -> dict[str, Any]:
+    """Fields of `Train`."""
     joints, place, churning = list(_joints(scene, bodies)), bodies.place, scene.losses.churning
     discs = {m: getattr(churning, m) for m in MEMBERS if churning and getattr(churning, m)}
     return {
@@ -89,48 +65,3 @@ def _joints(scene: Scene, bodies: Bodies) -> Iterator[_Joint]:
 
 def _palmgren(bearing: Bearing) -> tuple[float, float]:
     return bearing.f0 * bearing.mean_diameter**3, bearing.f1 * bearing.mean_diameter
-
-
-@law
-def _sense(speed: float) -> float:
-    return speed / math.sqrt(speed * speed + SLOWEST_TURN * SLOWEST_TURN)
-
-
-@law
-def _pin_load(train: Record, state: Record, out: Record, planet: int) -> float:
-    """Load [N] on the pin of a planet, whose two meshes add up or oppose each other."""
-    if planet == NO_PLANET:
-        return 0.0
-    ring = train.meshes // 2 + planet
-    return train.pin_share * abs(
-        state.side[planet] * out.now.push[planet] + state.side[ring] * out.now.push[ring]
-    )
-
-
-@kernel
-def apply_drag(model: Record, state: Record, v: np.ndarray, out: Record) -> None:
-    """Add the drag of joints and discs to out.rubbing; book it in out.power.
-
-    Reads the pushes of the meshes from `out.now`.
-    """
-    train, oil = model.train, model.oil
-    for b in range(train.joints):
-        inner, outer = train.joint_body[b, 0], train.joint_body[b, 1]
-        speed = body_speed(train, state, v, inner) - body_speed(train, state, v, outer)
-        load = _pin_load(train, state, out, train.joint_planet[b])
-        torque = train.joint_coulomb[b] + train.joint_viscous[b] * abs(speed)
-        torque += bearing_torque(
-            train.joint_idle[b], train.joint_rubbing[b], oil.kinematic, speed, load
-        )
-        torque *= _sense(speed) * train.body_copies[inner]
-        out.rubbing[inner] -= torque / train.radius[inner]
-        out.rubbing[outer] += torque / train.radius[outer]
-        out.power[BEARING] += torque * speed
-    for n in range(train.discs):
-        body, radius = train.disc_body[n], train.disc_radius[n]
-        speed = body_speed(train, state, v, body)
-        density = train.disc_fill * oil.density
-        torque = disc_torque(radius, train.disc_gap / radius, density, oil.kinematic, speed)
-        torque *= _sense(speed)
-        out.rubbing[body] -= torque / train.radius[body]
-        out.power[CHURNING] += torque * speed

@@ -8,28 +8,17 @@ is mirrored and half a pitch late, it is tooth -n of the first gear and tooth 1 
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import Any
 
 import numpy as np
 
-from .._compile import kernel
-from .._records import MESHES, REAL, WHOLE, Record
-from ..mesh.tooth_pairs import PAIRS, SEGMENTS, TERMS, Along, PairTable, along
+from .._core import MESHES, NOWHERE, PAIRS, SEGMENTS, TERMS
+from ..mesh.tooth_pairs import Along, PairTable, along
 from ..scene import Scene
 from ..scene.faults import MOST_FAULTS, SPALL_EDGE, Crack, Fault, Spall, Wear
-from .cycle import counted_cycle
-from .state import DRIVE_SIDE
 from .stiffness_laws import crack_factor
 
 FAULTS = MOST_FAULTS
-NOWHERE = -1
-
-FAULTS_LAYOUT = {
-    "faults": WHOLE,
-    "fault_teeth": (WHOLE, (FAULTS,)),  # of the gear with the fault
-    "fault_pair": (WHOLE, (FAULTS, MESHES, 2)),  # pair on the drive and the coast side, or NOWHERE
-    "fault_gap": (REAL, (FAULTS,)),  # missing material [m]
-    "fault_factor": (REAL, (FAULTS, 2, SEGMENTS, PAIRS, TERMS)),  # on the stiffness of the pair
-}
 
 
 def fault_kinks(scene: Scene, kind: int) -> tuple[float, ...]:
@@ -43,8 +32,8 @@ def fault_kinks(scene: Scene, kind: int) -> tuple[float, ...]:
 
 def build_faults(
     scene: Scene, tables: list[PairTable], planets: Sequence[int], phases: np.ndarray
-) -> dict[str, np.ndarray | int]:
-    """Fields of `FAULTS_LAYOUT`, for the sun meshes of `planets` and then their ring meshes, whose
+) -> dict[str, Any]:
+    """Fields of `Train`, for the sun meshes of `planets` and then their ring meshes, whose
     `phases` (meshes,) count whole cycles, too."""
     teeth = scene.gearset.tooth_numbers._asdict()
     pairs = np.full((FAULTS, MESHES, 2), NOWHERE)
@@ -100,25 +89,3 @@ def _factor(scene: Scene, fault: Fault, kind: int) -> Along:
         return crack_factor(scene, fault, kind)
     corners = [fault.begin, fault.begin + SPALL_EDGE, fault.end - SPALL_EDGE, fault.end]
     return lambda s: 1.0 - fault.stiffness_loss * np.interp(s, corners, [0.0, 1.0, 1.0, 0.0])
-
-
-@kernel
-def find_faults(
-    train: Record, state: Record, i: int, side: int, start: float, faulty: np.ndarray
-) -> None:
-    """Fill faulty[i, p, f]: whether pair p of mesh i, at `start` in its cycle, has fault f."""
-    for f in range(train.faults):
-        cycle = counted_cycle(train, state, i, side, train.fault_teeth[f])
-        mark_fault(train, i, side, state.segment[i], f, round(cycle - start), faulty)
-
-
-@kernel
-def mark_fault(
-    train: Record, i: int, side: int, segment: int, f: int, whole: int, faulty: np.ndarray
-) -> None:
-    """Fill faulty[i, p, f] after `whole` cycles, modulo the teeth of the gear of fault f."""
-    kind, flank = train.kind[i], 0 if side == DRIVE_SIDE else 1
-    pair, teeth = train.fault_pair[f, i, flank], train.fault_teeth[f]
-    for p in range(PAIRS):
-        number = whole - int(train.shift[kind, segment, p])
-        faulty[i, p, f] = pair != NOWHERE and (number - pair) % teeth == 0

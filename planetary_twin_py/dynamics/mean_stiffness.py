@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import numpy as np
 
-from .._records import Record
-from ..mesh.tooth_pairs import TOTAL, mean_weight
+from .._core import TOTAL, Train
+from ..mesh.tooth_pairs import mean_weight
 
 
-def mean_stiffness(train: Record) -> np.ndarray:
+def mean_stiffness(train: Train) -> np.ndarray:
     """Over the mesh cycle: of sun-planet, of planet-ring meshes [N/m], shape (2,)."""
     mean = [
         mean_weight(edge, weight[:, TOTAL])

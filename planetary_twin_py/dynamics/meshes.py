@@ -11,49 +11,20 @@ from typing import Any
 
 import numpy as np
 
-from .._records import MESHES, REAL, WHOLE
 from ..gearset.geometry import base_pitch, pitch_radius, planet_ring_path, sun_planet_path
 from ..gearset.phasing import mesh_phases
-from ..mesh.tooth_pairs import PAIRS, SEGMENTS, TERMS, pair_table, terms_in_use
+from ..mesh.tooth_pairs import pair_table, terms_in_use
 from ..scene import Scene
 from .alike import PlanetGroups, planet_groups
 from .bodies import Bodies
-from .faults import FAULTS_LAYOUT, build_faults, fault_kinks
-from .form_errors import FORM_ERRORS_LAYOUT, build_form_errors
+from .faults import build_faults, fault_kinks
+from .form_errors import build_form_errors
 from .mesh_damping import damping_cycles, steady_damping_times
 from .stiffness_laws import GEARS, stiffness_laws
 
-MESHES_LAYOUT: dict[str, Any] = {
-    "meshes": WHOLE,
-    "body": (WHOLE, (MESHES, 3)),  # first gear, second gear, carrier
-    "sign": (REAL, (MESHES, 3)),  # of their x in d
-    "copies": (REAL, (MESHES,)),  # meshes alike that count in forces and powers on the train
-    "kind": (WHOLE, (MESHES,)),
-    "phase": (REAL, (MESHES,)),  # delay in mesh cycles; whole cycles count teeth
-    "stiffness": (REAL, (2,)),  # of one tooth pair, about [N/m]
-    "stiffness_base": (REAL, (2,)),  # of the law of stiffness, see `tooth_pairs` [N/m]
-    "stiffness_gain": (REAL, (2,)),
-    "damping_time": (REAL, (2,)),  # tau of c = tau k [s]; 0: by the meshing frequency
-    "damping_cycles": REAL,  # tau times meshing frequency [-]
-    "lowest_frequency": REAL,  # [Hz]
-    "base_pitch": REAL,  # [m]
-    "rolling_advance": REAL,  # of the flanks at the pitch point in a mesh cycle [m]
-    "pitch_curvature": (REAL, (2, 2)),  # radii of curvature at the pitch point, both gears [m]
-    "external": (REAL, (2,)),  # +1: external, -1: internal
-    "segments": (WHOLE, (2,)),  # number of segments in a mesh cycle
-    "edge": (REAL, (2, SEGMENTS + 1)),
-    "shift": (REAL, (2, SEGMENTS, PAIRS)),
-    "present": (WHOLE, (2, SEGMENTS)),  # number of tooth pairs
-    "slots": WHOLE,  # tooth pairs of a mesh at most
-    "terms": WHOLE,  # of the polynomials below that are in use
-    "weight": (REAL, (2, SEGMENTS, PAIRS + 1, TERMS)),
-    **FORM_ERRORS_LAYOUT,
-    **FAULTS_LAYOUT,
-}
-
 
 def build_meshes(scene: Scene, bodies: Bodies) -> dict[str, Any]:
-    """Fields of `MESHES_LAYOUT`.
+    """Fields of `Train`.
 
     Raises:
         ValueError: the teeth leave a moment without contact (see `pair_table`).

@@ -4,18 +4,25 @@ from __future__ import annotations
 
 import math
 
-from .._records import FLAG, REAL, WHOLE, Record, fields_of, layout, new_record
-from ..lubrication.boundary import Asperities, boundary_shear
-from ..lubrication.film import FILM_LAWS, FilmLaw
-from ..lubrication.hertz import contact_modulus, half_width
-from ..lubrication.load_sharing import THINNEST
+from .._core import (
+    EYRING,
+    PLATEAU,
+    SCHLENK,
+    Asperities,
+    Oil,
+    ShearThinning,
+    Traction,
+    boundary_shear,
+    half_width,
+)
+from ..lubrication.film import FILM_LAWS
+from ..lubrication.hertz import contact_modulus
 from ..lubrication.schlenk import log_schlenk_factor
-from ..lubrication.shear_thinning import ShearThinning
-from ..lubrication.traction import EYRING, PLATEAU, SCHLENK, Traction
 from ..lubrication.viscosity import viscosity_at
 from ..scene import OperatingPoint, Scene
 from ..scene.lubrication import Lubrication
 
+THINNEST = 1e-12  # lambda ratio that stands for none at all: a share of 0.04 %
 _TRACTION_LAWS = {
     "eyring": EYRING,
     "evans_johnson": PLATEAU,
@@ -23,37 +30,8 @@ _TRACTION_LAWS = {
     "schlenk": SCHLENK,
 }
 
-# Laws and constants of the tooth contacts.
-OIL = layout(
-    film=fields_of(FilmLaw),
-    asperities=fields_of(Asperities),
-    traction_law=WHOLE,  # PLATEAU, EYRING or SCHLENK
-    traction=fields_of(Traction),
-    shear_thinning=fields_of(ShearThinning),
-    log_schlenk=REAL,  # see `log_schlenk_factor`
-    contact_modulus=REAL,  # E* [Pa]
-    face_width=REAL,  # L [m]
-    log_speed_group=REAL,  # logarithm of U R/V = eta0/E' in SI units
-    log_material=REAL,  # of G
-    log_load_group=REAL,  # of W R/F = 1/(E' L)
-    log_area=REAL,  # of A/sqrt(R F)
-    log_roughness=REAL,  # of sigma
-    density=REAL,  # [kg/m^3]
-    kinematic=REAL,  # eta0/density [m^2/s]
-    prescribed=FLAG,  # lambda ratio: prescribed, or film/roughness
-    lambda_ratio=REAL,  # [-], where it is prescribed
-    log_lambda=REAL,  # its logarithm
-    asperity_shear=REAL,  # boundary friction per area at that ratio [Pa]
-    printed_asperities=FLAG,
-    sharing=FLAG,  # boundary friction: by load sharing, or of Greenwood and Tripp's asperities
-    boundary_coefficient=REAL,  # [-], of the former
-    rolling=FLAG,  # whether rolling resists
-    sliding_threshold=REAL,  # [-]
-    presliding=REAL,  # displacement by which flanks yield before they slide [m]
-)
 
-
-def build_oil(scene: Scene, point: OperatingPoint) -> Record:
+def build_oil(scene: Scene, point: OperatingPoint) -> Oil:
     """Collect the constants of the laws a scene chooses, at the temperature of the oil."""
     data = scene.lubrication
     modulus = contact_modulus(data.youngs_modulus, data.poisson_ratio)
@@ -67,8 +45,7 @@ def build_oil(scene: Scene, point: OperatingPoint) -> Record:
     )
     asperities = _asperities(data, modulus)
     printed_asperities = data.asperities == "printed"
-    return new_record(
-        OIL,
+    return Oil(
         film=FILM_LAWS[data.film],
         asperities=asperities,
         traction_law=_TRACTION_LAWS[data.traction],

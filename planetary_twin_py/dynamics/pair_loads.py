@@ -1,7 +1,7 @@
 """How the tooth pairs of a mesh share a given force, e.g. a recorded one.
 
-The pairs have the stiffnesses k and the missing material g of `press_faulty`, at the squeeze q at
-which they carry the force F: F = sum of k (q - g) over the pairs with q > g. Damping acts on all
+The pairs have the stiffnesses k and the missing material g of a mesh with faults, at the squeeze q
+at which they carry the force F: F = sum of k (q - g) over the pairs with q > g. Damping acts on all
 pairs in proportion to k, so it does not change the shares, except for a worn pair that only just
 touches.
 """
@@ -15,16 +15,10 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from .._compile import kernel
-from .._records import Record, new_record
-from ..mesh.tooth_pairs import PAIRS
+from .._core import PAIRS, StepConstants, share_force
 from ..scene import Scene
 from .bodies import mesh_names
-from .cycle import cycle_on_side, find_segment
-from .faults import FAULTS, mark_fault
-from .mesh_force import pair_stiffness
-from .moment import MOMENT
-from .state import COAST_SIDE, DRIVE_SIDE
+from .faults import FAULTS
 from .train import build_train
 
 Array = NDArray[np.float64]
@@ -60,7 +54,7 @@ def pair_loads(scene: Scene, mesh: int, angle: Mapping[str, Array], force: Array
     found = PairLoads(np.zeros((count, PAIRS)), np.zeros((count, PAIRS)))
     place = int(mesh_names(scene).place[mesh])
     cycle = _cycles(scene, "sun", angle)
-    _share(train, new_record(MOMENT), place, cycle, counted, np.asarray(force, float), *found)
+    share_force(train, StepConstants(), place, cycle, counted, np.asarray(force, float), *found)
     return found
 
 
@@ -69,55 +63,3 @@ def _cycles(scene: Scene, member: str, angle: Mapping[str, Array]) -> Array:
     teeth = scene.gearset.tooth_numbers._asdict()[member.partition("_")[0]]
     forwards = 1.0 if member == "sun" else -1.0
     return forwards * teeth * (angle[member] - angle["carrier"]) / (2.0 * math.pi)
-
-
-@kernel
-def _share(
-    train: Record,
-    moment: Record,
-    i: int,
-    cycles: np.ndarray,
-    counted: np.ndarray,
-    force: np.ndarray,
-    position: np.ndarray,
-    load: np.ndarray,
-) -> None:
-    """Fill positions and loads (n, PAIRS) of mesh i; `moment` is room for its faults.
-
-    `cycles` (n,) are those of the train, `counted` (n, FAULTS) the same by the gear of each fault.
-    """
-    kind = train.kind[i]
-    for n in range(len(force)):
-        if force[n] == 0.0:
-            continue
-        side = DRIVE_SIDE if force[n] > 0.0 else COAST_SIDE
-        cycle = cycle_on_side(train, i, side, cycles[n], 1)
-        segment = find_segment(train, kind, cycle, 1.0)
-        for f in range(train.faults):
-            own = cycle_on_side(train, i, side, counted[n, f], train.fault_teeth[f])
-            mark_fault(train, i, side, segment, f, round(own - cycle), moment.faulty)
-        for p in range(PAIRS):
-            position[n, p] = cycle + train.shift[kind, segment, p]
-        u = cycle - train.edge[kind, segment]
-        _balance(train, moment, i, segment, u, abs(force[n]), load[n])
-
-
-@kernel
-def _balance(
-    train: Record, moment: Record, i: int, segment: int, u: float, force: float, load: np.ndarray
-) -> None:
-    """Fill the loads (PAIRS,) that add up to `force`, pairs that would pull taken out in turn."""
-    present = train.present[train.kind[i], segment]
-    load[:present] = 1.0
-    for _ in range(present):
-        stiffness, squeeze = 0.0, force
-        for p in range(present):
-            if load[p] > 0.0:
-                k, gap = pair_stiffness(train, moment, i, segment, p, u)
-                stiffness += k
-                squeeze += k * gap
-        squeeze /= stiffness
-        for p in range(present):
-            if load[p] > 0.0:
-                k, gap = pair_stiffness(train, moment, i, segment, p, u)
-                load[p] = max(k * (squeeze - gap), 0.0)

@@ -23,11 +23,10 @@ from typing import NamedTuple
 
 import numpy as np
 
-from .._records import AXES, MACHINES, Record
+from .._core import AXES, MACHINES, Train, damping_time
 from ..scene import OperatingPoint, Scene, SceneError
 from .bodies import LOAD_MACHINE, SECOND_MOTOR
 from .mean_stiffness import mean_stiffness
-from .moment import damping_time
 from .static_load import static_torques
 from .train import TRAINS_KEPT, build_train, unloaded
 
@@ -114,7 +113,7 @@ def _default(scene: Scene) -> float:
     return _rounded_down(limit / DEFAULT_MARGIN)
 
 
-def speed_loop_gains(scene: Scene, train: Record, bandwidth: float) -> Gains:
+def speed_loop_gains(scene: Scene, train: Train, bandwidth: float) -> Gains:
     """Gains of the speed loop.
 
     Args:
@@ -136,7 +135,7 @@ def speed_loop_gains(scene: Scene, train: Record, bandwidth: float) -> Gains:
     return Gains(inertia, np.diag(inertia) * w, trim)
 
 
-def linear_loop(scene: Scene, train: Record, mesh_frequency: float) -> Loop:
+def linear_loop(scene: Scene, train: Train, mesh_frequency: float) -> Loop:
     """The linearised train with its speed loop.
 
     Args:
@@ -164,7 +163,7 @@ def linear_loop(scene: Scene, train: Record, mesh_frequency: float) -> Loop:
     return Loop(damping, stiffness, proportional, integral)
 
 
-def _basis(train: Record) -> np.ndarray:
+def _basis(train: Train) -> np.ndarray:
     """Coordinates of `TRAIN` by those of a `Loop`, shape (bodies, bodies)."""
     own, axes = slice(train.bodies), int(train.axes)
     root = np.sqrt(train.mass[own])[:, None]
@@ -172,7 +171,7 @@ def _basis(train: Record) -> np.ndarray:
     return np.asarray(np.linalg.qr(rigid, mode="complete")[0] / root)
 
 
-def _feedback(scene: Scene, train: Record) -> np.ndarray:
+def _feedback(scene: Scene, train: Train) -> np.ndarray:
     """P and I [kg] in the coordinates of `TRAIN`, shape (2, bodies, bodies)."""
     gains, machines = speed_loop_gains(scene, train, 0.5 / math.pi), train.coupling[:, 0]
     feedback = np.zeros((2, train.bodies, train.bodies))
@@ -185,7 +184,7 @@ def _feedback(scene: Scene, train: Record) -> np.ndarray:
     return feedback
 
 
-def check_speed_loop(scene: Scene, train: Record, point: OperatingPoint) -> None:
+def check_speed_loop(scene: Scene, train: Train, point: OperatingPoint) -> None:
     """Refuse a speed loop that the train makes unstable, or hardly stable.
 
     Args:

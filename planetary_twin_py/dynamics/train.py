@@ -10,69 +10,29 @@ A held body is the ground: one more entry whose x is zero.
 from __future__ import annotations
 
 from functools import lru_cache
+from typing import Any
 
 import numpy as np
 
-from .._records import (
-    AXES,
-    BODIES,
-    FLAG,
-    MACHINES,
-    MESHES,
-    REAL,
-    REGISTER,
-    WHOLE,
-    Record,
-    layout,
-    new_record,
-)
+from .._core import AXES, REGISTER, Train
 from ..gearset.geometry import base_pitch
 from ..gearset.kinematics import mesh_cycles_per_turn
 from ..scene import OperatingPoint, Scene
 from .bodies import Bodies, base_radii, build_bodies, machines, rigid_ratios
-from .drag import DRAG_LAYOUT, build_drag
-from .meshes import MESHES_LAYOUT, build_meshes
+from .drag import build_drag
+from .meshes import build_meshes
 from .stiffness_laws import stiffness_follows_load
 
 TRAINS_KEPT = 16
 
-# Constant data of the gearbox. `bodies` of them can turn; entry `bodies` is the ground.
-TRAIN = layout(
-    bodies=WHOLE,
-    lanes=WHOLE,  # bodies or meshes, in whole registers
-    axes=WHOLE,  # inputs, each with its rigid motion of the train
-    body_copies=(REAL, (BODIES,)),  # bodies that move alike, of which an entry is one
-    mass=(REAL, (BODIES,)),  # J/r^2 of all of them [kg]
-    radius=(REAL, (BODIES,)),  # r of x = r theta [m]
-    inverse_radius=(REAL, (BODIES,)),  # 1/r [1/m]
-    ratio=(REAL, (BODIES, AXES)),  # rigid speed per speed of each input [-]
-    machines=WHOLE,
-    coupling=(WHOLE, (MACHINES, 2)),  # machine and member
-    coupling_stiffness=(REAL, (MACHINES,)),  # in coordinates x [N/m]
-    coupling_damping=(REAL, (MACHINES,)),  # in coordinates x [N s/m]
-    cycles=(REAL, (AXES,)),  # mesh cycles per turn of each input, signed
-    cycles_numerator=(WHOLE, (AXES,)),  # the same as a fraction
-    cycles_denominator=(WHOLE, (AXES,)),
-    sun=WHOLE,  # body or ground
-    carrier=WHOLE,
-    sun_advance=REAL,  # mesh cycles per x of the sun [1/m]
-    carrier_advance=REAL,  # and per x of the carrier
-    lever=(REAL, (3, MESHES)),  # 1/r of the gears and the carrier of a mesh [1/m]
-    friction=FLAG,
-    printed_torque=FLAG,  # friction torque P/w instead of -f dVs/dw
-    **MESHES_LAYOUT,
-    **DRAG_LAYOUT,
-)
 
-
-def build_train(scene: Scene) -> Record:
+def build_train(scene: Scene) -> Train:
     """Translate a scene into arrays, which scenes have in common that differ in what may change.
 
     Raises:
         ValueError: the teeth leave a moment without contact (see `pair_table`).
     """
-    train: Record = _built(unloaded(scene)).copy()
-    return train
+    return _built(unloaded(scene)).copy()
 
 
 def unloaded(scene: Scene) -> Scene:
@@ -83,13 +43,12 @@ def unloaded(scene: Scene) -> Scene:
 
 
 @lru_cache(maxsize=TRAINS_KEPT)
-def _built(scene: Scene) -> Record:
+def _built(scene: Scene) -> Train:
     bodies = build_bodies(scene)
     radii = base_radii(scene)
     meshes = build_meshes(scene, bodies)
     pitch = base_pitch(scene.gearset.module, scene.gearset.pressure_angle)
-    return new_record(
-        TRAIN,
+    return Train(
         bodies=len(bodies.mass) - 1,
         lanes=_whole_registers(max(len(bodies.mass) - 1, len(meshes["phase"]))),
         axes=len(scene.drive.inputs),
@@ -112,7 +71,7 @@ def _built(scene: Scene) -> Record:
     )
 
 
-def lightest_body(train: Record) -> float:
+def lightest_body(train: Train) -> float:
     """Least J/r^2 [kg] of a single body."""
     own = slice(train.bodies)
     return float((train.mass[own] / train.body_copies[own]).min())
@@ -122,7 +81,7 @@ def _whole_registers(count: int) -> int:
     return -(-count // REGISTER) * REGISTER
 
 
-def _cycles(scene: Scene) -> dict[str, np.ndarray]:
+def _cycles(scene: Scene) -> dict[str, Any]:
     """Mesh cycles per turn of each input; a fraction, so that whole turns add no error."""
     ratios = rigid_ratios(scene)
     axes = range(len(ratios["sun"]))
@@ -141,7 +100,7 @@ def _cycles(scene: Scene) -> dict[str, np.ndarray]:
     }
 
 
-def _couplings(scene: Scene, bodies: Bodies) -> dict[str, object]:
+def _couplings(scene: Scene, bodies: Bodies) -> dict[str, Any]:
     """Elastic couplings between the machines and their members."""
     found, radii = machines(scene), base_radii(scene)
     squares = np.array([radii[machine.member] ** 2 for machine in found.values()])

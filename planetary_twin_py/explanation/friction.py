@@ -5,14 +5,14 @@ from __future__ import annotations
 import math
 from typing import Any, NamedTuple
 
+from .._core import tooth_contact
 from ..dynamics.oil import build_oil
 from ..dynamics.stiffness_laws import GEARS
-from ..dynamics.tooth_contact import choices, tooth_contact
 from ..gearset.geometry import pitch_radius
-from ..lubrication.shear_thinning import LARGEST_EXPONENT
 from ..scene import Scene
 
 SLIDE_TO_ROLL = 0.1  # typical of a tooth pair between pitch point and tip
+LARGEST_EXPONENT = 200.0  # beyond, the limiting stress has long been reached
 
 
 class TypicalPair(NamedTuple):
@@ -68,14 +68,14 @@ def friction_figures(
 def _friction(scene: Scene, traction: str, pair: TypicalPair) -> tuple[float, float]:
     """Boundary and viscous friction coefficients [-] with a law of viscous friction."""
     oil = build_oil(scene.replace(**{"lubrication.traction": traction}), scene.operating_point)
-    _, boundary, viscous, *_ = tooth_contact(oil, choices(oil), pair.motion)
+    _, boundary, viscous, *_ = tooth_contact(oil, pair.motion)
     return (boundary / pair.load, viscous / pair.load) if pair.load else (0.0, 0.0)
 
 
 def _shear_number(scene: Scene, pair: TypicalPair, pressure: float) -> float:
     """eta Vs/(h tau0) [-], with eta at the mean pressure [Pa]; Newtonian if well below 1."""
     oil = build_oil(scene, scene.operating_point)
-    log_film = tooth_contact(oil, choices(oil), pair.motion)[3]
+    log_film = tooth_contact(oil, pair.motion)[3]
     exponent = scene.lubrication.pressure_viscosity * pressure
     exponent += oil.shear_thinning.log_shear_time - log_film
     return SLIDE_TO_ROLL * pair.speed * math.exp(min(exponent, LARGEST_EXPONENT))

@@ -5,16 +5,16 @@ from __future__ import annotations
 import math
 from typing import NamedTuple
 
+from .._core import damping_time, half_width
 from ..dynamics.mean_stiffness import mean_stiffness
 from ..dynamics.mesh_damping import natural_frequencies
-from ..dynamics.moment import damping_time
 from ..dynamics.start import build_load
 from ..dynamics.static_load import mesh_force
 from ..dynamics.stiffness_laws import GEARS
 from ..dynamics.train import build_train
 from ..gearset.geometry import pitch_radius, planet_ring_path, sun_planet_path
 from ..losses.ohlendorf import tooth_loss_factor
-from ..lubrication.hertz import contact_modulus, half_width
+from ..lubrication.hertz import contact_modulus
 from ..scene import Scene
 from .friction import friction_figures
 

@@ -10,8 +10,7 @@ from fractions import Fraction
 from functools import lru_cache
 from typing import NamedTuple
 
-from .._compile import kernel, law
-from .._records import Record
+from .._core import State
 
 LONGEST_CYCLE = 2**52  # [s] after which samples lie on whole seconds again; ticks stay whole
 
@@ -54,32 +53,14 @@ def _ticks(rate: float) -> tuple[int, int]:
     return ratio.denominator, ratio.numerator
 
 
-@law
-def due(samples: Sampling) -> Instant:
-    """Where the next sample lies."""
-    return Instant(samples.seconds, samples.ticks / samples.ticks_per_second)
-
-
-@law
-def after(samples: Sampling) -> Sampling:
-    """Those after the next."""
-    seconds, ticks = samples.seconds, samples.ticks + samples.period
-    if ticks >= samples.ticks_per_second:
-        seconds += ticks // samples.ticks_per_second
-        ticks %= samples.ticks_per_second
-    return Sampling(seconds, ticks, samples.period, samples.ticks_per_second)
-
-
-@law
-def delay(state: Record, until: Instant) -> float:
+def delay(state: State, until: Instant) -> float:
     """From a state to an instant [s]."""
     return (until.seconds - state.seconds) + (until.time - state.time)
 
 
-@kernel
-def run_on(begin: Record, end: Record, h: float) -> None:
+def run_on(begin: State, end: State, h: float) -> None:
     """Let the clock of `end` stand h seconds after that of `begin`."""
     time = begin.time + h
     whole = math.floor(time)
-    end.seconds = begin.seconds + int(whole)
+    end.seconds = begin.seconds + whole
     end.time = time - whole

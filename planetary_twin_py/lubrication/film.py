@@ -7,56 +7,27 @@ U = eta0 V/(E' R), G = alpha E', W = F/(E' R L), E' = 2 E*, V the mean surface s
 from __future__ import annotations
 
 import math
-from typing import NamedTuple
 
-from .._compile import law
-
-THINNEST_FILM = 1e-9  # [m] a molecule or two of oil: keeps h positive where nothing is entrained
-LOG_THINNEST = math.log(THINNEST_FILM)
-SLOWEST_SPEED = 1e-3  # [m/s] of flanks that count as moving
-STANDSTILL = 1e-12  # [m/s] mean surface speed that entrains nothing
+from .._core import Film
 
 
-class FilmLaw(NamedTuple):
-    """Logarithm of the coefficient, and exponents, of one film law."""
-
-    log_coefficient: float
-    speed: float
-    material: float
-    load: float
+def _law(log_coefficient: float, speed: float, material: float, load: float) -> Film:
+    return Film(log_coefficient=log_coefficient, speed=speed, material=material, load=load)
 
 
 FILM_LAWS = {
     # Dowson, Higginson, Elastohydrodynamic Lubrication, 1977: minimum film.
-    "dowson_higginson": FilmLaw(math.log(2.65), 0.70, 0.54, -0.13),
+    "dowson_higginson": _law(math.log(2.65), 0.70, 0.54, -0.13),
     # Dowson, Toyoda 1979: central film.
-    "dowson_toyoda": FilmLaw(math.log(3.06), 0.69, 0.56, -0.10),
+    "dowson_toyoda": _law(math.log(3.06), 0.69, 0.56, -0.10),
     # Salagianni et al. 2017, eq. (15): 2.5 R (V eta0 alpha/R)^0.7 (alpha E')^0.1 / (alpha p)^0.26
     # with the mean pressure p = F/(2 L b). As alpha p = (pi/4) G sqrt(W/(2 pi)), its exponents
     # are those of Dowson and Higginson: U^0.7 G^(0.7+0.1-0.26) W^-0.13, and its coefficient is
     # 2.5 (4/pi)^0.26 (2 pi)^0.13.
-    "salagianni": FilmLaw(
+    "salagianni": _law(
         math.log(2.5) + 0.26 * math.log(4.0 / math.pi) + 0.13 * math.log(2.0 * math.pi),
         0.70,
         0.54,
         -0.13,
     ),
 }
-
-
-@law
-def log_film_thickness(
-    law: FilmLaw,
-    log_radius: float,
-    log_speed_group: float,
-    log_material_group: float,
-    log_load_group: float,
-) -> float:
-    """log(h/m) from the logarithms of the reduced radius in metres and of the groups U, G, W.
-
-    It falls below LOG_THINNEST, where no film is left, as the speed vanishes.
-    """
-    groups = (
-        law.speed * log_speed_group + law.material * log_material_group + law.load * log_load_group
-    )
-    return law.log_coefficient + log_radius + groups

@@ -10,9 +10,6 @@ from __future__ import annotations
 
 import math
 
-from .._compile import law
-from .._vector_math import exp
-
 COEFFICIENT, LOAD, VISCOSITY, ROUGHNESS = 0.048, 0.2, -0.05, 0.25
 
 
@@ -36,18 +33,3 @@ def log_schlenk_factor(
         + VISCOSITY * math.log(1e3 * viscosity)
         + ROUGHNESS * math.log(1e6 * roughness / math.sqrt(math.pi))
     )
-
-
-@law
-def schlenk_coefficient(
-    log_factor: float, log_load: float, log_speed: float, log_radius: float
-) -> float:
-    """Friction coefficient [-].
-
-    Args:
-        log_factor: from `log_schlenk_factor`.
-        log_load: logarithm of the load of the pair in N.
-        log_speed: logarithm of the mean surface speed V in m/s.
-        log_radius: logarithm of the reduced radius of curvature in m.
-    """
-    return exp(log_factor + LOAD * (log_load - log_speed - log_radius))

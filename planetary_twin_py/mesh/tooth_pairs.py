@@ -23,18 +23,14 @@ from typing import NamedTuple
 import numpy as np
 from numpy.polynomial import Polynomial
 
+from .._core import PAIRS, SEGMENTS, TERMS, TOTAL
 from ..gearset.geometry import PathOfContact
-
-PAIRS = 3  # tooth pairs in contact at most: contact ratios up to 3
-SEGMENTS = 32  # room for breakpoints: 4 for each pair and those of faults
-TERMS = 6  # coefficients of a polynomial
-TOTAL = PAIRS  # place of the sum over the pairs
 
 Along = Callable[[np.ndarray], np.ndarray]  # function of positions on the path of contact
 
 
 class PairTable(NamedTuple):
-    """Segments of the cycle of one mesh, as arrays a compiled kernel reads.
+    """Segments of the cycle of one mesh, as arrays the core reads.
 
     The position s of a pair is its distance past the pitch point, in base pitches; the pairs of
     a mesh at the cycle fraction x stand at x + shift. In segment j, from edge[j] to edge[j + 1],

@@ -8,7 +8,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from ..dynamics.moment import damping_time
+from .._core import damping_time
 from ..dynamics.start import build_load
 from ..dynamics.train import build_train
 from ..plots.style import BLUE, GREY, ORANGE, drawing, panels

@@ -8,7 +8,7 @@ import numpy as np
 from matplotlib.figure import Figure
 from scipy.optimize import brentq
 
-from ..lubrication.printed_asperities import printed_area_function, printed_load_function
+from .._core import printed_area_function, printed_load_function
 from ..plots.style import CYCLE, panels
 from .entry import Claim, Entry
 from .evidence import Evidence

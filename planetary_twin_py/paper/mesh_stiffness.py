@@ -7,8 +7,7 @@ from typing import Any
 import numpy as np
 from matplotlib.figure import Figure
 
-from ..dynamics.cycle import find_segment
-from ..dynamics.mesh_force import mesh_stiffness
+from .._core import find_segment, mesh_stiffness
 from ..dynamics.train import build_train
 from ..gearset.geometry import planet_ring_path, sun_planet_path
 from ..plots.style import panels

@@ -5,9 +5,9 @@ from __future__ import annotations
 import math
 from typing import NamedTuple
 
+from .._core import lambda_ratio_of, tooth_contact
 from ..dynamics.oil import build_oil
 from ..dynamics.static_load import mesh_force
-from ..dynamics.tooth_contact import choices, lambda_ratio_of, tooth_contact
 from ..gearset.geometry import pitch_radius
 from ..scene import Scene
 
@@ -84,9 +84,7 @@ def contact(
     point = scene.operating_point
     oil = build_oil(scene, point)
     pair = (*curvature, external, *speed, static_load(scene))
-    signed, boundary, viscous, log_film, sliding, slope, rolling, _ = tooth_contact(
-        oil, choices(oil), pair
-    )
-    ratio = lambda_ratio_of(oil, oil.prescribed, log_film)
+    signed, boundary, viscous, log_film, sliding, slope, rolling, _ = tooth_contact(oil, pair)
+    ratio = lambda_ratio_of(oil, log_film)
     film = math.exp(log_film)
     return Contact(signed, boundary, viscous, film, ratio, sliding, slope, rolling)

@@ -6,7 +6,6 @@ from collections.abc import Callable, Iterable, Iterator
 from itertools import islice
 from typing import Any
 
-from .._compile import cache_folder
 from .plan import Point
 from .work import Failure, Found
 
@@ -24,7 +23,7 @@ class Cluster:
         address: of the scheduler, e.g. "tcp://10.0.0.1:8786".
 
     Raises:
-        ValueError: there is no scheduler, it has no workers, or a worker has other kernels.
+        ValueError: there is no scheduler, it has no workers, or a worker has another core.
     """
 
     def __init__(self, address: str) -> None:
@@ -35,11 +34,11 @@ class Cluster:
             self._client.wait_for_workers(1, timeout=_TIMEOUT)
         except (OSError, TimeoutError, ValueError) as reason:
             raise ValueError(f"scheduler = {address!r}: {reason}") from None
-        here = kernels()
-        for worker, there in self._client.run(kernels).items():
+        here = core_digest()
+        for worker, there in self._client.run(core_digest).items():
             if there != here:
                 raise ValueError(
-                    f"scheduler = {address!r}: worker {worker} has kernels {there}, here {here}; "
+                    f"scheduler = {address!r}: worker {worker} has core {there}, here {here}; "
                     "install the same version"
                 )
 
@@ -73,9 +72,11 @@ class Cluster:
         return max(sum(self._client.nthreads().values()), 1)
 
 
-def kernels() -> str:
-    """Digest of the installed kernels."""
-    return cache_folder().name
+def core_digest() -> str:
+    """Digest of the installed core."""
+    from .._core import SOURCES
+
+    return SOURCES
 
 
 def _found(future: Any) -> Found:

@@ -1,4 +1,4 @@
-"""Execution in threads of this process; the kernels release the global interpreter lock."""
+"""Execution in threads of this process; the core releases the global interpreter lock."""
 
 from __future__ import annotations
 

@@ -68,7 +68,7 @@ class Study:
 
         Args:
             point: of this study.
-            makers: identifies the kernels and the measures.
+            makers: identifies the core and the measures.
 
         Returns:
             32 hexadecimal digits.

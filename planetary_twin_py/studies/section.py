@@ -11,9 +11,9 @@ from fractions import Fraction
 
 import numpy as np
 
+from .._core import DTE
 from ..accuracy import Course, course_so_far
 from ..dynamics.bodies import body_names, mesh_names
-from ..dynamics.observe import DTE
 from ..integrators.interpolant import Samples
 from ..run import start
 from ..scene import Scene

@@ -6,7 +6,6 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from .._compile import cache_folder
 from ..quantities import STUDY_RESULTS
 from .journal import Journal
 from .plan import Study
@@ -39,9 +38,10 @@ def sweep(
     Raises:
         OSError: the journal cannot be written.
     """
+    from .._core import SOURCES
     from .table import tabulate
 
-    makers = "/".join((cache_folder().name, *STUDY_RESULTS))  # others: new results
+    makers = "/".join((SOURCES, *STUDY_RESULTS))  # others: new results
     keys = {point.place: study.key(point, makers) for point in study.points}
     book = Journal(journal) if journal else None
     known = book.done if book else {}

@@ -1,4 +1,4 @@
-"""Ctrl-C while a kernel runs."""
+"""Ctrl-C while the core runs."""
 
 from __future__ import annotations
 

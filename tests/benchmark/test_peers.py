@@ -7,10 +7,9 @@ import numpy as np
 import pytest
 from typer.testing import CliRunner
 
-from planetary_twin_py._records import new_record
+from planetary_twin_py._core import DTE, POWER_LOSS, Evaluation, begin_step, forces, rate
 from planetary_twin_py.benchmark.cases import Case
 from planetary_twin_py.benchmark.peers import cvode, cvode_compiled, cyrk, sundials, work_precision
-from planetary_twin_py.benchmark.peers.equations import rate
 from planetary_twin_py.benchmark.peers.problem import Problem
 from planetary_twin_py.benchmark.peers.solver import SolverError
 from planetary_twin_py.benchmark.peers.solvers import SOLVERS, run
@@ -19,10 +18,7 @@ from planetary_twin_py.benchmark.report import as_markdown
 from planetary_twin_py.benchmark.table import dte_error, measure
 from planetary_twin_py.benchmark.timing import SAMPLE_RATE
 from planetary_twin_py.cli import build_app
-from planetary_twin_py.dynamics.equations import EVALUATION, forces
-from planetary_twin_py.dynamics.observe import DTE, POWER_LOSS
 from planetary_twin_py.engine import Engine
-from planetary_twin_py.integrators.march import begin_step
 from planetary_twin_py.scene import load_scene, packaged_scenes
 
 pytestmark = pytest.mark.slow
@@ -65,7 +61,7 @@ def references():
 def test_the_right_hand_side_is_the_derivative_of_the_twin(base, changes):
     """At random states within the segments that steps of the march begin in."""
     scene, random = load_scene(base).replace(**changes), np.random.default_rng(7)
-    engine, problem, out = Engine(scene, 1e-5), Problem(scene), new_record(EVALUATION)
+    engine, problem, out = Engine(scene, 1e-5), Problem(scene), Evaluation()
     train, march, n = engine.train, engine.march, problem.bodies
     start, own = problem.record[0]["start"], problem.record[0]["state"]
     motors, meshes = train.coupling[: 2 * problem.axes : 2, 0], problem.meshes

@@ -2,10 +2,10 @@
 
 import pytest
 
+from planetary_twin_py._core import DTE
 from planetary_twin_py.benchmark.cases import CASES
 from planetary_twin_py.benchmark.reference import Reference
 from planetary_twin_py.benchmark.table import dte_error
-from planetary_twin_py.dynamics.observe import DTE
 from planetary_twin_py.engine import Engine
 
 RATE, SPAN = 50_000.0, 180e-6  # [Hz], [s]

@@ -7,9 +7,10 @@ from pathlib import Path
 import pytest
 from typer.testing import CliRunner
 
+from planetary_twin_py import _core
 from planetary_twin_py.cli import build_app
 from planetary_twin_py.cli._commands import GROUP
-from planetary_twin_py.doctor import apart, cache, disk, environment, packages, viewer
+from planetary_twin_py.doctor import apart, core, disk, environment, packages, viewer
 from planetary_twin_py.doctor.finding import Finding
 
 
@@ -44,18 +45,20 @@ def test_every_extra_of_an_installation_is_checked():
     assert declared - extras == {"ros", "build", "docs", "test", "bench"}
 
 
-def test_uncompiled_kernels_and_a_read_only_cache_are_reported(tmp_path, monkeypatch):
-    home = tmp_path / "cache"
-    monkeypatch.setattr(cache, "cache_folder", lambda: home / "planetary_twin" / "0123")
-    (found,) = cache.check()
-    assert found.state == "absent" and "simulate" in found.fix
-    (home / "planetary_twin" / "0123").mkdir(parents=True)
-    (home / "planetary_twin" / "0123" / "kernel.nbc").write_bytes(b"code")
-    (found,) = cache.check()
-    assert found.state == "sound"
-    monkeypatch.setattr(cache.os, "access", lambda *_: False)
-    (found,) = cache.check()
-    assert found.state == "broken" and "XDG_CACHE_HOME" in found.fix
+def test_a_core_that_is_missing_or_slow_is_reported(monkeypatch):
+    (found,) = core.check()
+    assert found.state == "sound" and _core.SOURCES in found.details
+    monkeypatch.setattr(_core, "LEVEL", "v1")
+    monkeypatch.setattr(_core, "runnable_levels", lambda: ["v3", "v1"])
+    (found,) = core.check()
+    assert found.state == "sound" and "slower than x86-64-v3" in found.details and found.fix
+
+    def missing(name):
+        raise ImportError("not built")
+
+    monkeypatch.setattr(core, "import_module", missing)
+    (found,) = core.check()
+    assert found.state == "broken" and found.details == "not built" and "make setup" in found.fix
 
 
 def test_a_folder_without_room_or_rights_is_broken(tmp_path, monkeypatch):
@@ -87,7 +90,7 @@ def test_this_installation_is_sound_and_its_nodes_can_communicate(tmp_path):
     done = CliRunner().invoke(build_app(), ["doctor", "--json", str(file)])
     assert done.exit_code == 0, done.output
     found = {entry["part"]: entry for entry in json.loads(file.read_text())}
-    assert {"python", "model", "kernels", "disk", "viewer", "ros", "shared memory"} <= set(found)
+    assert {"python", "model", "core", "disk", "viewer", "ros", "shared memory"} <= set(found)
     assert found["middleware"]["state"] == "sound" and "arrived" in found["middleware"]["told"]
 
 

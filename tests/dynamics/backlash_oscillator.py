@@ -11,16 +11,10 @@ import math
 
 import numpy as np
 
-from planetary_twin_py._records import new_record
+from planetary_twin_py._core import DRIVE_SIDE, TOTAL, March, Model, advance, cut, radau
 from planetary_twin_py.dynamics.bodies import LOAD_MACHINE
-from planetary_twin_py.dynamics.equations import MODEL
-from planetary_twin_py.dynamics.state import DRIVE_SIDE
 from planetary_twin_py.integrators.clock import NEVER, Instant, instant, sampling
 from planetary_twin_py.integrators.interpolant import new_samples
-from planetary_twin_py.integrators.march import advance, cut
-from planetary_twin_py.integrators.progress import MARCH
-from planetary_twin_py.integrators.radau import radau
-from planetary_twin_py.mesh.tooth_pairs import TOTAL
 
 MASS, MOTOR, GROUND = 0, 1, 2
 PER_PERIOD = 64
@@ -31,7 +25,7 @@ class Oscillator:
 
     def __init__(self, zeta=0.05, mean=0.1, alternating=0.05, tolerance=1e-6):
         self.zeta, self.alternating = zeta, alternating
-        self.model, self.march = new_record(MODEL), new_record(MARCH)
+        self.model, self.march = Model(), March()
         train, load = self.model.train, self.model.load
         train.bodies, train.meshes, train.axes, train.machines = 2, 1, 1, 2
         train.mass[:3] = 1.0, 1e30, 1.0

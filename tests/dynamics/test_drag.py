@@ -7,10 +7,7 @@ import pytest
 from power_flows import ALL_FLOWS, FLOWS, scene_of
 
 import planetary_twin_py as pt
-from planetary_twin_py._records import new_record
-from planetary_twin_py.dynamics.drag import SLOWEST_TURN, apply_drag
-from planetary_twin_py.dynamics.equations import EVALUATION
-from planetary_twin_py.dynamics.state import BEARING
+from planetary_twin_py._core import BEARING, SLOWEST_TURN, Evaluation, apply_drag
 from planetary_twin_py.engine import Engine
 
 LOSSES = {
@@ -45,7 +42,7 @@ def test_planet_bearings_take_what_palmgren_says_at_the_pin_load():
 def test_a_pin_carries_what_both_meshes_of_its_planet_leave_it(sides, load):
     """400 N from the sun and 300 N from the ring: against one another where flanks differ."""
     rough = {"planet_bearing": {"mean_diameter": "10 mm", "f0": 0.0, "f1": 1e-3}}
-    engine, out = Engine(scene_of(FLOWS[0], losses=rough), 1e-3), new_record(EVALUATION)
+    engine, out = Engine(scene_of(FLOWS[0], losses=rough), 1e-3), Evaluation()
     state, train = engine.march.end, engine.train
     planets = train.meshes // 2
     for k, (side, push) in enumerate(zip(sides, (400.0, 300.0), strict=True)):
@@ -98,7 +95,7 @@ def test_drag_passes_through_standstill_as_bearings_do():
     found = []
     for speed in (-50.0, -SLOWEST_TURN / math.sqrt(3.0), 0.0, SLOWEST_TURN / math.sqrt(3.0), 50.0):
         engine = Engine(scene_of(FLOWS[0], losses=losses, input_speed=speed), 1e-3)
-        out, train = new_record(EVALUATION), engine.train
+        out, train = Evaluation(), engine.train
         apply_drag(engine.model, engine.march.end, np.zeros(train.lanes), out)
         found.append(float(out.rubbing[train.sun] * train.radius[train.sun]))
     assert found == pytest.approx([0.3, 0.15, 0.0, -0.15, -0.3], rel=1e-6)

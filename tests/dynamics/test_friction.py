@@ -4,24 +4,31 @@ import numpy as np
 import pytest
 from power_flows import ALL_FLOWS, FLOWS, scene_of
 
-from planetary_twin_py._records import new_record
-from planetary_twin_py.dynamics.cycle import find_segment
-from planetary_twin_py.dynamics.equations import EVALUATION, forces
-from planetary_twin_py.dynamics.mesh_force import mesh_motion
-from planetary_twin_py.dynamics.moment import MOMENT, set_moment, take_segment
-from planetary_twin_py.dynamics.state import COAST_SIDE, DRIVE_SIDE, FRICTION, OPEN
+from planetary_twin_py._core import (
+    COAST_SIDE,
+    DRIVE_SIDE,
+    FRICTION,
+    OPEN,
+    Evaluation,
+    StepConstants,
+    find_segment,
+    forces,
+    mesh_motion,
+    set_step_constants,
+    take_segment,
+)
 from planetary_twin_py.engine import Engine
 
 
 def random_moment(engine, random):
     """Bodies anywhere, moving at random, meshes on the side this takes them to."""
-    train, state, moment = engine.train, engine.march.begin, new_record(MOMENT)
+    train, state, moment = engine.train, engine.march.begin, StepConstants()
     bodies = int(train.bodies)
     x, v = np.zeros_like(state.x), np.zeros_like(state.v)
     x[:bodies] = random.normal(0.0, 1e-5, bodies)
     state.x = x
     v[:bodies] = random.normal(0.0, 0.3, bodies)
-    set_moment(engine.model, state, moment)
+    set_step_constants(engine.model, state, moment)
     for i in range(train.meshes):
         state.side[i] = DRIVE_SIDE if mesh_motion(train, i, x) > 0.0 else COAST_SIDE
         moment.start[i] = random.uniform()
@@ -51,7 +58,7 @@ def test_friction_takes_what_the_sliding_loses(flow, seed):
     engine = Engine(scene_of(flow), 1e-4)
     train = engine.train
     state, moment, x, v = random_moment(engine, random)
-    with_friction, without = new_record(EVALUATION), new_record(EVALUATION)
+    with_friction, without = Evaluation(), Evaluation()
     forces(engine.model, state, moment, x, v, 0.0, np.zeros(2), with_friction)
     engine.model.train.friction = False
     forces(engine.model, state, moment, x, v, 0.0, np.zeros(2), without)
@@ -77,7 +84,7 @@ def test_friction_takes_what_the_sliding_loses(flow, seed):
 @ALL_FLOWS
 def test_turning_everything_together_meets_no_friction(flow):
     engine = Engine(scene_of(flow), 1e-4)
-    out, bodies = new_record(EVALUATION), int(engine.train.bodies)
+    out, bodies = Evaluation(), int(engine.train.bodies)
     forces(engine.model, *random_moment(engine, np.random.default_rng(1)), 0.0, np.zeros(2), out)
     torque = (out.rubbing * engine.train.radius)[: bodies + 1]  # the last is that on the ground
     assert np.abs(torque).max() > 0.0
@@ -87,7 +94,7 @@ def test_turning_everything_together_meets_no_friction(flow):
 @ALL_FLOWS
 def test_pairs_of_a_mesh_share_all_of_its_force(flow):
     engine = Engine(scene_of(flow), 1e-4)
-    out = new_record(EVALUATION)
+    out = Evaluation()
     forces(engine.model, *random_moment(engine, np.random.default_rng(2)), 0.0, np.zeros(2), out)
     meshes, slots = int(engine.train.meshes), int(engine.train.slots)
     assert out.pairs.count == slots * meshes
@@ -118,7 +125,7 @@ def test_open_meshes_and_absent_pairs_rub_on_nothing(laws):
     """They stand in the same registers as those that do."""
     random = np.random.default_rng(3)
     engine = Engine(scene_of(FLOWS[0], **laws), 1e-4)
-    train, out = engine.train, new_record(EVALUATION)
+    train, out = engine.train, Evaluation()
     meshes, slots = int(train.meshes), int(train.slots)
     seen = np.zeros(2, dtype=int)
     for _ in range(20):

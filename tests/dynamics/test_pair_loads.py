@@ -6,10 +6,8 @@ import numpy as np
 import pytest
 
 import planetary_twin_py as pt
-from planetary_twin_py._records import new_record
+from planetary_twin_py._core import Evaluation, StepConstants, forces, set_step_constants
 from planetary_twin_py.dynamics.bodies import body_names, mesh_names
-from planetary_twin_py.dynamics.equations import EVALUATION, forces
-from planetary_twin_py.dynamics.moment import MOMENT, set_moment
 from planetary_twin_py.dynamics.pair_loads import pair_loads
 from planetary_twin_py.run import start
 
@@ -22,8 +20,8 @@ TURN = 30 * 2e-3  # [s] of the sun, which meets each of its teeth once a turn
 def model_loads(engine, scene):
     """Angles; forces (meshes,), positions and loads (meshes, pairs) in the model's own state."""
     model, state, train = engine.model, engine.march.end, engine.train
-    moment, work = new_record(MOMENT), new_record(EVALUATION)
-    set_moment(model, state, moment)
+    moment, work = StepConstants(), Evaluation()
+    set_step_constants(model, state, moment)
     forces(model, state, moment, state.x, state.v, 0.0, state.trim, work)
     bodies, shown = body_names(scene), mesh_names(scene).place
     turns = 2 * math.pi * train.ratio @ (state.turns + state.fraction)

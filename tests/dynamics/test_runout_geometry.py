@@ -13,12 +13,19 @@ import numpy as np
 import pytest
 
 import planetary_twin_py as pt
-from planetary_twin_py._records import BODIES, MESHES, new_record
+from planetary_twin_py._core import (
+    BODIES,
+    LINES,
+    MESHES,
+    OPEN,
+    State,
+    StepConstants,
+    departure,
+    form_error,
+    place_lines,
+    set_step_constants,
+)
 from planetary_twin_py.dynamics.bodies import base_radii
-from planetary_twin_py.dynamics.contact_events import departure
-from planetary_twin_py.dynamics.form_errors import LINES, form_error, place_lines
-from planetary_twin_py.dynamics.moment import MOMENT, set_moment
-from planetary_twin_py.dynamics.state import OPEN, STATE
 from planetary_twin_py.dynamics.train import build_train
 from planetary_twin_py.engine import Engine
 
@@ -65,7 +72,7 @@ def geometric(ring, flank, gear, direction):
 
 def modelled(train, mesh, flank, turn):
     """e [m] with the motor, the sun, `turn` turns on."""
-    state, angle = new_record(STATE), np.zeros((MESHES, LINES))
+    state, angle = State(), np.zeros((MESHES, LINES))
     state.turns[0], state.fraction[0] = math.floor(turn), turn - math.floor(turn)
     place_lines(train, state, mesh, angle)
     return form_error(train, mesh, float(flank), angle, 0.0, 0.0)[0]
@@ -161,12 +168,12 @@ def test_the_play_breathes_by_the_radial_part():
 @pytest.mark.parametrize("shift", [-2e-7, 1e-7])
 def test_an_open_mesh_closes_where_the_nearer_of_its_flanks_is(turn, shift):
     engine = Engine(SCENE.replace(**{"mesh.runout.sun": SIZE}, backlash="3 um"), 1e-3)
-    model, state, moment = engine.model, engine.march.end, new_record(MOMENT)
+    model, state, moment = engine.model, engine.march.end, StepConstants()
     state.side[:] = OPEN
     state.x[:] = 0.0
     state.x[model.train.sun] = shift
     state.fraction[0] = turn
-    set_moment(model, state, moment)
+    set_step_constants(model, state, moment)
     found = departure(model, state, moment, 0, state.x, np.zeros(BODIES), (0.0, 0.0, 0.0))
     drive, coast = (modelled(model.train, 0, flank, turn) for flank in (1, -1))
     nearest = min(1.5e-6 - shift + drive, 1.5e-6 + shift - coast)

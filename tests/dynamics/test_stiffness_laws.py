@@ -4,8 +4,7 @@ import numpy as np
 import pytest
 
 import planetary_twin_py as pt
-from planetary_twin_py.dynamics.cycle import find_segment
-from planetary_twin_py.dynamics.mesh_force import mesh_stiffness
+from planetary_twin_py._core import find_segment, mesh_stiffness
 from planetary_twin_py.dynamics.stiffness_laws import tooth_pairs
 from planetary_twin_py.dynamics.train import build_train
 

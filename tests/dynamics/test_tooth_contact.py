@@ -7,8 +7,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from planetary_twin_py._core import lambda_ratio_of, tooth_contact
 from planetary_twin_py.dynamics.oil import build_oil
-from planetary_twin_py.dynamics.tooth_contact import choices, lambda_ratio_of, tooth_contact
 from planetary_twin_py.scene import load_scene
 
 PAPER = load_scene("paper")
@@ -43,9 +43,9 @@ def test_finite_dissipative_and_never_negative_unless_printed_so(laws, pair):
     oil = build_oil(scene, scene.operating_point)
     rho1, factor, external, *rest = pair
     signed, boundary, viscous, log_film, sliding, slope, rolling, taken = tooth_contact(
-        oil, choices(oil), (rho1, factor * rho1, external, *rest)
+        oil, (rho1, factor * rho1, external, *rest)
     )
-    ratio = lambda_ratio_of(oil, oil.prescribed, log_film)
+    ratio = lambda_ratio_of(oil, log_film)
     for value in (signed, boundary, viscous, log_film, ratio, sliding, slope, rolling, taken):
         assert math.isfinite(value)
     assert math.exp(log_film) > 0.0 and ratio >= 0.0
@@ -74,9 +74,7 @@ def sheared(scene, load, slide_to_roll, speed=1.0):
     """Signed friction [N], film [m], sliding speed [m/s] and slope [N s/m] at a mean speed."""
     oil = build_oil(scene, scene.operating_point)
     turns = (speed * (1 + slide_to_roll / 2) / RHO, -speed * (1 - slide_to_roll / 2) / RHO)
-    signed, _, _, log_film, sliding, slope, _, _ = tooth_contact(
-        oil, choices(oil), (RHO, RHO, 1.0, *turns, load)
-    )
+    signed, _, _, log_film, sliding, slope, _, _ = tooth_contact(oil, (RHO, RHO, 1.0, *turns, load))
     return signed, math.exp(log_film), sliding, slope
 
 

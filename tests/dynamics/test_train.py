@@ -7,9 +7,7 @@ import pytest
 from power_flows import ALL_FLOWS, DIFFERENTIALS, FLOWS, scene_of
 from scipy.linalg import eigvalsh
 
-from planetary_twin_py._records import new_record
-from planetary_twin_py.dynamics.equations import EVALUATION, forces
-from planetary_twin_py.dynamics.moment import MOMENT, set_moment
+from planetary_twin_py._core import Evaluation, StepConstants, forces, set_step_constants
 from planetary_twin_py.dynamics.train import build_train
 from planetary_twin_py.engine import Engine
 
@@ -25,8 +23,8 @@ def test_rigid_motion_leaves_every_mesh_as_it_is(flow):
 
 def stiffness_matrix(model, state, bodies):
     """-dF/dx of the compiled equations, by differences of what is linear."""
-    out, moment = new_record(EVALUATION), new_record(MOMENT)
-    set_moment(model, state, moment)
+    out, moment = Evaluation(), StepConstants()
+    set_step_constants(model, state, moment)
     columns = []
     for j in range(bodies):
         ends = []

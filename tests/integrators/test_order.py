@@ -3,13 +3,19 @@
 import numpy as np
 import pytest
 
+from planetary_twin_py._core import (
+    NO_MESH,
+    accept,
+    begin_step,
+    end_within,
+    enter,
+    hold_friction,
+    radau,
+    set_step,
+    sweep,
+    visit_nodes,
+)
 from planetary_twin_py.engine import Engine
-from planetary_twin_py.integrators.collocated_step import end_within, hold_friction
-from planetary_twin_py.integrators.collocation import _sweep
-from planetary_twin_py.integrators.march import accept, begin_step
-from planetary_twin_py.integrators.progress import NO_MESH
-from planetary_twin_py.integrators.propagation import enter, set_step, visit_nodes
-from planetary_twin_py.integrators.radau import radau
 from planetary_twin_py.scene import load_scene
 
 START, SPAN = 1e-5, 6e-5  # [s] within one segment of all meshes
@@ -39,7 +45,7 @@ def march(points, steps):
             run.run.evaluation[n].rubbing[:] = run.first.rubbing
         visit_nodes(model, run)
         for _ in range(SWEEPS):
-            _sweep(model, run, True)
+            sweep(model, run, True)
             visit_nodes(model, run)
         end_within(model, run, SPAN / steps)
         accept(model, run, NO_MESH)

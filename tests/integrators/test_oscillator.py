@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from scipy.linalg import expm
 
-from planetary_twin_py.integrators.oscillator import decay_rates, wave
+from planetary_twin_py._core import decay_rates, wave
 
 DAMPING = {  # over the critical one
     "free": 0.0,

@@ -7,8 +7,8 @@ import pytest
 from power_flows import FLOWS, scene_of
 from reference_model import Reference
 
+from planetary_twin_py._core import DTE
 from planetary_twin_py.dynamics.bodies import body_names, mesh_names
-from planetary_twin_py.dynamics.observe import DTE
 from planetary_twin_py.engine import Engine
 
 pytestmark = pytest.mark.slow

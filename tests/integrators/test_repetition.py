@@ -7,18 +7,19 @@ import pytest
 from stability.sound import PAPER
 
 import planetary_twin_py as pt
-from planetary_twin_py.dynamics.cycle import common_cycles
-from planetary_twin_py.dynamics.observe import DTE, MESH_FORCE
-from planetary_twin_py.dynamics.speed_loop import bandwidth
-from planetary_twin_py.dynamics.start import build_load
-from planetary_twin_py.dynamics.state import (
+from planetary_twin_py._core import (
     BEARING,
     CHURNING,
     DAMPING,
+    DTE,
     FRICTION,
+    MESH_FORCE,
     STIFFNESS_WORK,
     WORK,
 )
+from planetary_twin_py.dynamics.cycle import common_cycles
+from planetary_twin_py.dynamics.speed_loop import bandwidth
+from planetary_twin_py.dynamics.start import build_load
 from planetary_twin_py.dynamics.train import build_train
 from planetary_twin_py.engine import Engine
 

@@ -1,14 +1,11 @@
-"""Order of the step on a smooth stretch: no event, no friction, equal steps."""
+"""Order of the rosenbrock_step on a smooth stretch: no event, no friction, equal steps."""
 
 import numpy as np
 import pytest
 from power_flows import FLOWS, scene_of
 
-from planetary_twin_py._records import new_record
-from planetary_twin_py.dynamics.equations import forces
+from planetary_twin_py._core import Workspace, begin_step, forces, rosenbrock_step
 from planetary_twin_py.engine import Engine
-from planetary_twin_py.integrators.march import begin_step
-from planetary_twin_py.integrators.rosenbrock import WORKSPACE, step
 from planetary_twin_py.scene import load_scene
 
 SPAN = 4e-5  # [s] within one segment of all meshes
@@ -20,7 +17,7 @@ def march(steps):
     engine = Engine(scene, 1e-4)
     model, run = engine.model, engine.march
     run.end.x[:5] += np.array([3.0, -2.0, 1.0, 2.0, -1.0]) * 1e-6
-    work, h = new_record(WORKSPACE), SPAN / steps
+    work, h = Workspace(), SPAN / steps
     run.control.changed = True
     begin_step(model, run)
     state, new, moment = run.begin.copy(), run.begin.copy(), run.moment
@@ -28,7 +25,7 @@ def march(steps):
     for i in range(steps):
         moment.start[:] = start + moment.cycle_rate * i * h
         forces(model, state, moment, state.x, state.v, 0.0, state.trim, run.first)
-        step(model, state, moment, h, run.first, new, work)
+        rosenbrock_step(model, state, moment, h, run.first, new, work)
         state = new.copy()
         state.fraction[:] = run.begin.fraction + run.begin.speed * h * (i + 1) / (2 * np.pi)
     return np.concatenate([state.x, state.v / 1e4])

@@ -5,8 +5,8 @@ import math
 import pytest
 
 import planetary_twin_py as pt
+from planetary_twin_py._core import bearing_torque
 from planetary_twin_py.dynamics.train import build_train
-from planetary_twin_py.losses.bearing import bearing_torque
 
 
 @pytest.mark.parametrize(

@@ -6,8 +6,9 @@ import numpy as np
 import pytest
 from scipy.integrate import quad
 
-from planetary_twin_py.lubrication.asperities import contact_area_function, contact_load_function
-from planetary_twin_py.lubrication.printed_asperities import (
+from planetary_twin_py._core import (
+    contact_area_function,
+    contact_load_function,
     printed_area_function,
     printed_load_function,
 )

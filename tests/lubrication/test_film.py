@@ -15,8 +15,7 @@ from lubrication.pitch_point import (
     pitch_point,
 )
 
-from planetary_twin_py.dynamics.tooth_contact import choices, tooth_contact
-from planetary_twin_py.lubrication.film import THINNEST_FILM
+from planetary_twin_py._core import THINNEST_FILM, tooth_contact
 from planetary_twin_py.scene import load_scene
 
 FILMS = {  # [um] at the pitch point
@@ -56,5 +55,5 @@ def test_film_grows_with_speed_and_radius_and_thins_with_load(law):
 @pytest.mark.parametrize("speed", [0.0, 1e-9, 1e-6])
 def test_film_of_a_tooth_pair_never_vanishes(speed):
     oil = oil_of(load_scene("paper"))
-    log_film = tooth_contact(oil, choices(oil), (0.01, 0.01, 1.0, speed, -speed, LOAD))[3]
+    log_film = tooth_contact(oil, (0.01, 0.01, 1.0, speed, -speed, LOAD))[3]
     assert log_film == math.log(THINNEST_FILM)

@@ -4,7 +4,8 @@ import math
 
 import pytest
 
-from planetary_twin_py.lubrication.hertz import contact_modulus, half_width
+from planetary_twin_py._core import half_width
+from planetary_twin_py.lubrication.hertz import contact_modulus
 
 LOAD, RADIUS, LENGTH = 1878.8, 1.747e-3, 0.02
 

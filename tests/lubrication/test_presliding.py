@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from scipy.integrate import quad, solve_ivp
 
-from planetary_twin_py.lubrication.presliding import ELASTIC, bristle_rate
+from planetary_twin_py._core import ELASTIC, bristle_rate
 
 DISPLACEMENT = 5e-7
 

@@ -5,7 +5,7 @@ import math
 import pytest
 
 import planetary_twin_py as pt
-from planetary_twin_py.lubrication.rolling import rolling_resistance
+from planetary_twin_py._core import rolling_resistance
 
 ROLLING = {"lubrication.rolling": "goksem_hargreaves"}
 

@@ -4,7 +4,8 @@ import math
 
 import pytest
 
-from planetary_twin_py.lubrication.schlenk import log_schlenk_factor, schlenk_coefficient
+from planetary_twin_py._core import schlenk_coefficient
+from planetary_twin_py.lubrication.schlenk import log_schlenk_factor
 
 # FZG gears C in the reports of GEARpie (C. M. C. G. Fernandes, MIT licence): face width [mm], base
 # circle load [N], pitch line speed [m/s], viscosity [mPa s], X_L of its oil, and what it prints.

@@ -8,8 +8,7 @@ from lubrication.pitch_point import CASES, FACE_WIDTH, LOAD, MODULUS, film, oil_
 from scipy.integrate import quad
 from scipy.optimize import brentq
 
-from planetary_twin_py.lubrication.shear_thinning import film_shear
-from planetary_twin_py.lubrication.traction import viscous_friction
+from planetary_twin_py._core import film_shear, viscous_friction
 from planetary_twin_py.scene import load_scene
 
 VISCOSITY, ALPHA, EYRING_STRESS, LIMIT = 0.08, 2.1e-8, 2.3e6, 0.047

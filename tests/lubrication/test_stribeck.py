@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 from lubrication.pitch_point import LOAD, oil_of, pitch_point
 
-from planetary_twin_py.dynamics.tooth_contact import choices, lambda_ratio_of, tooth_contact
-from planetary_twin_py.lubrication.load_sharing import THINNEST, film_share
+from planetary_twin_py._core import film_share, lambda_ratio_of, tooth_contact
+from planetary_twin_py.dynamics.oil import THINNEST
 from planetary_twin_py.scene import load_scene
 
 SLIDING = 0.2  # slide-to-roll ratio
@@ -30,9 +30,9 @@ def coefficients(scene, speeds, load=LOAD):
     for speed in speeds:
         w1, w2 = speed * (1 + SLIDING / 2) / rho, -speed * (1 - SLIDING / 2) / rho
         signed, _, _, log_film, sliding, _, _, rolling_power = tooth_contact(
-            oil, choices(oil), (rho, rho, 1.0, w1, w2, load)
+            oil, (rho, rho, 1.0, w1, w2, load)
         )
-        ratio = lambda_ratio_of(oil, oil.prescribed, log_film)
+        ratio = lambda_ratio_of(oil, log_film)
         found.append(((signed * sliding + rolling_power) / (load * sliding), ratio))
     return np.array(found).T
 
@@ -85,7 +85,7 @@ def test_default_laws_rise_to_the_left_of_the_full_film_down_to_none(share, roug
     oil, rho, load = oil_of(scene), 2.0 * pitch_point("sp", 1000).radius, share * LOAD
     speeds = np.logspace(-9, 1.5, 211)
     turns = np.outer(speeds / rho, [1 + SLIDING / 2, -1 + SLIDING / 2])
-    pairs = [tooth_contact(oil, choices(oil), (rho, rho, 1.0, *w, load)) for w in turns]
+    pairs = [tooth_contact(oil, (rho, rho, 1.0, *w, load)) for w in turns]
     mu = np.array([boundary + viscous for _, boundary, viscous, *_ in pairs]) / load
     film = np.exp([log_film for _, _, _, log_film, *_ in pairs])
     mixed = film < FULL_FILM * roughness

@@ -5,17 +5,10 @@ import math
 import numpy as np
 import pytest
 
+from planetary_twin_py._core import PAIRS, TERMS, TOTAL
 from planetary_twin_py.gearset.geometry import PathOfContact, planet_ring_path, sun_planet_path
 from planetary_twin_py.gearset.kinematics import Teeth
-from planetary_twin_py.mesh.tooth_pairs import (
-    PAIRS,
-    TERMS,
-    TOTAL,
-    along,
-    mean_weight,
-    pair_table,
-    terms_in_use,
-)
+from planetary_twin_py.mesh.tooth_pairs import along, mean_weight, pair_table, terms_in_use
 
 PAPER = Teeth(30, 20, 70), math.radians(21.34), 1.0
 EXTERNAL, INTERNAL = sun_planet_path(*PAPER), planet_ring_path(*PAPER)

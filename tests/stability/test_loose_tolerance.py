@@ -13,7 +13,7 @@ from reference_model import COAST, DRIVE, OPEN, Reference
 from scipy.integrate import solve_ivp
 from stability.sound import PAPER
 
-from planetary_twin_py.dynamics.observe import DTE
+from planetary_twin_py._core import DTE
 from planetary_twin_py.engine import Engine
 
 BEGIN, SPAN = 0.02, 4e-3  # [s]

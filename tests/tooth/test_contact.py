@@ -6,7 +6,8 @@ import numpy as np
 import pytest
 from scipy.integrate import quad
 
-from planetary_twin_py.lubrication.hertz import contact_modulus, half_width
+from planetary_twin_py._core import half_width
+from planetary_twin_py.lubrication.hertz import contact_modulus
 from planetary_twin_py.tooth.contact import Contact, weber_banaschek, yang_sun
 from planetary_twin_py.tooth.material import Material
 

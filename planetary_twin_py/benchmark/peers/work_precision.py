@@ -7,7 +7,7 @@ from collections.abc import Callable, Iterable, Iterator
 
 import numpy as np
 
-from ...dynamics.observe import DTE, POWER_LOSS
+from ..._core import DTE, POWER_LOSS
 from ...scene import Scene
 from ..cases import Case
 from ..table import TOLERANCES, Beside, Row, dte_error, loss_error

@@ -31,13 +31,13 @@ inline void check_size(const char* name, std::size_t size, std::size_t least) {
 }
 
 // A new array (NumPy owns it) with a copy of values.
-inline nb::object new_array(const double* values, std::initializer_list<std::size_t> shape) {
+inline nb::ndarray<nb::numpy, double> new_array(const double* values, std::initializer_list<std::size_t> shape) {
     std::size_t size = 1;
     for (std::size_t extent : shape) size *= extent;
     double* data = new double[size];
     std::copy(values, values + size, data);
     nb::capsule owner(data, [](void* p) noexcept { delete[] static_cast<double*>(p); });
-    return nb::cast(nb::ndarray<nb::numpy, double>(data, shape.size(), shape.begin(), owner));
+    return nb::ndarray<nb::numpy, double>(data, shape.size(), shape.begin(), owner);
 }
 
 // planetary_twin_py's Instant and Sampling, which are named tuples.

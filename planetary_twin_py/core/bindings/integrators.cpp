@@ -12,6 +12,7 @@
 #include "integrators/propagation.hpp"
 #include "integrators/radau.hpp"
 #include "integrators/rosenbrock.hpp"
+#include "integrators/step_control.hpp"
 #include "integrators/window_sums.hpp"
 
 namespace gearbox {
@@ -128,7 +129,7 @@ void bind_parts_of_steps(nb::module_& m) {
 void bind_oscillator(nb::module_& m) {
     m.def("decay_rates", [](double square, double damping) {
         DecayRates rates = decay_rates(square, damping);
-        return nb::make_tuple(rates.rate, rates.slow, rates.fast);
+        return std::make_tuple(rates.rate, rates.slow, rates.fast);
     }, "square"_a, "damping"_a, "Angular rate, and both decays [1/s].");
     m.def("wave", [](double damping, double rate, double slow, double fast, double t) {
         Wave at = wave(damping, rate, slow, fast, t);
@@ -141,6 +142,10 @@ void bind_oscillator(nb::module_& m) {
 }  // namespace
 
 void bind_integrators(nb::module_& m) {
+    m.attr("AUTO") = static_cast<int>(AUTO);
+    m.attr("COLLOCATION") = static_cast<int>(COLLOCATION);
+    m.attr("ROSENBROCK") = static_cast<int>(ROSENBROCK);
+    m.attr("NO_MESH") = NO_MESH;
     bind_march(m);
     bind_parts_of_steps(m);
     bind_oscillator(m);

@@ -1,11 +1,16 @@
 #include "bindings/parts.hpp"
 #include "bindings/records.hpp"
 
+namespace gearbox {
+extern const char* const SOURCES;  // digest of the sources, of a file that the build writes
+}
+
 // One module for each level of x86-64 (CMake names it); Python sees one place for all of them, so
 // what was pickled on one machine is found on another.
 NB_MODULE(CORE_MODULE, m) {
     m.attr("__name__") = "planetary_twin_py._core";
     m.doc() = "Compiled core of planetary_twin_py.";
+    m.attr("SOURCES") = gearbox::SOURCES;
     gearbox::bind_records(m);
     gearbox::bind_train(m);
     gearbox::bind_tribology(m);

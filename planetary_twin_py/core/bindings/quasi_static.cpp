@@ -23,14 +23,14 @@ using Steps = std::tuple<double, double, double>;
 using Shown = double[QUANTITIES][MESHES];
 
 // (QUANTITIES, meshes), without the room beyond.
-nb::object shown_array(const Shown& shown, std::int64_t meshes) {
+auto shown_array(const Shown& shown, std::int64_t meshes) {
     double packed[QUANTITIES * MESHES];
     for (int q = 0; q < QUANTITIES; ++q)
         std::copy(shown[q], shown[q] + meshes, packed + q * meshes);
     return new_array(packed, {std::size_t(QUANTITIES), std::size_t(meshes)});
 }
 
-nb::object py_settle(const Model& model, double tolerance, Equilibrium& run) {
+auto py_settle(const Model& model, double tolerance, Equilibrium& run) {
     Shown shown;
     {
         nb::gil_scoped_release release;
@@ -47,7 +47,7 @@ auto py_integrate(const Model& model, double tolerance, const State& origin, Equ
         nb::gil_scoped_release release;
         integrate({model, tolerance, run, shown}, origin, {span.first, span.second}, out, peak);
     }
-    return nb::make_tuple(new_array(out, {TOTALS}), new_array(&peak[0][0], {PEAKS, MESHES}));
+    return std::make_tuple(new_array(out, {TOTALS}), new_array(&peak[0][0], {PEAKS, MESHES}));
 }
 
 auto py_divide_cycle(const Model& model, double tolerance, const State& origin, Equilibrium& run,
@@ -60,7 +60,7 @@ auto py_divide_cycle(const Model& model, double tolerance, const State& origin, 
                               {edges.data(), edges.size()}, period);
     }
     std::size_t m = panels.phase.size();
-    return nb::make_tuple(new_array(panels.phase.data(), {m}),
+    return std::make_tuple(new_array(panels.phase.data(), {m}),
                           new_array(panels.totals.data()->data(), {m, TOTALS}),
                           new_array(panels.peaks.data()->data(), {m, PEAKS, MESHES}));
 }

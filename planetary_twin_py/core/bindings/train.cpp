@@ -13,6 +13,7 @@ using namespace nb::literals;
 namespace {
 
 void bind_places(nb::module_& m) {
+    m.attr("REGISTER") = REGISTER;
     m.attr("BODIES") = BODIES;
     m.attr("MESHES") = MESHES;
     m.attr("MACHINES") = MACHINES;

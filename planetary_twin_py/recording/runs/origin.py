@@ -1,14 +1,14 @@
 """Origin of a run: its scene, and the software and machine that computed it.
 
-With the parameter changes in its messages, a run can be simulated again. With the same kernels on
-the same type of machine the result is identical bit for bit.
+With the parameter changes in its messages, a run can be simulated again. With the same core on the
+same type of machine the result is identical bit for bit.
 """
 
 from __future__ import annotations
 
-import hashlib
 from dataclasses import asdict, dataclass
 from importlib.metadata import PackageNotFoundError, version
+from platform import libc_ver
 from typing import Any
 
 import yaml
@@ -17,7 +17,7 @@ from ...scene import Scene, parse_scene
 from ...scene.yaml_text import read_yaml
 from ..container.records import RecordingError
 
-SOFTWARE = ("planetary_twin_py", "numba", "llvmlite", "numpy", "scipy")
+SOFTWARE = ("planetary_twin_py", "numpy", "scipy")
 
 
 @dataclass(frozen=True)
@@ -25,9 +25,9 @@ class Makers:
     """Software and machine that computed a run."""
 
     kernels: str
-    """Digest of the source of the compiled kernels."""
+    """Digest of the sources of the compiled core."""
     machine: str
-    """Processor for which they are compiled, and a digest of its features."""
+    """Instructions that the core uses, and the C library."""
     software: dict[str, str]
     """Versions of the packages that affect the numbers."""
 
@@ -58,19 +58,15 @@ class Origin:
 
 def makers_here() -> Makers:
     """Software and machine of this process."""
-    from llvmlite import binding
+    from ..._core import LEVEL, SOURCES
 
-    from ..._compile import cache_folder
-
-    features = binding.get_host_cpu_features().flatten()
-    digest = hashlib.sha256(features.encode()).hexdigest()[:16]
     found = {}
     for package in SOFTWARE:
         try:
             found[package] = version(package)
         except PackageNotFoundError:
             continue
-    return Makers(cache_folder().name, f"{binding.get_host_cpu_name()} {digest}", found)
+    return Makers(SOURCES, f"x86-64-{LEVEL} {' '.join(libc_ver())}", found)
 
 
 def read_origin(text: str) -> Origin:

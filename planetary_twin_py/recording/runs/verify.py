@@ -39,7 +39,7 @@ class Comparison:
     """Result of a comparison; `remarks` are warnings about parts that were not compared."""
 
     same_makers: bool = True
-    """Whether the same kernels on the same type of machine made the recording."""
+    """Whether the same core on the same type of machine made the recording."""
     messages: dict[str, int] = field(default_factory=dict)
     """Number of compared messages by topic."""
     left_out: int = 0
