@@ -182,7 +182,6 @@ class Scene(Section):
             raise SceneError(listed(errors))
         return _validated(data)
 
-
     def point_with(self, point: OperatingPoint, changes: Mapping[str, float]) -> OperatingPoint:
         """An operating point of this scene with other values.
 

@@ -56,7 +56,7 @@ def test_users_errors_are_one_line_each(file, tmp_path):
 
 
 def test_help_imports_neither_rerun_nor_the_compiler_nor_ros():
-    heavy = "{'rerun', 'numba', 'rclpy'} & set(sys.modules)"
+    heavy = "{'rerun', 'planetary_twin_py._core', 'rclpy'} & set(sys.modules)"
     code = f"import sys; from planetary_twin_py.cli import build_app; build_app(); print({heavy})"
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
     assert done.stdout.strip() == "set()"

@@ -7,7 +7,7 @@ import pytest
 from power_flows import ALL_FLOWS, FLOWS, scene_of
 
 import planetary_twin_py as pt
-from planetary_twin_py._core import BEARING, SLOWEST_TURN, Evaluation, apply_drag
+from planetary_twin_py._core import BEARING, BODIES, SLOWEST_TURN, Evaluation, apply_drag
 from planetary_twin_py.engine import Engine
 
 LOSSES = {
@@ -48,7 +48,7 @@ def test_a_pin_carries_what_both_meshes_of_its_planet_leave_it(sides, load):
     for k, (side, push) in enumerate(zip(sides, (400.0, 300.0), strict=True)):
         state.side[k * planets : (k + 1) * planets] = side
         out.now.push[k * planets : (k + 1) * planets] = push / math.cos(math.radians(21.34))
-    apply_drag(engine.model, state, np.zeros(train.lanes), out)
+    apply_drag(engine.model, state, np.zeros(BODIES), out)
     torque = 3 * 1e-3 * load * 0.010
     assert out.power[BEARING] == pytest.approx(torque * 1500.0 * math.pi / 30, rel=1e-6)
 
@@ -96,6 +96,6 @@ def test_drag_passes_through_standstill_as_bearings_do():
     for speed in (-50.0, -SLOWEST_TURN / math.sqrt(3.0), 0.0, SLOWEST_TURN / math.sqrt(3.0), 50.0):
         engine = Engine(scene_of(FLOWS[0], losses=losses, input_speed=speed), 1e-3)
         out, train = Evaluation(), engine.train
-        apply_drag(engine.model, engine.march.end, np.zeros(train.lanes), out)
+        apply_drag(engine.model, engine.march.end, np.zeros(BODIES), out)
         found.append(float(out.rubbing[train.sun] * train.radius[train.sun]))
     assert found == pytest.approx([0.3, 0.15, 0.0, -0.15, -0.3], rel=1e-6)

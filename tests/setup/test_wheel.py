@@ -105,7 +105,7 @@ def test_the_model_alone_asks_for_no_ros_and_no_viewer(wheel):
         metadata = email.message_from_bytes(held.read(name))
     needs = [Requirement(text) for text in metadata.get_all("Requires-Dist")]
     alone = [need.name for need in needs if need.marker is None]
-    assert {"numpy", "scipy", "numba", "typer"} <= set(alone)
+    assert {"numpy", "scipy", "typer"} <= set(alone)
     assert not [need for need in alone if any(word in need.lower() for word in NOT_THE_MODELS)]
     assert {"ros", "view", "studies"} <= set(metadata.get_all("Provides-Extra"))
 
@@ -143,8 +143,9 @@ def test_the_model_alone_simulates(alone):
     assert 0.5 < float(done.stdout) < 1.0
 
 
-def test_the_package_is_imported_without_the_compiler(alone):
-    heavy = "[m for m in ('numba', 'numpy', 'scipy', 'pydantic', 'pint') if m in sys.modules]"
+def test_the_package_is_imported_without_the_core(alone):
+    core = "planetary_twin_py._core"
+    heavy = f"[m for m in ({core!r}, 'numpy', 'scipy', 'pydantic', 'pint') if m in sys.modules]"
     done = without_extras(alone, f"print({heavy})")
     assert done.stdout.strip() == "[]", done.stderr
 

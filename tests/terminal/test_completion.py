@@ -14,7 +14,7 @@ from planetary_twin_py.terminal.arguments import (
     complete_scene,
 )
 
-HEAVY = ("numba", "numpy", "pint", "rclpy", "rich", "scipy")
+HEAVY = ("planetary_twin_py._core", "numpy", "pint", "rclpy", "rich", "scipy")
 
 
 @pytest.fixture
