@@ -141,14 +141,39 @@ def settling_rate(scene: Scene, point: OperatingPoint) -> float:
         scene: the scene.
         point: its operating point.
     """
-    gearset, friction = scene.gearset, scene.lubrication
-    if scene.dynamics != "torsional" or not friction.friction:
-        return 0.0
-    radius = pitch_radius(gearset.teeth.sun, gearset.module) * math.sin(gearset.pressure_angle)
-    rolling = radius * _turning(scene, point)  # of both flanks at the pitch point [m/s]
-    if rolling >= CREEPING:
-        return math.inf
-    return rolling / (SETTLED * friction.presliding_displacement)
+    return Settling(scene).rate(point)
+
+
+class Settling:
+    """Rate of `settling_rate` at one operating point after the other.
+
+    Args:
+        scene: the scene.
+    """
+
+    def __init__(self, scene: Scene) -> None:
+        gearset, friction = scene.gearset, scene.lubrication
+        self._remembers = scene.dynamics == "torsional" and friction.friction
+        self._distance = SETTLED * friction.presliding_displacement
+        lever = pitch_radius(gearset.teeth.sun, gearset.module) * math.sin(gearset.pressure_angle)
+        ratios = rigid_ratios(scene)
+        self._rolling = [
+            lever * float(sun - carrier)
+            for sun, carrier in zip(ratios["sun"], ratios["carrier"], strict=True)
+        ]
+
+    def rate(self, point: OperatingPoint) -> float:
+        """Rate at an operating point [1/s].
+
+        Args:
+            point: the operating point.
+        """
+        if not self._remembers:
+            return 0.0
+        inputs = point.input_speed, point.second_input_speed
+        # Of both flanks at the pitch point [m/s], by the speed of the sun relative to the carrier.
+        rolling = abs(sum(per * speed for per, speed in zip(self._rolling, inputs, strict=False)))
+        return math.inf if rolling >= CREEPING else rolling / self._distance
 
 
 def unsettled(share: float, rate: float) -> float:
@@ -159,13 +184,3 @@ def unsettled(share: float, rate: float) -> float:
         rate: present rate of that share [1/s], see `settling_rate`.
     """
     return (1.0 - share) / rate if 0.0 < rate < math.inf and share < 1.0 else 0.0
-
-
-def _turning(scene: Scene, point: OperatingPoint) -> float:
-    """Magnitude of the set speed of the sun relative to the carrier [rad/s]."""
-    ratios, inputs = rigid_ratios(scene), (point.input_speed, point.second_input_speed)
-    sun, carrier = (
-        sum(float(ratio) * speed for ratio, speed in zip(ratios[name], inputs, strict=False))
-        for name in ("sun", "carrier")
-    )
-    return abs(sun - carrier)

@@ -6,19 +6,19 @@ arrays only; names and messages are for those above it.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
 from fractions import Fraction
-from math import floor
 
 import numpy as np
 
 from ._core import (
     AUTO,
-    AXES,
     COLLOCATION,
     IMPULSE,
     ROSENBROCK,
     Control,
+    Load,
     March,
     Model,
     advance,
@@ -31,8 +31,8 @@ from ._core import (
 from .dynamics.cycle import common_cycles, turns_per_cycle
 from .dynamics.mesh_sums import MeshSums, clear, mesh_sums
 from .dynamics.oil import build_oil
-from .dynamics.speed_loop import bandwidth, check_speed_loop
-from .dynamics.start import build_load, start_state
+from .dynamics.speed_loop import SpeedLoopCheck, bandwidth
+from .dynamics.start import LoadBuilder, start_state
 from .dynamics.static_load import mesh_force, static_torques
 from .dynamics.train import build_train, lightest_body
 from .integrators.clock import NEVER, Sampling, delay, instant, sampling
@@ -49,6 +49,33 @@ FIRST_STEP = 1e-6  # [s]
 SETTLING = 1.0  # of the period of the speed loop, for which steady running must last to count
 WATCHED = Fraction(1, 10)  # [s] from one check of a run against its limits to the next
 LIGHTEST_MESH_LOAD = 1.0  # [N] smaller mesh forces do not tighten the tolerance further
+
+
+class _Scale:
+    """What tolerances are relative to."""
+
+    def __init__(self, scene: Scene, train: Train) -> None:
+        self._per_torque = abs(mesh_force(scene, 1.0))
+        self._stiffness = float(train.stiffness.min())
+        self._shares = np.abs(static_torques(scene)[::2])
+        motors = train.coupling[: 2 * len(self._shares) : 2, 0]
+        self._own = train.mass[motors] * train.radius[motors] ** 2
+        self.quickness = math.sqrt(2.0 * self._stiffness / lightest_body(train))
+
+    def deflection(self, point: OperatingPoint) -> float:
+        """Deflection of the meshes under the torques of steady running [m]."""
+        strongest = abs(point.input_torque) + point.torque_ripple
+        force = max(self._per_torque * strongest, LIGHTEST_MESH_LOAD)
+        return force / self._stiffness + 0.5 * point.backlash
+
+    def yielding(self, load: Load) -> np.ndarray:
+        """Deflection of the meshes under each input's acceleration [m s^2/rad].
+
+        A motor turns its own inertia without the meshes.
+        """
+        inertia = load.inertia.diagonal()[: len(self._own)]
+        torque: np.ndarray = (inertia - self._own) / self._shares
+        return self._per_torque * torque / self._stiffness
 
 
 class Engine:
@@ -85,10 +112,15 @@ class Engine:
         control.step = control.next_step = control.next_stiff = FIRST_STEP
         control.longest = LONGEST_STEP
         control.method = METHODS[method]
+        self._speed_loop = SpeedLoopCheck(scene, self.train)
         for speed in (scene.drive.speed_control.start_speed, scene.operating_point.input_speed):
             if speed is not None:
                 where = scene.operating_point.model_copy(update={"input_speed": speed})
-                check_speed_loop(scene, self.train, where)
+                self._speed_loop.check(where)
+        self._loads, self._scale = LoadBuilder(scene, self.train), _Scale(scene, self.train)
+        self._oil_at: tuple[float, float] | None = None
+        self._cycles: dict[bool, int] = {}
+        self._pause = SETTLING / bandwidth(scene)
         self._load(scene.operating_point)
         self.march.begin = self.march.end = start_state(scene, self.model)
         self._prepare()
@@ -104,41 +136,34 @@ class Engine:
 
     def _load(self, point: OperatingPoint) -> None:
         """Put an operating point into the model, and scale the tolerances to its deflections."""
-        self.model.oil = build_oil(self.scene, point)
-        self.model.load = build_load(self.scene, point, self.train)
-        strongest = abs(point.input_torque) + point.torque_ripple
-        per_torque = abs(mesh_force(self.scene, 1.0))
-        stiffness = float(self.train.stiffness.min())
-        lightest = lightest_body(self.train)
-        control = self.march.control
+        oil_at = point.oil_temperature, point.lambda_ratio
+        if self._oil_at != oil_at:
+            self.model.oil, self._oil_at = build_oil(self.scene, point), oil_at
+        self.model.load = self._loads.build(point)
+        control, scale = self.march.control, self._scale
         control.tolerance = self.tolerance
-        control.deflection = max(per_torque * strongest, LIGHTEST_MESH_LOAD) / stiffness
-        control.deflection += 0.5 * point.backlash
-        control.yielding = per_torque * self._accelerating_torque() / stiffness
-        control.quickness = np.sqrt(2.0 * stiffness / lightest)
-        self.march.run.nodes = radau(next(n for least, n in POINTS if self.tolerance > least))
+        control.deflection = scale.deflection(point)
+        control.yielding = scale.yielding(self.model.load)
+        control.quickness = scale.quickness
+        points = next(n for least, n in POINTS if self.tolerance > least)
+        if self.march.run.nodes.count != points:
+            self.march.run.nodes = radau(points)
         control.changed = True
         self._allow_repetition()
 
     def _allow_repetition(self) -> None:
         """Say in how many mesh cycles all is as before."""
         repetition = self.march.repetition
-        cycles = common_cycles(self.train, self.model.load) if self._may_repeat else 0
+        rippled = self.model.load.ripple != 0.0
+        if rippled not in self._cycles:
+            cycles = common_cycles(self.train, self.model.load) if self._may_repeat else 0
+            self._cycles[rippled] = cycles
+        cycles = self._cycles[rippled]
         if cycles > 0:
             turns = abs(cycles * turns_per_cycle(self.train))
             repetition.numerator, repetition.denominator = turns.numerator, turns.denominator
         repetition.cycles = cycles
-        repetition.pause = SETTLING / bandwidth(self.scene)
-
-    def _accelerating_torque(self) -> np.ndarray:
-        """Torque of the first motor [N m] that loads the meshes as each input's acceleration does,
-        per rad/s^2: a motor turns its own inertia without them."""
-        train, torque = self.train, np.zeros(AXES)
-        for axis, share in enumerate(static_torques(self.scene)[::2]):
-            motor = train.coupling[2 * axis, 0]
-            own = train.mass[motor] * train.radius[motor] ** 2
-            torque[axis] = (self.model.load.inertia[axis, axis] - own) / abs(share)
-        return torque
+        repetition.pause = self._pause
 
     def advance(
         self, until: float | Fraction, first_sample: int, sample_rate: float, room: int
@@ -154,7 +179,7 @@ class Engine:
         samples, done = new_samples(self.train, room + 1), 0
         for stop in self._stops(until):
             # All that are due by then, and one at the stop, which the next of them overwrites.
-            due = floor(Fraction(stop) * Fraction(sample_rate)) + 1 - first_sample
+            due = math.floor(Fraction(stop) * Fraction(sample_rate)) + 1 - first_sample
             part = room if stop == until else min(max(due, done), room)
             at = sampling(first_sample + done, sample_rate)
             self._run(stop, at, _rows(samples, done, part + 1))
@@ -206,7 +231,7 @@ class Engine:
         if self._failure is not None:
             raise self._failure
         if self.scene.mesh.damping.follows_speed:
-            check_speed_loop(self.scene, self.train, point)
+            self._speed_loop.check(point)
         cut(self.model, self.march, instant(time))
         clear(self.march.sums.total)
         self.march.sums.taken = self.march.control.step  # what lies before `time`

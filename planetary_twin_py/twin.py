@@ -21,7 +21,7 @@ from ._core import (
     VISCOUS,
     WORK,
 )
-from .accuracy import Course, course_so_far, settling_rate, unsettled
+from .accuracy import Course, Settling, course_so_far, unsettled
 from .dynamics.bodies import Ratios, body_names, mesh_names
 from .dynamics.mesh_sums import in_order
 from .gearset.kinematics import mesh_frequency
@@ -83,7 +83,8 @@ class Twin:
         """All changes. Applied at the same times, they reproduce the run and its samples."""
         self._books = self._account()
         self._end = self._engine.sample(self._clock)
-        self._settled, self._settling = 0.0, settling_rate(scene, scene.operating_point)
+        self._forgetting, self._settled = Settling(scene), 0.0
+        self._settling = self._forgetting.rate(scene.operating_point)
         self._course = course_so_far(self._engine.control, 0.0)
 
     @property
@@ -131,9 +132,7 @@ class Twin:
         for name in changes:
             if name not in TUNABLES:
                 raise SceneError(f"{name}: no such field")
-        point = self.scene.replace(
-            **{**self.operating_point.model_dump(), **changes}
-        ).operating_point
+        point = self.scene.point_with(self.operating_point, changes)
         return self._change(point, self.tolerance)
 
     def set_tolerance(self, tolerance: float) -> float:
@@ -207,7 +206,7 @@ class Twin:
             self._engine.change(point, tolerance, self._clock)
             self._books = self._account()  # a change of backlash is not work of this window
             self._end = self._engine.sample(self._clock)  # with the new operating point
-            self._settling = settling_rate(self.scene, point)
+            self._settling = self._forgetting.rate(point)
             self.log.append(change)
         return self.time
 

@@ -40,6 +40,7 @@ LEAST_MARGIN = math.sqrt(2.0)
 DEFAULT_MARGIN = 4.0
 SLOWEST = 1e-9  # [Hz] below it no stable bandwidth is looked for
 BISECTIONS = 40
+FREQUENCIES_KEPT = 64
 ROUNDING = 1e-12  # growth rates below it, over the largest eigenvalue, are rounding
 
 
@@ -135,32 +136,52 @@ def speed_loop_gains(scene: Scene, train: Train, bandwidth: float) -> Gains:
     return Gains(inertia, np.diag(inertia) * w, trim)
 
 
-def linear_loop(scene: Scene, train: Train, mesh_frequency: float) -> Loop:
-    """The linearised train with its speed loop.
+class LinearTrain:
+    """The linearised train with its speed loop, at one speed after the other.
 
     Args:
         scene: whose drive it is.
         train: of `build_train`.
-        mesh_frequency: rate at which teeth pass [Hz], which mesh damping may follow.
-
-    Returns:
-        Its matrices, from which the eigenvalues at any bandwidth follow.
     """
-    meshes, machines = int(train.meshes), int(train.machines)
-    kind, found = train.kind[:meshes], mean_stiffness(train)
-    tau = np.array([damping_time(train, one, mesh_frequency) for one in range(2)])
-    mesh, coupling = (train.copies * found[train.kind])[:meshes], slice(machines)
-    springs = np.concatenate([mesh, train.coupling_stiffness[coupling]])
-    dampers = np.concatenate([mesh * tau[kind], train.coupling_damping[coupling]])
-    rows = np.zeros((meshes + machines, train.bodies + 1))  # what stretches each of them
-    np.add.at(rows, (np.arange(meshes)[:, None], train.body[:meshes]), train.sign[:meshes])
-    np.add.at(rows, (meshes + np.arange(machines)[:, None], train.coupling[coupling]), [1.0, -1.0])
-    basis, axes = _basis(train), int(train.axes)
-    stretch = rows[:, :-1] @ basis  # the ground stands still
-    stretch[:, :axes] = 0.0  # by rigid motion, without what rounding leaves
-    proportional, integral = (basis.T @ gain @ basis for gain in _feedback(scene, train))
-    damping, stiffness = ((stretch.T * each) @ stretch for each in (dampers, springs))
-    return Loop(damping, stiffness, proportional, integral)
+
+    def __init__(self, scene: Scene, train: Train) -> None:
+        meshes, machines = train.meshes, train.machines
+        coupling, found = slice(machines), mean_stiffness(train)
+        mesh = (train.copies * found[train.kind])[:meshes]
+        springs = np.concatenate([mesh, train.coupling_stiffness[coupling]])
+        rows = np.zeros((meshes + machines, train.bodies + 1))  # what stretches each of them
+        place = meshes + np.arange(machines)[:, None]
+        np.add.at(rows, (np.arange(meshes)[:, None], train.body[:meshes]), train.sign[:meshes])
+        np.add.at(rows, (place, train.coupling[coupling]), [1.0, -1.0])
+        basis = _basis(train)
+        stretch = rows[:, :-1] @ basis  # the ground stands still
+        stretch[:, : train.axes] = 0.0  # by rigid motion, without what rounding leaves
+        self._train, self._mesh, self._stretch = train, mesh, stretch
+        self._stiffness = (stretch.T * springs) @ stretch
+        self._proportional, self._integral = (
+            basis.T @ gain @ basis for gain in _feedback(scene, train)
+        )
+
+    def loop(self, mesh_frequency: float) -> Loop:
+        """The loop at a speed.
+
+        Args:
+            mesh_frequency: rate at which teeth pass [Hz], which mesh damping may follow.
+
+        Returns:
+            Its matrices, from which the eigenvalues at any bandwidth follow.
+        """
+        train, stretch = self._train, self._stretch
+        tau = np.array([damping_time(train, kind, mesh_frequency) for kind in range(2)])
+        shafts = train.coupling_damping[: train.machines]
+        dampers = np.concatenate([self._mesh * tau[train.kind[: train.meshes]], shafts])
+        damping = (stretch.T * dampers) @ stretch
+        return Loop(damping, self._stiffness, self._proportional, self._integral)
+
+
+def linear_loop(scene: Scene, train: Train, mesh_frequency: float) -> Loop:
+    """The linearised train with its speed loop, see `LinearTrain`."""
+    return LinearTrain(scene, train).loop(mesh_frequency)
 
 
 def _basis(train: Train) -> np.ndarray:
@@ -184,6 +205,52 @@ def _feedback(scene: Scene, train: Train) -> np.ndarray:
     return feedback
 
 
+class SpeedLoopCheck:
+    """Refuses operating points at which the train makes the speed loop unstable, or nearly so.
+
+    Args:
+        scene: whose drive it is.
+        train: of `build_train`.
+    """
+
+    def __init__(self, scene: Scene, train: Train) -> None:
+        self._cycles, self._chosen = train.cycles.copy(), bandwidth(scene)
+        self._linear = LinearTrain(scene, train)
+        self._stable: set[float] = set()  # mesh frequencies [Hz] found stable, the last few
+
+    def check(self, point: OperatingPoint) -> None:
+        """Check an operating point: mesh damping may follow its speeds.
+
+        Args:
+            point: the operating point.
+
+        Raises:
+            SceneError: at sqrt(2) times its bandwidth the loop is not stable.
+        """
+        speeds = np.zeros(AXES)
+        speeds[:] = point.input_speed, point.second_input_speed
+        frequency = abs(float(self._cycles @ speeds)) / (2.0 * math.pi)
+        if frequency not in self._stable:
+            self._check_at(frequency)
+            if len(self._stable) >= FREQUENCIES_KEPT:
+                self._stable.clear()
+            self._stable.add(frequency)
+
+    def _check_at(self, mesh_frequency: float) -> None:
+        loop, chosen = self._linear.loop(mesh_frequency), self._chosen
+        unstable = [b for b in (chosen, LEAST_MARGIN * chosen) if not loop.is_stable(b)]
+        if not unstable:
+            return
+        limit = loop.limit(unstable[0])
+        growing = max(loop.eigenvalues(unstable[0]), key=lambda value: value.real)
+        raise SceneError(
+            f"{FIELD} = {chosen:g} Hz: must be at most {_rounded_down(limit / LEAST_MARGIN):g} "
+            f"Hz: the speed loop is unstable above {limit:.3g} Hz, where motors and load oscillate "
+            f"on their couplings at {abs(growing.imag) / (2.0 * math.pi):.3g} Hz; leave it out for "
+            "the default, or give the drive stiffer couplings"
+        )
+
+
 def check_speed_loop(scene: Scene, train: Train, point: OperatingPoint) -> None:
     """Refuse a speed loop that the train makes unstable, or hardly stable.
 
@@ -195,20 +262,7 @@ def check_speed_loop(scene: Scene, train: Train, point: OperatingPoint) -> None:
     Raises:
         SceneError: at sqrt(2) times its bandwidth the loop is not stable.
     """
-    chosen, speeds = bandwidth(scene), np.zeros(AXES)
-    speeds[:] = point.input_speed, point.second_input_speed
-    loop = linear_loop(scene, train, abs(float(train.cycles @ speeds)) / (2.0 * math.pi))
-    unstable = [b for b in (chosen, LEAST_MARGIN * chosen) if not loop.is_stable(b)]
-    if not unstable:
-        return
-    limit = loop.limit(unstable[0])
-    growing = max(loop.eigenvalues(unstable[0]), key=lambda value: value.real)
-    raise SceneError(
-        f"{FIELD} = {chosen:g} Hz: must be at most {_rounded_down(limit / LEAST_MARGIN):g} Hz: the "
-        f"speed loop is unstable above {limit:.3g} Hz, where motors and load oscillate on their "
-        f"couplings at {abs(growing.imag) / (2.0 * math.pi):.3g} Hz; leave it out for the default, "
-        "or give the drive stiffer couplings"
-    )
+    SpeedLoopCheck(scene, train).check(point)
 
 
 def _rounded_down(value: float) -> float:

@@ -7,8 +7,6 @@ for the vibration that the meshes start.
 
 from __future__ import annotations
 
-import numpy as np
-
 from .._core import Load, Model, State, Train, initial_state
 from ..scene import OperatingPoint, Scene
 from .bodies import MOTOR
@@ -16,25 +14,43 @@ from .speed_loop import bandwidth, speed_loop_gains
 from .static_load import mesh_force, static_torques
 
 
+class LoadBuilder:
+    """Builds what acts on a train at one operating point after the other.
+
+    Args:
+        scene: whose drive it is.
+        train: of `build_train`.
+    """
+
+    def __init__(self, scene: Scene, train: Train) -> None:
+        control = scene.drive.speed_control
+        gains = speed_loop_gains(scene, train, bandwidth(scene))
+        self._mesh, self._angle = scene.mesh, scene.gearset.pressure_angle
+        self._axes, self._torques = train.axes, static_torques(scene)
+        self._constant = Load(
+            release=1.0 if scene.mesh.backlash == "dead_zone" else 0.0,
+            slew_rate=control.slew_rate,
+            ripple_order=float(control.ripple_order),
+            inertia=gains.inertia,
+            proportional=gains.proportional,
+            trim_gain=gains.trim,
+        )
+
+    def build(self, point: OperatingPoint) -> Load:
+        """What acts at an operating point."""
+        load = self._constant.copy()
+        half, offset = self._mesh.flanks(point.backlash, self._angle)
+        load.half_backlash, load.offset = half, offset
+        load.inner_squared = (half - offset) ** 2
+        load.target_speed = [point.input_speed, point.second_input_speed][: self._axes]
+        load.torque = point.input_torque * self._torques
+        load.ripple = point.torque_ripple
+        return load
+
+
 def build_load(scene: Scene, point: OperatingPoint, train: Train) -> Load:
     """What acts on the train at an operating point."""
-    control, axes = scene.drive.speed_control, train.axes
-    gains = speed_loop_gains(scene, train, bandwidth(scene))
-    half, offset = scene.mesh.flanks(point.backlash, scene.gearset.pressure_angle)
-    return Load(
-        half_backlash=half,
-        offset=offset,
-        inner_squared=(half - offset) ** 2,
-        release=1.0 if scene.mesh.backlash == "dead_zone" else 0.0,
-        target_speed=np.array([point.input_speed, point.second_input_speed][:axes]),
-        slew_rate=control.slew_rate,
-        torque=point.input_torque * static_torques(scene),
-        ripple=point.torque_ripple,
-        ripple_order=float(control.ripple_order),
-        inertia=gains.inertia,
-        proportional=gains.proportional,
-        trim_gain=gains.trim,
-    )
+    return LoadBuilder(scene, train).build(point)
 
 
 def start_state(scene: Scene, model: Model) -> State:
