@@ -11,6 +11,7 @@ NB_MODULE(CORE_MODULE, m) {
     m.attr("__name__") = "planetary_twin_py._core";
     m.doc() = "Compiled core of planetary_twin_py.";
     m.attr("SOURCES") = gearbox::SOURCES;
+    nanobind::set_leak_warnings(false);  // caches hold records until the interpreter ends
     gearbox::bind_records(m);
     gearbox::bind_train(m);
     gearbox::bind_tribology(m);
