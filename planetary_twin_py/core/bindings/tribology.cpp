@@ -18,8 +18,12 @@ namespace {
 
 void bind_math(nb::module_& m) {
     m.def("exp", [](double x) { return exp(x); }, "x"_a);
-    m.def("precise_exp", &precise_exp, "x"_a);
+    m.def("precise_exp", [](double x) { return precise_exp(x); }, "x"_a);
     m.def("log", [](double x) { return log(x); }, "x"_a);
+    m.def("logs", [](double x, double y, double z) {
+        auto [first, second, third] = logs(x, y, z);
+        return std::tuple(first, second, third);
+    }, "x"_a, "y"_a, "z"_a);
     m.def("sin_cos", [](double x) {
         auto [sine, cosine] = sin_cos(x);
         return std::tuple(sine, cosine);
@@ -50,22 +54,22 @@ void bind_laws(nb::module_& m) {
     m.attr("PLATEAU") = static_cast<int>(TractionLaw::PLATEAU);
     m.attr("EYRING") = static_cast<int>(TractionLaw::EYRING);
     m.attr("SCHLENK") = static_cast<int>(TractionLaw::SCHLENK);
-    m.def("log_film_thickness", &log_film_thickness, "law"_a, "log_radius"_a, "log_speed_group"_a,
+    m.def("log_film_thickness", &log_film_thickness<double>, "law"_a, "log_radius"_a, "log_speed_group"_a,
           "log_material_group"_a, "log_load_group"_a);
-    m.def("half_width", &half_width, "load"_a, "radius"_a, "face_width"_a, "contact_modulus"_a);
-    m.def("contact_area_function", &contact_area_function, "lambda_ratio"_a);
-    m.def("contact_load_function", &contact_load_function, "lambda_ratio"_a);
-    m.def("printed_area_function", &printed_area_function, "x"_a);
-    m.def("printed_load_function", &printed_load_function, "x"_a);
-    m.def("boundary_shear", &boundary_shear, "asperities"_a, "printed"_a, "lambda_ratio"_a);
-    m.def("film_share", &film_share, "log_lambda"_a);
-    m.def("rolling_resistance", &rolling_resistance, "size"_a, "log_speed_group"_a,
+    m.def("half_width", &half_width<double>, "load"_a, "radius"_a, "face_width"_a, "contact_modulus"_a);
+    m.def("contact_area_function", &contact_area_function<double>, "lambda_ratio"_a);
+    m.def("contact_load_function", &contact_load_function<double>, "lambda_ratio"_a);
+    m.def("printed_area_function", &printed_area_function<double>, "x"_a);
+    m.def("printed_load_function", &printed_load_function<double>, "x"_a);
+    m.def("boundary_shear", &boundary_shear<double>, "asperities"_a, "printed"_a, "lambda_ratio"_a);
+    m.def("film_share", &film_share<double>, "log_lambda"_a);
+    m.def("rolling_resistance", &rolling_resistance<double>, "size"_a, "log_speed_group"_a,
           "log_material_group"_a, "log_load_group"_a);
-    m.def("schlenk_coefficient", &schlenk_coefficient, "log_factor"_a, "log_load"_a,
+    m.def("schlenk_coefficient", &schlenk_coefficient<double>, "log_factor"_a, "log_load"_a,
           "log_speed"_a, "log_radius"_a);
-    m.def("viscous_friction", &viscous_friction, "traction"_a, "load"_a, "area"_a, "log_film"_a,
+    m.def("viscous_friction", &viscous_friction<double>, "traction"_a, "load"_a, "area"_a, "log_film"_a,
           "log_heat"_a);
-    m.def("sliding_sense", &sliding_sense, "ratio"_a);
+    m.def("sliding_sense", &sliding_sense<double>, "ratio"_a);
     m.def("film_shear", [](const ShearThinning& film, double load, double area, double log_film,
                            double log_heat, double speed) {
         auto [friction, growth] = film_shear(film, load, area, log_film, log_heat, speed);
@@ -89,10 +93,10 @@ void bind_pairs(nb::module_& m) {
           "Specific film thickness [-]: as given, or film over roughness.");
     m.def("tooth_contact", [](const Oil& oil, const Pair& pair, double slowest_rolling) {
         auto [rho1, rho2, external, speed1, speed2, load] = pair;
-        PairFriction f{};
+        PairFriction<double> f{};
         with_laws(oil, [&]<Laws laws>() {
-            f = tooth_contact<laws>(oil, {rho1, rho2, external, speed1, speed2, load},
-                                    slowest_rolling);
+            PairMotion<double> found{rho1, rho2, external, speed1, speed2, load};
+            f = tooth_contact<laws>(oil, area_factor(oil), found, slowest_rolling);
         });
         return std::tuple(f.friction, f.boundary, f.viscous, f.log_film, f.sliding, f.slope,
                           f.rolling, f.rolling_power);

@@ -1,42 +1,68 @@
 // Film and friction of many tooth pairs in vector registers.
 
+#include <cstring>
+
 #include "tribology/tooth_friction.hpp"
 
 namespace gearbox {
 
 namespace {
 
-constexpr std::int64_t BATCH = 8;  // pairs that go through the laws side by side
+LAW Lanes load_lanes(const double* from) {
+    Lanes lanes;
+    std::memcpy(&lanes, from, sizeof lanes);
+    return lanes;
+}
 
+LAW void store_lanes(double* to, Lanes lanes) { std::memcpy(to, &lanes, sizeof lanes); }
+
+LAW PairMotion<Lanes> load_motion(const ToothPairs& pairs, int k) {
+    return {load_lanes(pairs.rho1 + k),   load_lanes(pairs.rho2 + k),
+            load_lanes(pairs.external + k), load_lanes(pairs.speed1 + k),
+            load_lanes(pairs.speed2 + k), load_lanes(pairs.load + k)};
+}
+
+LAW void store_friction(const PairFriction<Lanes>& found, ToothPairs& pairs, int k) {
+    store_lanes(pairs.friction + k, found.friction);
+    store_lanes(pairs.boundary + k, found.boundary);
+    store_lanes(pairs.viscous + k, found.viscous);
+    store_lanes(pairs.log_film + k, found.log_film);
+    store_lanes(pairs.sliding + k, found.sliding);
+    store_lanes(pairs.slope + k, found.slope);
+    store_lanes(pairs.rolling + k, found.rolling);
+    store_lanes(pairs.rolling_power + k, found.rolling_power);
+}
+
+// One part of the laws after the other for all pairs: what waits for a result in one register has
+// the other registers beside it. `tooth_contact` is the same for one.
 template <Laws laws>
-void evaluate_pairs(const Oil& oil, ToothPairs& pairs) {
-    const double slowest = pairs.slowest_rolling;
-    for (std::int64_t first = 0; first < pairs.count; first += BATCH) {
-#pragma GCC ivdep
-        for (std::int64_t k = first; k < first + BATCH; ++k) {
-            PairFriction found = tooth_contact<laws>(
-                oil,
-                {pairs.rho1[k], pairs.rho2[k], pairs.external[k], pairs.speed1[k],
-                 pairs.speed2[k], pairs.load[k]},
-                slowest);
-            pairs.friction[k] = found.friction;
-            pairs.boundary[k] = found.boundary;
-            pairs.viscous[k] = found.viscous;
-            pairs.log_film[k] = found.log_film;
-            pairs.sliding[k] = found.sliding;
-            pairs.slope[k] = found.slope;
-            pairs.rolling[k] = found.rolling;
-            pairs.rolling_power[k] = found.rolling_power;
-        }
+void evaluate_pairs(const Oil& oil, ToothPairs& pairs, int registers) {
+    const double slowest = pairs.slowest_rolling, factor = area_factor(oil);
+    Flanks<Lanes> flanks[ROOM / WIDTH];
+    Logarithms<Lanes> logarithms[ROOM / WIDTH];
+    Contact<Lanes> contact[ROOM / WIDTH];
+    Friction<Lanes> full[ROOM / WIDTH];
+    for (int r = 0; r < registers; ++r)
+        flanks[r] = flanks_of(load_motion(pairs, r * WIDTH), oil.sliding_threshold, slowest);
+    for (int r = 0; r < registers; ++r) logarithms[r] = logarithms_of(flanks[r]);
+    for (int r = 0; r < registers; ++r) {
+        contact[r] = contact_of(oil, factor, flanks[r], logarithms[r]);
+        full[r] = mixed_friction<laws>(oil, contact[r]);
+    }
+    for (int r = 0; r < registers; ++r) {
+        PairFriction<Lanes> found = sliding_friction<laws>(oil, flanks[r], contact[r], full[r]);
+        if constexpr (laws.rolling) add_rolling(oil, flanks[r], contact[r], found);
+        store_friction(found, pairs, r * WIDTH);
     }
 }
 
 }  // namespace
 
-// Whole batches, so that lanes beyond `count` are idle.
+// Whole registers, so that lanes beyond `count` are idle.
 void evaluate(const Model& model, ToothPairs& pairs) {
     const Oil& oil = model.oil;
-    with_laws(oil, [&]<Laws laws>() { evaluate_pairs<laws>(oil, pairs); });
+    int registers = static_cast<int>((pairs.count + WIDTH - 1) / WIDTH);
+    with_laws(oil, [&]<Laws laws>() { evaluate_pairs<laws>(oil, pairs, registers); });
     if (pairs.held) hold(oil, pairs);
 }
 

@@ -2,16 +2,18 @@
 
 // Elastic line contact (Hertz 1882; Johnson, Contact Mechanics, 1985, eq. 4.45).
 
-#include <cmath>
 #include <numbers>
+
+#include "vector/lanes.hpp"
 
 namespace gearbox {
 
 // Half-width b [m] of the contact under a normal load [N]; reduced radius of curvature R,
 // 1/R = 1/R1 +- 1/R2 [m]; length of the contact L [m]; E*, 1/E* = (1-nu1^2)/E1 + (1-nu2^2)/E2 [Pa].
-inline double half_width(double load, double radius, double face_width, double contact_modulus) {
+template <class Real>
+LAW Real half_width(Real load, Real radius, double face_width, double contact_modulus) {
     double stiffness = std::numbers::pi * face_width * contact_modulus;
-    return std::sqrt(4.0 * load * radius / stiffness);
+    return square_root(4.0 * load * radius / stiffness);
 }
 
 }  // namespace gearbox

@@ -14,7 +14,8 @@ namespace gearbox {
 constexpr double SHARE_COEFFICIENT = 0.82, SHARE_EXPONENT = 0.28;
 
 // Share X of the load that the film carries [-], from the logarithm of the lambda ratio.
-inline double film_share(double log_lambda) {
+template <class Real>
+LAW Real film_share(Real log_lambda) {
     return at_most(SHARE_COEFFICIENT * exp(SHARE_EXPONENT * log_lambda), 1.0);
 }
 

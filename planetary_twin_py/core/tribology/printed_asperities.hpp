@@ -5,20 +5,24 @@
 // Polynomials cut to three decimals: the area function is negative above lambda = 1.90, the load
 // function rises above 1.91, and both drop to zero at 3. See `asperities.hpp` for what they are.
 
+#include "vector/law.hpp"
+
 namespace gearbox {
 
 constexpr double LAST_PRINTED = 3.0;  // lambda ratio beyond which both are zero
 
 // F_2 [-] at the lambda ratio x.
-inline double printed_area_function(double x) {
-    double value = ((((-0.002 * x + 0.028) * x - 0.173) * x + 0.526) * x - 0.804) * x + 0.5;
-    return x > LAST_PRINTED ? 0.0 : value;
+template <class Real>
+LAW Real printed_area_function(Real x) {
+    Real value = ((((-0.002 * x + 0.028) * x - 0.173) * x + 0.526) * x - 0.804) * x + 0.5;
+    return x > LAST_PRINTED ? Real{} : value;
 }
 
 // F_5/2 [-] at the lambda ratio x.
-inline double printed_load_function(double x) {
-    double value = ((((-0.004 * x + 0.057) * x - 0.296) * x + 0.784) * x - 1.078) * x + 0.617;
-    return x > LAST_PRINTED ? 0.0 : value;
+template <class Real>
+LAW Real printed_load_function(Real x) {
+    Real value = ((((-0.004 * x + 0.057) * x - 0.296) * x + 0.784) * x - 1.078) * x + 0.617;
+    return x > LAST_PRINTED ? Real{} : value;
 }
 
 }  // namespace gearbox

@@ -13,9 +13,10 @@ namespace gearbox {
 constexpr double ROLLING_COEFFICIENT = 4.318, ROLLING_SPEED = 0.658, ROLLING_LOAD = 0.0126;
 
 // Force F_R [N] on each surface, from R L/alpha [N] and the logarithms of U, G and W.
-inline double rolling_resistance(double size, double log_speed_group, double log_material_group,
-                                 double log_load_group) {
-    double groups = ROLLING_SPEED * (log_speed_group + log_material_group)
+template <class Real>
+LAW Real rolling_resistance(Real size, Real log_speed_group, double log_material_group,
+                            Real log_load_group) {
+    Real groups = ROLLING_SPEED * (log_speed_group + log_material_group)
                     + ROLLING_LOAD * log_load_group;
     return ROLLING_COEFFICIENT * size * exp(groups);
 }

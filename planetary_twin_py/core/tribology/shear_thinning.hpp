@@ -13,7 +13,6 @@
 // The film warms by dT = tau Vs (h/(8 K) + 1.06/2 sqrt(b/V)/sqrt(K' rho' c')) (ibid., eqs. (27) and
 // (28), two bodies of one material at one speed), and its viscosity falls by exp(-beta_T dT).
 
-#include <cmath>
 #include <numbers>
 
 #include "tribology/constants.hpp"
@@ -30,8 +29,9 @@ constexpr double NEWTONIAN = 1e-5;  // asinh(x) is x below, more exactly than by
 constexpr double LOW_PRESSURE = 0.39937356388239625, HIGH_PRESSURE = 0.9144479484659753;
 constexpr double LOW_WEIGHT = 0.2505459190576126, HIGH_WEIGHT = 1.0 - LOW_WEIGHT;
 
+template <class Real>
 struct FilmShear {
-    double friction, growth;  // stress [Pa] or friction [N]; with the speed [Pa s/m] or [N s/m]
+    Real friction, growth;  // stress [Pa] or friction [N]; with the speed [Pa s/m] or [N s/m]
 };
 
 // Shear stress at one pressure [Pa], and its growth with the speed.
@@ -39,28 +39,30 @@ struct FilmShear {
 // With x = eta Vs/(h tau0) of the cool film, s = tau/tau0 and c = beta_T dT/s, the warm film has
 // sinh(s) = x exp(-c s). One step of Newton from asinh(x) gives asinh(x)/(1 + c tanh(asinh(x))),
 // which is exact both for small x and for large x.
-inline FilmShear shear_stress(const ShearThinning& film, double pressure, double log_film,
-                              double softening, double speed) {
-    double exponent = film.log_shear_time + film.pressure_viscosity * pressure - log_film;
-    double gain = exp(at_most(exponent, LARGEST_GAIN));
-    double x = gain * speed;
-    double root = std::sqrt(1.0 + x * x);
-    double inverse = film.shear_stress / (root + softening * x);
-    double angle = x > NEWTONIAN ? log(x + root) : x;
-    double stress = angle * root * inverse, limit = film.limiting_stress * pressure;
-    return {at_most(stress, limit), stress < limit ? gain * inverse : 0.0};
+template <class Real>
+LAW FilmShear<Real> shear_stress(const ShearThinning& film, Real pressure, Real log_film,
+                                 Real softening, Real speed) {
+    Real exponent = film.log_shear_time + film.pressure_viscosity * pressure - log_film;
+    Real gain = exp(at_most(exponent, LARGEST_GAIN));
+    Real x = gain * speed;
+    Real root = square_root(1.0 + x * x);
+    Real inverse = film.shear_stress / (root + softening * x);
+    Real angle = x > NEWTONIAN ? log(x + root) : x;
+    Real stress = angle * root * inverse, limit = film.limiting_stress * pressure;
+    return {at_most(stress, limit), stress < limit ? gain * inverse : Real{}};
 }
 
 // Friction of the film [N], and its growth with the sliding speed at the film's temperature.
 //
 // Arguments as of `viscous_friction`, and the magnitude of the sliding speed Vs [m/s].
-inline FilmShear film_shear(const ShearThinning& film, double load, double area, double log_film,
-                            double log_heat, double speed) {
-    double peak = 4.0 / std::numbers::pi * load / area;
-    double heating = film.film_heating * exp(log_film) + film.flash_heating * exp(log_heat);
-    double softening = heating * speed;
-    FilmShear low = shear_stress(film, LOW_PRESSURE * peak, log_film, softening, speed);
-    FilmShear high = shear_stress(film, HIGH_PRESSURE * peak, log_film, softening, speed);
+template <class Real>
+LAW FilmShear<Real> film_shear(const ShearThinning& film, Real load, Real area, Real log_film,
+                               Real log_heat, Real speed) {
+    Real peak = 4.0 / std::numbers::pi * load / area;
+    Real heating = film.film_heating * exp(log_film) + film.flash_heating * exp(log_heat);
+    Real softening = heating * speed;
+    FilmShear<Real> low = shear_stress(film, LOW_PRESSURE * peak, log_film, softening, speed);
+    FilmShear<Real> high = shear_stress(film, HIGH_PRESSURE * peak, log_film, softening, speed);
     return {area * (LOW_WEIGHT * low.friction + HIGH_WEIGHT * high.friction),
             area * (LOW_WEIGHT * low.growth + HIGH_WEIGHT * high.growth)};
 }

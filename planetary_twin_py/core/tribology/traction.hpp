@@ -6,8 +6,6 @@
 // viscosity beta_T [1/K] to be dimensionless; `log_root` carries it. The printed form is the same
 // with beta_T = 1/K, and falls below zero under a light load.
 
-#include <cmath>
-
 #include "tribology/constants.hpp"
 #include "vector/math.hpp"
 
@@ -18,13 +16,14 @@ namespace gearbox {
 // Normal load on the tooth pair [N]; apparent contact area A = 2 b L [m^2]; logarithm of the film in
 // metres; logarithm of sqrt(R p/V) in (Pa s)^0.5, R being the reduced radius of curvature, p the
 // mean pressure load/area and V the mean surface speed.
-inline double viscous_friction(const Traction& traction, double load, double area, double log_film,
-                               double log_heat) {
+template <class Real>
+LAW Real viscous_friction(const Traction& traction, Real load, Real area, Real log_film,
+                          Real log_heat) {
     // 1 + 9.6 zeta, with R/h sqrt(p/(R V)) of (13) written so that one root is enough.
-    double heating = 1.0 + exp(traction.log_heating + log_heat - log_film);
-    double log_argument = traction.log_root - 2.0 * log_film - log(heating);
+    Real heating = 1.0 + exp(traction.log_heating + log_heat - log_film);
+    Real log_argument = traction.log_root - 2.0 * log_film - log(heating);
     // 1.74 tau0/p * load is 1.74 tau0 * area: no division by a pressure that may vanish.
-    double friction = traction.shear_stress
+    Real friction = traction.shear_stress
                       * (0.87 * traction.pressure_viscosity * load + 0.87 * area * log_argument);
     return at_least(friction, traction.least);
 }
@@ -33,9 +32,10 @@ inline double viscous_friction(const Traction& traction, double load, double are
 //
 // A tanh in the ratio over its threshold: the plateau of (12) has no sliding speed in it, which
 // would make friction jump at the pitch point.
-inline double sliding_sense(double ratio) {
-    double decay = exp(-2.0 * std::abs(ratio));
-    return std::copysign((1.0 - decay) / (1.0 + decay), ratio);
+template <class Real>
+LAW Real sliding_sense(Real ratio) {
+    Real decay = falling_exp(-2.0 * magnitude(ratio));
+    return with_sign((1.0 - decay) / (1.0 + decay), ratio);
 }
 
 }  // namespace gearbox

@@ -10,11 +10,9 @@
 #include <bit>
 #include <cstdint>
 
-namespace gearbox {
+#include "vector/lanes.hpp"
 
-// The larger (smaller) of both; `x` if that is NaN, so that an error is not lost in a bound.
-constexpr double at_least(double x, double bound) { return bound > x ? bound : x; }
-constexpr double at_most(double x, double bound) { return bound < x ? bound : x; }
+namespace gearbox {
 
 namespace vector {
 
@@ -37,36 +35,78 @@ constexpr double inverse_factorial(int n) {
     return 1.0 / product;
 }
 
-// Taylor polynomial of e**r, |r| <= log(2)/2, of degree N.
-template <int N>
-constexpr double taylor_of_exp(double r) {
-    double p = inverse_factorial(N);
+// Polynomial with these coefficients, lowest first, in x^2 alone: every other one from `LAST` down.
+template <int LAST, class Real>
+LAW Real every_other(const double* coefficient, Real square) {
+    Real sum = square * coefficient[LAST] + coefficient[LAST - 2];
 #pragma GCC unroll 16
-    for (int n = N - 1; n >= 0; --n) p = inverse_factorial(n) + r * p;
-    return p;
+    for (int n = LAST - 4; n >= 0; n -= 2) sum = sum * square + coefficient[n];
+    return sum;
 }
 
-template <int DEGREE>
-inline double exp(double x) {
-    double shifted = x * INVERSE_LN2 + ROUNDING;
-    double n = shifted - ROUNDING;
-    double r = (x - n * LN2_HIGH) - n * LN2_LOW;
-    double scale = std::bit_cast<double>((std::bit_cast<std::uint64_t>(shifted) + BIAS)
-                                         << MANTISSA);
-    return taylor_of_exp<DEGREE>(r) * scale;
+// Polynomial with these coefficients, lowest first: even and odd powers, half as long to wait for.
+template <class Real, int COUNT>
+LAW Real polynomial_of(const double (&coefficient)[COUNT], Real x) {
+    Real square = x * x;
+    Real last = every_other<COUNT - 1>(coefficient, square);
+    Real other = every_other<COUNT - 2>(coefficient, square);
+    return COUNT % 2 == 1 ? last + x * other : other + x * last;
+}
+
+// Taylor polynomial of e**r, |r| <= log(2)/2, to the last digits.
+constexpr double TAYLOR_OF_EXP[] = {
+    inverse_factorial(0),  inverse_factorial(1),  inverse_factorial(2),  inverse_factorial(3),
+    inverse_factorial(4),  inverse_factorial(5),  inverse_factorial(6),  inverse_factorial(7),
+    inverse_factorial(8),  inverse_factorial(9),  inverse_factorial(10), inverse_factorial(11),
+    inverse_factorial(12), inverse_factorial(13), inverse_factorial(14)};
+
+// (e**r - 1)/r, interpolated at Chebyshev points: relative error of e**r below 4e-14.
+constexpr double REST_OF_EXP[] = {
+    1.0000000000000013,   0.499999999997979,    0.1666666666661564,
+    0.041666666890980815, 0.00833333336731422,  0.001388882167366507,
+    0.00019841190644058747, 2.4876165909124045e-05, 2.7632642126375148e-06};
+
+// x = n log(2) + r, and 2**n.
+template <class Real>
+struct Reduced {
+    Real rest, scale;
+};
+
+template <class Real>
+LAW Reduced<Real> reduce(Real x) {
+    Real shifted = x * INVERSE_LN2 + ROUNDING;
+    Real n = shifted - ROUNDING;
+    return {(x - n * LN2_HIGH) - n * LN2_LOW,
+            from_bits<Real>((to_bits(shifted) + BIAS) << MANTISSA)};
+}
+
+template <class Real>
+LAW Real short_exp(Real x) {
+    Reduced<Real> reduced = reduce(x);
+    Real r = reduced.rest;
+    return (1.0 + r * polynomial_of(REST_OF_EXP, r)) * reduced.scale;
 }
 
 }  // namespace vector
 
 // e**x for any finite x, saturating at the ends of the double range.
-inline double exp(double x) {
-    return vector::exp<11>(
-        at_most(at_least(x, -vector::LARGEST_EXPONENT), vector::LARGEST_EXPONENT));
+template <class Real>
+LAW Real exp(Real x) {
+    return vector::short_exp(at_most(at_least(x, -vector::LARGEST_EXPONENT),
+                                     vector::LARGEST_EXPONENT));
+}
+
+// The same for x <= 700.
+template <class Real>
+LAW Real falling_exp(Real x) {
+    return vector::short_exp(at_least(x, -vector::LARGEST_EXPONENT));
 }
 
 // e**x to the last digits for x <= 0, saturating at the end of the double range.
-inline double precise_exp(double x) {
-    return vector::exp<14>(at_least(x, -vector::LARGEST_EXPONENT));
+template <class Real>
+LAW Real precise_exp(Real x) {
+    vector::Reduced<Real> reduced = vector::reduce(at_least(x, -vector::LARGEST_EXPONENT));
+    return vector::polynomial_of(vector::TAYLOR_OF_EXP, reduced.rest) * reduced.scale;
 }
 
 struct SinCos {
@@ -74,7 +114,7 @@ struct SinCos {
 };
 
 // Sine and cosine of 0 <= x <= 1e5.
-inline SinCos sin_cos(double x) {
+LAW SinCos sin_cos(double x) {
     using namespace vector;
     double shifted = x * INVERSE_RIGHT_ANGLE + ROUNDING;
     double n = shifted - ROUNDING;
@@ -100,7 +140,6 @@ inline SinCos sin_cos(double x) {
     // Odd quarters swap both; the sign bits come from the two last bits of n and of n + 1.
     std::uint64_t quarter = std::bit_cast<std::uint64_t>(shifted);
     constexpr int TO_SIGN = 62;
-    constexpr std::uint64_t SIGN = std::uint64_t{1} << 63;
     bool odd = quarter & 1;
     std::uint64_t sine = std::bit_cast<std::uint64_t>(odd ? c : s);
     std::uint64_t cosine = std::bit_cast<std::uint64_t>(odd ? s : c);
@@ -110,41 +149,58 @@ inline SinCos sin_cos(double x) {
 
 namespace vector {
 
-struct Split {
-    double mantissa, exponent;
-};
+// 2 artanh(t)/t as a polynomial in t^2, |t| <= (sqrt(2) - 1)/(sqrt(2) + 1), interpolated at Chebyshev
+// points: error of the logarithm below 1e-14.
+constexpr double ARTANH[] = {1.999999999999947,   0.6666666667963782,  0.39999994875889094,
+                             0.2857216766407459,  0.22174190918339937, 0.1960889776138223};
 
 // Mantissa in [sqrt(1/2), sqrt(2)), where the series is shortest, and exponent.
-inline Split split(double x) {
-    constexpr std::uint64_t TO_ROOT_HALF = 0x95F619980C433;
-    constexpr std::uint64_t WHOLE = 0x4330000000000000;  // bits of 2^52, the low ones count
-    std::uint64_t bits = std::bit_cast<std::uint64_t>(x);
-    std::uint64_t exponent = (bits + TO_ROOT_HALF) >> MANTISSA;
-    double mantissa = std::bit_cast<double>(bits - ((exponent - BIAS) << MANTISSA));
-    return {mantissa,
-            std::bit_cast<double>(exponent | WHOLE) - (0x1p52 + static_cast<double>(BIAS))};
+template <class Real>
+struct Split {
+    Real mantissa, exponent;
+};
+
+template <class Real>
+LAW Split<Real> split(Real x) {
+    constexpr std::uint64_t TO_ROOT_HALF = 0x95F619980C433;  // from the mantissa of sqrt(2) to 2
+    constexpr std::uint64_t FRACTION = (std::uint64_t{1} << MANTISSA) - 1;
+    constexpr std::uint64_t ONE = BIAS << MANTISSA;
+    constexpr std::uint64_t WHOLE = 0x4330000000000000;  // bits of 2^52, whose last counts 1
+    auto bits = to_bits(x) + TO_ROOT_HALF;
+    return {from_bits<Real>((bits & FRACTION) + (ONE - TO_ROOT_HALF)),
+            from_bits<Real>((bits >> MANTISSA) | WHOLE) - (0x1p52 + static_cast<double>(BIAS))};
 }
 
 // 2 artanh(t) + exponent log(2).
-inline double log_of(double t, double exponent) {
-    double q = t * t;
-    double series = 1.0 / 15.0;
-    series = 1.0 / 13.0 + q * series;
-    series = 1.0 / 11.0 + q * series;
-    series = 1.0 / 9.0 + q * series;
-    series = 1.0 / 7.0 + q * series;
-    series = 1.0 / 5.0 + q * series;
-    series = 1.0 / 3.0 + q * series;
-    series = 1.0 + q * series;
-    return 2.0 * t * series + exponent * (LN2_HIGH + LN2_LOW);
+template <class Real>
+LAW Real log_of(Real t, Real exponent) {
+    return exponent * (LN2_HIGH + LN2_LOW) + t * polynomial_of(ARTANH, t * t);
 }
 
 }  // namespace vector
 
 // Natural logarithm of a positive normal number.
-inline double log(double x) {
+template <class Real>
+LAW Real log(Real x) {
     auto [mantissa, exponent] = vector::split(x);
     return vector::log_of((mantissa - 1.0) / (mantissa + 1.0), exponent);
+}
+
+template <class Real>
+struct Three {
+    Real first, second, third;
+};
+
+// Natural logarithms of three positive normal numbers, with one division for all.
+template <class Real>
+LAW Three<Real> logs(Real x, Real y, Real z) {
+    auto [a, i] = vector::split(x);
+    auto [b, j] = vector::split(y);
+    auto [c, k] = vector::split(z);
+    Real p = a + 1.0, q = b + 1.0, r = c + 1.0;
+    Real pq = p * q, inverse = 1.0 / (pq * r), rest = r * inverse;  // the latter 1/(p q)
+    return {vector::log_of((a - 1.0) * (q * rest), i), vector::log_of((b - 1.0) * (p * rest), j),
+            vector::log_of((c - 1.0) * (pq * inverse), k)};
 }
 
 }  // namespace gearbox

@@ -1,0 +1,95 @@
+#pragma once
+
+// Several doubles in one vector register. Formulas that are templates over `Real` take a double or
+// `Lanes`; either gives the same bits.
+
+#include <bit>
+#include <cmath>
+#include <cstdint>
+
+#include <immintrin.h>
+
+#include "vector/law.hpp"
+
+namespace gearbox {
+
+#if defined(__AVX512F__)
+constexpr int WIDTH = 8;
+#elif defined(__AVX__)
+constexpr int WIDTH = 4;
+#else
+constexpr int WIDTH = 2;
+#endif
+
+using Lanes [[gnu::vector_size(8 * WIDTH)]] = double;
+using LanesBits [[gnu::vector_size(8 * WIDTH)]] = std::uint64_t;
+
+namespace vector {
+
+template <class Real>
+struct bits_of;
+template <>
+struct bits_of<double> {
+    using type = std::uint64_t;
+};
+template <>
+struct bits_of<Lanes> {
+    using type = LanesBits;
+};
+
+template <class Real>
+LAW typename bits_of<Real>::type to_bits(Real x) {
+    return std::bit_cast<typename bits_of<Real>::type>(x);
+}
+
+template <class Real>
+LAW Real from_bits(typename bits_of<Real>::type bits) {
+    return std::bit_cast<Real>(bits);
+}
+
+constexpr std::uint64_t SIGN = std::uint64_t{1} << 63;
+
+}  // namespace vector
+
+// The larger (smaller) of both; `x` if that is NaN, so that an error is not lost in a bound.
+LAW constexpr double at_least(double x, double bound) { return bound > x ? bound : x; }
+LAW constexpr double at_most(double x, double bound) { return bound < x ? bound : x; }
+
+#if defined(__AVX512F__)  // with masks gcc 12 does not warn of its own headers
+LAW Lanes at_least(Lanes x, Lanes bound) { return _mm512_maskz_max_pd(0xFF, bound, x); }
+LAW Lanes at_most(Lanes x, Lanes bound) { return _mm512_maskz_min_pd(0xFF, bound, x); }
+#elif defined(__AVX__)
+LAW Lanes at_least(Lanes x, Lanes bound) { return _mm256_max_pd(bound, x); }
+LAW Lanes at_most(Lanes x, Lanes bound) { return _mm256_min_pd(bound, x); }
+#else
+LAW Lanes at_least(Lanes x, Lanes bound) { return _mm_max_pd(bound, x); }
+LAW Lanes at_most(Lanes x, Lanes bound) { return _mm_min_pd(bound, x); }
+#endif
+LAW Lanes at_least(Lanes x, double bound) { return at_least(x, Lanes{} + bound); }
+LAW Lanes at_most(Lanes x, double bound) { return at_most(x, Lanes{} + bound); }
+
+template <class Real>
+LAW Real magnitude(Real x) {
+    return vector::from_bits<Real>(vector::to_bits(x) & ~vector::SIGN);
+}
+
+// The magnitude of x with the sign of y.
+template <class Real>
+LAW Real with_sign(Real x, Real y) {
+    return vector::from_bits<Real>((vector::to_bits(x) & ~vector::SIGN) |
+                                   (vector::to_bits(y) & vector::SIGN));
+}
+
+LAW double square_root(double x) { return std::sqrt(x); }
+
+LAW Lanes square_root(Lanes x) {
+#if defined(__AVX512F__)
+    return _mm512_maskz_sqrt_pd(0xFF, x);
+#elif defined(__AVX__)
+    return _mm256_sqrt_pd(x);
+#else
+    return _mm_sqrt_pd(x);
+#endif
+}
+
+}  // namespace gearbox
