@@ -21,6 +21,7 @@ from ._core import (
     Load,
     March,
     Model,
+    Train,
     advance,
     begin_step,
     count_until,

@@ -198,7 +198,7 @@ class Scene(Section):
         Raises:
             SceneError: a name is unknown, or a value is out of range.
         """
-        data = dict(point) | changes
+        data = {**dict(point), **changes}
         try:
             found = OperatingPoint.model_validate(data)
         except ValidationError:

@@ -1,5 +1,6 @@
 """Off-the-shelf solvers see the same model, and are held against the same reference."""
 
+import ctypes
 import sys
 from importlib.util import find_spec
 
@@ -7,7 +8,7 @@ import numpy as np
 import pytest
 from typer.testing import CliRunner
 
-from planetary_twin_py._core import DTE, POWER_LOSS, Evaluation, begin_step, forces, rate
+from planetary_twin_py._core import DTE, POWER_LOSS, Evaluation, begin_step, derivative, forces
 from planetary_twin_py.benchmark.cases import Case
 from planetary_twin_py.benchmark.peers import cvode, cvode_compiled, cyrk, sundials, work_precision
 from planetary_twin_py.benchmark.peers.problem import Problem
@@ -63,7 +64,7 @@ def test_the_right_hand_side_is_the_derivative_of_the_twin(base, changes):
     scene, random = load_scene(base).replace(**changes), np.random.default_rng(7)
     engine, problem, out = Engine(scene, 1e-5), Problem(scene), Evaluation()
     train, march, n = engine.train, engine.march, problem.bodies
-    start, own = problem.record[0]["start"], problem.record[0]["state"]
+    start, own = problem.record.start, problem.record.state
     motors, meshes = train.coupling[: 2 * problem.axes : 2, 0], problem.meshes
     rigid, radius = train.ratio[:n], train.radius[:n]
     compared = 0
@@ -78,18 +79,18 @@ def test_the_right_hand_side_is_the_derivative_of_the_twin(base, changes):
         x[motors] = v[motors] = 0.0  # they are the frame, and their speed the damping's
         forces(engine.model, begin, march.moment, x, v, 0.0, begin.trim, out)
 
-        ahead = 2.0 * np.pi * (begin.turns + begin.fraction) - start["speed"] * begin.time
-        faster = begin.speed - start["speed"]
+        ahead = 2.0 * np.pi * (begin.turns + begin.fraction) - start.speed * begin.time
+        faster = begin.speed - start.speed
         y = np.concatenate([
-            x[:n] + rigid @ ahead * radius - start["x"][:n],
+            x[:n] + rigid @ ahead * radius - start.x[:n],
             v[:n] + rigid @ faster * radius,
-            (begin.trim - start["trim"])[: problem.axes],
+            (begin.trim - start.trim)[: problem.axes],
         ])  # fmt: skip
         dy = np.empty_like(y)
-        rate(problem.record, begin.time, y, dy)
+        derivative(problem.record, begin.time, y, dy)
         closed = begin.side[:meshes] != 0
-        if not np.array_equal(own["side"], begin.side) or not np.array_equal(
-            own["segment"][:meshes][closed], begin.segment[:meshes][closed]
+        if not np.array_equal(own.side, begin.side) or not np.array_equal(
+            own.segment[:meshes][closed], begin.segment[:meshes][closed]
         ):
             continue  # the march begins many steps at an edge
         compared += 1
@@ -134,16 +135,16 @@ def test_a_tight_tolerance_comes_to_the_reference(case, agreement, references):
 @pytest.mark.skipif("cvode_bdf" in MISSING, reason="needs the extra [bench]")
 def test_cvode_is_given_the_same_right_hand_side_compiled():
     problem, random = Problem(SHORT.scene()), np.random.default_rng(3)
-    setting = sundials.Setting(
-        sundials.BDF, cvode_compiled._function().address, problem.record.ctypes.data, 1e-4,
-        1e-4 * problem.scale, 1,
-    )  # fmt: skip
+    own = cvode_compiled.callback(problem)
+    setting = sundials.Setting(sundials.BDF, own.function, own.data, 1e-4, 1e-4 * problem.scale, 1)
+    pointers = [ctypes.c_void_p] * 3
+    called = ctypes.CFUNCTYPE(ctypes.c_int, ctypes.c_double, *pointers)(own.function)
     with sundials.cvode(setting) as given, sundials.cvode(setting) as answer:
         for time in random.uniform(0.0, problem.mesh_period, 20):
             given.y[:] = random.normal(0.0, 0.01, problem.size) * problem.scale
-            dy, data = np.empty(problem.size), problem.record.ctypes.data
-            rate(problem.record, time, given.y.copy(), dy)
-            assert cvode_compiled._function().ctypes(time, given.vector, answer.vector, data) == 0
+            dy = np.empty(problem.size)
+            derivative(problem.record, time, given.y.copy(), dy)
+            assert called(time, given.vector, answer.vector, own.data) == 0
             np.testing.assert_allclose(answer.y, dy, rtol=1e-9, atol=1e-12 * abs(dy).max())
 
 

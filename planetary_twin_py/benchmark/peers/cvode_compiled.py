@@ -28,12 +28,17 @@ def _address(name: str) -> int:
     return address
 
 
+def callback(problem: Problem) -> CvodeProblem:
+    """The right-hand side and its user data, as CVODE takes them."""
+    return CvodeProblem(problem.record, _address("N_VGetArrayPointer"), _address("CVode"))
+
+
 def _cvode(method: int) -> Solver:
     def solve(
         problem: Problem, times: np.ndarray, tolerance: float, deadline: Deadline
     ) -> np.ndarray:
         states = np.zeros((len(times), problem.size))
-        own = CvodeProblem(problem.record, _address("N_VGetArrayPointer"), _address("CVode"))
+        own = callback(problem)
         setting = sundials.Setting(
             method, own.function, own.data, tolerance, tolerance * problem.scale, MOST_STEPS
         )
