@@ -5,7 +5,7 @@
 #include <cstring>
 
 #include "integrators/propagation.hpp"
-#include "integrators/rosenbrock.hpp"
+#include "integrators/trial_step.hpp"
 #include "integrators/step_control.hpp"
 #include "run/samples.hpp"
 
@@ -31,7 +31,7 @@ inline void interpolate(const Model& model, March& march, double delay) {
         std::memcpy(dense.bristle, nearest.bristle, sizeof dense.bristle);
         return;
     }
-    rosenbrock_step(model, march.begin, march.moment, delay, march.first, dense, march.work);
+    trial_step(model, march, delay, dense);
 }
 
 // Write what the train shows `delay` seconds after the start of the last step, within it.

@@ -77,7 +77,8 @@ void one_step(const Model& model, March& march, double longest) {
     NextEvent event = next_event(model, march);
     longest = std::min(longest, control.longest);
     std::int64_t changing = FAILED;
-    bool collocates = control.method != ROSENBROCK && !control.creeping;
+    bool asked = control.method == AUTO || control.method == COLLOCATION;
+    bool collocates = asked && !control.creeping;
     if (collocates && (control.detour == 0 || control.method == COLLOCATION)) {
         changing = collocated_step(model, march, longest, event);
         if (changing == FAILED) {

@@ -125,19 +125,6 @@ void make_stage(const Model& model, const State& state, const StepConstants& con
     if (first.pairs.held) solve_bristles(train, first.pairs, GAMMA * h, right, i, work);
 }
 
-// Let the machines do their work over the way that the step makes.
-//
-// A shaft is wound up by far more than it swings: what its end is wrong by, times all of its
-// torque, would be missing in the ledger, though both ends of the shaft agree on it.
-void work_over_the_way(const Train& train, const State& state, double h, const State& out,
-                       Workspace& work) {
-    for (std::int64_t c = 0; c < train.machines; ++c) {
-        std::int64_t body = train.coupling[c][0];
-        double force = work.energy[IMPULSE + c] / (h * train.radius[body]);
-        work.energy[WORK + c] += force * (out.x[body] - state.x[body] - work.way[c]);
-    }
-}
-
 void begin_sums(const State& state, State& out, Workspace& work) {
     std::memset(work.energy, 0, sizeof work.energy);
     std::memset(work.way, 0, sizeof work.way);
@@ -169,6 +156,15 @@ void sum_stage(const Model& model, double h, int i, const Evaluation& first, Sta
 }
 
 }  // namespace
+
+void work_over_the_way(const Train& train, const State& state, double h, const State& out,
+                       Workspace& work) {
+    for (std::int64_t c = 0; c < train.machines; ++c) {
+        std::int64_t body = train.coupling[c][0];
+        double force = work.energy[IMPULSE + c] / (h * train.radius[body]);
+        work.energy[WORK + c] += force * (out.x[body] - state.x[body] - work.way[c]);
+    }
+}
 
 void rosenbrock_step(const Model& model, const State& state, const StepConstants& constants,
                      double h, Evaluation& first, State& out, Workspace& work) {

@@ -28,4 +28,11 @@ inline constexpr int ROSENBROCK_ORDER = 3;
 void rosenbrock_step(const Model& model, const State& state, const StepConstants& constants,
                      double h, Evaluation& first, State& out, Workspace& work);
 
+// Let the machines do their work over the way that the step makes.
+//
+// A shaft is wound up by far more than it swings: what its end is wrong by, times all of its
+// torque, would be missing in the ledger, though both ends of the shaft agree on it.
+void work_over_the_way(const Train& train, const State& state, double h, const State& out,
+                       Workspace& work);
+
 }  // namespace gearbox

@@ -10,6 +10,7 @@
 #include "integrators/frame.hpp"
 #include "integrators/rosenbrock.hpp"
 #include "integrators/step_control.hpp"
+#include "integrators/trial_step.hpp"
 #include "mesh/deflection.hpp"
 #include "train/equations.hpp"
 #include "tribology/bristles.hpp"
@@ -31,7 +32,7 @@ void try_step(const Model& model, March& march, double h) {
     const State& begin = march.begin;
     State& end = march.end;
     end = begin;
-    rosenbrock_step(model, begin, march.moment, h, march.first, end, march.work);
+    trial_step(model, march, h, end);
     pass_time(model, march, h);
     for (int e = 0; e < LEDGER; ++e) end.energy[e] = begin.energy[e] + march.work.energy[e];
     place_bristles(march.last.pairs, end.bristle);
