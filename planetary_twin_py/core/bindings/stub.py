@@ -26,8 +26,9 @@ def with_fields(record: re.Match[str]) -> str:
 
 def main(folder: Path) -> None:
     """Write the stub beside what it describes."""
+    sys.path.insert(0, str(folder))  # before an editable installation, where it is not built yet
     out = folder / "planetary_twin_py/_core/__init__.pyi"
-    stubgen.main(["-q", "-i", str(folder), "-m", "planetary_twin_py._core", "-o", str(out)])
+    stubgen.main(["-q", "-m", "planetary_twin_py._core", "-o", str(out)])
     text = ARRAY_SETTER.sub(r"\1numpy.typing.ArrayLike\2", out.read_text())
     text = text.replace("import numpy\n", "import numpy\nimport numpy.typing\n", 1)
     out.write_text(CLASS.sub(with_fields, text))
