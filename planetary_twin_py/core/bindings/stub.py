@@ -7,6 +7,7 @@ finds one that is misspelt there too, and that an array takes whatever NumPy mak
 import re
 import sys
 from pathlib import Path
+from types import ModuleType
 
 from nanobind import stubgen
 
@@ -26,7 +27,9 @@ def with_fields(record: re.Match[str]) -> str:
 
 def main(folder: Path) -> None:
     """Write the stub beside what it describes."""
-    sys.path.insert(0, str(folder))  # before an editable installation, where it is not built yet
+    package = ModuleType("planetary_twin_py")  # that of the sources would come first, without a core
+    package.__path__ = [str(folder / "planetary_twin_py")]
+    sys.modules["planetary_twin_py"] = package
     out = folder / "planetary_twin_py/_core/__init__.pyi"
     stubgen.main(["-q", "-m", "planetary_twin_py._core", "-o", str(out)])
     text = ARRAY_SETTER.sub(r"\1numpy.typing.ArrayLike\2", out.read_text())
