@@ -118,8 +118,9 @@ $(STAMPS)/interfaces: $(STAMPS)/dependencies tools/build_interfaces tools/ros_fr
 	@touch $@
 
 # Python reads the model from here; the core is compiled below, each time its sources change.
-$(STAMPS)/model: $(STAMPS)/dependencies pyproject.toml
+$(STAMPS)/model: $(STAMPS)/dependencies pyproject.toml benchmarks/pyproject.toml
 	$(INSTALL) --config-setting wheel.cmake=false --config-setting editable.mode=inplace --editable .
+	$(INSTALL) --editable benchmarks
 	@touch $@
 
 $(STAMPS)/core: $(STAMPS)/dependencies tools/build_core $(CORE)

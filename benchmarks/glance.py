@@ -11,8 +11,8 @@ import sys
 from pathlib import Path
 
 from matplotlib.figure import Figure
+from planetary_twin_benchmark.table import Row
 
-from planetary_twin_py.benchmark.table import Row
 from planetary_twin_py.plots.style import applied, colour_of, panels, save
 
 MEASURED = Path(__file__).with_name("speed_and_error.json")

@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from ..terminal.messages import fail, need, remark
-from ..terminal.output_files import check_file
+from ..terminal.output_files import PICTURES, check_file
 from ..terminal.settings import say_units
 
 if TYPE_CHECKING:
@@ -18,7 +18,6 @@ if TYPE_CHECKING:
     from ..studies.axes import Axis, Span
 
 TABLES = (".parquet", ".csv")
-PICTURES = (".png", ".svg", ".pdf")
 PICTURE_DPI = 150  # dots per inch
 
 

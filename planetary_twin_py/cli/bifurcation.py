@@ -10,8 +10,9 @@ import typer
 from ..terminal.arguments import SceneArgument, SetOption, ToleranceOption
 from ..terminal.durations import SECONDS
 from ..terminal.messages import fail, remark
+from ..terminal.output_files import PICTURES
 from ..terminal.settings import changed_scene, settings
-from ._study import PICTURES, TABLES, axis, check_suffix, progress, put
+from ._study import TABLES, axis, check_suffix, progress, put
 
 
 def bifurcation(

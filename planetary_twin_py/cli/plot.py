@@ -8,7 +8,8 @@ from typing import Annotated
 import typer
 
 from ..terminal.messages import fail, remark
-from ._study import PICTURES, TABLES, check_suffix, put
+from ..terminal.output_files import PICTURES
+from ._study import TABLES, check_suffix, put
 
 
 def plot(

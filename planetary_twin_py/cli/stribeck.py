@@ -9,8 +9,9 @@ import typer
 
 from ..terminal.arguments import SceneArgument, SetOption
 from ..terminal.messages import fail, remark
+from ..terminal.output_files import PICTURES
 from ..terminal.settings import changed_scene, settings
-from ._study import PICTURES, TABLES, axis, check_suffix, progress, put, warn
+from ._study import TABLES, axis, check_suffix, progress, put, warn
 
 
 def stribeck(

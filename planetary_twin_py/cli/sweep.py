@@ -12,8 +12,9 @@ import typer
 from ..terminal.arguments import SceneArgument, ToleranceOption
 from ..terminal.durations import SECONDS
 from ..terminal.messages import fail, need, remark
+from ..terminal.output_files import PICTURES
 from ..terminal.settings import changed_scene, settings
-from ._study import PICTURES, TABLES, axis, check_suffix, progress, put, warn
+from ._study import TABLES, axis, check_suffix, progress, put, warn
 
 if TYPE_CHECKING:
     from ..studies.plan import Study

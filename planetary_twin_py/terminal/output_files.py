@@ -10,6 +10,7 @@ import typer
 
 from .messages import fail
 
+PICTURES = (".png", ".svg", ".pdf")  # formats of pictures
 Target = TypeVar("Target", Path, str)
 
 

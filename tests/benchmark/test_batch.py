@@ -2,7 +2,7 @@
 
 import re
 
-from planetary_twin_py.benchmark import batch
+from planetary_twin_benchmark import batch
 
 
 def test_every_point_is_another_and_lies_in_the_range_of_the_scene():

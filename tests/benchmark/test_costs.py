@@ -3,9 +3,9 @@
 import math
 
 import pytest
+from planetary_twin_benchmark import costs
+from planetary_twin_benchmark.timing import Speed, affordable
 
-from planetary_twin_py.benchmark import costs
-from planetary_twin_py.benchmark.timing import Speed, affordable
 from planetary_twin_py.engine import Engine
 from planetary_twin_py.gearset.phasing import mesh_phases
 from planetary_twin_py.scene import load_scene
@@ -51,7 +51,7 @@ def test_every_term_has_its_speed(monkeypatch):
 
 
 def test_a_run_is_no_longer_than_it_takes_to_time_it(monkeypatch):
-    monkeypatch.setattr("planetary_twin_py.benchmark.timing.ROUND", 0.0)
+    monkeypatch.setattr("planetary_twin_benchmark.timing.ROUND", 0.0)
     assert affordable(load_scene("paper"), 1e-2, 0.001, 1.0) == 0.001
 
 

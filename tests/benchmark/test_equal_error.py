@@ -2,10 +2,10 @@
 
 import math
 
-from planetary_twin_py.benchmark.equal_error import equal_error_markdown, fastest
-from planetary_twin_py.benchmark.steady import Steady
-from planetary_twin_py.benchmark.table import Row
-from planetary_twin_py.benchmark.timing import Speed
+from planetary_twin_benchmark.equal_error import equal_error_markdown, fastest
+from planetary_twin_benchmark.steady import Steady
+from planetary_twin_benchmark.table import Row
+from planetary_twin_benchmark.timing import Speed
 
 
 def row(method, error, speed, note=""):

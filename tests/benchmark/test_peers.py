@@ -6,18 +6,18 @@ from importlib.util import find_spec
 
 import numpy as np
 import pytest
+from planetary_twin_benchmark.cases import Case
+from planetary_twin_benchmark.peers import cvode, cvode_compiled, cyrk, sundials, work_precision
+from planetary_twin_benchmark.peers.problem import Problem
+from planetary_twin_benchmark.peers.solver import SolverError
+from planetary_twin_benchmark.peers.solvers import SOLVERS, run
+from planetary_twin_benchmark.reference import Reference
+from planetary_twin_benchmark.report import as_markdown
+from planetary_twin_benchmark.table import dte_error, measure
+from planetary_twin_benchmark.timing import SAMPLE_RATE
 from typer.testing import CliRunner
 
 from planetary_twin_py._core import DTE, POWER_LOSS, Evaluation, begin_step, derivative, forces
-from planetary_twin_py.benchmark.cases import Case
-from planetary_twin_py.benchmark.peers import cvode, cvode_compiled, cyrk, sundials, work_precision
-from planetary_twin_py.benchmark.peers.problem import Problem
-from planetary_twin_py.benchmark.peers.solver import SolverError
-from planetary_twin_py.benchmark.peers.solvers import SOLVERS, run
-from planetary_twin_py.benchmark.reference import Reference
-from planetary_twin_py.benchmark.report import as_markdown
-from planetary_twin_py.benchmark.table import dte_error, measure
-from planetary_twin_py.benchmark.timing import SAMPLE_RATE
 from planetary_twin_py.cli import build_app
 from planetary_twin_py.engine import Engine
 from planetary_twin_py.scene import load_scene, packaged_scenes

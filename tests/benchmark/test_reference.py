@@ -1,11 +1,11 @@
 """The converged reference sees every event."""
 
 import pytest
+from planetary_twin_benchmark.cases import CASES
+from planetary_twin_benchmark.reference import Reference
+from planetary_twin_benchmark.table import dte_error
 
 from planetary_twin_py._core import DTE
-from planetary_twin_py.benchmark.cases import CASES
-from planetary_twin_py.benchmark.reference import Reference
-from planetary_twin_py.benchmark.table import dte_error
 from planetary_twin_py.engine import Engine
 
 RATE, SPAN = 50_000.0, 180e-6  # [Hz], [s]

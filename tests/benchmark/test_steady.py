@@ -3,10 +3,9 @@
 import math
 
 import pytest
-
-from planetary_twin_py.benchmark import steady
-from planetary_twin_py.benchmark.cases import FRICTIONLESS, RECTANGULAR, Case
-from planetary_twin_py.benchmark.steady import measure_steady, steady_markdown, steady_table
+from planetary_twin_benchmark import steady
+from planetary_twin_benchmark.cases import FRICTIONLESS, RECTANGULAR, Case
+from planetary_twin_benchmark.steady import measure_steady, steady_markdown, steady_table
 
 
 @pytest.fixture(autouse=True)

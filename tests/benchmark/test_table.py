@@ -4,12 +4,12 @@ import json
 import math
 
 import pytest
+from planetary_twin_benchmark import table
+from planetary_twin_benchmark.cases import CASES, DOUBLE_SIDED_RATTLE, RESONANCE, Case
+from planetary_twin_benchmark.report import as_markdown, as_table
+from planetary_twin_benchmark.table import METHODS, measure
 
 import planetary_twin_py as pt
-from planetary_twin_py.benchmark import table
-from planetary_twin_py.benchmark.cases import CASES, DOUBLE_SIDED_RATTLE, RESONANCE, Case
-from planetary_twin_py.benchmark.report import as_markdown, as_table
-from planetary_twin_py.benchmark.table import METHODS, measure
 
 SHORT = Case("short", {}, 0.002, 2)
 RUN_UP = Case("run-up", {"drive.speed_control.start_speed": 50.0}, 0.001, 3, {

@@ -1,8 +1,7 @@
 """A verdict follows from the claims, whichever form reaches them."""
 
 import pytest
-
-from planetary_twin_py.paper.entry import Claim, Entry, Verdict
+from planetary_twin_paper.entry import Claim, Entry, Verdict
 
 
 def claim(kind, holds, printed_holds=False, why=""):

@@ -6,9 +6,9 @@ from pathlib import Path
 
 import pytest
 import yaml
+from planetary_twin_paper.equations import EQUATIONS
 
 import planetary_twin_py as pt
-from planetary_twin_py.paper.equations import EQUATIONS
 
 ROOT = Path(__file__).parents[2]
 PACKAGE = Path(pt.__file__).parent

@@ -2,8 +2,7 @@
 
 import numpy as np
 import pytest
-
-from planetary_twin_py.paper.judge import LEAST_CHANGE, agrees, falls, percent, rises
+from planetary_twin_paper.judge import LEAST_CHANGE, agrees, falls, percent, rises
 
 
 def test_a_trend_must_hold_at_every_step_and_along_its_axis():

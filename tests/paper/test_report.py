@@ -2,15 +2,15 @@
 
 import numpy as np
 import pytest
+from planetary_twin_paper.evidence import gather
+from planetary_twin_paper.page import figures, write_page
+from planetary_twin_paper.report import entries
+from planetary_twin_paper.study import Grid, Point, largest, run, run_studies
 from scipy.optimize import root
 
 import planetary_twin_py as pt
 from planetary_twin_py.modal.modes import modes_of
 from planetary_twin_py.modal.printed import EQUATION_37, PrintedSet, printed_model
-from planetary_twin_py.paper.evidence import gather
-from planetary_twin_py.paper.page import figures, write_page
-from planetary_twin_py.paper.report import entries
-from planetary_twin_py.paper.study import Grid, Point, largest, run, run_studies
 
 pytestmark = [pytest.mark.slow, pytest.mark.exhaustive]
 

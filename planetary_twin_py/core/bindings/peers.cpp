@@ -1,4 +1,4 @@
-// The gearbox as a function for off-the-shelf solvers, for `planetary_twin_py.benchmark.peers`.
+// The gearbox as a function for off-the-shelf solvers, for `planetary_twin_benchmark.peers`.
 
 #include <memory>
 

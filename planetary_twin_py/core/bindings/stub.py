@@ -27,7 +27,9 @@ def with_fields(record: re.Match[str]) -> str:
 
 def main(folder: Path) -> None:
     """Write the stub beside what it describes."""
-    package = ModuleType("planetary_twin_py")  # that of the sources would come first, without a core
+    package = ModuleType(
+        "planetary_twin_py"
+    )  # that of the sources would come first, without a core
     package.__path__ = [str(folder / "planetary_twin_py")]
     sys.modules["planetary_twin_py"] = package
     out = folder / "planetary_twin_py/_core/__init__.pyi"

@@ -1,0 +1,99 @@
+"""How many operating points a second pass through `simulate_many`, set-up included."""
+
+from __future__ import annotations
+
+import math
+import time
+from collections.abc import Callable, Sequence
+from statistics import median
+from typing import NamedTuple
+
+from rich.table import Table
+
+from planetary_twin_py.batch import simulate_many
+from planetary_twin_py.scene import Scene, load_scene
+
+SIZES = ((0.05, 40), (1.0, 8))  # simulated time of a point [s], and how many there are
+WORKERS = (1, 2)
+ROUNDS = 5  # of which the median counts
+TOLERANCE = 1e-4
+
+_TITLES = ("points of", "workers", "points/s", "spread", "ratio")
+
+
+class Throughput(NamedTuple):
+    """What one number of workers does with points of one length."""
+
+    duration: float  # simulated, of a point [s]
+    workers: int
+    rates: tuple[float, ...]  # points per second of wall time, in every round
+    ratio: float  # of the median to that of one worker
+
+    @property
+    def rate(self) -> float:
+        """Median of the rounds."""
+        return median(self.rates)
+
+
+def measure_batch(
+    sizes: Sequence[tuple[float, int]] = SIZES, progress: Callable[[str], None] = lambda text: None
+) -> list[Throughput]:
+    """Measure every size on every number of workers, by turns: another load slows all of them."""
+    found = []
+    for duration, count in sizes:
+        scenes, rates = operating_points(count), dict[int, list[float]]()
+        for n in range(ROUNDS):
+            progress(f"{count} points of {duration:g} s: round {n + 1} of {ROUNDS}")
+            for workers in WORKERS:
+                rates.setdefault(workers, []).append(count / _seconds(scenes, duration, workers))
+        single = median(rates[1])
+        found += [
+            Throughput(duration, workers, tuple(of), median(of) / single)
+            for workers, of in rates.items()
+        ]
+    return found
+
+
+def operating_points(count: int) -> list[Scene]:
+    """The scene `paper` at as many pairs of load and lambda ratio."""
+    scene, side = load_scene("paper"), math.ceil(math.sqrt(count))
+    grid = [divmod(n, side) for n in range(count)]
+    return [
+        scene.replace(input_torque=20.0 + 60.0 * i / side, lambda_ratio=1.0 + j / side)
+        for i, j in grid
+    ]
+
+
+def _seconds(scenes: Sequence[Scene], duration: float, workers: int) -> float:
+    begin = time.perf_counter()
+    for outcome in simulate_many(scenes, duration, tolerance=TOLERANCE, workers=workers):
+        _ = outcome.result
+    return time.perf_counter() - begin
+
+
+def _cells(row: Throughput) -> tuple[str, ...]:
+    spread = f"{min(row.rates):.3g}-{max(row.rates):.3g}"
+    return (f"{row.duration:g} s", f"{row.workers}", f"{row.rate:.3g}", spread, f"{row.ratio:.2f}")
+
+
+def batch_table(rows: Sequence[Throughput]) -> Table:
+    """For the terminal."""
+    table = Table(box=None, header_style="bold", pad_edge=False)
+    for title in _TITLES:
+        table.add_column(title, justify="right")
+    for row in rows:
+        table.add_row(*_cells(row))
+    return table
+
+
+def batch_markdown(rows: Sequence[Throughput]) -> str:
+    """A section for the page `docs/speed-and-accuracy.md`."""
+    lines = [_TITLES, ("---",) * len(_TITLES), *(_cells(row) for row in rows)]
+    table = "\n".join("| " + " | ".join(cells) + " |" for cells in lines)
+    return f"""
+## Many operating points
+
+`simulate_many` at tolerance {TOLERANCE:g}: wall time, with set-up and samples at 50 kHz.
+
+{table}
+"""

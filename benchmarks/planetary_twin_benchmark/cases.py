@@ -1,0 +1,80 @@
+"""The cases whose speed and error are reported."""
+
+from __future__ import annotations
+
+from typing import Any, NamedTuple
+
+from planetary_twin_py.scene import Scene, load_scene
+from planetary_twin_py.units import rpm
+
+from .timing import repeats
+
+
+class Case(NamedTuple):
+    """A scene, and how much of it is compared with the reference."""
+
+    name: str
+    changes: dict[str, Any]
+    duration: float  # [s] compared
+    repeats: int  # times as long a run is timed, at most
+    # Changes that begin it where the comparison does; such a case is timed as a whole.
+    stretch: dict[str, Any] | None = None
+
+    def scene(self) -> Scene:
+        """The scene of the paper with the changes of the case."""
+        return load_scene("paper").replace(**self.changes)
+
+    def compared(self) -> Scene:
+        """The scene that is compared with the reference."""
+        return self.scene().replace(**(self.stretch or {}))
+
+    def timed(self, seconds: float) -> float:
+        """How long a run to time [s], if what is compared takes `seconds` of computing."""
+        whole = self.stretch is not None
+        return self.duration * (self.repeats if whole else repeats(seconds, self.repeats))
+
+
+FRICTIONLESS = {"lubrication.friction": False}
+RECTANGULAR = {"mesh.ramp": 0.0}
+RUN_UP = {
+    "input_speed": rpm(1000),
+    "drive.speed_control.start_speed": rpm(5),
+    "drive.speed_control.slew_rate": rpm(1000 - 5) / 0.5,
+}
+FROM_500_RPM = {"drive.speed_control.start_speed": rpm(500)}
+# On average flanks part and meet 27 times in a mesh period. They do so when the torque is least,
+# and chaotically: after two dozen impacts the paths of any two methods are apart.
+DOUBLE_SIDED_RATTLE = {
+    "input_torque": 0.3,
+    "torque_ripple": 0.3,
+    "backlash": 5e-7,
+    "mesh.damping.law": "viscous",
+    "mesh.damping.damping_ratio": 0.01,
+}
+ZETA_004 = {"mesh.damping.law": "viscous", "mesh.damping.damping_ratio": 0.04}
+# Gears of half the mass, with a natural mode that the meshing meets at this speed.
+RESONANCE = {
+    **ZETA_004,
+    "gearset.equivalent_mass.sun": 0.136,
+    "gearset.equivalent_mass.planet": 0.05,
+    "gearset.equivalent_mass.ring": 0.3895,
+    "gearset.planet_mass": 0.05,
+    "drive.speed_limit": rpm(18_000),
+    "input_speed": rpm(17_000),
+}
+
+CASES = (
+    Case("steady 1000 rpm", {}, 0.01, 40),
+    Case("steady, no friction", FRICTIONLESS, 0.01, 40),
+    Case("steady 1000 rpm, rectangular stiffness", RECTANGULAR, 0.01, 40),
+    Case("steady, rectangular, no friction", RECTANGULAR | FRICTIONLESS, 0.01, 40),
+    Case("steady 3000 rpm", {"input_speed": rpm(3000)}, 0.01, 20),
+    Case("stiff 100 rpm", {"input_speed": rpm(100)}, 0.02, 50),
+    Case("rattle", {"input_torque": 0.3, "torque_ripple": 3.0}, 0.03, 20),
+    Case("rattle, 27 events per mesh period", DOUBLE_SIDED_RATTLE, 0.0215, 20),
+    # At lower speeds the printed damping is so strong that an explicit reference takes minutes.
+    Case("run-up 5 to 1000 rpm in 0.5 s", RUN_UP, 0.02, 25, FROM_500_RPM),
+    Case("light damping 1000 rpm", {"mesh.damping.law": "viscous"}, 0.01, 20),
+    Case("light damping zeta 0.04", ZETA_004, 0.01, 20),
+    Case("resonance 17 000 rpm", RESONANCE, 0.001, 100),
+)

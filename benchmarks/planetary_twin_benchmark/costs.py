@@ -1,0 +1,189 @@
+"""What speed costs: against terms, planets, speed and duration, one table each."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from functools import partial
+from typing import Any, NamedTuple
+
+from rich.table import Table
+
+from planetary_twin_py.gearset.kinematics import Teeth
+from planetary_twin_py.gearset.phasing import nearest_assembly
+from planetary_twin_py.scene import Scene, load_scene
+from planetary_twin_py.units import rpm
+
+from .timing import METHOD, SAMPLE_RATE, Speed, affordable, end_to_end, speed
+
+TOLERANCE = 1e-4
+SHORTEST, LONGEST = 0.02, 10.0  # [s] simulated in a round
+PLANETS = range(2, 8)
+SPEEDS = (10.0, 30.0, 100.0, 300.0, 1000.0, 3000.0, 10_000.0)  # [rpm]
+DURATIONS = (0.1, 1.0, 10.0)  # [s]
+
+# Two to six planets in equal distances, seven almost; none of them meshes in step with another.
+TEETH = Teeth(43, 17, 77)
+MESH_FREQUENCY = 500.0  # [Hz] that of the scene `paper`
+
+_NO_FRICTION = {"lubrication.friction": False}
+_LOSSES: dict[str, Any] = {
+    "lubrication.rolling": "goksem_hargreaves",
+    "losses.planet_bearing": {"mean_diameter": 0.012},
+    "losses.churning": {"fill": 0.3, "gap": 0.01, "sun": 0.013},
+}
+_FAULTS: list[dict[str, Any]] = [
+    {"kind": "crack", "gear": "sun", "tooth": 0, "stiffness_loss": 0.2},
+    {"kind": "spall", "gear": "planet", "tooth": 3, "stiffness_loss": 0.3},
+]
+_FORM_ERRORS = {
+    "mesh.sun_planet_error": {"amplitudes": [1e-6]},
+    "mesh.planet_ring_error": {"amplitudes": [1e-6]},
+    "mesh.runout": {"sun": 2e-6},
+    "backlash": 2e-6,
+}
+# Changes to the scene `paper`, which has friction and no other loss.
+TERMS: dict[str, dict[str, Any]] = {
+    "friction, rolling, bearings, churning": _LOSSES,
+    "the same without friction": _LOSSES | _NO_FRICTION,
+    "friction alone": {},
+    "friction alone, rectangular stiffness": {"mesh.ramp": 0.0},
+    "neither friction nor other losses": _NO_FRICTION,
+    "neither, rectangular stiffness": _NO_FRICTION | {"mesh.ramp": 0.0},
+    "friction alone, without dynamics": {"dynamics": "quasi_static"},
+    "friction, a crack and a spall": {"faults": _FAULTS},
+    "friction, errors of form": _FORM_ERRORS,
+}
+
+
+class Cost(NamedTuple):
+    """One line of a table."""
+
+    against: str  # which table
+    value: str
+    speed: Speed
+
+
+# Lines of a table: what is told, and what measures it.
+_Entries = Iterator[tuple[str, Callable[[], Speed]]]
+
+
+def _kernels(scene: Scene) -> Callable[[], Speed]:
+    """Measures integration alone, over as long as it takes to time it."""
+
+    def measured() -> Speed:
+        duration = affordable(scene, TOLERANCE, SHORTEST, LONGEST)
+        return speed(scene, duration, METHOD, TOLERANCE, sampled=False)
+
+    return measured
+
+
+def _terms() -> _Entries:
+    for name, changes in TERMS.items():
+        yield name, _kernels(load_scene("paper").replace(**changes))
+
+
+def _planets() -> _Entries:
+    for count in PLANETS:
+        yield f"{count}", _kernels(with_planets(count, TEETH))
+    for count in PLANETS:
+        yield f"{count} in phase", _kernels(with_planets(count, teeth_in_phase(count)))
+
+
+def _speeds() -> _Entries:
+    for value in SPEEDS:
+        yield f"{value:g} rpm", _kernels(load_scene("paper").replace(input_speed=rpm(value)))
+
+
+def _durations() -> _Entries:
+    scene = load_scene("paper")
+    for duration in DURATIONS:
+        yield f"{duration:g} s", partial(end_to_end, scene, duration, TOLERANCE)
+
+
+TABLES: dict[str, Callable[[], _Entries]] = {
+    "terms": _terms,
+    "planets": _planets,
+    "speed": _speeds,
+    "duration": _durations,
+}
+
+
+def teeth_in_phase(count: int) -> Teeth:
+    """Numbers next to TEETH with which `count` planets in equal distances mesh in phase.
+
+    Those of sun and ring are then multiples of `count`. Planets get no fewer, or teeth would touch
+    below the base circle.
+    """
+    half = count // math.gcd(count, 2)
+    sun, planet = count * round(TEETH.sun / count), half * math.ceil(TEETH.planet / half)
+    return Teeth(sun, planet, sun + 2 * planet)
+
+
+def with_planets(count: int, teeth: Teeth) -> Scene:
+    """The scene `paper` with gears that take `count` planets, each under the same load."""
+    paper = load_scene("paper")
+    even = [2.0 * math.pi * n / count for n in range(count)]
+    per_planet = paper.operating_point.input_torque / paper.gearset.planets
+    return paper.replace(**{
+        "gearset.teeth": teeth._asdict(),
+        "gearset.planet_angles": nearest_assembly(teeth, even),
+        "input_speed": 2.0 * math.pi * MESH_FREQUENCY / teeth.sun,
+        "input_torque": per_planet * count,
+    })  # fmt: skip
+
+
+def measure_costs(
+    tables: Iterable[str] = tuple(TABLES), progress: Callable[[str], None] = lambda text: None
+) -> list[Cost]:
+    """Measure the lines of the tables named."""
+    found = []
+    for against in tables:
+        for value, measured in TABLES[against]():
+            progress(f"cost against {against}: {value}")
+            found.append(Cost(against, value, measured()))
+    return found
+
+
+def _cells(cost: Cost) -> tuple[str, str, str]:
+    median, low, high = cost.speed
+    return cost.value, f"{median:.3g}", f"{low:.3g}-{high:.3g}"
+
+
+def _of(costs: Sequence[Cost]) -> Iterator[tuple[str, list[Cost]]]:
+    for against in dict.fromkeys(cost.against for cost in costs):
+        yield against, [cost for cost in costs if cost.against == against]
+
+
+def cost_tables(costs: Sequence[Cost]) -> list[Table]:
+    """For the terminal."""
+    tables = []
+    for against, lines in _of(costs):
+        table = Table(box=None, header_style="bold", pad_edge=False)
+        for title in (against, "speed", "spread"):
+            table.add_column(title, justify="left" if title == against else "right")
+        for cost in lines:
+            table.add_row(*_cells(cost))
+        tables.append(table)
+    return tables
+
+
+def cost_markdown(costs: Sequence[Cost]) -> str:
+    """A section for the page `docs/speed-and-accuracy.md`."""
+    tables = []
+    for against, lines in _of(costs):
+        rows = [(against, "speed", "spread"), ("---",) * 3, *(_cells(cost) for cost in lines)]
+        tables.append("\n".join("| " + " | ".join(cells) + " |" for cells in rows))
+    body = "\n\n".join(tables)
+    return f"""
+## What speed costs
+
+The scene `paper` at tolerance {TOLERANCE:g}, method `{METHOD}`, without samples and set-up.
+
+- Planets: teeth {TEETH.sun}/{TEETH.planet}/{TEETH.ring} at the same meshing frequency and load of a
+  planet. *In phase*: the nearest teeth with which planets mesh in phase, so that one is integrated
+  for all.
+- Duration: `simulate` by wall time, with set-up and samples at {SAMPLE_RATE / 1e3:g} kHz.
+
+{body}
+"""

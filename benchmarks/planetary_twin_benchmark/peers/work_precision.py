@@ -1,0 +1,68 @@
+"""Every peer on a case: how fast and how wrong."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterable, Iterator
+
+import numpy as np
+
+from planetary_twin_py._core import DTE, POWER_LOSS
+from planetary_twin_py.scene import Scene
+
+from ..cases import Case
+from ..table import TOLERANCES, Beside, Row, dte_error, loss_error
+from ..timing import ROUNDS, SAMPLE_RATE, Speed
+from .solver import SolverError, TooSlow
+from .solvers import SOLVERS, Run, run
+
+LIMIT = 15.0  # [s] for one of the runs of a row
+
+
+def peer_rows(
+    progress: Callable[[str], None] = lambda text: None,
+    tolerances: Iterable[float] = TOLERANCES,
+    names: Iterable[str] = tuple(SOLVERS),
+) -> Beside:
+    """What gives the rows of the peers `names`; `progress` is told what is under way."""
+    tolerances, names = sorted(tolerances, reverse=True), list(names)
+
+    def rows(case: Case, reference: np.ndarray) -> Iterator[Row]:
+        for name in names:
+            progress(f"{case.name}: {name}")
+            yield from _rows(case, name, tolerances, reference)
+
+    return rows
+
+
+def _rows(case: Case, name: str, tolerances: list[float], reference: np.ndarray) -> Iterator[Row]:
+    """A row for every tolerance; where one takes too long, so would those below it."""
+    slow: SolverError | None = None
+    for tolerance in tolerances:
+        try:
+            if slow is not None:
+                raise slow
+            yield _row(case, name, tolerance, reference)
+        except SolverError as error:
+            slow = error if isinstance(error, TooSlow) else None
+            nan = math.nan
+            yield Row(
+                case.name, name, tolerance, nan, nan, nan, nan, nan, nan, nan, note=str(error)
+            )
+
+
+def _row(case: Case, name: str, tolerance: float, reference: np.ndarray) -> Row:
+    first = _run(case.compared(), case.duration, name, tolerance)
+    timed = case.timed(first.seconds)
+    runs = [_run(case.scene(), timed, name, tolerance) for _ in range(ROUNDS)]
+    rtf = Speed.of([timed / each.seconds for each in runs])
+    return Row(
+        case.name, name, tolerance,
+        dte_error(first.dte, reference[:, DTE]),
+        loss_error(first.power_loss * len(reference), reference[:, POWER_LOSS].sum()),
+        *rtf, rtf.median, first.setup_s,
+    )  # fmt: skip
+
+
+def _run(scene: Scene, duration: float, name: str, tolerance: float) -> Run:
+    return run(name, scene, duration, SAMPLE_RATE, tolerance, LIMIT)

@@ -1,0 +1,166 @@
+"""What steady running costs once it repeats itself, and how wrong it is then."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterable, Sequence
+from typing import NamedTuple
+
+import numpy as np
+from rich.table import Table
+
+from planetary_twin_py._core import DTE
+from planetary_twin_py.engine import Engine
+from planetary_twin_py.scene import Scene
+
+from .cases import Case
+from .table import TOLERANCES, errors
+from .timing import METHOD, SAMPLE_RATE, Speed, run, speed
+
+AUTO = "auto"
+MINUTE = 60.0  # [s]
+BY = 4.0  # [s] by which it is to repeat
+COMPARED = 0.02  # [s] before that, compared with what is computed ...
+EXACT = 1e-7  # ... at this tolerance
+LOOKED = 0.01  # [s] between two looks at whether it repeats
+NAN = math.nan
+NOT = Speed(NAN, NAN, NAN)
+
+
+class Steady(NamedTuple):
+    """A minute of one case."""
+
+    case: str
+    tolerance: float
+    repeats_from: float  # [s], NaN: it does not
+    late: float  # mesh cycles by which it is late
+    error_dte: float  # that aside
+    error_power_loss: float
+    speed: Speed  # from the start, without samples
+    setup_s: float  # building and starting the model [s]
+
+    def figures(self) -> dict[str, str | float | None]:
+        """For JSON, which knows no NaN."""
+        values = {"method": AUTO, **self._asdict()}
+        values["rtf"], values["rtf_low"], values["rtf_high"] = values.pop("speed")
+        return {name: None if value != value else value for name, value in values.items()}
+
+
+def measure_steady(
+    cases: Iterable[Case],
+    tolerances: Iterable[float] = TOLERANCES,
+    progress: Callable[[str], None] = lambda text: None,
+) -> list[Steady]:
+    """Measure all cases; one that does not repeat has no figures."""
+    found, tolerances = [], list(tolerances)
+    for case in cases:
+        exact = None
+        for tolerance in tolerances:
+            progress(f"{case.name}: a minute, tolerance {tolerance:g}")
+            scene = case.scene()
+            begin = repeats_from(scene, tolerance)
+            if math.isnan(begin):
+                found.append(Steady(case.name, tolerance, begin, NAN, NAN, NAN, NOT, NAN))
+                continue
+            exact = _settled(scene, EXACT, METHOD) if exact is None else exact
+            error = _errors(_settled(scene, tolerance, AUTO), exact)
+            timed = speed(scene, MINUTE, AUTO, tolerance, sampled=False)
+            setup = run(scene, LOOKED, AUTO, tolerance, sampled=False).setup_s
+            found.append(Steady(case.name, tolerance, begin, *error, timed, setup))
+    return found
+
+
+def repeats_from(scene: Scene, tolerance: float) -> float:
+    """Simulated time [s] from which the scene repeats itself; NaN if not by then."""
+    engine = Engine(scene, tolerance)
+    for look in range(1, round(BY / LOOKED) + 1):
+        engine.advance(look * LOOKED, 1, SAMPLE_RATE, 0)
+        if engine.repeats:
+            return look * LOOKED
+    return math.nan
+
+
+class _Settled(NamedTuple):
+    """The stretch that is compared."""
+
+    mesh: np.ndarray  # (samples, QUANTITIES, meshes)
+    cycles: np.ndarray  # (samples,) through which the meshes have gone
+
+
+def _settled(scene: Scene, tolerance: float, method: str) -> _Settled:
+    first = round((BY - COMPARED) * SAMPLE_RATE) + 1
+    room = round(COMPARED * SAMPLE_RATE)
+    engine = Engine(scene, tolerance, method)
+    samples, train = engine.advance(BY, first, SAMPLE_RATE, room), engine.train
+    motor = train.coupling[0, 0]
+    turns = samples.turns[:, 0] + samples.angle[:, motor] / (2.0 * math.pi)
+    return _Settled(samples.mesh, turns * float(train.cycles[0]))
+
+
+def _errors(found: _Settled, exact: _Settled) -> tuple[float, float, float]:
+    """Mesh cycles by which it is late, and the errors that this does not explain.
+
+    What friction is wrong by, the speed loop makes good by an angle: it is soft, so that the
+    shift is by many times more wrong than the loss.
+    """
+    late = float((exact.cycles - found.cycles).mean())
+    pace = np.gradient(exact.cycles)[:, None]
+    shifted = found.mesh.copy()
+    shifted[:, DTE] += late * np.gradient(exact.mesh[:, DTE], axis=0) / pace
+    return late, *errors(shifted, exact.mesh)
+
+
+_TITLES = (
+    "case", "tolerance", "repeats from", "late by", "DTE error", "error/tolerance", "loss error",
+    "a minute", "spread",
+)  # fmt: skip
+
+
+def _cells(row: Steady) -> tuple[str, ...]:
+    if math.isnan(row.repeats_from):
+        return row.case, f"{row.tolerance:.0e}", "never", *["-"] * 6
+    median, low, high = row.speed
+    loss = row.error_power_loss
+    return (
+        row.case,
+        f"{row.tolerance:.0e}",
+        f"{row.repeats_from:.2f} s",
+        f"{row.late:.0e}",
+        f"{row.error_dte:.1e}",
+        f"{row.error_dte / row.tolerance:.2g}",
+        "-" if math.isnan(loss) else f"{loss:.1e}",
+        f"{median:.3g}",
+        f"{low:.3g}-{high:.3g}",
+    )
+
+
+def steady_table(rows: Sequence[Steady]) -> Table:
+    """For the terminal."""
+    table = Table(box=None, header_style="bold", pad_edge=False)
+    for title in _TITLES:
+        table.add_column(title, justify="left" if title == "case" else "right")
+    for row in rows:
+        table.add_row(*_cells(row))
+    return table
+
+
+def steady_markdown(rows: Sequence[Steady]) -> str:
+    """A section for the page `docs/speed-and-accuracy.md`."""
+    lines = [_TITLES, ("---",) * len(_TITLES), *(_cells(row) for row in rows)]
+    body = "\n".join("| " + " | ".join(cells) + " |" for cells in lines)
+    return f"""
+## Steady running
+
+The default method, `auto`, in the same cases over {MINUTE:g} s. Once mesh cycles are periodic, they
+are not computed again (`core/integrators/periodic.hpp`).
+
+- *a minute*: simulated time over processor time from the start, without samples, with settling.
+- Errors are those of the last {COMPARED * 1e3:g} ms before {BY:g} s, against `{METHOD}` at
+  tolerance {EXACT:g}.
+- *late by*: delay in mesh cycles. The speed loop compensates an error of friction by an angle; with
+  3 Hz it is so soft that a loss error of 1e-6 gives 3e-6 of a cycle.
+- *DTE error*: without this delay, as far as samples at {SAMPLE_RATE / 1e3:g} kHz resolve it: at
+  17 000 rpm there are six in a cycle.
+
+{body}
+"""

@@ -1,0 +1,58 @@
+"""The command `bench`: one run fills table, page, figures and picture."""
+
+import json
+
+import pytest
+from planetary_twin_benchmark import batch, cases, costs, steady, table
+from typer.testing import CliRunner
+
+from planetary_twin_py.cli import build_app
+
+
+@pytest.fixture(autouse=True)
+def _short_runs(monkeypatch):
+    monkeypatch.setattr(cases, "CASES", (cases.Case("short", {}, 0.001, 1),))
+    monkeypatch.setattr(table, "WHOLE", 0.002)
+    monkeypatch.setattr(steady, "BY", 0.02)
+    monkeypatch.setattr(costs, "SHORTEST", 0.001)
+    monkeypatch.setattr(costs, "LONGEST", 0.001)
+    monkeypatch.setattr(costs, "DURATIONS", (0.001,))
+    measure = batch.measure_batch
+    monkeypatch.setattr(batch, "measure_batch", lambda progress: measure([(0.001, 1)], progress))
+
+
+def invoke(*arguments):
+    return CliRunner().invoke(build_app(), ["bench", *arguments], env={"COLUMNS": "120"})
+
+
+@pytest.mark.slow
+def test_page_figures_and_picture_come_from_one_run(tmp_path):
+    page, figures = tmp_path / "docs" / "page.md", tmp_path / "figures.json"
+    picture = tmp_path / "docs" / "work.png"
+    page.parent.mkdir()
+    answer = invoke(
+        "--costs", "--markdown", str(page), "--plot", str(picture), "--json", str(figures)
+    )
+    assert answer.exit_code == 0, answer.output
+    text, rows = page.read_text(), json.loads(figures.read_text())
+    assert [(row["method"], row["tolerance"]) for row in rows] == [
+        (method, tolerance) for method in table.METHODS for tolerance in table.TOLERANCES
+    ]
+    for row in rows:
+        assert f"| {row['rtf']:.3g} | {row['rtf_low']:.3g}-{row['rtf_high']:.3g} |" in text
+    assert "| short | 1e-02 | never |" in text
+    assert "(work.png)" in text and picture.read_bytes().startswith(b"\x89PNG")
+    assert all(f"| {against} | speed |" in text for against in costs.TABLES)
+
+
+@pytest.mark.exhaustive
+def test_without_options_no_costs_are_measured(monkeypatch):
+    monkeypatch.setattr(costs, "measure_costs", lambda progress: pytest.fail("not asked for"))
+    answer = invoke()
+    assert answer.exit_code == 0 and "short" in answer.stdout
+
+
+def test_a_picture_that_cannot_be_written_ends_in_one_line():
+    answer = invoke("--plot", "/nowhere/work.png")
+    assert answer.exit_code == 2
+    assert "/nowhere/work.png" in answer.stderr
