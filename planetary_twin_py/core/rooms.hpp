@@ -6,21 +6,22 @@
 
 namespace gearbox {
 
-constexpr int REGISTER = 4;            // arrays over bodies and meshes come in whole registers
-constexpr int BODIES = 4 * REGISTER;   // 7 planets, sun, ring, carrier, machines and the ground
+constexpr int REGISTER = 4;           // arrays over bodies and meshes come in whole registers
+constexpr int BODIES = 4 * REGISTER;  // 7 planets, sun, ring, carrier, machines and the ground
 constexpr int MESHES = 4 * REGISTER;
-constexpr int MACHINES = 3;            // two motors and a load
-constexpr int AXES = 2;                // rigid motions of the train: one for each motor
-constexpr int KINDS = 2;               // of meshes: sun-planet, planet-ring
-constexpr int GEARS = 3;               // that a mesh joins: first gear, second gear, carrier
-constexpr int PAIRS = 3;               // tooth pairs in contact at most: contact ratios up to 3
-constexpr int TOTAL = PAIRS;           // place of the sum over the pairs
-constexpr int SEGMENTS = 32;           // breakpoints: 4 of each pair and those of faults
-constexpr int TERMS = 6;               // coefficients of a polynomial
-constexpr int LINES = 6;               // errors of form: 4 harmonics, the runout of 2 gears
+constexpr int MACHINES = 3;   // two motors and a load
+constexpr int AXES = 2;       // rigid motions of the train: one for each motor
+constexpr int KINDS = 2;      // of meshes: sun-planet, planet-ring
+constexpr int GEARS = 3;      // that a mesh joins: first gear, second gear, carrier
+constexpr int PAIRS = 3;      // tooth pairs in contact at most: contact ratios up to 3
+constexpr int TOTAL = PAIRS;  // place of the sum over the pairs
+constexpr int SEGMENTS = 32;  // breakpoints: 4 of each pair and those of faults
+constexpr int TERMS = 6;      // coefficients of a polynomial
+constexpr int LINES = 6;      // errors of form: 4 harmonics, the runout of 2 gears
 constexpr int FAULTS = 4;
-constexpr int ROOM = (PAIRS + 1) * MESHES;  // all tooth pairs, and what whole registers write beyond
-constexpr int MEMBERS = 3;             // sun, ring, carrier
+constexpr int ROOM =
+    (PAIRS + 1) * MESHES;   // all tooth pairs, and what whole registers write beyond
+constexpr int MEMBERS = 3;  // sun, ring, carrier
 constexpr int JOINTS = BODIES + MEMBERS;
 
 // Sides of a mesh.

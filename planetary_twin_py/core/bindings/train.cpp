@@ -57,9 +57,10 @@ void bind_places(nb::module_& m) {
 }
 
 void bind_cycle(nb::module_& m) {
-    m.def("cycle_shift", [](const Train& train, const Vector& x) {
-        return cycle_shift(train, bodies(x));
-    }, "train"_a, "x"_a, "Mesh cycles by which the train is ahead of the rigid frame.");
+    m.def(
+        "cycle_shift",
+        [](const Train& train, const Vector& x) { return cycle_shift(train, bodies(x)); },
+        "train"_a, "x"_a, "Mesh cycles by which the train is ahead of the rigid frame.");
     m.def("frame_cycle", &frame_cycle, "train"_a, "state"_a, "modulus"_a,
           "Mesh cycles of the rigid frame since the start, modulo `modulus`.");
     m.def("counted_cycle", &counted_cycle, "train"_a, "state"_a, "i"_a, "side"_a, "modulus"_a,
@@ -75,129 +76,177 @@ void bind_cycle(nb::module_& m) {
     m.def("take_segment", &take_segment, "train"_a, "state"_a, "step"_a, "i"_a);
     m.def("frame_cycle_rate", &frame_cycle_rate, "train"_a, "state"_a,
           "Mesh cycles per second of the rigid frame, signed.");
-    m.def("passing_rate", [](const Train& train, const StepConstants& step, const Vector& v) {
-        return passing_rate(train, step, bodies(v));
-    }, "train"_a, "step"_a, "v"_a);
+    m.def(
+        "passing_rate",
+        [](const Train& train, const StepConstants& step, const Vector& v) {
+            return passing_rate(train, step, bodies(v));
+        },
+        "train"_a, "step"_a, "v"_a);
     m.def("damping_time", &damping_time, "train"_a, "kind"_a, "rate"_a);
 }
 
 void bind_form(nb::module_& m) {
-    m.def("place_lines", [](const Train& train, const State& state, std::int64_t i,
-                            const Lines& angle) { place_lines(train, state, i, lines(angle)); },
-          "train"_a, "state"_a, "i"_a, "angle"_a);
-    m.def("form_error", [](const Train& train, std::int64_t i, double side, const Lines& angle,
-                           double advance, double pace) {
-        auto [e, rate] = form_error(train, i, side, lines(angle), advance, pace);
-        return std::tuple(e, rate);
-    }, "train"_a, "i"_a, "side"_a, "angle"_a, "advance"_a, "pace"_a);
-    m.def("radial_error", [](const Train& train, std::int64_t i, const Lines& angle,
-                             double advance, double pace) {
-        auto [e, rate] = radial_error(train, i, lines(angle), advance, pace);
-        return std::tuple(e, rate);
-    }, "train"_a, "i"_a, "angle"_a, "advance"_a, "pace"_a);
-    m.def("form_error_bend", [](const Train& train, std::int64_t i, double side,
-                                const Lines& angle, double pace) {
-        return form_error_bend(train, i, side, lines(angle), pace);
-    }, "train"_a, "i"_a, "side"_a, "angle"_a, "pace"_a);
-    m.def("find_faults", [](const Train& train, const State& state, std::int64_t i,
-                            std::int64_t side, double start, StepConstants& step) {
-        find_faults(train, state, i, side, start, step.faulty);
-    }, "train"_a, "state"_a, "i"_a, "side"_a, "start"_a, "step"_a);
+    m.def(
+        "place_lines",
+        [](const Train& train, const State& state, std::int64_t i, const Lines& angle) {
+            place_lines(train, state, i, lines(angle));
+        },
+        "train"_a, "state"_a, "i"_a, "angle"_a);
+    m.def(
+        "form_error",
+        [](const Train& train, std::int64_t i, double side, const Lines& angle, double advance,
+           double pace) {
+            auto [e, rate] = form_error(train, i, side, lines(angle), advance, pace);
+            return std::tuple(e, rate);
+        },
+        "train"_a, "i"_a, "side"_a, "angle"_a, "advance"_a, "pace"_a);
+    m.def(
+        "radial_error",
+        [](const Train& train, std::int64_t i, const Lines& angle, double advance, double pace) {
+            auto [e, rate] = radial_error(train, i, lines(angle), advance, pace);
+            return std::tuple(e, rate);
+        },
+        "train"_a, "i"_a, "angle"_a, "advance"_a, "pace"_a);
+    m.def(
+        "form_error_bend",
+        [](const Train& train, std::int64_t i, double side, const Lines& angle, double pace) {
+            return form_error_bend(train, i, side, lines(angle), pace);
+        },
+        "train"_a, "i"_a, "side"_a, "angle"_a, "pace"_a);
+    m.def(
+        "find_faults",
+        [](const Train& train, const State& state, std::int64_t i, std::int64_t side, double start,
+           StepConstants& step) { find_faults(train, state, i, side, start, step.faulty); },
+        "train"_a, "state"_a, "i"_a, "side"_a, "start"_a, "step"_a);
     m.def("mesh_stiffness", &mesh_stiffness, "train"_a, "kind"_a, "segment"_a, "cycle"_a,
           "Stiffness [N/m] of a mesh without faults at a fraction of its cycle.");
-    m.def("pair_stiffness", [](const Train& train, const StepConstants& step, std::int64_t i,
-                               std::int64_t segment, std::int64_t pair, double u) {
-        auto [k, gap] = pair_stiffness(train, step, i, segment, pair, u);
-        return std::tuple(k, gap);
-    }, "train"_a, "step"_a, "i"_a, "segment"_a, "pair"_a, "u"_a);
-    m.def("share_force", [](const Train& train, StepConstants& step, std::int64_t i,
-                            const Vector& cycles, const Table& counted, const Vector& force,
-                            const Rows& position, const Rows& load) {
-        std::size_t count = force.size();
-        const double* own = entries(counted, count * FAULTS);
-        double *at = entries(position, count * PAIRS), *loads = entries(load, count * PAIRS);
-        const double* reached = entries(cycles, count);
-        nb::gil_scoped_release unlocked;
-        for (std::size_t n = 0; n < count; ++n)
-            if (force.data()[n] != 0.0)
-                share_force(train, step, i, reached[n], own + n * FAULTS, force.data()[n],
-                            at + n * PAIRS, loads + n * PAIRS);
-    }, "train"_a, "step"_a, "i"_a, "cycles"_a, "counted"_a, "force"_a, "position"_a, "load"_a,
-    "Fill positions and loads (n, PAIRS) of the pairs of mesh i from forces (n,).");
+    m.def(
+        "pair_stiffness",
+        [](const Train& train, const StepConstants& step, std::int64_t i, std::int64_t segment,
+           std::int64_t pair, double u) {
+            auto [k, gap] = pair_stiffness(train, step, i, segment, pair, u);
+            return std::tuple(k, gap);
+        },
+        "train"_a, "step"_a, "i"_a, "segment"_a, "pair"_a, "u"_a);
+    m.def(
+        "share_force",
+        [](const Train& train, StepConstants& step, std::int64_t i, const Vector& cycles,
+           const Table& counted, const Vector& force, const Rows& position, const Rows& load) {
+            std::size_t count = force.size();
+            const double* own = entries(counted, count * FAULTS);
+            double *at = entries(position, count * PAIRS), *loads = entries(load, count * PAIRS);
+            const double* reached = entries(cycles, count);
+            nb::gil_scoped_release unlocked;
+            for (std::size_t n = 0; n < count; ++n)
+                if (force.data()[n] != 0.0)
+                    share_force(train, step, i, reached[n], own + n * FAULTS, force.data()[n],
+                                at + n * PAIRS, loads + n * PAIRS);
+        },
+        "train"_a, "step"_a, "i"_a, "cycles"_a, "counted"_a, "force"_a, "position"_a, "load"_a,
+        "Fill positions and loads (n, PAIRS) of the pairs of mesh i from forces (n,).");
 }
 
 void bind_contact(nb::module_& m) {
-    m.def("mesh_motion", [](const Train& train, std::int64_t i, const Vector& x) {
-        return mesh_motion(train, i, bodies(x));
-    }, "train"_a, "i"_a, "x"_a, "Transmission error of mesh i from x, its rate from v.");
-    m.def("move_meshes", [](const Train& train, const Vector& x, const Vector& v,
-                            MeshesNow& now) {
-        move_meshes(train, bodies(x), bodies(v), now);
-    }, "train"_a, "x"_a, "v"_a, "now"_a);
-    m.def("deflection", [](const Train& train, const StepConstants& step, std::int64_t i,
-                           const Vector& x, const Vector& v, double advance, double pace) {
-        auto [d, rate, e_rate] = deflection(train, step, i, bodies(x), bodies(v), advance, pace);
-        return std::tuple(d, rate, e_rate);
-    }, "train"_a, "step"_a, "i"_a, "x"_a, "v"_a, "advance"_a, "pace"_a);
-    m.def("departure", [](const Model& model, const State& state, const StepConstants& step,
-                          std::int64_t i, const Vector& x, const Vector& v,
-                          std::tuple<double, double, double> stand) {
-        auto [advance, pace, slack] = stand;
-        return departure(model, state, step, i, bodies(x), bodies(v), {advance, pace, slack});
-    }, "model"_a, "state"_a, "step"_a, "i"_a, "x"_a, "v"_a, "stand"_a,
-    "Play [m] that mesh i has left before its contact changes; negative: it has changed.");
+    m.def(
+        "mesh_motion",
+        [](const Train& train, std::int64_t i, const Vector& x) {
+            return mesh_motion(train, i, bodies(x));
+        },
+        "train"_a, "i"_a, "x"_a, "Transmission error of mesh i from x, its rate from v.");
+    m.def(
+        "move_meshes",
+        [](const Train& train, const Vector& x, const Vector& v, MeshesNow& now) {
+            move_meshes(train, bodies(x), bodies(v), now);
+        },
+        "train"_a, "x"_a, "v"_a, "now"_a);
+    m.def(
+        "deflection",
+        [](const Train& train, const StepConstants& step, std::int64_t i, const Vector& x,
+           const Vector& v, double advance, double pace) {
+            auto [d, rate, e_rate] =
+                deflection(train, step, i, bodies(x), bodies(v), advance, pace);
+            return std::tuple(d, rate, e_rate);
+        },
+        "train"_a, "step"_a, "i"_a, "x"_a, "v"_a, "advance"_a, "pace"_a);
+    m.def(
+        "departure",
+        [](const Model& model, const State& state, const StepConstants& step, std::int64_t i,
+           const Vector& x, const Vector& v, std::tuple<double, double, double> stand) {
+            auto [advance, pace, slack] = stand;
+            return departure(model, state, step, i, bodies(x), bodies(v), {advance, pace, slack});
+        },
+        "model"_a, "state"_a, "step"_a, "i"_a, "x"_a, "v"_a, "stand"_a,
+        "Play [m] that mesh i has left before its contact changes; negative: it has changed.");
     m.def("change_contact", &change_contact, "model"_a, "state"_a, "step"_a, "i"_a);
-    m.def("change_segment", &change_segment, "model"_a, "state"_a, "step"_a, "i"_a,
-          "direction"_a);
+    m.def("change_segment", &change_segment, "model"_a, "state"_a, "step"_a, "i"_a, "direction"_a);
     m.def("push_drift", &push_drift, "model"_a, "state"_a, "step"_a, "i"_a, "pace"_a);
     m.def("stored_energy", &stored_energy, "model"_a, "state"_a, "step"_a, "i"_a);
     m.def("add_sums", &add_sums, "step"_a, "total"_a, "lanes"_a);
 }
 
 void bind_equations(nb::module_& m) {
-    m.def("body_speed", [](const Train& train, const State& state, const Vector& v,
-                           std::int64_t j) { return body_speed(train, state, bodies(v), j); },
-          "train"_a, "state"_a, "v"_a, "j"_a, "Absolute speed of body j [rad/s].");
-    m.def("mesh_forces", [](const Model& model, const State& state, const StepConstants& step,
-                            const Vector& x, const Vector& v, double delay, Evaluation& out) {
-        mesh_forces(model, state, step, bodies(x), bodies(v), delay, out);
-    }, "model"_a, "state"_a, "step"_a, "x"_a, "v"_a, "delay"_a, "out"_a,
-    "Pushes of the meshes, whose transmission errors are in out.now.");
-    m.def("share_loads", [](const Model& model, const StepConstants& step, Evaluation& out) {
-        share_loads(model, step, out);
-    }, "model"_a, "step"_a, "out"_a);
-    m.def("apply_friction", [](const Model& model, const State& state, const StepConstants& step,
-                               const Vector& v, Evaluation& out) {
-        apply_friction(model, state, step, bodies(v), out);
-    }, "model"_a, "state"_a, "step"_a, "v"_a, "out"_a);
-    m.def("apply_drag", [](const Model& model, const State& state, const Vector& v,
-                           Evaluation& out) { apply_drag(model, state, bodies(v), out); },
-          "model"_a, "state"_a, "v"_a, "out"_a,
-          "Add the drag of joints and discs to out.rubbing; book it in out.power.");
-    m.def("forces", [](const Model& model, const State& state, const StepConstants& step,
-                       const Vector& x, const Vector& v, double delay, const Vector& trim,
-                       Evaluation& out) {
-        const double *at = bodies(x), *speeds = bodies(v), *trims = entries(trim, AXES);
-        nb::gil_scoped_release unlocked;
-        forces(model, state, step, at, speeds, delay, trims, out);
-    }, "model"_a, "state"_a, "step"_a, "x"_a, "v"_a, "delay"_a, "trim"_a, "out"_a,
-    "Forces on all bodies in coordinates x, `delay` seconds after the start of a step.");
+    m.def(
+        "body_speed",
+        [](const Train& train, const State& state, const Vector& v, std::int64_t j) {
+            return body_speed(train, state, bodies(v), j);
+        },
+        "train"_a, "state"_a, "v"_a, "j"_a, "Absolute speed of body j [rad/s].");
+    m.def(
+        "mesh_forces",
+        [](const Model& model, const State& state, const StepConstants& step, const Vector& x,
+           const Vector& v, double delay,
+           Evaluation& out) { mesh_forces(model, state, step, bodies(x), bodies(v), delay, out); },
+        "model"_a, "state"_a, "step"_a, "x"_a, "v"_a, "delay"_a, "out"_a,
+        "Pushes of the meshes, whose transmission errors are in out.now.");
+    m.def(
+        "share_loads",
+        [](const Model& model, const StepConstants& step, Evaluation& out) {
+            share_loads(model, step, out);
+        },
+        "model"_a, "step"_a, "out"_a);
+    m.def(
+        "apply_friction",
+        [](const Model& model, const State& state, const StepConstants& step, const Vector& v,
+           Evaluation& out) { apply_friction(model, state, step, bodies(v), out); },
+        "model"_a, "state"_a, "step"_a, "v"_a, "out"_a);
+    m.def(
+        "apply_drag",
+        [](const Model& model, const State& state, const Vector& v, Evaluation& out) {
+            apply_drag(model, state, bodies(v), out);
+        },
+        "model"_a, "state"_a, "v"_a, "out"_a,
+        "Add the drag of joints and discs to out.rubbing; book it in out.power.");
+    m.def(
+        "forces",
+        [](const Model& model, const State& state, const StepConstants& step, const Vector& x,
+           const Vector& v, double delay, const Vector& trim, Evaluation& out) {
+            const double *at = bodies(x), *speeds = bodies(v), *trims = entries(trim, AXES);
+            nb::gil_scoped_release unlocked;
+            forces(model, state, step, at, speeds, delay, trims, out);
+        },
+        "model"_a, "state"_a, "step"_a, "x"_a, "v"_a, "delay"_a, "trim"_a, "out"_a,
+        "Forces on all bodies in coordinates x, `delay` seconds after the start of a step.");
     m.def("kinetic", &kinetic, "model"_a, "state"_a, "Kinetic energy of all bodies [J].");
-    m.def("stored", [](const Model& model, const State& state, StepConstants& step) {
-        auto [kinetic, elastic] = stored(model, state, step);
-        return std::tuple(kinetic, elastic);
-    }, "model"_a, "state"_a, "step"_a, "Kinetic and elastic energy of the train [J].");
-    m.def("observe", [](const Model& model, const State& state, const StepConstants& step,
-                        const Vector& x, const Vector& v, double delay, Evaluation& work,
-                        const Rows& out) {
-        const double *at = bodies(x), *speeds = bodies(v);
-        auto room = static_cast<std::int64_t>(out.shape(1));
-        if (out.shape(0) < QUANTITIES || room < model.train.meshes)
-            throw nb::value_error("out: must have room for all quantities of all meshes");
-        nb::gil_scoped_release unlocked;
-        observe(model, state, step, at, speeds, delay, work, out.data(), room);
-    }, "model"_a, "state"_a, "step"_a, "x"_a, "v"_a, "delay"_a, "work"_a, "out"_a,
-    "Fill out[:, i] for every mesh i; film and lambda ratio are NaN without contact.");
+    m.def(
+        "stored",
+        [](const Model& model, const State& state, StepConstants& step) {
+            auto [kinetic, elastic] = stored(model, state, step);
+            return std::tuple(kinetic, elastic);
+        },
+        "model"_a, "state"_a, "step"_a, "Kinetic and elastic energy of the train [J].");
+    m.def(
+        "observe",
+        [](const Model& model, const State& state, const StepConstants& step, const Vector& x,
+           const Vector& v, double delay, Evaluation& work, const Rows& out) {
+            const double *at = bodies(x), *speeds = bodies(v);
+            auto room = static_cast<std::int64_t>(out.shape(1));
+            if (out.shape(0) < QUANTITIES || room < model.train.meshes)
+                throw nb::value_error("out: must have room for all quantities of all meshes");
+            nb::gil_scoped_release unlocked;
+            observe(model, state, step, at, speeds, delay, work, out.data(), room);
+        },
+        "model"_a, "state"_a, "step"_a, "x"_a, "v"_a, "delay"_a, "work"_a, "out"_a,
+        "Fill out[:, i] for every mesh i; film and lambda ratio are NaN without contact.");
 }
 
 }  // namespace

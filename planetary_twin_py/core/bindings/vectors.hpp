@@ -34,12 +34,10 @@ inline auto bodies(const Array& array) {
     return entries(array, BODIES);
 }
 
-inline double (*matrix(const Square& array))[BODIES] {
-    return reinterpret_cast<double (*)[BODIES]>(array.data());
-}
+inline double (*matrix(const Square& array))
+    [BODIES] { return reinterpret_cast<double (*)[BODIES]>(array.data()); }
 
-inline double (*lines(const Lines& array))[LINES] {
-    return reinterpret_cast<double (*)[LINES]>(array.data());
-}
+inline double (*lines(const Lines& array))
+    [LINES] { return reinterpret_cast<double (*)[LINES]>(array.data()); }
 
 }  // namespace gearbox

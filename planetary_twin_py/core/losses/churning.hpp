@@ -21,12 +21,12 @@ inline double disc_torque(double radius, double gap_ratio, double density,
     // Each is written out, so that nothing is divided by a speed that may vanish.
     double laminar_merged = std::numbers::pi * nu * w / g;
     double laminar = 1.85 * std::pow(g, 0.1) * std::pow(w, 1.5) * std::sqrt(nu) * radius;
-    double turbulent_merged = 0.04 * std::pow(g, -1.0 / 6.0) * std::pow(w, 1.75)
-                              * std::pow(nu, 0.25) * std::pow(radius, 1.5);
-    double turbulent = 0.051 * std::pow(g, 0.1) * std::pow(w, 1.8) * std::pow(nu, 0.2)
-                       * std::pow(radius, 1.6);
-    double largest = at_least(at_least(laminar_merged, laminar),
-                              at_least(turbulent_merged, turbulent));
+    double turbulent_merged = 0.04 * std::pow(g, -1.0 / 6.0) * std::pow(w, 1.75) *
+                              std::pow(nu, 0.25) * std::pow(radius, 1.5);
+    double turbulent =
+        0.051 * std::pow(g, 0.1) * std::pow(w, 1.8) * std::pow(nu, 0.2) * std::pow(radius, 1.6);
+    double largest =
+        at_least(at_least(laminar_merged, laminar), at_least(turbulent_merged, turbulent));
     return density * radius * radius * radius * largest;
 }
 

@@ -55,8 +55,8 @@ inline double departure(const Model& model, const State& state, const StepConsta
     auto [d, rate, error_rate] = deflection(train, step, i, x, v, advance, pace);
     double tau = damping_time(train, train.kind[i], passing_rate(train, step, v));
     LengthAndRate wider = widening(train, step, i, state.side[i], advance, pace);
-    return play_left(model.load, state.side[i], {d, tau * rate},
-                     {wider.length, tau * wider.rate}, slack);
+    return play_left(model.load, state.side[i], {d, tau * rate}, {wider.length, tau * wider.rate},
+                     slack);
 }
 
 }  // namespace gearbox

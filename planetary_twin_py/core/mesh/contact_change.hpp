@@ -41,8 +41,8 @@ inline void change_contact(const Model& model, State& state, StepConstants& step
                    frame_cycle(train, state, 1) + cycle_shift(train, state.x));
         double d = deflection(train, step, i, state.x, state.v, 0.0, 0.0).d;
         std::int64_t side = d > 0.0 ? DRIVE_SIDE : COAST_SIDE;
-        state.segment[i] = find_segment(train, train.kind[i], mesh_cycle(train, state, i, side),
-                                        1.0);
+        state.segment[i] =
+            find_segment(train, train.kind[i], mesh_cycle(train, state, i, side), 1.0);
         state.side[i] = side;
     } else {
         state.side[i] = OPEN;

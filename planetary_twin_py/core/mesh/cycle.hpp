@@ -2,8 +2,9 @@
 
 // Where each mesh stands in its cycle: which teeth are in contact, and where on their path.
 //
-// A mesh cycle is the passage of one tooth. The rigid frame gives whole turns as integers, so cycles
-// stay exact however long the gearbox turns; whole cycles are counted modulo the teeth of a gear.
+// A mesh cycle is the passage of one tooth. The rigid frame gives whole turns as integers, so
+// cycles stay exact however long the gearbox turns; whole cycles are counted modulo the teeth of a
+// gear.
 
 #include <cmath>
 
@@ -27,8 +28,8 @@ inline double frame_cycle(const Train& train, const State& state, std::int64_t m
         std::int64_t turns = static_cast<std::int64_t>(state.turns[a]);
         std::int64_t whole = turns * train.cycles_numerator[a] % period;
         if (whole < 0) whole += period;
-        total += static_cast<double>(whole) / static_cast<double>(denominator)
-                 + train.cycles[a] * state.fraction[a];
+        total += static_cast<double>(whole) / static_cast<double>(denominator) +
+                 train.cycles[a] * state.fraction[a];
     }
     double m = static_cast<double>(modulus);
     return total - m * std::floor(total / m);

@@ -17,16 +17,14 @@ inline double passing_rate(const Train& train, const StepConstants& step, const 
     double rate = step.cycle_rate;
     for (int a = 0; a < AXES; ++a) {
         std::int64_t motor = train.coupling[2 * a][0];
-        rate += train.cycles[a] * v[motor] * train.inverse_radius[motor]
-                / (2.0 * std::numbers::pi);
+        rate += train.cycles[a] * v[motor] * train.inverse_radius[motor] / (2.0 * std::numbers::pi);
     }
     return std::abs(rate);
 }
 
 // tau [s] of a kind of mesh at the rate at which teeth pass [1/s].
 inline double damping_time(const Train& train, std::int64_t kind, double rate) {
-    return train.damping_time[kind]
-           + train.damping_cycles / at_least(rate, train.lowest_frequency);
+    return train.damping_time[kind] + train.damping_cycles / at_least(rate, train.lowest_frequency);
 }
 
 }  // namespace gearbox

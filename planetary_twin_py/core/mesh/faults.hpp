@@ -16,9 +16,8 @@ namespace gearbox {
 constexpr std::int64_t NOWHERE = -1;
 
 // Fill faulty[i][p][f] after `whole` cycles, modulo the teeth of the gear of fault f.
-inline void mark_fault(const Train& train, std::int64_t i, std::int64_t side,
-                       std::int64_t segment, std::int64_t f, std::int64_t whole,
-                       std::int8_t (*faulty)[PAIRS][FAULTS]) {
+inline void mark_fault(const Train& train, std::int64_t i, std::int64_t side, std::int64_t segment,
+                       std::int64_t f, std::int64_t whole, std::int8_t (*faulty)[PAIRS][FAULTS]) {
     std::int64_t kind = train.kind[i], flank = side == DRIVE_SIDE ? 0 : 1;
     std::int64_t pair = train.fault_pair[f][i][flank], teeth = train.fault_teeth[f];
     for (int p = 0; p < PAIRS; ++p) {

@@ -5,8 +5,8 @@
 // A mesh is squeezed by side (d - e) - b on its side, b half the backlash. e = e_T + side e_R: the
 // tangential part e_T shifts both flanks of a tooth the same way, the radial part e_R draws them
 // away from the other gear's and widens the play. Harmonics of the meshing frequency are e_T alone;
-// runout, which returns with the turn of a gear, has both parts and leans by the pressure angle, the
-// other way on the other flank. All are sines of the mesh cycle.
+// runout, which returns with the turn of a gear, has both parts and leans by the pressure angle,
+// the other way on the other flank. All are sines of the mesh cycle.
 
 #include <cmath>
 #include <numbers>
@@ -21,8 +21,8 @@ struct LengthAndRate {
 
 // Angle [rad] by which line n of a kind of mesh advances in a mesh cycle.
 inline double line_order(const Train& train, std::int64_t kind, std::int64_t n) {
-    return 2.0 * std::numbers::pi * train.line_harmonic[kind][n]
-           / static_cast<double>(train.line_period[kind][n]);
+    return 2.0 * std::numbers::pi * train.line_harmonic[kind][n] /
+           static_cast<double>(train.line_period[kind][n]);
 }
 
 // Fill angle[i] with where the sines of mesh i stand [rad].
@@ -40,8 +40,8 @@ inline void place_lines(const Train& train, const State& state, std::int64_t i,
 
 // e_R [m] of mesh i and its rate, by which the play is wider on each side: `advance` mesh cycles
 // after `place_lines`, at `pace` mesh cycles per second.
-inline LengthAndRate radial_error(const Train& train, std::int64_t i,
-                                  const double (*angle)[LINES], double advance, double pace) {
+inline LengthAndRate radial_error(const Train& train, std::int64_t i, const double (*angle)[LINES],
+                                  double advance, double pace) {
     std::int64_t kind = train.kind[i];
     double error = 0.0, rate = 0.0;
     for (std::int64_t n = train.harmonics[kind]; n < train.lines[kind]; ++n) {

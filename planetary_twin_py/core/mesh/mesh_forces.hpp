@@ -23,12 +23,12 @@ inline void place_meshes(const Train& train, const State& state, const StepConst
                          const double* x, const double* v, double delay, MeshesNow& now) {
     now.advance = step.cycle_rate * delay + cycle_shift(train, x) - cycle_shift(train, state.x);
     now.pace = step.cycle_rate + cycle_shift(train, v);
-    now.following = train.damping_cycles
-                    / at_least(passing_rate(train, step, v), train.lowest_frequency);
+    now.following =
+        train.damping_cycles / at_least(passing_rate(train, step, v), train.lowest_frequency);
     if (train.lines[0] + train.lines[1] == 0) return;
     for (std::int64_t i = 0; i < train.meshes; ++i) {
-        LengthAndRate e = form_error(train, i, step.side[i], step.line_angle, now.advance,
-                                     now.pace);
+        LengthAndRate e =
+            form_error(train, i, step.side[i], step.line_angle, now.advance, now.pace);
         now.d[i] -= e.length;
         now.rate[i] -= e.rate;
         now.error_rate[i] = e.rate;
@@ -136,8 +136,8 @@ inline void faulty_mesh_force(const Model& model, const State& state, const Step
         FaultEffect effect = fault_effect(train, step, i, state.segment[i], p, u);
         double weight = now.weight[p][i];
         double k = per_weight * weight * effect.factor;
-        double dk = (per_weight * now.growth[p][i] + falling * weight) * effect.factor
-                    + per_weight * weight * effect.growth;
+        double dk = (per_weight * now.growth[p][i] + falling * weight) * effect.factor +
+                    per_weight * weight * effect.growth;
         double q = squeeze - effect.gap;
         if (effect.gap > 0.0 && q < 0.0) k = dk = 0.0;
         double force = k * (q + tau * closing);
@@ -181,7 +181,9 @@ inline void share_loads(const Model& model, const StepConstants& step, Evaluatio
 
 // Whether all bodies and meshes fit into the fewer lanes.
 constexpr int FEW_LANES = MESHES / 2;
-inline bool few(const Train& train) { return train.lanes <= FEW_LANES; }
+inline bool few(const Train& train) {
+    return train.lanes <= FEW_LANES;
+}
 
 inline void mesh_forces(const Model& model, const State& state, const StepConstants& step,
                         const double* x, const double* v, double delay, Evaluation& out) {

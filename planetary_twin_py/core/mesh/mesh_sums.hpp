@@ -2,13 +2,15 @@
 
 #include <cstdint>
 
+#include "rooms.hpp"
+
 namespace gearbox {
 
 struct alignas(64) MeshSums {
-    double time;  // length of the stretch [s]
-    alignas(64) double integral[12][16];  // over it
-    alignas(64) double dte_peak[16];  // largest magnitude [m]
-    alignas(64) double force_peak[16];  // largest magnitude [N]
+    double time;                                // length of the stretch [s]
+    alignas(64) double integral[SUMS][MESHES];  // over it
+    alignas(64) double dte_peak[MESHES];        // largest magnitude [m]
+    alignas(64) double force_peak[MESHES];      // largest magnitude [N]
 };
 
 }  // namespace gearbox

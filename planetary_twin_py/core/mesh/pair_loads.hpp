@@ -2,10 +2,10 @@
 
 // How the tooth pairs of a mesh share a given force, e.g. a recorded one.
 //
-// The pairs have the stiffnesses k and the missing material g of `faulty_mesh_force`, at the squeeze
-// q at which they carry the force F: F = sum of k (q - g) over the pairs with q > g. Damping acts on
-// all pairs in proportion to k, so it does not change the shares, except for a worn pair that only
-// just touches.
+// The pairs have the stiffnesses k and the missing material g of `faulty_mesh_force`, at the
+// squeeze q at which they carry the force F: F = sum of k (q - g) over the pairs with q > g.
+// Damping acts on all pairs in proportion to k, so it does not change the shares, except for a worn
+// pair that only just touches.
 
 #include <cmath>
 

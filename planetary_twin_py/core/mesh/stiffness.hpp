@@ -45,8 +45,8 @@ inline FaultEffect fault_effect(const Train& train, const StepConstants& step, s
     FaultEffect effect{1.0, 0.0, 0.0};
     for (std::int64_t f = 0; f < train.faults; ++f) {
         if (!step.faulty[i][pair][f]) continue;
-        auto [value, slope] = polynomial(train.fault_factor[f][train.kind[i]][segment][pair], u,
-                                         TERMS);
+        auto [value, slope] =
+            polynomial(train.fault_factor[f][train.kind[i]][segment][pair], u, TERMS);
         effect.growth = effect.growth * value + effect.factor * slope;
         effect.factor *= value;
         effect.gap += train.fault_gap[f];
@@ -59,9 +59,8 @@ struct StiffnessAndGap {
 };
 
 // Stiffness of a tooth pair `u` cycles into a segment, faults counted.
-inline StiffnessAndGap pair_stiffness(const Train& train, const StepConstants& step,
-                                      std::int64_t i, std::int64_t segment, std::int64_t pair,
-                                      double u) {
+inline StiffnessAndGap pair_stiffness(const Train& train, const StepConstants& step, std::int64_t i,
+                                      std::int64_t segment, std::int64_t pair, double u) {
     std::int64_t kind = train.kind[i];
     double total = total_weight(train, kind, segment, u).value;
     double per_weight = train.stiffness_base[kind] / total + train.stiffness_gain[kind];

@@ -24,8 +24,8 @@ inline double pin_load(const Train& train, const State& state, const MeshesNow& 
                        std::int64_t planet) {
     if (planet == NO_PLANET) return 0.0;
     std::int64_t ring = train.meshes / 2 + planet;
-    return train.pin_share * std::abs(static_cast<double>(state.side[planet]) * now.push[planet]
-                                      + static_cast<double>(state.side[ring]) * now.push[ring]);
+    return train.pin_share * std::abs(static_cast<double>(state.side[planet]) * now.push[planet] +
+                                      static_cast<double>(state.side[ring]) * now.push[ring]);
 }
 
 // Add the drag of joints and discs to out.rubbing; book it in out.power.
@@ -39,8 +39,8 @@ inline void apply_drag(const Model& model, const State& state, const double* v, 
         double speed = body_speed(train, state, v, inner) - body_speed(train, state, v, outer);
         double load = pin_load(train, state, out.now, train.joint_planet[b]);
         double torque = train.joint_coulomb[b] + train.joint_viscous[b] * std::abs(speed);
-        torque += bearing_torque(train.joint_idle[b], train.joint_rubbing[b], oil.kinematic, speed,
-                                 load);
+        torque +=
+            bearing_torque(train.joint_idle[b], train.joint_rubbing[b], oil.kinematic, speed, load);
         torque *= drag_sense(speed) * train.body_copies[inner];
         out.rubbing[inner] -= torque / train.radius[inner];
         out.rubbing[outer] += torque / train.radius[outer];

@@ -42,8 +42,7 @@ inline void apply_friction(const Model& model, const State& state, const StepCon
 }
 
 // Shafts between the machines and their members.
-inline void apply_couplings(const Train& train, const double* x, const double* v,
-                            Evaluation& out) {
+inline void apply_couplings(const Train& train, const double* x, const double* v, Evaluation& out) {
     for (std::int64_t c = 0; c < train.machines; ++c) {
         std::int64_t machine = train.coupling[c][0], member = train.coupling[c][1];
         double rate = v[machine] - v[member];

@@ -3,14 +3,15 @@
 #include <cstdint>
 
 #include "mesh/meshes_now.hpp"
+#include "rooms.hpp"
 #include "tribology/tooth_pairs.hpp"
 
 namespace gearbox {
 
 struct alignas(64) Evaluation {
-    alignas(64) double force[16];  // [N]
-    alignas(64) double rubbing[16];  // friction and drag alone [N]
-    alignas(64) double power[11];  // integrands of the energy ledger [W]
+    alignas(64) double force[BODIES];    // [N]
+    alignas(64) double rubbing[BODIES];  // friction and drag alone [N]
+    alignas(64) double power[LEDGER];    // integrands of the energy ledger [W]
     MeshesNow now;
     ToothPairs pairs;
     DragOfMeshes dragging;

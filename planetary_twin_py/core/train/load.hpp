@@ -2,21 +2,23 @@
 
 #include <cstdint>
 
+#include "rooms.hpp"
+
 namespace gearbox {
 
 struct alignas(64) Load {
-    double half_backlash;  // where flanks meet [m]
-    double offset;  // transmission error from which the force grows [m]
-    double inner_squared;  // squeeze at which flanks meet, squared [m^2]
-    double release;  // 1: flanks part where the force vanishes, 0: where they met
-    double target_speed[2];  // [rad/s]
-    double slew_rate;  // [rad/s^2]
-    double torque[3];  // mean torque of each machine without loss [N m]
-    double ripple;  // fluctuation of the first motor's [N m]
-    double ripple_order;  // cycles per turn of that motor
-    double inertia[2][2];  // of the whole train at the motors [kg m^2]
-    double proportional[2];  // speed loop, at the motor [N m s/rad]
-    double trim_gain[3][2];  // speed loop, torque per trim [N m/rad]
+    double half_backlash;              // where flanks meet [m]
+    double offset;                     // transmission error from which the force grows [m]
+    double inner_squared;              // squeeze at which flanks meet, squared [m^2]
+    double release;                    // 1: flanks part where the force vanishes, 0: where they met
+    double target_speed[AXES];         // [rad/s]
+    double slew_rate;                  // [rad/s^2]
+    double torque[MACHINES];           // mean torque of each machine without loss [N m]
+    double ripple;                     // fluctuation of the first motor's [N m]
+    double ripple_order;               // cycles per turn of that motor
+    double inertia[AXES][AXES];        // of the whole train at the motors [kg m^2]
+    double proportional[AXES];         // speed loop, at the motor [N m s/rad]
+    double trim_gain[MACHINES][AXES];  // speed loop, torque per trim [N m/rad]
 };
 
 }  // namespace gearbox

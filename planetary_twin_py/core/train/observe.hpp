@@ -15,8 +15,8 @@ namespace gearbox {
 // Both are means over the tooth pairs, weighted by load. Friction forces are magnitudes. `work` is
 // room to work in; out (QUANTITIES, meshes) has rows of `room` entries.
 inline void observe(const Model& model, const State& state, const StepConstants& step,
-                    const double* x, const double* v, double delay, Evaluation& work,
-                    double* out, std::int64_t room) {
+                    const double* x, const double* v, double delay, Evaluation& work, double* out,
+                    std::int64_t room) {
     const Train& train = model.train;
     const Oil& oil = model.oil;
     const MeshesNow& now = work.now;

@@ -16,7 +16,7 @@
 
 namespace gearbox {
 
-constexpr double CREEPING = 5e-3;  // [m/s] rolling speed below which tooth pairs hold
+constexpr double CREEPING = 5e-3;         // [m/s] rolling speed below which tooth pairs hold
 constexpr double LEAST_FRICTION = 1e-12;  // [N] a pair with less has no bristles to bend
 
 // Whether the frame turns so slowly that tooth pairs hold.
@@ -43,8 +43,8 @@ inline void hold(const Oil& oil, ToothPairs& pairs) {
         pairs.lost[k] = 0.0;
         if (!(full <= LEAST_FRICTION)) {
             double steady = pairs.friction[k] / full, slope = pairs.slope[k] / full;
-            auto [rate, decay, gain, slip] = bristle_rate(share, pairs.sliding[k], steady, slope,
-                                                          oil.presliding);
+            auto [rate, decay, gain, slip] =
+                bristle_rate(share, pairs.sliding[k], steady, slope, oil.presliding);
             pairs.bristle_rate[k] = rate;
             pairs.bristle_decay[k] = decay;
             pairs.bristle_gain[k] = gain;

@@ -14,12 +14,14 @@ LAW Lanes load_lanes(const double* from) {
     return lanes;
 }
 
-LAW void store_lanes(double* to, Lanes lanes) { std::memcpy(to, &lanes, sizeof lanes); }
+LAW void store_lanes(double* to, Lanes lanes) {
+    std::memcpy(to, &lanes, sizeof lanes);
+}
 
 LAW PairMotion<Lanes> load_motion(const ToothPairs& pairs, int k) {
-    return {load_lanes(pairs.rho1 + k),   load_lanes(pairs.rho2 + k),
+    return {load_lanes(pairs.rho1 + k),     load_lanes(pairs.rho2 + k),
             load_lanes(pairs.external + k), load_lanes(pairs.speed1 + k),
-            load_lanes(pairs.speed2 + k), load_lanes(pairs.load + k)};
+            load_lanes(pairs.speed2 + k),   load_lanes(pairs.load + k)};
 }
 
 LAW void store_friction(const PairFriction<Lanes>& found, ToothPairs& pairs, int k) {

@@ -22,8 +22,8 @@ constexpr double STANDSTILL = 1e-12;  // [m/s] mean surface speed that entrains 
 template <class Real>
 LAW Real log_film_thickness(const Film& law, Real log_radius, Real log_speed_group,
                             double log_material_group, Real log_load_group) {
-    Real groups = law.speed * log_speed_group + law.material * log_material_group
-                    + law.load * log_load_group;
+    Real groups =
+        law.speed * log_speed_group + law.material * log_material_group + law.load * log_load_group;
     return law.log_coefficient + log_radius + groups;
 }
 

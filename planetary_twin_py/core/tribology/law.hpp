@@ -10,12 +10,12 @@ namespace gearbox {
 enum class TractionLaw { PLATEAU, EYRING, SCHLENK };  // the values of Oil.traction_law
 
 enum class BoundaryLaw {
-    NONE,                   // Schlenk's regression has it in it
-    SHARING,                // by load sharing, see `load_sharing.hpp`
-    SHARING_AT_RATIO,       // the same at the prescribed lambda ratio
-    ASPERITIES,             // of Greenwood and Tripp's asperities, see `boundary.hpp`
-    PRINTED_ASPERITIES,     // the same with the printed functions
-    ASPERITIES_AT_RATIO,    // the same for all pairs, at the prescribed lambda ratio
+    NONE,                 // Schlenk's regression has it in it
+    SHARING,              // by load sharing, see `load_sharing.hpp`
+    SHARING_AT_RATIO,     // the same at the prescribed lambda ratio
+    ASPERITIES,           // of Greenwood and Tripp's asperities, see `boundary.hpp`
+    PRINTED_ASPERITIES,   // the same with the printed functions
+    ASPERITIES_AT_RATIO,  // the same for all pairs, at the prescribed lambda ratio
 };
 
 struct Laws {
@@ -27,8 +27,7 @@ struct Laws {
 inline BoundaryLaw boundary_law(const Oil& oil) {
     if (static_cast<TractionLaw>(oil.traction_law) == TractionLaw::SCHLENK)
         return BoundaryLaw::NONE;
-    if (oil.sharing)
-        return oil.prescribed ? BoundaryLaw::SHARING_AT_RATIO : BoundaryLaw::SHARING;
+    if (oil.sharing) return oil.prescribed ? BoundaryLaw::SHARING_AT_RATIO : BoundaryLaw::SHARING;
     if (oil.prescribed) return BoundaryLaw::ASPERITIES_AT_RATIO;
     return oil.printed_asperities ? BoundaryLaw::PRINTED_ASPERITIES : BoundaryLaw::ASPERITIES;
 }

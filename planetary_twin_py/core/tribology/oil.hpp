@@ -12,26 +12,26 @@ struct alignas(64) Oil {
     std::int64_t traction_law;  // PLATEAU, EYRING or SCHLENK
     Traction traction;
     ShearThinning shear_thinning;
-    double log_schlenk;  // see `log_schlenk_factor`
+    double log_schlenk;      // see `log_schlenk_factor`
     double contact_modulus;  // E* [Pa]
-    double face_width;  // L [m]
+    double face_width;       // L [m]
     double log_speed_group;  // logarithm of U R/V = eta0/E' in SI units
-    double log_material;  // of G
-    double log_load_group;  // of W R/F = 1/(E' L)
-    double log_area;  // of A/sqrt(R F)
-    double log_roughness;  // of sigma
-    double density;  // [kg/m^3]
-    double kinematic;  // eta0/density [m^2/s]
-    bool prescribed;  // lambda ratio: prescribed, or film/roughness
-    double lambda_ratio;  // [-], where it is prescribed
-    double log_lambda;  // its logarithm
-    double asperity_shear;  // boundary friction per area at that ratio [Pa]
+    double log_material;     // of G
+    double log_load_group;   // of W R/F = 1/(E' L)
+    double log_area;         // of A/sqrt(R F)
+    double log_roughness;    // of sigma
+    double density;          // [kg/m^3]
+    double kinematic;        // eta0/density [m^2/s]
+    bool prescribed;         // lambda ratio: prescribed, or film/roughness
+    double lambda_ratio;     // [-], where it is prescribed
+    double log_lambda;       // its logarithm
+    double asperity_shear;   // boundary friction per area at that ratio [Pa]
     bool printed_asperities;
     bool sharing;  // boundary friction: by load sharing, or of Greenwood and Tripp's asperities
     double boundary_coefficient;  // [-], of the former
-    bool rolling;  // whether rolling resists
-    double sliding_threshold;  // [-]
-    double presliding;  // displacement by which flanks yield before they slide [m]
+    bool rolling;                 // whether rolling resists
+    double sliding_threshold;     // [-]
+    double presliding;            // displacement by which flanks yield before they slide [m]
 };
 
 }  // namespace gearbox

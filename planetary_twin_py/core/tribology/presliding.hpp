@@ -8,11 +8,11 @@
 //
 //     delta dz/dt = V (1 - a(z, V) z/z_s(V)),
 //
-// z_s the share in steady sliding, delta the presliding displacement. The bristle is elastic (a = 0)
-// below a part of z_s, so a load that swings below break-away moves nothing for good; above it the
-// contact yields until it slides (a = 1). While the flanks roll, z_s is the traction curve and the
-// same equation says how bristles that leave the contact are replaced. The friction is that share
-// and a part that damps, z + RELAXATION dz/dt, of the full friction.
+// z_s the share in steady sliding, delta the presliding displacement. The bristle is elastic (a =
+// 0) below a part of z_s, so a load that swings below break-away moves nothing for good; above it
+// the contact yields until it slides (a = 1). While the flanks roll, z_s is the traction curve and
+// the same equation says how bristles that leave the contact are replaced. The friction is that
+// share and a part that damps, z + RELAXATION dz/dt, of the full friction.
 
 #include <cmath>
 #include <numbers>

@@ -3,8 +3,8 @@
 // Rolling resistance of a film: pushing oil into the contact costs a force on both surfaces.
 //
 // Goksem and Hargreaves 1978, isothermal line contact: F_R = 4.318 (G U)^0.658 W^0.0126 R L/alpha
-// with the groups of `film.hpp`. It takes F_R (|u1| + |u2|), and grows with the speed where traction
-// no longer does: the rising end of a Stribeck curve.
+// with the groups of `film.hpp`. It takes F_R (|u1| + |u2|), and grows with the speed where
+// traction no longer does: the rising end of a Stribeck curve.
 
 #include "vector/math.hpp"
 
@@ -16,8 +16,8 @@ constexpr double ROLLING_COEFFICIENT = 4.318, ROLLING_SPEED = 0.658, ROLLING_LOA
 template <class Real>
 LAW Real rolling_resistance(Real size, Real log_speed_group, double log_material_group,
                             Real log_load_group) {
-    Real groups = ROLLING_SPEED * (log_speed_group + log_material_group)
-                    + ROLLING_LOAD * log_load_group;
+    Real groups =
+        ROLLING_SPEED * (log_speed_group + log_material_group) + ROLLING_LOAD * log_load_group;
     return ROLLING_COEFFICIENT * size * exp(groups);
 }
 

@@ -2,8 +2,8 @@
 
 // Mean friction coefficient of a gear mesh after Schlenk 1995 (Niemann and Winter; ISO/TR 14179-2).
 //
-// mu = 0.048 (F_bt/b / (v_sum rho_red))^0.2 eta^-0.05 Ra^0.25 X_L with F_bt/b in N/mm, v_sum in m/s,
-// rho_red in mm, eta in mPa s and Ra in um: a regression of the losses of test gears, boundary
+// mu = 0.048 (F_bt/b / (v_sum rho_red))^0.2 eta^-0.05 Ra^0.25 X_L with F_bt/b in N/mm, v_sum in
+// m/s, rho_red in mm, eta in mPa s and Ra in um: a regression of the losses of test gears, boundary
 // friction included. It is applied here to each tooth pair with its own load, speeds and radius; at
 // the pitch point, with the whole load on one pair, it is the printed value.
 

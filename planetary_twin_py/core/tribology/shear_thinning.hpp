@@ -4,11 +4,11 @@
 //
 // The law of Ree and Eyring with a limiting stress (Johnson and Tevaarwerk 1977; Arana, Larranaga
 // and Ulacia 2019, eq. (7)), tau = min(tau0 asinh(eta Vs/(h tau0)), Lambda p), holds from the
-// Newtonian film under a light load to the plateau under a heavy one. eta = eta0 exp(alpha p) (Barus
-// 1893), so that tau0 and alpha are those of the plateau law of Evans and Johnson; the limiting
-// stress bounds what that viscosity exaggerates at high pressure. tau is averaged over the elliptic
-// pressure of the contact: at the mean pressure alone, friction under a light load comes out too low
-// by up to half.
+// Newtonian film under a light load to the plateau under a heavy one. eta = eta0 exp(alpha p)
+// (Barus 1893), so that tau0 and alpha are those of the plateau law of Evans and Johnson; the
+// limiting stress bounds what that viscosity exaggerates at high pressure. tau is averaged over the
+// elliptic pressure of the contact: at the mean pressure alone, friction under a light load comes
+// out too low by up to half.
 //
 // The film warms by dT = tau Vs (h/(8 K) + 1.06/2 sqrt(b/V)/sqrt(K' rho' c')) (ibid., eqs. (27) and
 // (28), two bodies of one material at one speed), and its viscosity falls by exp(-beta_T dT).

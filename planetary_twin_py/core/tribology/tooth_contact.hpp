@@ -49,13 +49,13 @@ LAW Friction<Real> film_friction(const Oil& oil, const Contact<Real>& contact) {
     // All laws that divide by the speed are of moving flanks.
     Real log_moving = at_least(contact.log_speed, LOG_SLOWEST);
     if constexpr (laws.traction == TractionLaw::SCHLENK) {
-        Real mu = schlenk_coefficient(oil.log_schlenk, contact.log_load, log_moving,
-                                      contact.log_radius);
+        Real mu =
+            schlenk_coefficient(oil.log_schlenk, contact.log_load, log_moving, contact.log_radius);
         return {Real{}, mu * contact.load, Real{}};
     }
     // sqrt(R F/(A V)) of (13), A being proportional to sqrt(R F)
-    Real log_heat = 0.25 * (contact.log_radius + contact.log_load)
-                    - 0.5 * (log_moving + oil.log_area);
+    Real log_heat =
+        0.25 * (contact.log_radius + contact.log_load) - 0.5 * (log_moving + oil.log_area);
     if constexpr (laws.traction == TractionLaw::EYRING) {
         FilmShear<Real> film = film_shear(oil.shear_thinning, contact.load, contact.area,
                                           contact.log_film, log_heat, contact.speed);
@@ -132,11 +132,8 @@ LAW Flanks<Real> flanks_of(const PairMotion<Real>& pair, double sliding_threshol
     Real distance = pair.rho2 + pair.external * pair.rho1, loaded = pair.load + LIGHTEST_LOAD;
     Real threshold = sliding_threshold * at_least(magnitude(0.5 * sum), slowest_rolling);
     Real inverse = 1.0 / (distance * loaded * threshold);
-    return {u1 - u2,
-            sum,
-            pair.rho1 * pair.rho2 * (loaded * threshold * inverse),
-            at_least(pair.load, LIGHTEST_LOAD),
-            distance * loaded * inverse,
+    return {u1 - u2, sum, pair.rho1 * pair.rho2 * (loaded * threshold * inverse),
+            at_least(pair.load, LIGHTEST_LOAD), distance * loaded * inverse,
             // A jump where flanks meet would have them chatter.
             pair.load * (distance * threshold * inverse)};
 }
@@ -166,8 +163,8 @@ LAW Contact<Real> contact_of(const Oil& oil, double area_factor, const Flanks<Re
     Real log_speed_group = logarithms.speed - logarithms.radius + oil.log_speed_group;  // of U
     Real log_load_group = logarithms.load - logarithms.radius + oil.log_load_group;     // of W
     // Where gears creep, bristles decide how much of the friction of a sliding contact acts.
-    Real slowest = magnitude(0.5 * flanks.sum) < CREEPING ? oil.sliding_threshold * CREEPING
-                                                          : STANDSTILL;
+    Real slowest =
+        magnitude(0.5 * flanks.sum) < CREEPING ? oil.sliding_threshold * CREEPING : STANDSTILL;
     return {flanks.load,
             area_factor * square_root(flanks.load * flanks.radius),
             at_least(magnitude(flanks.sliding), slowest),
@@ -181,21 +178,20 @@ LAW Contact<Real> contact_of(const Oil& oil, double area_factor, const Flanks<Re
 // The friction of sliding from its magnitudes.
 template <Laws laws, class Real>
 LAW PairFriction<Real> sliding_friction(const Oil& oil, const Flanks<Real>& flanks,
-                                        const Contact<Real>& contact,
-                                        const Friction<Real>& full) {
+                                        const Contact<Real>& contact, const Friction<Real>& full) {
     Real steepness = flanks.steepness;
     Real softer{};  // by what the friction grows with the sliding, its sense is less steep
     if constexpr (laws.traction == TractionLaw::EYRING) {
         // Up to the friction, flanks and film yield elastically: less friction needs less sliding.
-        Real scale = oil.shear_thinning.limiting_stress * contact.load
-                     / (full.boundary + full.viscous);
+        Real scale =
+            oil.shear_thinning.limiting_stress * contact.load / (full.boundary + full.viscous);
         steepness *= at_least(scale, 1.0);
         softer = scale > 1.0 ? full.growth * contact.speed : Real{};
     }
     Real sense = sliding_sense(at_least(magnitude(flanks.sliding), STANDSTILL) * steepness);
     Real boundary = full.boundary * flanks.fade, viscous = full.viscous * flanks.fade;
-    Real slope = (boundary + viscous - flanks.fade * softer) * (1.0 - sense * sense) * steepness
-                 + flanks.fade * full.growth * sense;
+    Real slope = (boundary + viscous - flanks.fade * softer) * (1.0 - sense * sense) * steepness +
+                 flanks.fade * full.growth * sense;
     sense *= at_most(at_least(flanks.sliding * (1.0 / STANDSTILL), -1.0), 1.0);
     return {(boundary + viscous) * sense,
             boundary,

@@ -3,8 +3,8 @@
 // Friction of all loaded tooth pairs of the train, side by side.
 //
 // The pairs of all meshes stand in columns, so that the laws of friction run over them in vector
-// registers; then each is applied as a generalised force Q_j = -f dVs/dw_j, which takes exactly f Vs
-// out of the motion, whatever turns and whatever is held.
+// registers; then each is applied as a generalised force Q_j = -f dVs/dw_j, which takes exactly f
+// Vs out of the motion, whatever turns and whatever is held.
 
 #include <cmath>
 
@@ -72,8 +72,8 @@ inline void collect(const Train& train, const ToothPairs& pairs, DragOfMeshes& o
 
 // Friction torque as Salagianni et al. 2017 print it.
 //
-// T = P/w (17) on both gears, with the sign of (18)-(20): it drives every gear the way it turns, and
-// so puts in twice what is lost. Divided by (w^2 + w0^2)/w, as 0/0 would stand at rest.
+// T = P/w (17) on both gears, with the sign of (18)-(20): it drives every gear the way it turns,
+// and so puts in twice what is lost. Divided by (w^2 + w0^2)/w, as 0/0 would stand at rest.
 inline void collect_printed(const Train& train, const StepConstants& step, const double* v,
                             const ToothPairs& pairs, DragOfMeshes& out) {
     collect(train, pairs, out);
@@ -110,8 +110,8 @@ inline void add_outer(Matrix matrix, const std::int64_t* body, const double* row
 // Add to `matrix` what friction adds to the damping matrix: slope dVs/dv dVs/dv^T.
 //
 // Large where little slides: at the pitch point, and for everything near standstill. Where the
-// forces on the bodies would turn the sliding round within h seconds, the slope is that of the chord
-// to rest: beside it the tangent is flat, and steps would throw the sliding to and fro. `row`
+// forces on the bodies would turn the sliding round within h seconds, the slope is that of the
+// chord to rest: beside it the tangent is flat, and steps would throw the sliding to and fro. `row`
 // (GEARS,) is room to work in.
 inline void friction_damping(const Train& train, const ToothPairs& pairs, const double* force,
                              double h, double* row, Matrix matrix) {
@@ -123,8 +123,7 @@ inline void friction_damping(const Train& train, const ToothPairs& pairs, const 
             std::int64_t body = train.body[i][j];
             gain += h * row[j] * force[body] / train.mass[body];
         }
-        if (sliding * (sliding + gain) < 0.0)
-            slope = at_least(slope, pairs.friction[k] / sliding);
+        if (sliding * (sliding + gain) < 0.0) slope = at_least(slope, pairs.friction[k] / sliding);
         add_outer(matrix, train.body[i], row, GEARS, train.copies[i] * slope);
     }
 }

@@ -13,8 +13,8 @@ namespace gearbox {
 
 // Friction f_v [N] on the traction plateau, not below `traction.least`.
 //
-// Normal load on the tooth pair [N]; apparent contact area A = 2 b L [m^2]; logarithm of the film in
-// metres; logarithm of sqrt(R p/V) in (Pa s)^0.5, R being the reduced radius of curvature, p the
+// Normal load on the tooth pair [N]; apparent contact area A = 2 b L [m^2]; logarithm of the film
+// in metres; logarithm of sqrt(R p/V) in (Pa s)^0.5, R being the reduced radius of curvature, p the
 // mean pressure load/area and V the mean surface speed.
 template <class Real>
 LAW Real viscous_friction(const Traction& traction, Real load, Real area, Real log_film,
@@ -23,8 +23,8 @@ LAW Real viscous_friction(const Traction& traction, Real load, Real area, Real l
     Real heating = 1.0 + exp(traction.log_heating + log_heat - log_film);
     Real log_argument = traction.log_root - 2.0 * log_film - log(heating);
     // 1.74 tau0/p * load is 1.74 tau0 * area: no division by a pressure that may vanish.
-    Real friction = traction.shear_stress
-                      * (0.87 * traction.pressure_viscosity * load + 0.87 * area * log_argument);
+    Real friction = traction.shear_stress *
+                    (0.87 * traction.pressure_viscosity * load + 0.87 * area * log_argument);
     return at_least(friction, traction.least);
 }
 

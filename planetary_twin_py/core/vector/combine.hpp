@@ -16,8 +16,8 @@ namespace vector {
 inline void combine_block(const double (*rows)[BODIES], const double* w, double* sum) {
     for (int i = 0; i < BODIES; ++i) {
         double low = rows[0][i] * w[0] + rows[1][i] * w[1] + rows[2][i] * w[2] + rows[3][i] * w[3];
-        sum[i] = low + rows[4][i] * w[4] + rows[5][i] * w[5] + rows[6][i] * w[6]
-                 + rows[7][i] * w[7];
+        sum[i] =
+            low + rows[4][i] * w[4] + rows[5][i] * w[5] + rows[6][i] * w[6] + rows[7][i] * w[7];
     }
 }
 

@@ -52,21 +52,41 @@ constexpr std::uint64_t SIGN = std::uint64_t{1} << 63;
 }  // namespace vector
 
 // The larger (smaller) of both; `x` if that is NaN, so that an error is not lost in a bound.
-LAW constexpr double at_least(double x, double bound) { return bound > x ? bound : x; }
-LAW constexpr double at_most(double x, double bound) { return bound < x ? bound : x; }
+LAW constexpr double at_least(double x, double bound) {
+    return bound > x ? bound : x;
+}
+LAW constexpr double at_most(double x, double bound) {
+    return bound < x ? bound : x;
+}
 
 #if defined(__AVX512F__)  // with masks gcc 12 does not warn of its own headers
-LAW Lanes at_least(Lanes x, Lanes bound) { return _mm512_maskz_max_pd(0xFF, bound, x); }
-LAW Lanes at_most(Lanes x, Lanes bound) { return _mm512_maskz_min_pd(0xFF, bound, x); }
+LAW Lanes at_least(Lanes x, Lanes bound) {
+    return _mm512_maskz_max_pd(0xFF, bound, x);
+}
+LAW Lanes at_most(Lanes x, Lanes bound) {
+    return _mm512_maskz_min_pd(0xFF, bound, x);
+}
 #elif defined(__AVX__)
-LAW Lanes at_least(Lanes x, Lanes bound) { return _mm256_max_pd(bound, x); }
-LAW Lanes at_most(Lanes x, Lanes bound) { return _mm256_min_pd(bound, x); }
+LAW Lanes at_least(Lanes x, Lanes bound) {
+    return _mm256_max_pd(bound, x);
+}
+LAW Lanes at_most(Lanes x, Lanes bound) {
+    return _mm256_min_pd(bound, x);
+}
 #else
-LAW Lanes at_least(Lanes x, Lanes bound) { return _mm_max_pd(bound, x); }
-LAW Lanes at_most(Lanes x, Lanes bound) { return _mm_min_pd(bound, x); }
+LAW Lanes at_least(Lanes x, Lanes bound) {
+    return _mm_max_pd(bound, x);
+}
+LAW Lanes at_most(Lanes x, Lanes bound) {
+    return _mm_min_pd(bound, x);
+}
 #endif
-LAW Lanes at_least(Lanes x, double bound) { return at_least(x, Lanes{} + bound); }
-LAW Lanes at_most(Lanes x, double bound) { return at_most(x, Lanes{} + bound); }
+LAW Lanes at_least(Lanes x, double bound) {
+    return at_least(x, Lanes{} + bound);
+}
+LAW Lanes at_most(Lanes x, double bound) {
+    return at_most(x, Lanes{} + bound);
+}
 
 template <class Real>
 LAW Real magnitude(Real x) {
@@ -80,7 +100,9 @@ LAW Real with_sign(Real x, Real y) {
                                    (vector::to_bits(y) & vector::SIGN));
 }
 
-LAW double square_root(double x) { return std::sqrt(x); }
+LAW double square_root(double x) {
+    return std::sqrt(x);
+}
 
 LAW Lanes square_root(Lanes x) {
 #if defined(__AVX512F__)

@@ -62,8 +62,8 @@ constexpr double TAYLOR_OF_EXP[] = {
 
 // (e**r - 1)/r, interpolated at Chebyshev points: relative error of e**r below 4e-14.
 constexpr double REST_OF_EXP[] = {
-    1.0000000000000013,   0.499999999997979,    0.1666666666661564,
-    0.041666666890980815, 0.00833333336731422,  0.001388882167366507,
+    1.0000000000000013,     0.499999999997979,      0.1666666666661564,
+    0.041666666890980815,   0.00833333336731422,    0.001388882167366507,
     0.00019841190644058747, 2.4876165909124045e-05, 2.7632642126375148e-06};
 
 // x = n log(2) + r, and 2**n.
@@ -92,8 +92,8 @@ LAW Real short_exp(Real x) {
 // e**x for any finite x, saturating at the ends of the double range.
 template <class Real>
 LAW Real exp(Real x) {
-    return vector::short_exp(at_most(at_least(x, -vector::LARGEST_EXPONENT),
-                                     vector::LARGEST_EXPONENT));
+    return vector::short_exp(
+        at_most(at_least(x, -vector::LARGEST_EXPONENT), vector::LARGEST_EXPONENT));
 }
 
 // The same for x <= 700.
@@ -149,10 +149,10 @@ LAW SinCos sin_cos(double x) {
 
 namespace vector {
 
-// 2 artanh(t)/t as a polynomial in t^2, |t| <= (sqrt(2) - 1)/(sqrt(2) + 1), interpolated at Chebyshev
-// points: error of the logarithm below 1e-14.
-constexpr double ARTANH[] = {1.999999999999947,   0.6666666667963782,  0.39999994875889094,
-                             0.2857216766407459,  0.22174190918339937, 0.1960889776138223};
+// 2 artanh(t)/t as a polynomial in t^2, |t| <= (sqrt(2) - 1)/(sqrt(2) + 1), interpolated at
+// Chebyshev points: error of the logarithm below 1e-14.
+constexpr double ARTANH[] = {1.999999999999947,  0.6666666667963782,  0.39999994875889094,
+                             0.2857216766407459, 0.22174190918339937, 0.1960889776138223};
 
 // Mantissa in [sqrt(1/2), sqrt(2)), where the series is shortest, and exponent.
 template <class Real>
