@@ -2,11 +2,10 @@
 
 import numpy as np
 import pytest
-from planetary_twin_benchmark.peers import runge_kutta_4, semi_implicit_euler
 from planetary_twin_benchmark.peers.problem import Problem
 from planetary_twin_benchmark.reference import Reference
 
-from planetary_twin_py._core import DTE
+from planetary_twin_py._core import DTE, runge_kutta_4, semi_implicit_euler
 from planetary_twin_py.scene import load_scene
 
 DURATION = 5e-4  # [s] a quarter of a mesh period
@@ -43,7 +42,7 @@ def test_the_error_falls_with_the_power_of_the_step_that_is_the_order(
     for count in counts:
         problem = Problem(scene)
         y, samples = np.zeros(problem.size), np.zeros((1, problem.size))
-        method.march(problem.record, np.array([0.0, DURATION]), count, y, samples)
+        method(problem.record, np.array([0.0, DURATION]), count, y, samples)
         found, _ = problem.observe(np.array([DURATION]), samples)
         errors.append(np.abs(found - exact).max())
     slope = np.polyfit(np.log(DURATION / np.array(counts)), np.log(errors), 1)[0]
