@@ -3,7 +3,6 @@
 // Python classes of the records; a field that does not exist does not compile.
 
 #include "integrators/contact_modes_record.hpp"
-#include "integrators/contact_sums_record.hpp"
 #include "integrators/control.hpp"
 #include "integrators/march_record.hpp"
 #include "integrators/nodes.hpp"
@@ -305,15 +304,6 @@ inline void bind_records(nb::module_& m) {
         .FIELD(Propagation, suspect)
         .FIELD(Propagation, scan_d)
         .FIELD(Propagation, scan_rate);
-    record<ContactSums>(m, "ContactSums")
-        .FIELD(ContactSums, share)
-        .FIELD(ContactSums, film)
-        .FIELD(ContactSums, boundary)
-        .FIELD(ContactSums, viscous)
-        .FIELD(ContactSums, lost)
-        .FIELD(ContactSums, touching)
-        .FIELD(ContactSums, clipped)
-        .FIELD(ContactSums, rolled);
     record<Look>(m, "Look")
         .FIELD(Look, count)
         .FIELD(Look, at)
@@ -326,8 +316,6 @@ inline void bind_records(nb::module_& m) {
         .FIELD(StepSums, total)
         .FIELD(StepSums, taken)
         .FIELD(StepSums, look)
-        .FIELD(StepSums, contacts)
-        .FIELD(StepSums, weight)
         .FIELD(StepSums, stale)
         .FIELD(StepSums, rates)
         .FIELD(StepSums, push);

@@ -29,33 +29,52 @@ bool outdone(const Control& control, double h, bool settled, int restless) {
     return h < (control.slow ? 1.0 : OUTDONE) * control.next_stiff;
 }
 
+// Let the step end after h seconds: bodies alone.
 template <int L>
-void end_step(const Model& model, March& march, double h) {
+void place_end(March& march, double h) {
     const Propagation& run = march.run;
-    State& end = march.end;
-    end = march.begin;
     if (h == run.motion.step) {
         const std::int64_t last = run.nodes.count - 1;
-        copy<L>(run.node_x[last], end.x);
-        copy<L>(run.node_v[last], end.v);
-        for (int a = 0; a < AXES; ++a) end.trim[a] = run.node_trim[last][a];
+        copy<L>(run.node_x[last], march.end.x);
+        copy<L>(run.node_v[last], march.end.v);
     } else {
-        propagate<L>(march, h, end.x, end.v);
-        trim_at(model, march, h, end.x, end.trim);
+        propagate<L>(march, h, march.end.x, march.end.v);
     }
+    march.control.step = h;
+}
+
+// What else the end of the step has, once it stands.
+template <int L>
+void finish_end(const Model& model, March& march) {
+    const double h = march.control.step;
+    trim_at(model, march, h, march.end.x, march.end.trim);
     integrate_powers<L>(march, h);
     pass_time(model, march, h);
 }
 
-// Move the end of the step to where `mesh` comes to the edge of its segment (Newton). Where the pace
-// has changed too much for that, the next steps come to the edge.
+// Time [s] until `mesh` comes to the edge of its segment, were the pace to change on as it did
+// between the last two nodes.
+double time_by_pace(const Model& model, const March& march, std::int64_t mesh) {
+    const Train& train = model.train;
+    const Propagation& run = march.run;
+    const std::int64_t last = run.nodes.count - 1;
+    double gap = time_to_edge(model, march, mesh);
+    if (last == 0) return gap;
+    double pace = march.moment.cycle_rate + cycle_shift(train, march.end.v);
+    double faster = cycle_shift(train, run.node_v[last]) - cycle_shift(train, run.node_v[last - 1]);
+    double between = (run.nodes.abscissa[last] - run.nodes.abscissa[last - 1]) * run.motion.step;
+    return gap - 0.5 * gap * gap * faster / (between * pace);
+}
+
+// Move the end of the step to where `mesh` comes to the edge of its segment. Where the pace has
+// changed too much for that, the next steps come to the edge.
 template <int L>
 void meet_edge(const Model& model, March& march, std::int64_t mesh, double h) {
     for (int k = 0; k < LANDINGS; ++k) {
-        double gap = time_to_edge(model, march, mesh);
+        double gap = time_by_pace(model, march, mesh);
         if (std::fabs(gap) < ON_EDGE || !(std::fabs(gap) < WITHIN * h)) return;
         h += gap;
-        end_step<L>(model, march, h);
+        place_end<L>(march, h);
     }
 }
 
@@ -64,7 +83,7 @@ template <int L>
 std::int64_t end_on_flank_event(const Model& model, March& march, double h) {
     FlankEvent event = first_flank_event(model, march);
     if (event.mesh != NO_MESH && h > SHORTEST_STEP && !at_event(model, march, event.mesh))
-        end_step<L>(model, march, event.when);
+        place_end<L>(march, event.when);
     return event.mesh;
 }
 
@@ -123,11 +142,14 @@ std::int64_t make_step(const Model& model, March& march, double longest, const N
     if (h < std::min(event.time, longest) && outdone(control, h, true, 0)) control.detour = DETOUR;
     control.collocated = true;
     control.changed = false;
-    end_step<L>(model, march, h);
+    march.end = march.begin;
+    place_end<L>(march, h);
     if (event.mesh != NO_MESH && h == event.time) meet_edge<L>(model, march, event.mesh, h);
     std::memcpy(march.last.power, run.evaluation[last].power, sizeof march.last.power);
     std::memcpy(march.last.rubbing, run.evaluation[last].rubbing, sizeof march.last.rubbing);
-    return end_on_flank_event<L>(model, march, h);
+    std::int64_t changing = end_on_flank_event<L>(model, march, h);
+    finish_end<L>(model, march);
+    return changing;
 }
 
 }  // namespace
@@ -143,7 +165,11 @@ void hold_friction(const Model& model, March& march) {
 }
 
 void end_within(const Model& model, March& march, double h) {
-    with_lanes(model.train, [&](auto lanes) { end_step<lanes>(model, march, h); });
+    march.end = march.begin;
+    with_lanes(model.train, [&](auto lanes) {
+        place_end<lanes>(march, h);
+        finish_end<lanes>(model, march);
+    });
 }
 
 std::int64_t collocated_step(const Model& model, March& march, double longest,

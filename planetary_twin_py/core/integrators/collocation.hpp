@@ -21,6 +21,7 @@ inline constexpr int MOST_SWEEPS = 6;
 inline constexpr double LEFT_OVER = 0.3;  // of the tolerance that a sweep not made may leave
 // Pull of a sweep beyond which a shorter step or another method is called for.
 inline constexpr double WEAKEST_PULL = 0.5;
+inline constexpr double CLOSE = 0.1;  // of that, below which the next passage is predicted too
 inline constexpr double TAIL = 4.0;  // by which the estimated error of the polynomial counts more
 inline constexpr double LEAST_DAMPED = 1e-6;  // c h below which errors last for ever
 inline constexpr double ASTRAY = std::numeric_limits<double>::infinity();
@@ -31,6 +32,26 @@ struct Outcome {
     bool settled;  // whether the sweeps came to rest
 };
 
+// The rest at node n from what the meshes, friction and machines do there.
+template <int L>
+LAW void find_rest(const Model& model, March& march, const ContactState& contacts,
+                            std::int64_t n) {
+    using V = Row<L>;
+    Propagation& run = march.run;
+    Evaluation& out = run.evaluation[n];
+    const double *x = run.node_x[n], *v = run.node_v[n];
+    const double delay = run.nodes.abscissa[n] * run.motion.step;
+    alignas(64) double push[L];
+    (V(march.moment.side) * V(out.now.push)).store(push);
+    copy<L>(out.rubbing, out.force);
+    apply_couplings(model.train, x, v, out);
+    apply_machines(model, march.begin, march.moment, x, v, delay, run.node_trim[n], out);
+    out.force[model.train.bodies] = 0.0;  // the ground
+    V rest = sum_rows<L>(contacts.share, out.force) + sum_rows<L>(contacts.press, push);
+    rest += V(run.damper) * V(run.node_p[n]) + V(run.spring) * V(run.node_q[n]);
+    rest.store(run.rest[n]);
+}
+
 // Take the rest anew at all nodes, with friction as it was unless `with_friction`.
 template <int L>
 void sweep(const Model& model, March& march, bool with_friction) {
@@ -38,21 +59,14 @@ void sweep(const Model& model, March& march, bool with_friction) {
     const StepConstants& constants = march.moment;
     Propagation& run = march.run;
     const ContactState& contacts = contacts_of(run);
-    for (int n = 0; n < run.nodes.count; ++n) {
+    for (std::int64_t n = 0; n < run.nodes.count; ++n) {
         Evaluation& out = run.evaluation[n];
         const double *x = run.node_x[n], *v = run.node_v[n];
-        double delay = run.nodes.abscissa[n] * run.motion.step;
         copy<L>(run.node_d[n], out.now.d);
         copy<L>(run.node_rate[n], out.now.rate);
-        mesh_forces(model, begin, constants, x, v, delay, out);
+        mesh_forces<L>(model, begin, constants, x, v, run.nodes.abscissa[n] * run.motion.step, out);
         if (with_friction) apply_friction(model, begin, constants, v, out);
-        assemble_forces(model, begin, constants, x, v, delay, run.node_trim[n], out);
-        double rest[L];
-        sum_rows<L>(contacts.share, out.force, rest);
-        for (int m = 0; m < L; ++m) {
-            double own = run.damper[m] * run.node_p[n][m] + run.spring[m] * run.node_q[n][m];
-            run.rest[n][m] = rest[m] + own;
-        }
+        find_rest<L>(model, march, contacts, n);
     }
 }
 
@@ -60,61 +74,49 @@ void sweep(const Model& model, March& march, bool with_friction) {
 // before, over its tolerance.
 template <int L>
 double difference(const Model& model, const March& march) {
-    const Train& train = model.train;
+    using V = Row<L>;
     const Propagation& run = march.run;
     const std::int64_t last = run.nodes.count - 1;
-    double of_meshes = 0.0, of_bodies = 0.0, total = 0.0;  // NaN would get lost in a maximum
-    for (std::int64_t i = 0; i < train.meshes; ++i) {
-        double d = run.node_d[last][i] - run.before_d[i];
-        double rate = run.node_rate[last][i] - run.before_rate[i];
-        double reach = march.moment.tau[train.kind[i]] * std::fabs(rate);
-        of_meshes = std::max(of_meshes, std::max(std::fabs(d), reach));
-        total += d + rate;
-    }
-    for (int j = 0; j < L; ++j)
-        of_bodies = std::max(of_bodies, std::fabs(run.node_v[last][j] - run.before_v[j]));
-    double largest = std::max(of_meshes / march.control.tolerance_x,
-                              of_bodies / march.control.tolerance_v);
-    return std::isfinite(total) ? largest : ASTRAY;
+    alignas(64) double tau[L];  // lanes beyond the meshes stand still
+    for (int i = 0; i < L; ++i) tau[i] = march.moment.tau[model.train.kind[i]];
+    V d = V(run.node_d[last]) - V(run.before_d), rate = V(run.node_rate[last]) - V(run.before_rate);
+    V speed = absolute(V(run.node_v[last]) - V(run.before_v));
+    double of_meshes = largest(larger(absolute(d), V(tau) * absolute(rate)));
+    double change = std::max(of_meshes / march.control.tolerance_x,
+                             largest(speed) / march.control.tolerance_v);
+    return std::isfinite(total(d + rate)) ? change : ASTRAY;  // a maximum loses what is no number
 }
 
-// The local error of the speeds of the bodies, from that of the modes in `now_p`.
+// The local error of the speeds of the bodies, from that of the modes.
 template <int L>
-double tail_of_speeds(const March& march) {
-    const double(*form)[BODIES] = march.run.known.states[march.run.motion.modes].form;
-    double speed[L] = {}, largest = 0.0;
-    for (int m = 0; m < L; ++m)
-        for (int j = 0; j < L; ++j) speed[j] += std::fabs(form[m][j]) * march.run.now_p[m];
-    for (int j = 0; j < L; ++j) largest = std::max(largest, speed[j]);
-    return largest / march.control.tolerance_v;
+double tail_of_speeds(const March& march, const Row<L>& error) {
+    using V = Row<L>;
+    const double(*form)[BODIES] = contacts_of(march.run).form;
+    V speed(0.0);
+    for (int m = 0; m < L; ++m) speed += absolute(V(form[m])) * error[m];
+    return largest(speed) / march.control.tolerance_v;
 }
 
 // Local error, what the highest power of the polynomial moves, over its tolerance.
 template <int L>
-double tail_error(const Model& model, March& march) {
+double tail_error(March& march) {
+    using V = Row<L>;
     Propagation& run = march.run;
-    const ModalMotion& motion = run.motion;
-    const double h = motion.step, share = TAIL * run.nodes.smallest;
+    const double h = run.motion.step, share = TAIL * run.nodes.smallest;
     const std::int64_t highest = run.nodes.count - 1;
     // It moves a mode by such a part of that at rest.
     const double settling = 2.0 * static_cast<double>((highest + 2) * (highest + 3)) / (h * h);
-    for (int m = 0; m < L; ++m) {
-        double tail = std::fabs(power(run, highest, m));
-        double below = std::fabs(power(run, highest - 1, m));
-        double at_rest = 1.0 / std::max(motion.square[m], settling);
-        // Steps within the memory of a mode make errors that add up at random.
-        double lasting = std::sqrt(1.0 + 2.0 / (run.damper[m] * h + LEAST_DAMPED));
-        lasting = run.spring[m] == 0.0 ? 1.0 : lasting;
-        double missed = tail * tail / (tail + below + SMALLEST) * share * lasting;
-        double brief = 1.0 / std::max(1.0 / std::sqrt(at_rest), run.damper[m]);
-        run.now_q[m] = missed * at_rest;
-        run.now_p[m] = missed * brief;
-    }
-    double reached[L], largest = 0.0;
-    sum_rows<L>(contacts_of(run).reach, run.now_q, reached);
-    for (std::int64_t i = 0; i < model.train.meshes; ++i) largest = std::max(largest, reached[i]);
-    double error = largest / march.control.tolerance_x;
-    return march.control.slow ? std::max(error, tail_of_speeds<L>(march)) : error;
+    V tail = absolute(power<L>(run, highest)), below = absolute(power<L>(run, highest - 1));
+    V stiff = larger(V(run.motion.square), V(settling)), damper(run.damper);
+    // Steps within the memory of a mode make errors that add up at random.
+    V lasting = square_root(1.0 + 2.0 / (damper * h + LEAST_DAMPED));
+    lasting = select(V(run.spring) == 0.0, 1.0, lasting);
+    V missed = tail * tail / (tail + below + SMALLEST) * share * lasting;
+    alignas(64) double moved[L];
+    (missed / stiff).store(moved);
+    double error = largest(sum_rows<L>(contacts_of(run).reach, moved)) / march.control.tolerance_x;
+    if (!march.control.slow) return error;
+    return std::max(error, tail_of_speeds<L>(march, missed / larger(square_root(stiff), damper)));
 }
 
 // Sweep with friction as it is: where stiffness changes fast, this saves evaluating it.
@@ -146,17 +148,19 @@ Outcome settle_friction(const Model& model, March& march) {
         double before = change;
         sweep<L>(model, march, true);
         march.control.evaluations += run.nodes.count;
-        visit_nodes<L>(model, march);
+        visit_last_node<L>(model, march);
         change = difference<L>(model, march);
         if (round == 0) {
-            tail = tail_error<L>(model, march);
+            tail = tail_error<L>(march);
         } else if (before > 0.0) {
             pull = change / before;
             known_pull = pull / run.motion.step;
         }
+        contacts_of(run).predictable = round == 0 && change * pull <= CLOSE * LEFT_OVER;
         if (!(tail <= 1.0) || change * pull <= LEFT_OVER)
             return {std::isfinite(tail + change) ? tail : ASTRAY, true};
         if (round > 0 && !(pull <= WEAKEST_PULL)) break;
+        visit_other_nodes<L>(model, march);
     }
     return {ASTRAY, false};
 }
@@ -168,11 +172,11 @@ Outcome collocate(const Model& model, March& march, double h, bool fresh) {
     set_step<L>(run, h);
     for (int n = 0; n < run.nodes.count; ++n)
         copy<L>(march.first.rubbing, run.evaluation[n].rubbing);
-    if (fresh) recall<L>(march);
+    const bool recalled = fresh && recall<L>(march);
     visit_nodes<L>(model, march);
-    if (contacts_of(run).varies) {
+    if (contacts_of(run).varies && !(recalled && contacts_of(run).predictable)) {
         settle_meshes<L>(model, march);
-        double tail = tail_error<L>(model, march);
+        double tail = tail_error<L>(march);
         if (!(tail <= 1.0)) return {std::isfinite(tail) ? tail : ASTRAY, true};
     }
     return settle_friction<L>(model, march);

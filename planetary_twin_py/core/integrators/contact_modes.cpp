@@ -57,6 +57,7 @@ void spread_mode(const Train& train, ContactState& modes, std::int64_t m) {
             motion += train.sign[i][a] * modes.form[m][train.body[i][a]];
         modes.motion[m][i] = motion;
         modes.reach[m][i] = std::fabs(motion);
+        modes.press[i][m] = -train.copies[i] * motion;
         modes.mesh_damping[train.kind[i]][m] += modes.stiffness[i] * motion * motion;
     }
     for (std::int64_t c = 0; c < train.machines; ++c) {

@@ -30,20 +30,22 @@ struct HashOfContacts {
 };
 
 // Modes of one contact state, of unit modal mass. `form[m]` is what mode m does to the bodies,
-// `share[j]` what body j does to the modes, `motion[m]` what mode m does to the meshes, and `reach`
-// its magnitude [1/sqrt(kg)].
+// `share[j]` what body j does to the modes, `motion[m]` what mode m does to the meshes, `reach` its
+// magnitude, and `press[i]` what a force of mesh i and its copies does to the modes [1/sqrt(kg)].
 struct alignas(64) ContactState {
     ContactKey key;
     std::int64_t follower;  // the state that came next last time
     double step;  // that did last time such a state began, 0: none yet [s]
     double past_step;  // see the predictor, 0: none yet [s]
     double pull[2];  // by which a sweep brings the next closer, per step length [1/s]
+    bool predictable;  // whether friction came to rest in one sweep last time
     bool varies;  // whether a stiffness changes within its segment
     alignas(64) double stiffness[MESHES];  // of every mesh with its copies [N/m]
     alignas(64) double form[BODIES][BODIES];
     alignas(64) double share[BODIES][BODIES];
     alignas(64) double motion[BODIES][MESHES];
     alignas(64) double reach[BODIES][MESHES];
+    alignas(64) double press[MESHES][BODIES];
     alignas(64) double square[BODIES];  // w^2 [1/s^2]
     alignas(64) double shaft_damping[BODIES];  // c of the couplings [1/s]
     alignas(64) double mesh_damping[2][BODIES];  // c/tau of each kind of mesh [1/s^2]

@@ -1,32 +1,28 @@
 #pragma once
 
-// Integrals over a step of what its tooth pairs show: films and friction, side by side.
+// Integrals over a step of what the tooth pairs of all meshes show: films and friction.
 
-#include <algorithm>
 #include <cmath>
 
-#include "integrators/contact_sums_record.hpp"
 #include "mesh/mesh_forces.hpp"
 #include "train/model.hpp"
 #include "train/step_constants.hpp"
 #include "tribology/tooth_friction.hpp"
+#include "vector/rows.hpp"
 #include "vector/math.hpp"
 
 namespace gearbox {
 
-// Pairs in whole registers.
-inline std::int64_t width_of_pairs(const Train& train) {
-    return (train.slots * train.meshes + REGISTER - 1) / REGISTER * REGISTER;
-}
-
-inline void clear_contacts(const Train& train, ContactSums& sums) {
-    for (std::int64_t k = 0; k < width_of_pairs(train); ++k) {
-        sums.share[k] = sums.film[k] = 0.0;
-        sums.boundary[k] = sums.viscous[k] = sums.lost[k] = 0.0;
-    }
-    for (std::int64_t i = 0; i < train.lanes; ++i)
-        sums.touching[i] = sums.clipped[i] = sums.rolled[i] = 0.0;
-}
+// Sums over the tooth pairs of each mesh.
+template <int L>
+struct ContactSums {
+    Row<L> share = 0.0;  // of the mesh force [s]
+    Row<L> film = 0.0;  // by that share [m s]
+    Row<L> boundary = 0.0, viscous = 0.0;  // [N s]
+    Row<L> lost = 0.0;  // [J]
+    Row<L> touching = 0.0, clipped = 0.0;  // [s]
+    Row<L> rolled = 0.0;  // through the mesh [J]
+};
 
 // Films of a train without friction, under the pushes in `work`.
 inline void find_contacts(const Model& model, const StepConstants& constants, const double* v,
@@ -37,67 +33,61 @@ inline void find_contacts(const Model& model, const StepConstants& constants, co
 }
 
 // Add shares and films of all pairs, times `weight` [s].
-inline void add_films(const Train& train, const ToothPairs& pairs, double weight,
-                      ContactSums& sums) {
-    const std::int64_t width = width_of_pairs(train);
-    for (std::int64_t k = 0; k < width; ++k) {
-        double share = weight * pairs.share[k];
-        sums.share[k] += share;
-        sums.film[k] += share * exp(pairs.log_film[k]);
+template <int L>
+LAW void add_films(const Train& train, const ToothPairs& pairs, double weight,
+                            ContactSums<L>& sums) {
+    for (std::int64_t p = 0, first = 0; p < train.slots; ++p, first += train.meshes) {
+        alignas(64) double film[L];
+        for (int i = 0; i < L; ++i) film[i] = exp(pairs.log_film[first + i]);
+        Row<L> share = weight * Row<L>(pairs.share + first);
+        sums.share += share;
+        sums.film += share * Row<L>(film);
     }
 }
 
 // Add friction and forces of an evaluation, times `weight` [s].
-inline void add_friction(const Train& train, const Evaluation& work, double weight,
-                         ContactSums& sums) {
+template <int L>
+LAW void add_friction(const Train& train, const Evaluation& work, double weight,
+                               ContactSums<L>& sums) {
+    using V = Row<L>;
     const ToothPairs& pairs = work.pairs;
-    const MeshesNow& now = work.now;
-    double rolling = weight * train.base_pitch * std::fabs(now.pace);
-    for (std::int64_t i = 0; i < train.lanes; ++i) {
-        double push = now.push[i];
-        sums.touching[i] += push != 0.0 ? weight : 0.0;
-        sums.rolled[i] += rolling * std::max(push, 0.0);
-    }
+    const double rolling = weight * train.base_pitch * std::fabs(work.now.pace);
+    V push(work.now.push);
+    Mask<L> pushes = push > 0.0;
+    sums.touching += select(push == 0.0, 0.0, V(weight));
+    sums.rolled += rolling * select(pushes, push, 0.0);
     if (!train.friction) return;
-    const std::int64_t width = width_of_pairs(train);
-    for (std::int64_t k = 0; k < width; ++k) {
-        sums.boundary[k] += weight * pairs.boundary[k];
-        sums.viscous[k] += weight * pairs.viscous[k];
-        double lost = pairs.friction[k] * pairs.sliding[k] + pairs.rolling_power[k];
-        sums.lost[k] += weight * lost;
+    V viscous(0.0);
+    for (std::int64_t p = 0, first = 0; p < train.slots; ++p, first += train.meshes) {
+        viscous += V(pairs.viscous + first);
+        sums.boundary += weight * V(pairs.boundary + first);
+        V lost = V(pairs.friction + first) * V(pairs.sliding + first);
+        sums.lost += weight * (lost + V(pairs.rolling_power + first));
     }
-    for (std::int64_t i = 0; i < train.meshes; ++i) {
-        double viscous = 0.0;
-        for (std::int64_t p = 0; p < train.slots; ++p) viscous += pairs.viscous[p * train.meshes + i];
-        sums.clipped[i] += now.push[i] > 0.0 && viscous == 0.0 ? weight : 0.0;
-    }
+    sums.viscous += weight * viscous;
+    sums.clipped += select(pushes & (viscous == 0.0), V(weight), 0.0);
 }
 
-// Write the sums of the pairs of each mesh into `out`, the integrals of a MeshSums.
-inline void put_contacts(const Train& train, const Oil& oil, const ContactSums& sums,
-                         double (*out)[MESHES]) {
+// Write the sums into `out`, the integrals of a MeshSums.
+template <int L>
+LAW void put_contacts(const Train& train, const Oil& oil, const ContactSums<L>& sums,
+                               double (*out)[MESHES]) {
     const double given = oil.prescribed ? oil.lambda_ratio : 0.0;
     const double per_film = oil.prescribed ? 0.0 : exp(-oil.log_roughness);
-    for (std::int64_t i = 0; i < train.meshes; ++i) {
-        double share = 0.0, film = 0.0, boundary = 0.0, viscous = 0.0, lost = 0.0;
-        for (std::int64_t p = 0; p < train.slots; ++p) {
-            std::int64_t k = p * train.meshes + i;
-            share += sums.share[k];
-            film += sums.film[k];
-            boundary += sums.boundary[k];
-            viscous += sums.viscous[k];
-            lost += sums.lost[k];
-        }
-        out[FILMED][i] = share;
-        out[FILM][i] = film;
-        out[LAMBDA][i] = given * share + per_film * film;
-        out[BOUNDARY][i] = boundary;
-        out[VISCOUS][i] = viscous;
-        out[POWER_LOSS][i] = lost;
-        out[CONTACT][i] = sums.touching[i];
-        out[MESH_POWER][i] = sums.rolled[i];
-        out[CLIPPED][i] = train.friction ? sums.clipped[i] : sums.touching[i];
-    }
+    alignas(64) double number[L];
+    for (int i = 0; i < L; ++i) number[i] = i;
+    // Beyond the meshes stands what whole registers have read of the next pairs.
+    Mask<L> used = Row<L>(number) < static_cast<double>(train.meshes);
+    auto put = [&](int row, const Row<L>& sum) { select(used, sum, 0.0).store(out[row]); };
+    put(FILMED, sums.share);
+    put(FILM, sums.film);
+    put(LAMBDA, given * sums.share + per_film * sums.film);
+    put(BOUNDARY, sums.boundary);
+    put(VISCOUS, sums.viscous);
+    put(POWER_LOSS, sums.lost);
+    put(CONTACT, sums.touching);
+    put(MESH_POWER, sums.rolled);
+    put(CLIPPED, train.friction ? sums.clipped : sums.touching);
 }
 
 }  // namespace gearbox

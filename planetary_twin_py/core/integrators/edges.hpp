@@ -12,6 +12,7 @@
 #include "mesh/contact_change.hpp"
 #include "mesh/cycle.hpp"
 #include "train/model.hpp"
+#include "vector/rows.hpp"
 
 namespace gearbox {
 
@@ -23,20 +24,26 @@ struct NextEvent {
     std::int64_t mesh;  // NO_MESH: a change of the set-point's slope
 };
 
+// Times [s] until the meshes come to the edges of their segments, were their pace to last.
+template <int L>
+LAW void times_to_edges(const StepConstants& constants, double pace, double* times) {
+    using V = Row<L>;
+    V rate = V(constants.side) * pace;
+    V edge = select(rate > 0.0, V(constants.high), V(constants.low));
+    V time = (edge - V(constants.start)) / rate;
+    select(rate == 0.0, std::numeric_limits<double>::infinity(), time).store(times);
+}
+
 // Time to the next tooth pair event or change of the set-point's slope, and the mesh.
 inline NextEvent next_event(const Model& model, const March& march) {
     const Train& train = model.train;
     const State& state = march.begin;
     const StepConstants& constants = march.moment;
-    double pace = constants.cycle_rate + cycle_shift(train, state.v);
+    double pace = constants.cycle_rate + cycle_shift(train, state.v), times[MESHES];
     NextEvent nearest{std::numeric_limits<double>::infinity(), NO_MESH};
-    for (std::int64_t i = 0; i < train.meshes; ++i) {
-        double rate = static_cast<double>(state.side[i]) * pace;
-        if (rate == 0.0) continue;
-        std::int64_t edge = state.segment[i] + (rate > 0.0 ? 1 : 0);
-        double time = (train.edge[train.kind[i]][edge] - constants.start[i]) / rate;
-        if (time < nearest.time) nearest = {time, i};
-    }
+    with_lanes(train, [&](auto lanes) { times_to_edges<lanes>(constants, pace, times); });
+    for (std::int64_t i = 0; i < train.meshes; ++i)
+        if (times[i] < nearest.time) nearest = {times[i], i};
     for (std::int64_t a = 0; a < train.axes; ++a) {
         if (constants.slew[a] == 0.0) continue;
         double time = (model.load.target_speed[a] - state.set_speed[a]) / constants.slew[a];
@@ -96,12 +103,11 @@ inline void pass_edges(const Model& model, March& march) {
     double advance = cycles_of_step(train, march);
     double pace = constants.cycle_rate + cycle_shift(train, march.end.v);
     for (std::int64_t i = 0; i < train.meshes; ++i) {
-        double cycle = constants.start[i] + constants.side[i] * advance;
-        double ahead = constants.side[i] * pace;
-        if (ahead > 0.0 && cycle >= constants.high[i] - EDGE)
-            pass_edge(model, march, i, 1);
-        else if (ahead < 0.0 && cycle <= constants.low[i] + EDGE)
-            pass_edge(model, march, i, -1);
+        double side = constants.side[i], cycle = constants.start[i] + side * advance;
+        bool forwards = side * pace > 0.0;
+        bool above = cycle >= constants.high[i] - EDGE, below = cycle <= constants.low[i] + EDGE;
+        if (forwards && above) pass_edge(model, march, i, 1);
+        if (side * pace < 0.0 && below) pass_edge(model, march, i, -1);
     }
 }
 

@@ -37,26 +37,29 @@ double close_in(const Model& model, March& march, std::int64_t i, double low, do
     return high;
 }
 
-// Whether mode m may turn round between two nodes.
-inline bool has_waves(const ModalMotion& motion, int m) {
-    double h = motion.step;
-    return motion.square[m] * h * h + motion.damping[m] * h > TAME;
+// Which modes may turn round between two nodes.
+template <int L>
+LAW Mask<L> has_waves(const ModalMotion& motion) {
+    const double h = motion.step;
+    return Row<L>(motion.square) * (h * h) + Row<L>(motion.damping) * h > TAME;
 }
 
-// Bound on the free motion of mode m and tau times its rate, together.
-inline double amplitude(const ModalMotion& motion, int m, double tau) {
-    double half = 0.5 * motion.damping[m], square = motion.square[m];
-    bool swings = motion.slow[m] == motion.fast[m];
-    // From (1, 0): C - tau w^2 S; from (0, 1): S + tau (C - c S); S never exceeds 1/w, nor C 1.
-    double longest = 1.0 / std::sqrt(std::max(square, SMALLEST));
-    double inverse = 1.0 / std::max(motion.rate[m], SMALLEST);
-    longest = swings ? std::min(longest, inverse) : longest;
-    double lean = half - tau * square;
-    double ratio = lean * inverse, first = 1.0 + std::fabs(lean) * longest;
-    first = swings ? std::min(first, std::sqrt(1.0 + ratio * ratio)) : first;
-    double bound = first * std::fabs(motion.free[0][m]);
-    bound += (longest + tau) * std::fabs(motion.free[1][m]);
-    return has_waves(motion, m) ? bound : 0.0;
+// Bound on the free motion of all modes and tau times its rate, together.
+//
+// From (1, 0): C - tau w^2 S; from (0, 1): S + tau (C - c S); S never exceeds 1/w, nor C 1.
+template <int L>
+LAW Row<L> amplitudes(const ModalMotion& motion, double tau) {
+    using V = Row<L>;
+    V square(motion.square);
+    Mask<L> swings = V(motion.slow) == V(motion.fast);
+    V longest = 1.0 / square_root(larger(square, V(SMALLEST)));
+    V inverse = 1.0 / larger(V(motion.rate), V(SMALLEST));
+    longest = select(swings, smaller(longest, inverse), longest);
+    V lean = 0.5 * V(motion.damping) - tau * square;
+    V ratio = lean * inverse, first = 1.0 + absolute(lean) * longest;
+    first = select(swings, smaller(first, square_root(1.0 + ratio * ratio)), first);
+    V bound = first * absolute(V(motion.free[0])) + (longest + tau) * absolute(V(motion.free[1]));
+    return select(has_waves<L>(motion), bound, 0.0);
 }
 
 // Play that mesh i has left at node n, less what its free waves, `d` and `rate`, take or add.
@@ -81,15 +84,50 @@ double left_without_waves(const Model& model, const March& march, std::int64_t i
 // Free waves of all modes that have any, at node n, in `now_q` and `now_p`.
 template <int L>
 void free_waves(Propagation& run, int n) {
+    using V = Row<L>;
     const ModalMotion& motion = run.motion;
-    for (int m = 0; m < L; ++m) {
-        double u = motion.free[0][m], w = motion.free[1][m];
-        double c = run.cosine[n][m], s = run.sine[n][m];
-        double rate = (c - motion.damping[m] * s) * w - motion.square[m] * s * u;
-        bool waves = has_waves(motion, m);
-        run.now_q[m] = waves ? c * u + s * w : 0.0;
-        run.now_p[m] = waves ? rate : 0.0;
-    }
+    V u(motion.free[0]), w(motion.free[1]), c(run.cosine[n]), s(run.sine[n]);
+    V rate = (c - V(motion.damping) * s) * w - V(motion.square) * s * u;
+    Mask<L> waves = has_waves<L>(motion);
+    select(waves, c * u + s * w, 0.0).store(run.now_q);
+    select(waves, rate, 0.0).store(run.now_p);
+}
+
+// Bounds on what free waves can take from the play of the meshes [m].
+template <int L>
+Row<L> wave_bounds(const Model& model, March& march) {
+    Propagation& run = march.run;
+    const double *tau = march.moment.tau, release = model.load.release;
+    alignas(64) double first[L], second[L], bound[KINDS][L];
+    amplitudes<L>(run.motion, release * tau[0]).store(first);
+    amplitudes<L>(run.motion, release * tau[1]).store(second);
+    sum_rows_twice<L>(contacts_of(run).reach, first, second, bound[0], bound[1]);
+    for (std::int64_t i = 0; i < model.train.meshes; ++i)
+        if (model.train.kind[i] != 0) bound[0][i] = bound[1][i];
+    return Row<L>(bound[0]);
+}
+
+// Whether all meshes are closed, have no errors of form, and keep so much play at every node that
+// free waves cannot take it between them: a wave that adds to the play at a node may take as much
+// elsewhere.
+template <int L>
+bool loaded_throughout(const Model& model, const March& march, const Row<L>& bound) {
+    using V = Row<L>;
+    const Train& train = model.train;
+    const Propagation& run = march.run;
+    if (train.lines[0] + train.lines[1] > 0) return false;
+    for (std::int64_t i = 0; i < train.meshes; ++i)
+        if (march.begin.side[i] == OPEN) return false;
+    alignas(64) double tau[L];
+    for (int i = 0; i < L; ++i) tau[i] = model.load.release * march.moment.tau[train.kind[i]];
+    V side(march.moment.side), reach(tau), least(std::numeric_limits<double>::infinity());
+    for (int n = 0; n < run.nodes.count; ++n)
+        least = smaller(least, side * (V(run.node_d[n]) + reach * V(run.node_rate[n])));
+    alignas(64) double left[L];
+    (least - model.load.half_backlash - 2.0 * bound).store(left);
+    for (std::int64_t i = 0; i < train.meshes; ++i)
+        if (!(left[i] >= 0.0)) return false;
+    return true;
 }
 
 // Mark the meshes that may change their contact within the step; whether there are any.
@@ -101,28 +139,23 @@ bool suspect_flanks(const Model& model, March& march) {
     const Train& train = model.train;
     Propagation& run = march.run;
     const ContactState& contacts = contacts_of(run);
-    const double* times = march.moment.tau;
-    double tau[KINDS] = {model.load.release * times[0], model.load.release * times[1]};
-    double bound[KINDS][L], least[L];
-    for (int m = 0; m < L; ++m) {
-        run.now_q[m] = amplitude(run.motion, m, tau[0]);
-        run.now_p[m] = amplitude(run.motion, m, tau[1]);
-    }
-    sum_rows_twice<L>(contacts.reach, run.now_q, run.now_p, bound[0], bound[1]);
+    const Row<L> bound = wave_bounds<L>(model, march);
+    if (loaded_throughout<L>(model, march, bound)) return false;
+    double least[L];
     for (int i = 0; i < L; ++i) least[i] = std::numeric_limits<double>::infinity();
     for (int n = 0; n < run.nodes.count; ++n) {
-        double d[L], rate[L];
+        alignas(64) double d[L], rate[L];
         free_waves<L>(run, n);
         sum_rows_twice<L>(contacts.motion, run.now_q, run.now_p, d, rate);
         for (std::int64_t i = 0; i < train.meshes; ++i) {
-            double own = tau[train.kind[i]];
-            double left = left_without_waves(model, march, i, n, own, d[i], rate[i]);
+            double tau = model.load.release * march.moment.tau[train.kind[i]];
+            double left = left_without_waves(model, march, i, n, tau, d[i], rate[i]);
             least[i] = std::min(least[i], left);
         }
     }
     bool found = false;
     for (std::int64_t i = 0; i < train.meshes; ++i) {
-        run.suspect[i] = least[i] - bound[train.kind[i]][i] < 0.0;
+        run.suspect[i] = least[i] - bound[static_cast<int>(i)] < 0.0;
         found |= run.suspect[i] != 0;
     }
     return found;

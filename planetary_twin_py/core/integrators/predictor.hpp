@@ -15,17 +15,21 @@ namespace gearbox {
 inline constexpr double ALIKE = 0.25;  // relative difference of the lengths of two steps compared
 inline constexpr int START = MOST_NODES;  // row of what was at the start
 
-// Let rest and friction grow over the step as they did when it was last made.
+// Let rest and friction grow over the step as they did when it was last made; whether that is known.
 template <int L>
-void recall(March& march) {
+bool recall(March& march) {
     Propagation& run = march.run;
     const ContactState& past = contacts_of(run);
-    if (!(std::fabs(past.past_step - run.motion.step) < ALIKE * run.motion.step)) return;
-    for (int n = 0; n < run.nodes.count; ++n)
-        for (int m = 0; m < L; ++m) {
-            run.rest[n][m] += past.past_rest[n][m] - past.past_rest[START][m];
-            run.evaluation[n].rubbing[m] += past.past_rubbing[n][m] - past.past_rubbing[START][m];
-        }
+    if (!(std::fabs(past.past_step - run.motion.step) < ALIKE * run.motion.step))
+        return false;
+    using V = Row<L>;
+    V rest(past.past_rest[START]), rubbing(past.past_rubbing[START]);
+    for (int n = 0; n < run.nodes.count; ++n) {
+        (V(run.rest[n]) + (V(past.past_rest[n]) - rest)).store(run.rest[n]);
+        double* friction = run.evaluation[n].rubbing;
+        (V(friction) + (V(past.past_rubbing[n]) - rubbing)).store(friction);
+    }
+    return true;
 }
 
 // Keep how rest and friction grew over the first step in a contact state.

@@ -12,7 +12,7 @@
 #include <cmath>
 
 #include "integrators/contact_modes.hpp"
-#include "integrators/lanes.hpp"
+#include "vector/rows.hpp"
 #include "integrators/march_record.hpp"
 #include "integrators/oscillator.hpp"
 #include "train/model.hpp"
@@ -22,6 +22,9 @@ namespace gearbox {
 inline constexpr double LONGEST_MEMORY = 1e3;  // c/(w^2 h) of a mode whose motion keeps ten digits
 
 inline ContactState& contacts_of(Propagation& run) { return run.known.states[run.motion.modes]; }
+inline const ContactState& contacts_of(const Propagation& run) {
+    return run.known.states[run.motion.modes];
+}
 
 // Express the start of a step in the modes of its contacts.
 template <int L>
@@ -52,6 +55,7 @@ void enter(const Model& model, March& march) {
 // `wave` of all modes.
 template <int L>
 inline void waves(const ModalMotion& motion, double t, double* cosine, double* sine) {
+#pragma GCC ivdep
     for (int m = 0; m < L; ++m) {
         Wave at = wave(motion.damping[m], motion.rate[m], motion.slow[m], motion.fast[m], t);
         cosine[m] = at.cosine;
@@ -62,17 +66,17 @@ inline void waves(const ModalMotion& motion, double t, double* cosine, double* s
 // Free motions of all modes at the nodes of a step of h, and the rest as it is at the start.
 template <int L>
 void set_step(Propagation& run, double h) {
+    using V = Row<L>;
     run.motion.step = h;
-    double rest[L];
-    for (int m = 0; m < L; ++m) {
-        bool free = is_free(run.motion.square[m], run.motion.damping[m], h);
-        run.spring[m] = free ? 0.0 : run.motion.square[m];
-        run.damper[m] = free ? 0.0 : run.motion.damping[m];
-        rest[m] = run.force[m] + run.damper[m] * run.p[m] + run.spring[m] * run.q[m];
-    }
+    V square(run.motion.square), damping(run.motion.damping);
+    Mask<L> free = square * h * h + damping * h < FREE_MASS;
+    V spring = select(free, 0.0, square), damper = select(free, 0.0, damping);
+    V rest = V(run.force) + damper * V(run.p) + spring * V(run.q);
+    spring.store(run.spring);
+    damper.store(run.damper);
     for (int n = 0; n < run.nodes.count; ++n) {
         waves<L>(run.motion, run.nodes.abscissa[n] * h, run.cosine[n], run.sine[n]);
-        copy<L>(rest, run.rest[n]);
+        rest.store(run.rest[n]);
     }
 }
 
@@ -86,60 +90,58 @@ inline bool resolves(const Propagation& run, std::int64_t bodies, double h) {
     return true;
 }
 
-// Coefficient of (t/h)^k in the polynomial through the rest of mode m.
-inline double power(const Propagation& run, std::int64_t k, int m) {
+// Coefficients of (t/h)^k in the polynomials through the rest of all modes.
+template <int L>
+LAW Row<L> power(const Propagation& run, std::int64_t k) {
+    using V = Row<L>;
     const double* c = run.nodes.coefficient[k];
-    double low = c[0] * run.rest[0][m] + c[1] * run.rest[1][m] + c[2] * run.rest[2][m];
-    return low + c[3] * run.rest[3][m] + c[4] * run.rest[4][m];
+    V low = c[0] * V(run.rest[0]) + c[1] * V(run.rest[1]) + c[2] * V(run.rest[2]);
+    return low + c[3] * V(run.rest[3]) + c[4] * V(run.rest[4]);
 }
 
 // The motion of all modes under the polynomial through `rest`.
 template <int L>
 void respond(Propagation& run) {
+    using V = Row<L>;
     ModalMotion& motion = run.motion;
     const double h = motion.step, square = h * h, inertia = 1.0 / (h * h), per_step = 1.0 / h;
-    for (int m = 0; m < L; ++m) {
-        double spring = run.spring[m], loss = run.damper[m] * per_step;
-        bool free = spring + loss == 0.0;
-        double inverse = 1.0 / (free ? 1.0 : spring);
-        double a = power(run, 0, m), b = power(run, 1, m), c = power(run, 2, m);
-        double d = power(run, 3, m), e = power(run, 4, m);
-        // w^2 y_k + (k + 1) c/h y_(k+1) + (k + 1) (k + 2)/h^2 y_(k+2) is the rest's coefficient.
-        double four = e * inverse;
-        double three = (d - 4.0 * loss * four) * inverse;
-        double two = (c - 3.0 * loss * three - 12.0 * inertia * four) * inverse;
-        double one = (b - 2.0 * loss * two - 6.0 * inertia * three) * inverse;
-        double zero = (a - loss * one - 2.0 * inertia * two) * inverse;
-        double q = run.q[m], p = run.p[m];
-        motion.particular[0][m] = free ? q : zero;
-        motion.particular[1][m] = free ? h * p : one;
-        motion.particular[2][m] = free ? square / 2.0 * a : two;
-        motion.particular[3][m] = free ? square / 6.0 * b : three;
-        motion.particular[4][m] = free ? square / 12.0 * c : four;
-        motion.particular[5][m] = free ? square / 20.0 * d : 0.0;
-        motion.particular[6][m] = free ? square / 30.0 * e : 0.0;
-        motion.free[0][m] = free ? 0.0 : q - zero;
-        motion.free[1][m] = free ? 0.0 : p - one * per_step;
-    }
+    V spring(run.spring), loss = V(run.damper) * per_step;
+    Mask<L> free = spring + loss == 0.0;
+    V inverse = 1.0 / select(free, 1.0, spring);
+    V a = power<L>(run, 0), b = power<L>(run, 1), c = power<L>(run, 2);
+    V d = power<L>(run, 3), e = power<L>(run, 4);
+    // w^2 y_k + (k + 1) c/h y_(k+1) + (k + 1) (k + 2)/h^2 y_(k+2) is the rest's coefficient.
+    V four = e * inverse;
+    V three = (d - 4.0 * loss * four) * inverse;
+    V two = (c - 3.0 * loss * three - 12.0 * inertia * four) * inverse;
+    V one = (b - 2.0 * loss * two - 6.0 * inertia * three) * inverse;
+    V zero = (a - loss * one - 2.0 * inertia * two) * inverse;
+    V q(run.q), p(run.p);
+    select(free, q, zero).store(motion.particular[0]);
+    select(free, h * p, one).store(motion.particular[1]);
+    select(free, square / 2.0 * a, two).store(motion.particular[2]);
+    select(free, square / 6.0 * b, three).store(motion.particular[3]);
+    select(free, square / 12.0 * c, four).store(motion.particular[4]);
+    select(free, square / 20.0 * d, 0.0).store(motion.particular[5]);
+    select(free, square / 30.0 * e, 0.0).store(motion.particular[6]);
+    select(free, 0.0, q - zero).store(motion.free[0]);
+    select(free, 0.0, p - one * per_step).store(motion.free[1]);
 }
 
 // q and q' of all modes at t/h, from `waves` at that time.
 template <int L>
-inline void modal_states(const ModalMotion& motion, double t, const double* cosine,
-                         const double* sine, double* q, double* p) {
+LAW void modal_states(const ModalMotion& motion, double t, const double* cosine,
+                               const double* sine, double* q, double* p) {
+    using V = Row<L>;
     const double per_step = 1.0 / motion.step;
     const double(*y)[BODIES] = motion.particular;
-    for (int m = 0; m < L; ++m) {
-        double a = y[0][m], b = y[1][m], c = y[2][m], d = y[3][m];
-        double e = y[4][m], f = y[5][m], g = y[6][m];
-        double u = motion.free[0][m], w = motion.free[1][m];
-        double value = a + t * (b + t * (c + t * (d + t * (e + t * (f + t * g)))));
-        double slope = b + t * (2.0 * c + t * (3.0 * d + t * (4.0 * e + t * (5.0 * f + t * 6.0 * g))));
-        double rate = (cosine[m] - motion.damping[m] * sine[m]) * w;
-        rate -= motion.square[m] * sine[m] * u;
-        q[m] = value + cosine[m] * u + sine[m] * w;
-        p[m] = slope * per_step + rate;
-    }
+    V a(y[0]), b(y[1]), c(y[2]), d(y[3]), e(y[4]), f(y[5]), g(y[6]);
+    V u(motion.free[0]), w(motion.free[1]), first(cosine), second(sine);
+    V value = a + t * (b + t * (c + t * (d + t * (e + t * (f + t * g)))));
+    V slope = b + t * (2.0 * c + t * (3.0 * d + t * (4.0 * e + t * (5.0 * f + t * 6.0 * g))));
+    V rate = (first - V(motion.damping) * second) * w - V(motion.square) * second * u;
+    (value + first * u + second * w).store(q);
+    (slope * per_step + rate).store(p);
 }
 
 // q and q' of all modes at any time within the step, in `now_q` and `now_p`.
@@ -171,24 +173,51 @@ inline void trim_at(const Model& model, const March& march, double delay, const 
     }
 }
 
-// Answer the rest as it is now, and move on to where that takes the nodes.
+// Modes and meshes at node n.
 template <int L>
-void visit_nodes(const Model& model, March& march) {
+LAW void move_node(Propagation& run, const ContactState& contacts, std::int64_t n) {
+    double *q = run.node_q[n], *p = run.node_p[n];
+    modal_states<L>(run.motion, run.nodes.abscissa[n], run.cosine[n], run.sine[n], q, p);
+    sum_rows_twice<L>(contacts.motion, q, p, run.node_d[n], run.node_rate[n]);
+}
+
+// Bodies at node n, and the trim of the speed loops.
+template <int L>
+LAW void move_bodies(const Model& model, March& march, const ContactState& contacts,
+                              std::int64_t n) {
+    Propagation& run = march.run;
+    sum_rows_twice<L>(contacts.form, run.node_q[n], run.node_p[n], run.node_x[n], run.node_v[n]);
+    double delay = run.nodes.abscissa[n] * run.motion.step;
+    trim_at(model, march, delay, run.node_x[n], run.node_trim[n]);
+}
+
+// Answer the rest as it is now, and move on to where that takes the nodes: their modes and meshes,
+// and the bodies at the last.
+template <int L>
+void visit_last_node(const Model& model, March& march) {
     Propagation& run = march.run;
     respond<L>(run);
-    const Nodes& nodes = run.nodes;
     const ContactState& contacts = contacts_of(run);
-    std::int64_t last = nodes.count - 1;
+    const std::int64_t last = run.nodes.count - 1;
     copy<L>(run.node_d[last], run.before_d);
     copy<L>(run.node_rate[last], run.before_rate);
     copy<L>(run.node_v[last], run.before_v);
-    for (int n = 0; n < nodes.count; ++n) {
-        double t = nodes.abscissa[n], *q = run.node_q[n], *p = run.node_p[n];
-        modal_states<L>(run.motion, t, run.cosine[n], run.sine[n], q, p);
-        sum_rows_twice<L>(contacts.form, q, p, run.node_x[n], run.node_v[n]);
-        sum_rows_twice<L>(contacts.motion, q, p, run.node_d[n], run.node_rate[n]);
-        trim_at(model, march, t * run.motion.step, run.node_x[n], run.node_trim[n]);
-    }
+    for (std::int64_t n = 0; n <= last; ++n) move_node<L>(run, contacts, n);
+    move_bodies<L>(model, march, contacts, last);
+}
+
+// The bodies at the other nodes, which another sweep asks for.
+template <int L>
+void visit_other_nodes(const Model& model, March& march) {
+    const ContactState& contacts = contacts_of(march.run);
+    for (std::int64_t n = 0; n < march.run.nodes.count - 1; ++n)
+        move_bodies<L>(model, march, contacts, n);
+}
+
+template <int L>
+void visit_nodes(const Model& model, March& march) {
+    visit_last_node<L>(model, march);
+    visit_other_nodes<L>(model, march);
 }
 
 }  // namespace gearbox

@@ -42,6 +42,7 @@ struct alignas(64) Propagation {
     alignas(64) double before_d[16];  // at the last node, one sweep earlier
     alignas(64) double before_rate[16];
     alignas(64) double before_v[16];
+    double weight[5];  // of the nodes in the integral over the step that stands [s]
     Evaluation evaluation[5];
     alignas(64) double now_q[16];  // room to work in
     alignas(64) double now_p[16];

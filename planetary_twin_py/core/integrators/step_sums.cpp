@@ -18,13 +18,13 @@ constexpr std::int64_t POINTS = 129;  // room
 constexpr double NEAR = 0.02;  // of a step, by which it may end beside its last node
 
 // Films at the nodes; at two of them without friction, as nothing else asks for them.
-void add_films_of_nodes(const Model& model, March& march) {
+template <int L>
+void add_films_of_nodes(const Model& model, March& march, ContactSums<L>& contacts) {
     Propagation& run = march.run;
-    ContactSums& contacts = march.sums.contacts;
     const double h = march.control.step;
     if (model.train.friction) {
         for (std::int64_t n = 0; n < run.nodes.count; ++n)
-            add_films(model.train, run.evaluation[n].pairs, march.sums.weight[n], contacts);
+            add_films(model.train, run.evaluation[n].pairs, run.weight[n], contacts);
         return;
     }
     std::int64_t early = std::max<std::int64_t>(run.nodes.count - 4, 0), late = run.nodes.count - 2;
@@ -41,18 +41,18 @@ void add_films_of_nodes(const Model& model, March& march) {
 // Films at the times of the look. Beyond the end of a step whose flanks part, nodes show films of no
 // load.
 template <int L>
-void add_films_of_look(const Model& model, March& march) {
+void add_films_of_look(const Model& model, March& march, ContactSums<L>& contacts) {
     const Train& train = model.train;
-    StepSums& sums = march.sums;
+    const Look& look = march.sums.look;
     Evaluation& work = march.work.evaluation;
     double *x = march.dense.x, *v = march.dense.v;
-    for (std::int64_t k = 0; k < sums.look.count; ++k) {
-        double at = sums.look.at[k];
+    for (std::int64_t k = 0; k < look.count; ++k) {
+        double at = look.at[k];
         propagate<L>(march, at, x, v);
         move_meshes(train, x, v, work.now);
         mesh_forces(model, march.begin, march.moment, x, v, at, work);
         find_contacts(model, march.moment, v, work);
-        add_films(train, work.pairs, sums.look.weight[k], sums.contacts);
+        add_films(train, work.pairs, look.weight[k], contacts);
     }
 }
 
@@ -67,7 +67,7 @@ void look_at_nodes(March& march) {
     copy<L>(march.first.now.push, look.push[0]);
     for (std::int64_t n = 0; n < run.nodes.count; ++n) {
         look.at[n + 1] = run.nodes.abscissa[n] * run.motion.step;
-        look.weight[n + 1] = march.sums.weight[n];
+        look.weight[n + 1] = run.weight[n];
         copy<L>(run.node_d[n], look.d[n + 1]);
         copy<L>(run.evaluation[n].now.push, look.push[n + 1]);
     }
@@ -97,35 +97,34 @@ template <int L>
 void add_collocated(const Model& model, March& march) {
     const Train& train = model.train;
     const Propagation& run = march.run;
-    StepSums& sums = march.sums;
-    const double h = march.control.step, part = h / run.motion.step;
-    clear_contacts(train, sums.contacts);
-    for (std::int64_t n = 0; n < run.nodes.count; ++n) {
-        sums.weight[n] = node_weight(run, n, part);
-        add_friction(train, run.evaluation[n], sums.weight[n], sums.contacts);
-    }
+    const double h = march.control.step;
+    ContactSums<L> contacts;
+    for (std::int64_t n = 0; n < run.nodes.count; ++n)
+        add_friction(train, run.evaluation[n], run.weight[n], contacts);
     std::int64_t intervals = even_intervals(march, train, h);
     if (std::fabs(h - run.motion.step) > NEAR * run.motion.step) {
         look_at_even_times<L>(model, march, std::max(intervals, FEWEST));
-        add_films_of_look<L>(model, march);
+        add_films_of_look(model, march, contacts);
     } else {
         if (intervals == 0)
             look_at_nodes<L>(march);
         else
             look_at_even_times<L>(model, march, intervals);
-        add_films_of_nodes(model, march);
+        add_films_of_nodes(model, march, contacts);
     }
-    put_contacts(train, model.oil, sums.contacts, sums.step.integral);
+    put_contacts(train, model.oil, contacts, march.sums.step.integral);
 }
 
 // Let `sums.rates` hold what an evaluation shows of contacts and friction.
 void put_rates(const Model& model, const StepConstants& constants, const double* v,
                Evaluation& work, StepSums& sums) {
     if (!model.train.friction) find_contacts(model, constants, v, work);
-    clear_contacts(model.train, sums.contacts);
-    add_films(model.train, work.pairs, 1.0, sums.contacts);
-    add_friction(model.train, work, 1.0, sums.contacts);
-    put_contacts(model.train, model.oil, sums.contacts, sums.rates);
+    with_lanes(model.train, [&]<int L>(std::integral_constant<int, L>) {
+        ContactSums<L> contacts;
+        add_films(model.train, work.pairs, 1.0, contacts);
+        add_friction(model.train, work, 1.0, contacts);
+        put_contacts(model.train, model.oil, contacts, sums.rates);
+    });
 }
 
 void add_rates(const Train& train, const StepSums& sums, double weight, double (*out)[MESHES]) {
@@ -169,45 +168,44 @@ struct Around {
 };
 
 // Vertex of the parabola through three values, if it lies between them; else the middle one.
-inline double vertex(const Around& at, double before, double here, double after) {
-    double a = (before - here) * at.lean, b = (after - here) * at.rise;
-    double curve = (b - a) * at.bend;
-    double slope = a - curve * at.left;
-    double place = -0.5 * slope / curve;
-    bool between = (at.left < place) & (place < at.right);
-    double found = here + 0.5 * slope * place;
-    return between ? found : here;
+template <int L>
+LAW Row<L> vertex(const Around& at, const double* before, const double* middle,
+                             const double* after) {
+    using V = Row<L>;
+    V here(middle), a = (V(before) - here) * at.lean, b = (V(after) - here) * at.rise;
+    V curve = (b - a) * at.bend;
+    V slope = a - curve * at.left;
+    V place = -0.5 * slope / curve;
+    Mask<L> between = (place > at.left) & (place < at.right);
+    return select(between, here + 0.5 * slope * place, here);
 }
 
 template <int L>
 void add_look_in_lanes(const StepConstants& constants, const Look& look, MeshSums& step) {
-    double mean[L] = {}, square[L] = {}, force_sum[L] = {}, dte[L] = {}, force_peak[L] = {};
+    using V = Row<L>;
+    V mean(0.0), square(0.0), force_sum(0.0), dte(0.0), force_peak(0.0);
     for (std::int64_t n = 0; n < look.count; ++n) {
         double weight = look.weight[n];
-        for (int i = 0; i < L; ++i) {
-            double d = look.d[n][i], force = std::max(look.push[n][i], 0.0);
-            mean[i] += weight * d;
-            square[i] += weight * d * d;
-            force_sum[i] += weight * constants.side[i] * force;
-            dte[i] = std::max(dte[i], std::fabs(d));
-            force_peak[i] = std::max(force_peak[i], force);
-        }
+        V d(look.d[n]), force = larger(V(0.0), V(look.push[n]));
+        mean += weight * d;
+        square += weight * d * d;
+        force_sum += weight * force;
+        dte = larger(dte, absolute(d));
+        force_peak = larger(force_peak, force);
     }
     for (std::int64_t n = 1; n < look.count - 1; ++n) {
         double left = look.at[n - 1] - look.at[n], right = look.at[n + 1] - look.at[n];
         Around at{left, right, 1.0 / left, 1.0 / right, 1.0 / (right - left)};
-        for (int i = 0; i < L; ++i) {
-            double d = vertex(at, look.d[n - 1][i], look.d[n][i], look.d[n + 1][i]);
-            double push = vertex(at, look.push[n - 1][i], look.push[n][i], look.push[n + 1][i]);
-            dte[i] = std::max(dte[i], std::fabs(d));
-            force_peak[i] = std::max(force_peak[i], push);
-        }
+        V d = vertex<L>(at, look.d[n - 1], look.d[n], look.d[n + 1]);
+        dte = larger(dte, absolute(d));
+        V push = vertex<L>(at, look.push[n - 1], look.push[n], look.push[n + 1]);
+        force_peak = larger(force_peak, push);
     }
-    copy<L>(mean, step.integral[DTE]);
-    copy<L>(square, step.integral[SQUARE]);
-    copy<L>(force_sum, step.integral[MESH_FORCE]);
-    copy<L>(dte, step.dte_peak);
-    copy<L>(force_peak, step.force_peak);
+    mean.store(step.integral[DTE]);
+    square.store(step.integral[SQUARE]);
+    (V(constants.side) * force_sum).store(step.integral[MESH_FORCE]);
+    dte.store(step.dte_peak);
+    force_peak.store(step.force_peak);
 }
 
 }  // namespace

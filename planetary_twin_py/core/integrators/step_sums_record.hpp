@@ -2,7 +2,6 @@
 
 #include <cstdint>
 
-#include "integrators/contact_sums_record.hpp"
 #include "mesh/mesh_sums.hpp"
 
 namespace gearbox {
@@ -21,8 +20,6 @@ struct alignas(64) StepSums {
     MeshSums total;  // since it was taken, up to the start of the last step
     double taken;  // of the last step [s]
     Look look;
-    ContactSums contacts;
-    double weight[5];  // of the nodes of a step by collocation [s]
     bool stale;  // `rates` are not those of the start of the step
     alignas(64) double rates[12][16];  // by which the integrals grow at the end of a stiff step
     alignas(64) double push[16];  // there [N]

@@ -14,8 +14,8 @@ namespace gearbox {
 namespace {
 
 // Let the last step count from `begin` to `end` [s] after its start.
+template <int L>
 void count_part(const Model& model, March& march, double begin, double end) {
-    if (end <= begin) return;
     const Train& train = model.train;
     StepSums& sums = march.sums;
     Look& look = sums.look;
@@ -25,21 +25,26 @@ void count_part(const Model& model, March& march, double begin, double end) {
     if (march.control.collocated)
         intervals = std::max(even_intervals(march, train, end - begin), FEWEST);
     set_even_times(look, begin, end, intervals);
-    clear_contacts(train, sums.contacts);
+    ContactSums<L> contacts;
     for (std::int64_t k = 0; k < look.count; ++k) {
         interpolate(model, march, look.at[k]);
         move_meshes(train, x, v, work.now);
-        std::copy(work.now.d, work.now.d + train.lanes, look.d[k]);
+        copy<L>(work.now.d, look.d[k]);
         mesh_forces(model, march.begin, march.moment, x, v, look.at[k], work);
-        std::copy(work.now.push, work.now.push + train.lanes, look.push[k]);
+        copy<L>(work.now.push, look.push[k]);
         find_contacts(model, march.moment, v, work);
-        add_films(train, work.pairs, look.weight[k], sums.contacts);
-        add_friction(train, work, look.weight[k], sums.contacts);
+        add_films(train, work.pairs, look.weight[k], contacts);
+        add_friction(train, work, look.weight[k], contacts);
     }
     sums.part.time = end - begin;
-    put_contacts(train, model.oil, sums.contacts, sums.part.integral);
+    put_contacts(train, model.oil, contacts, sums.part.integral);
     add_look(train, march.moment, look, sums.part);
     add_sums(sums.part, sums.total, train.lanes);
+}
+
+void count_between(const Model& model, March& march, double begin, double end) {
+    if (end <= begin) return;
+    with_lanes(model.train, [&](auto lanes) { count_part<lanes>(model, march, begin, end); });
 }
 
 }  // namespace
@@ -49,12 +54,12 @@ void count_step(const Model& model, March& march) {
     if (sums.taken == 0.0)
         add_sums(sums.step, sums.total, model.train.lanes);
     else
-        count_part(model, march, sums.taken, march.control.step);
+        count_between(model, march, sums.taken, march.control.step);
     sums.taken = 0.0;
 }
 
 void count_until(const Model& model, March& march, double delay) {
-    count_part(model, march, march.sums.taken, delay);
+    count_between(model, march, march.sums.taken, delay);
     march.sums.taken = delay;
 }
 
