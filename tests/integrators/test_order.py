@@ -31,7 +31,7 @@ def march(points, steps):
     engine = Engine(scene, 1e-4)
     engine.advance(START, 1, 1.0, 0)
     engine.change(scene.operating_point, 1e-4, START)
-    model, run, lanes = engine.model, engine.march, engine.train.lanes
+    model, run = engine.model, engine.march
     run.run.nodes = radau(points)
     run.end.x[: len(DISPLACED)] += DISPLACED
     count = run.control
@@ -40,7 +40,7 @@ def march(points, steps):
         begin_step(model, run)
         hold_friction(model, run)
         enter(model, run)
-        set_step(run.run, lanes, SPAN / steps)
+        set_step(model, run, SPAN / steps)
         for n in range(points):
             run.run.evaluation[n].rubbing[:] = run.first.rubbing
         visit_nodes(model, run)

@@ -14,7 +14,7 @@ inline constexpr double NEARLY_CRITICAL = 1e-4;  // phase below which a sine cou
 inline constexpr double SMALLEST = 1e-300;  // keeps divisions finite
 
 // Whether a mode hardly moves of its own within h seconds.
-inline bool is_free(double square, double damping, double h) {
+LAW bool is_free(double square, double damping, double h) {
     return square * h * h + damping * h < FREE_MASS;
 }
 
@@ -24,7 +24,7 @@ struct DecayRates {
     double fast;
 };
 
-inline DecayRates decay_rates(double square, double damping) {
+LAW DecayRates decay_rates(double square, double damping) {
     double half = 0.5 * damping;
     double split = square - half * half;
     double rate = std::sqrt(std::fabs(split));
@@ -40,7 +40,7 @@ struct Wave {
 
 // Free motions after t seconds. The rates are those of `decay_rates`. Those of the motions are
 // -w^2 times the second, and the first less c times the second.
-inline Wave wave(double damping, double rate, double slow, double fast, double t) {
+LAW Wave wave(double damping, double rate, double slow, double fast, double t) {
     double phase = rate * t;
     double lasting = precise_exp(-slow * t), fading = precise_exp(-fast * t);
     auto [sine, cosine] = sin_cos(phase);

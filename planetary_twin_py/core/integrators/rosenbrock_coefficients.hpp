@@ -11,7 +11,7 @@ namespace gearbox::ros34pw2 {
 inline constexpr double GAMMA = 4.3586652150845900e-01;
 
 using Table = double[STAGES][STAGES];
-using Row = double[STAGES];
+using Weights = double[STAGES];
 
 inline constexpr Table ALPHA = {
     {0.0, 0.0, 0.0, 0.0},
@@ -25,9 +25,9 @@ inline constexpr Table GAMMAS = {
     {-9.0338057013044082e-01, 5.4180672388095326e-02, GAMMA, 0.0},
     {2.4212380706095346e-01, -1.2232505839045147e00, 5.4526025533510214e-01, GAMMA},
 };
-inline constexpr Row B = {2.4212380706095346e-01, -1.2232505839045147e00, 1.5452602553351020e00,
+inline constexpr Weights B = {2.4212380706095346e-01, -1.2232505839045147e00, 1.5452602553351020e00,
                           GAMMA};
-inline constexpr Row B_EMBEDDED = {3.7810903145819369e-01, -9.6042292212423178e-02, 5.0e-01,
+inline constexpr Weights B_EMBEDDED = {3.7810903145819369e-01, -9.6042292212423178e-02, 5.0e-01,
                                    2.1793326075422950e-01};
 
 struct Transformed {
