@@ -1,6 +1,7 @@
 """Layouts for PlotJuggler and Foxglove plot existing fields, with keys that these tools read.
 
-The keys were read in the sources of Lichtblick 1.28 and PlotJuggler 3.17.
+The keys were read in the sources of Lichtblick 1.28 and PlotJuggler 3.17. The layouts were seen
+in Lichtblick 1.24.3 and PlotJuggler 3.9.3, in a window of 1280 x 800 pixels.
 """
 
 from __future__ import annotations
@@ -29,6 +30,7 @@ CURVE = re.compile(rf"^{STATE}[./](?P<field>\w+)(\[(?P<place>\d)\])?$")
 FIELD = re.compile(r"^float64\S*\s+(?P<name>\w+)\s+# \[(?P<unit>[^]]+)\]", re.MULTILINE)
 UNITS = dict(FIELD.findall((ROOT / "msgs_spec/msg/GearboxState.msg").read_text()))
 TITLES = ("lichtblickPanelTitle", "foxglovePanelTitle")
+LENGTH = re.compile(r"^[\d.e-]+$")  # of a path that is a horizontal line
 
 
 def field_of(curve: str) -> str:
@@ -60,15 +62,43 @@ def plots(panels: dict[str, Any]) -> Iterator[dict[str, Any]]:
     yield from found
 
 
-def test_every_panel_of_foxglove_is_shown() -> None:
+def curves(panel: dict[str, Any]) -> list[dict[str, Any]]:
+    return [path for path in panel["paths"] if not LENGTH.match(path["value"])]
+
+
+def lines(panel: dict[str, Any]) -> list[dict[str, Any]]:
+    return [path for path in panel["paths"] if LENGTH.match(path["value"])]
+
+
+def test_every_panel_of_foxglove_is_shown_once(panels: dict[str, Any]) -> None:
     layout = json.loads((LAYOUTS / "foxglove.json").read_text())
 
-    def shown(part: str | dict[str, Any]) -> set[str]:
-        if isinstance(part, str):
-            return {part}
-        return shown(part["first"]) | shown(part["second"])
+    def shown(part: str | dict[str, Any]) -> list[str]:
+        if isinstance(part, dict):
+            return shown(part["first"]) + shown(part["second"])
+        tabs = panels[part].get("tabs", [])
+        return [part, *(name for tab in tabs for name in shown(tab["layout"]))]
 
-    assert shown(layout["layout"]) == set(layout["configById"])
+    assert sorted(shown(layout["layout"])) == sorted(panels)
+
+
+def test_tabs_of_both_layouts_have_the_same_plots(
+    panels: dict[str, Any], docks: list[ElementTree.Element]
+) -> None:
+    def titles(part: str | dict[str, Any]) -> list[str]:
+        if isinstance(part, str):
+            return [panels[part][TITLES[0]]]
+        return titles(part["first"]) + titles(part["second"])
+
+    tabs = {tab["title"]: titles(tab["layout"]) for tab in panels["Tab!plots"]["tabs"]}
+    others = {
+        tab.attrib["tab_name"]: [dock.attrib["name"] for dock in tab.iter("DockArea")]
+        for tab in ElementTree.parse(LAYOUTS / "plotjuggler.xml").iter("Tab")
+    }
+    in_metres = {
+        name: [title.replace("[µm]", "[m]") for title in found] for name, found in others.items()
+    }
+    assert tabs == in_metres and sum(map(len, tabs.values())) == len(docks)
 
 
 def test_every_panel_of_foxglove_has_a_title_of_its_own(panels: dict[str, Any]) -> None:
@@ -81,11 +111,14 @@ def test_foxglove_plots_fields_in_their_unit_under_short_names_beside_the_curves
     panels: dict[str, Any],
 ) -> None:
     for panel in plots(panels):
-        (unit,) = {UNITS[field_of(path["value"])] for path in panel["paths"]}
+        (unit,) = {UNITS[field_of(path["value"])] for path in curves(panel)}
         assert all(panel[key].endswith(f" [{unit}]") for key in TITLES)
         labels = [path["label"] for path in panel["paths"]]
         assert len(set(labels)) == len(labels) and max(map(len, labels)) <= 16
         assert panel["legendDisplay"] == "left" and panel["showLegend"]
+        width = 0.7 * 1280
+        room = panel["sidebarDimension"] * width / (panel["sidebarDimension"] + width)  # it shrinks
+        assert room - 60 > 6 * max(map(len, labels))  # 60 pixels are buttons, a letter has 6
 
 
 def test_foxglove_plots_over_the_time_that_its_time_bar_shows(panels: dict[str, Any]) -> None:
@@ -96,19 +129,22 @@ def test_foxglove_plots_over_the_time_that_its_time_bar_shows(panels: dict[str, 
 def test_plots_of_lengths_have_bounds_that_contain_the_sample_recording(
     panels: dict[str, Any],
 ) -> None:
-    """Without both bounds, Lichtblick's axis has ticks no closer than 1e-3."""
+    """Ticks of Lichtblick's axes are at least 1e-3 apart: bounds are labelled, and a line."""
     (file,) = (ROOT / "recordings/sample").glob("*.mcap")
     with file.open("rb") as stream:
         found = make_reader(stream).iter_messages(topics=[STATE])
         states = [deserialize_message(message.data, GearboxState) for *_, message in found]
     for panel in plots(panels):
-        fields = [field_of(path["value"]) for path in panel["paths"]]
+        fields = [field_of(path["value"]) for path in curves(panel)]
         if UNITS[fields[0]] != "m":
-            assert "minYValue" not in panel and "maxYValue" not in panel
+            assert "minYValue" not in panel and "maxYValue" not in panel and not lines(panel)
             continue
         values = np.array([[getattr(state, name)[:3] for name in fields] for state in states])
         low, high = panel["minYValue"], panel["maxYValue"]
         assert low <= values.min() and 0.25 * high < values.max() < high
+        (line,) = lines(panel)
+        assert low < float(line["value"]) < high
+        assert line["label"] == f"{1e6 * float(line['value']):g} µm"
 
 
 def test_the_gears_fill_the_view_of_foxglove(panels: dict[str, Any]) -> None:
@@ -142,6 +178,15 @@ def test_plotjuggler_plots_fields_scaled_to_the_unit_in_the_title_of_the_plot(
             options = transform.find("options")
             assert options is not None and float(options.attrib["value_scale"]) == scale
             assert {options.attrib[f"{of}_offset"] for of in ("time", "value")} == {"0"}
+
+
+def test_plots_of_plotjuggler_are_two_by_two_so_that_legends_are_whole() -> None:
+    for container in ElementTree.parse(LAYOUTS / "plotjuggler.xml").iter("Container"):
+        (rows,) = container.findall("DockSplitter")
+        pairs = rows.findall("DockSplitter")
+        assert [len(pair.findall("DockArea")) for pair in pairs] == [2, 2]
+        assert rows.attrib["orientation"] == "-"
+        assert {pair.attrib["orientation"] for pair in pairs} == {"|"}
 
 
 def test_curves_of_plotjuggler_have_short_names_of_their_own(
