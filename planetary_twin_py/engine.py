@@ -13,10 +13,8 @@ from fractions import Fraction
 import numpy as np
 
 from ._core import (
-    AUTO,
-    COLLOCATION,
     IMPULSE,
-    ROSENBROCK,
+    METHODS,
     Control,
     Load,
     March,
@@ -42,7 +40,6 @@ from .runaway import Limits, RunawayError, squeeze
 from .scene import OperatingPoint, Scene
 from .tolerance import check_tolerance
 
-METHODS = {"auto": AUTO, "march": AUTO, "collocation": COLLOCATION, "rosenbrock": ROSENBROCK}
 # Tolerances down to which so many points of a step are worth their cost, see docs.
 POINTS = ((3e-3, 3), (3e-4, 4), (0.0, 5))
 LONGEST_STEP = 1e-3  # [s]

@@ -21,6 +21,7 @@ from ._core import (
     LAMBDA,
     MESH_FORCE,
     MESH_POWER,
+    METHODS,
     POWER_LOSS,
     STIFFNESS_WORK,
     VISCOUS,
@@ -29,7 +30,6 @@ from ._core import (
 from .accuracy import AccuracyWarning, accuracy_warnings
 from .dynamics.bodies import body_names, mesh_names
 from .dynamics.mesh_sums import MeshSums, in_order
-from .engine import METHODS
 from .integrators.interpolant import Samples
 from .ledger_check import LedgerWarning, balance_of_run, ledger_warning
 from .result import Energy, Result, Stats

@@ -5,9 +5,7 @@ from __future__ import annotations
 import math
 
 from .._core import (
-    EYRING,
-    PLATEAU,
-    SCHLENK,
+    TRACTION_LAWS,
     Asperities,
     Oil,
     ShearThinning,
@@ -23,12 +21,6 @@ from ..scene import OperatingPoint, Scene
 from ..scene.lubrication import Lubrication
 
 THINNEST = 1e-12  # lambda ratio that stands for none at all: a share of 0.04 %
-_TRACTION_LAWS = {
-    "eyring": EYRING,
-    "evans_johnson": PLATEAU,
-    "printed": PLATEAU,
-    "schlenk": SCHLENK,
-}
 
 
 def build_oil(scene: Scene, point: OperatingPoint) -> Oil:
@@ -48,7 +40,7 @@ def build_oil(scene: Scene, point: OperatingPoint) -> Oil:
     return Oil(
         film=FILM_LAWS[data.film],
         asperities=asperities,
-        traction_law=_TRACTION_LAWS[data.traction],
+        traction_law=TRACTION_LAWS[data.traction],
         traction=_traction(data, modulus, viscosity),
         shear_thinning=_shear_thinning(data, viscosity, contact_factor, width),
         log_schlenk=log_schlenk_factor(width, viscosity, data.composite_roughness, data.oil_factor),

@@ -12,7 +12,7 @@ from pathlib import Path
 from markdown_it import MarkdownIt
 
 ROOT = Path(__file__).parents[2]
-LANGUAGES = {"python", "console", "yaml", "diff", "text"}
+LANGUAGES = {"python", "c++", "console", "yaml", "diff", "text"}
 REASONS = {
     "ros2": "needs the command ros2, which is not to be had from a package index",
     "desktop": "needs a program with windows: RViz, PlotJuggler, Foxglove, Rerun, a browser",

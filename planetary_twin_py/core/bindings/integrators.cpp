@@ -142,9 +142,9 @@ void bind_oscillator(nb::module_& m) {
 }  // namespace
 
 void bind_integrators(nb::module_& m) {
-    m.attr("AUTO") = static_cast<int>(AUTO);
-    m.attr("COLLOCATION") = static_cast<int>(COLLOCATION);
-    m.attr("ROSENBROCK") = static_cast<int>(ROSENBROCK);
+    nb::dict methods;
+    for (auto [name, method] : METHODS) methods[name] = static_cast<int>(method);
+    m.attr("METHODS") = methods;
     m.attr("NO_MESH") = NO_MESH;
     bind_march(m);
     bind_parts_of_steps(m);

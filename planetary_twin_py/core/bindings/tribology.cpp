@@ -63,9 +63,9 @@ void bind_laws(nb::module_& m) {
     m.attr("CREEPING") = CREEPING;
     m.attr("ELASTIC") = ELASTIC;
     m.attr("RELAXATION") = RELAXATION;
-    m.attr("PLATEAU") = static_cast<int>(TractionLaw::PLATEAU);
-    m.attr("EYRING") = static_cast<int>(TractionLaw::EYRING);
-    m.attr("SCHLENK") = static_cast<int>(TractionLaw::SCHLENK);
+    nb::dict laws;
+    for (auto [name, law] : TRACTION_LAWS) laws[name] = static_cast<int>(law);
+    m.attr("TRACTION_LAWS") = laws;
     m.def("log_film_thickness", &log_film_thickness<double>, "law"_a, "log_radius"_a,
           "log_speed_group"_a, "log_material_group"_a, "log_load_group"_a);
     m.def("half_width", &half_width<double>, "load"_a, "radius"_a, "face_width"_a,

@@ -6,7 +6,19 @@
 
 namespace gearbox {
 
-enum Method : std::int64_t { AUTO = 0, COLLOCATION = 1, ROSENBROCK = 2 };
+enum Method : std::int64_t { AUTO, COLLOCATION, ROSENBROCK };
+
+struct NamedMethod {
+    const char* name;  // what a caller asks for
+    Method method;
+};
+
+constexpr NamedMethod METHODS[] = {
+    {"auto", AUTO},
+    {"march", AUTO},  // without repetition
+    {"collocation", COLLOCATION},
+    {"rosenbrock", ROSENBROCK},
+};
 
 inline constexpr std::int64_t NO_MESH = -1;
 inline constexpr std::int64_t FAILED = -2;  // no mesh, and no step

@@ -9,6 +9,18 @@ namespace gearbox {
 
 enum class TractionLaw { PLATEAU, EYRING, SCHLENK };  // the values of Oil.traction_law
 
+struct NamedLaw {
+    const char* name;  // in a scene
+    TractionLaw law;
+};
+
+constexpr NamedLaw TRACTION_LAWS[] = {
+    {"eyring", TractionLaw::EYRING},
+    {"evans_johnson", TractionLaw::PLATEAU},
+    {"printed", TractionLaw::PLATEAU},  // with other constants
+    {"schlenk", TractionLaw::SCHLENK},
+};
+
 enum class BoundaryLaw {
     NONE,                 // Schlenk's regression has it in it
     SHARING,              // by load sharing, see `load_sharing.hpp`
