@@ -6,6 +6,7 @@
 #include "integrators/both_flanks.hpp"
 #include "integrators/collocated_step.hpp"
 #include "integrators/creep.hpp"
+#include "integrators/cycle_samples.hpp"
 #include "integrators/edges.hpp"
 #include "integrators/frame.hpp"
 #include "integrators/interpolant.hpp"
@@ -106,19 +107,25 @@ void advance(const Model& model, March& march, const Instant& until, const Insta
              Sampling samples, const Samples& out) {
     std::int64_t taken = 0;
     const std::int64_t room = out.rows - 1;
+    auto show = [&](const Instant& at, std::int64_t row) {
+        if (march.repetition.playing)
+            sample_cycle(model, march, at, out, row);
+        else
+            sample(model, march, delay(march.begin, at), out, row);
+    };
     while (true) {
         while (taken < room && delay(march.end, due(samples)) <= 0.0) {
-            sample(model, march, delay(march.begin, due(samples)), out, taken);
+            show(due(samples), taken);
             samples = after(samples);
             ++taken;
         }
         if (taken == room && delay(march.end, until) <= 0.0) {
-            sample(model, march, delay(march.begin, until), out, room);
+            show(until, room);
             return;
         }
         count_step(model, march);
         if (march.repetition.playing) {
-            play(model, march, taken < room ? due(samples) : until);
+            play_window(model, march, until, samples, out, taken);
         } else {
             begin_step(model, march);
             one_step(model, march, delay(march.begin, bound));

@@ -103,6 +103,7 @@ void record_step(March& march) {
     std::memcpy(step.rubbing, march.last.rubbing, sizeof step.rubbing);
     step.motion = march.run.motion;
     step.sums = march.sums.step;
+    step.samples = {};
     repetition.steps = place + 1;
     repetition.known = known;
 }
@@ -173,26 +174,33 @@ void stand(const Repetition& repetition, const Place& place, State& state) {
     const State& start = repetition.start;
     state = place.state;
     run_on(start, state, place.after);
-    double part = static_cast<double>(repetition.part) / static_cast<double>(repetition.denominator);
-    double turns = start.fraction[0] + place.turned + part;
-    state.turns[0] = start.turns[0] + std::floor(turns);
-    state.fraction[0] = turns - std::floor(turns);
+    Turns turns = turns_at(repetition, place);
+    state.turns[0] = turns.whole;
+    state.fraction[0] = turns.fraction;
     for (int e = 0; e < LEDGER; ++e) state.energy[e] = start.energy[e] + place.energy[e];
 }
 
-// Step of the cycle that ends at or after `until`; those before it are summed up.
-const CycleStep& step_until(const Model& model, March& march, const Instant& until) {
+}  // namespace
+
+CycleStep& played_step(Repetition& repetition) { return repetition.tape[repetition.place - 1]; }
+
+Turns turns_at(const Repetition& repetition, const Place& place) {
+    const State& start = repetition.start;
+    double part = static_cast<double>(repetition.part) / static_cast<double>(repetition.denominator);
+    double turns = start.fraction[0] + place.turned + part, whole = std::floor(turns);
+    return {start.turns[0] + whole, turns - whole};
+}
+
+CycleStep& next_step(const Model& model, March& march, const Instant& until) {
     Repetition& repetition = march.repetition;
     while (true) {
         if (repetition.place == repetition.steps) begin_cycle(repetition);
-        const CycleStep& step = repetition.tape[repetition.place++];
+        CycleStep& step = repetition.tape[repetition.place++];
         ++march.control.repeated;
         if (delay(repetition.start, until) <= step.end.after) return step;
         add_sums(step.sums, march.sums.total, model.train.lanes);
     }
 }
-
-}  // namespace
 
 void watch(const Model& model, March& march) {
     Repetition& repetition = march.repetition;
@@ -210,9 +218,8 @@ void forget(March& march) {
     repetition.recording = repetition.playing = false;
 }
 
-void play(const Model& model, March& march, const Instant& until) {
-    Repetition& repetition = march.repetition;
-    const CycleStep& step = step_until(model, march, until);
+void stand_on(const Model& model, March& march, const CycleStep& step) {
+    const Repetition& repetition = march.repetition;
     stand(repetition, step.begin, march.begin);
     stand(repetition, step.end, march.end);
     march.control.collocated = step.collocated;

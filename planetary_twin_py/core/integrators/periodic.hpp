@@ -21,7 +21,22 @@ void watch(const Model& model, March& march);
 // Something acts on the train from outside: it must settle anew.
 void forget(March& march);
 
-// Go on to the step of the cycle that ends at or after `until`.
-void play(const Model& model, March& march, const Instant& until);
+// The step that was played last, or that closed the cycle.
+CycleStep& played_step(Repetition& repetition);
+
+// Go on to the step of the cycle that ends at or after `until`; those before it are summed up.
+CycleStep& next_step(const Model& model, March& march, const Instant& until);
+
+// Let the march be as if it had just made a step of the cycle.
+void stand_on(const Model& model, March& march, const CycleStep& step);
+
+// Turns of the motor.
+struct Turns {
+    double whole;
+    double fraction;  // in [0, 1)
+};
+
+// Those at a place in the present cycle.
+Turns turns_at(const Repetition& repetition, const Place& place);
 
 }  // namespace gearbox

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "integrators/propagation_records.hpp"
+#include "integrators/sample_table.hpp"
 #include "mesh/mesh_sums.hpp"
 #include "train/state.hpp"
 
@@ -24,6 +25,7 @@ struct alignas(64) CycleStep {
     alignas(64) double rubbing[16];
     ModalMotion motion;
     MeshSums sums;
+    SampleTable samples;
 };
 
 struct alignas(64) Repetition {

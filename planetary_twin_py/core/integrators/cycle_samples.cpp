@@ -1,0 +1,279 @@
+#include "integrators/cycle_samples.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "integrators/frame.hpp"
+#include "integrators/interpolant.hpp"
+#include "integrators/periodic.hpp"
+#include "mesh/add_sums.hpp"
+#include "rooms.hpp"
+#include "train/set_step_constants.hpp"
+
+namespace gearbox {
+
+namespace {
+
+constexpr int TERMS_OF_TIME = 8;
+// Chebyshev's points, where interpolation errs least, and places where it errs most.
+constexpr double POINTS[TERMS_OF_TIME] = {-0.98078528, -0.83146961, -0.55557023, -0.19509032,
+                                          0.19509032,  0.55557023,  0.83146961,  0.98078528};
+constexpr int TRIALS = 3;
+constexpr double TRIAL[TRIALS] = {-1.0, 0.0, 1.0};
+constexpr double ERROR_SHARE = 0.01;  // of the tolerance, that interpolation may add
+constexpr int MOST_COLUMNS = QUANTITIES * MESHES + 2 * BODIES + SAMPLE_DRAGS;
+
+// Coefficients of polynomials from their values at POINTS, (terms, points).
+struct FromValues {
+    double weight[TERMS_OF_TIME][TERMS_OF_TIME];
+
+    FromValues() {
+        for (int j = 0; j < TERMS_OF_TIME; ++j) {
+            double polynomial[TERMS_OF_TIME] = {1.0}, scale = 1.0;  // Lagrange's
+            int degree = 0;
+            for (int m = 0; m < TERMS_OF_TIME; ++m) {
+                if (m == j) continue;
+                ++degree;
+                for (int k = degree; k > 0; --k)
+                    polynomial[k] = polynomial[k - 1] - POINTS[m] * polynomial[k];
+                polynomial[0] *= -POINTS[m];
+                scale *= POINTS[j] - POINTS[m];
+            }
+            for (int k = 0; k < TERMS_OF_TIME; ++k) weight[k][j] = polynomial[k] / scale;
+        }
+    }
+};
+
+const FromValues FROM_VALUES;
+
+// A part of a step [s].
+struct Piece {
+    double begin;
+    double length;
+};
+
+// Samples of a piece, a row each: angles are those since the start of the step.
+struct Rows {
+    static constexpr int COUNT = TERMS_OF_TIME + TRIALS;
+    double value[COUNT][MOST_COLUMNS];
+    std::int64_t columns;
+};
+
+std::int64_t columns_of(const Train& train) {
+    return QUANTITIES * train.meshes + 2 * train.bodies + SAMPLE_DRAGS;
+}
+
+// What an empty `Samples` of one row needs, a column after the other.
+Samples row_in(const Train& train, double* turns, double* columns) {
+    Samples out{1, QUANTITIES, train.meshes, train.bodies, AXES, columns, turns, nullptr, nullptr,
+                nullptr};
+    out.angle = out.mesh + QUANTITIES * train.meshes;
+    out.speed = out.angle + train.bodies;
+    out.drag = out.speed + train.bodies;
+    return out;
+}
+
+// Compute samples at all places of a piece of the step on which the march stands.
+void compute_rows(const Model& model, March& march, Piece piece, Rows& rows) {
+    const Train& train = model.train;
+    double turns[AXES];
+    rows.columns = columns_of(train);
+    for (int n = 0; n < Rows::COUNT; ++n) {
+        double s = n < TERMS_OF_TIME ? POINTS[n] : TRIAL[n - TERMS_OF_TIME];
+        double* row = rows.value[n];
+        std::fill(row, row + rows.columns, 0.0);
+        Samples out = row_in(train, turns, row);
+        sample(model, march, piece.begin + 0.5 * piece.length * (1.0 + s), out, 0);
+        for (std::int64_t j = 0; j < train.bodies; ++j)
+            out.angle[j] -= train.ratio[j][0] * (TURN * march.begin.fraction[0]);
+    }
+}
+
+// Values of all columns at s.
+void evaluate_columns(const double* coefficient, std::int64_t columns, double s, double* out) {
+    const double* top = coefficient + (TERMS_OF_TIME - 1) * columns;
+    for (std::int64_t c = 0; c < columns; ++c) {
+        double value = top[c];
+        for (int k = 1; k < TERMS_OF_TIME; ++k) value = value * s + top[c - k * columns];
+        out[c] = value;
+    }
+}
+
+// Error that a column may have: of bodies by what the meshes yield, of others by what they show.
+void set_allowed(const Model& model, const March& march, const Rows& rows, double* allowed) {
+    const Train& train = model.train;
+    const Control& control = march.control;
+    double share = ERROR_SHARE * control.tolerance;
+    auto largest = [&](std::int64_t begin, std::int64_t end) {
+        double found = 0.0;
+        for (int n = 0; n < TERMS_OF_TIME; ++n)
+            for (std::int64_t c = begin; c < end; ++c)
+                if (std::fabs(rows.value[n][c]) > found) found = std::fabs(rows.value[n][c]);
+        return found;
+    };
+    std::int64_t bodies = QUANTITIES * train.meshes, drags = bodies + 2 * train.bodies;
+    for (int q = 0; q < QUANTITIES; ++q) {
+        double error = share * largest(q * train.meshes, (q + 1) * train.meshes);
+        std::fill_n(allowed + q * train.meshes, train.meshes, error);
+    }
+    for (std::int64_t j = 0; j < train.bodies; ++j) {
+        double yields = share * control.deflection * train.inverse_radius[j];
+        allowed[bodies + j] = yields;
+        allowed[bodies + train.bodies + j] = yields * control.quickness;
+    }
+    for (std::int64_t c = drags; c < rows.columns; ++c) allowed[c] = share * largest(c, c + 1);
+}
+
+// Whether polynomials show at all trials what was computed there.
+bool is_accurate(const Model& model, const March& march, const Rows& rows, const double* table) {
+    double allowed[MOST_COLUMNS], found[MOST_COLUMNS];
+    set_allowed(model, march, rows, allowed);
+    for (int n = 0; n < TRIALS; ++n) {
+        const double* exact = rows.value[TERMS_OF_TIME + n];
+        evaluate_columns(table, rows.columns, TRIAL[n], found);
+        for (std::int64_t c = 0; c < rows.columns; ++c) {
+            bool unknown = std::isnan(exact[c]) && std::isnan(found[c]);
+            if (!unknown && !(std::fabs(found[c] - exact[c]) <= allowed[c])) return false;
+        }
+    }
+    return true;
+}
+
+void fit(const Rows& rows, double* table) {
+    std::fill(table, table + TERMS_OF_TIME * rows.columns, 0.0);
+    for (int k = 0; k < TERMS_OF_TIME; ++k)
+        for (int j = 0; j < TERMS_OF_TIME; ++j)
+            for (std::int64_t c = 0; c < rows.columns; ++c)
+                table[k * rows.columns + c] += FROM_VALUES.weight[k][j] * rows.value[j][c];
+}
+
+// Fit polynomials to so many equal pieces of the step on which the march stands; in how many of them
+// they fit.
+int fit_pieces(const Model& model, March& march, int pieces, SampleTable& table) {
+    std::int64_t size = TERMS_OF_TIME * columns_of(model.train);
+    table.coefficient.resize(static_cast<std::size_t>(pieces * size));
+    table.pieces = pieces;
+    double length = march.control.step / pieces;
+    int fitting = 0;
+    for (int n = 0; n < pieces; ++n) {
+        Rows rows;
+        double* own = table.coefficient.data() + n * size;
+        compute_rows(model, march, {n * length, length}, rows);
+        fit(rows, own);
+        table.fits[n] = is_accurate(model, march, rows, own);
+        fitting += table.fits[n];
+    }
+    return fitting;
+}
+
+// A few pieces may stay that no polynomial fits, as where a friction force turns its sense.
+void fit_step(const Model& model, March& march, SampleTable& table) {
+    int fitting = 0;
+    for (int pieces = 1; pieces <= SampleTable::MOST_PIECES; pieces *= 2) {
+        fitting = fit_pieces(model, march, pieces, table);
+        if (fitting == pieces) break;
+    }
+    table.all_fit = fitting == table.pieces;
+}
+
+// Make the table of a step, where it has none, from the step as it was recorded: it is the same
+// whenever that is done.
+void need_table(const Model& model, March& march, CycleStep& step) {
+    SampleTable& table = step.samples;
+    if (table.known) return;
+    table.known = true;
+    if (!step.collocated) return;
+    State begin = march.begin;
+    StepConstants constants = march.moment;
+    ModalMotion motion = march.run.motion;
+    double length = march.control.step;
+    bool collocated = march.control.collocated;
+    march.begin = step.begin.state;
+    march.run.motion = step.motion;
+    march.control.step = step.end.after - step.begin.after;
+    march.control.collocated = true;
+    set_step_constants(model, march.begin, march.moment);
+    fit_step(model, march, table);
+    march.begin = begin;
+    march.moment = constants;
+    march.run.motion = motion;
+    march.control.step = length;
+    march.control.collocated = collocated;
+}
+
+// A place in a step: in which of its pieces, and where there from -1 to 1.
+struct PieceAt {
+    std::int64_t number;
+    double s;
+};
+
+PieceAt piece_at(const CycleStep& step, double passed) {
+    int pieces = step.samples.pieces;
+    double place = passed / (step.end.after - step.begin.after) * pieces;
+    double number = std::floor(std::clamp(place, 0.0, pieces - 0.5));
+    return {static_cast<std::int64_t>(number), 2.0 * (place - number) - 1.0};
+}
+
+// Write a sample from the table of a step.
+void read_table(const Model& model, const Repetition& repetition, const CycleStep& step,
+                PieceAt at, const Samples& out, std::int64_t row) {
+    const Train& train = model.train;
+    std::int64_t shown = QUANTITIES * train.meshes, n = train.bodies;
+    std::int64_t columns = columns_of(train);
+    double values[MOST_COLUMNS];
+    const double* table = step.samples.coefficient.data() + at.number * TERMS_OF_TIME * columns;
+    evaluate_columns(table, columns, at.s, values);
+    const double *angle = values + shown, *speed = angle + n, *drag = speed + n;
+    std::copy_n(values, shown, out.mesh_row(row));
+    std::copy(speed, drag, out.speed + row * n);
+    std::copy(drag, drag + SAMPLE_DRAGS, out.drag + row * SAMPLE_DRAGS);
+    Turns turns = turns_at(repetition, step.begin);
+    double* whole = out.turns + row * out.axes;
+    std::fill(whole, whole + out.axes, 0.0);
+    whole[0] = turns.whole;
+    for (std::int64_t j = 0; j < n; ++j)
+        out.angle[row * n + j] = angle[j] + train.ratio[j][0] * (TURN * turns.fraction);
+}
+
+// From the start of the step to an instant [s], by the clock of the cycle.
+double since_begin(const Repetition& repetition, const CycleStep& step, const Instant& at) {
+    return delay(repetition.start, at) - step.begin.after;
+}
+
+}  // namespace
+
+void sample_cycle(const Model& model, March& march, const Instant& at, const Samples& out,
+                  std::int64_t row) {
+    Repetition& repetition = march.repetition;
+    CycleStep& step = played_step(repetition);
+    need_table(model, march, step);
+    double passed = since_begin(repetition, step, at);
+    PieceAt piece = piece_at(step, passed);
+    if (step.samples.pieces > 0 && step.samples.fits[piece.number])
+        read_table(model, repetition, step, piece, out, row);
+    else
+        sample(model, march, passed, out, row);
+}
+
+void play_window(const Model& model, March& march, const Instant& until, Sampling& samples,
+                 const Samples& out, std::int64_t& taken) {
+    Repetition& repetition = march.repetition;
+    const std::int64_t room = out.rows - 1;
+    while (true) {
+        CycleStep& step = next_step(model, march, taken < room ? due(samples) : until);
+        if (taken < room) need_table(model, march, step);
+        if (!step.samples.all_fit || taken == room) stand_on(model, march, step);
+        while (taken < room && delay(repetition.start, due(samples)) <= step.end.after) {
+            sample_cycle(model, march, due(samples), out, taken);
+            samples = after(samples);
+            ++taken;
+        }
+        if (taken == room && delay(repetition.start, until) <= step.end.after) {
+            stand_on(model, march, step);
+            return;
+        }
+        add_sums(step.sums, march.sums.total, model.train.lanes);
+    }
+}
+
+}  // namespace gearbox
