@@ -16,7 +16,7 @@ ifneq ($(AMENT_PREFIX_PATH)$(_ROS_WHEELS_BOOTSTRAP_COMPLETE),)
 unexport LD_LIBRARY_PATH _ROS_WHEELS_BOOTSTRAP_COMPLETE
 endif
 
-.PHONY: setup run test test-all test-exhaustive test-model test-nodes test-fast soak bench view picture sample studies gallery measured docs lint lock clean
+.PHONY: setup run test test-all test-exhaustive test-model test-nodes test-fast sanitize soak bench view picture sample studies gallery measured docs lint lock clean
 
 setup: $(STAMPS)/interfaces $(STAMPS)/model $(STAMPS)/core $(STAMPS)/nodes
 
@@ -47,6 +47,11 @@ test-model: setup
 
 test-nodes: setup
 	$(PYTEST) -m "not exhaustive" --ignore=tests/ros/test_soak.py tests/ros $(ARGS)
+
+# The core with checks of addresses, bounds and undefined behaviour, which end a test.
+sanitize: setup
+	tools/build_core $(VENV) sanitized
+	tools/run_sanitized $(VENV) $(or $(ARGS),tests/core tests/stability tests/integrators)
 
 test-fast: setup
 	$(PYTEST) -m "not slow and not exhaustive" $(ARGS)

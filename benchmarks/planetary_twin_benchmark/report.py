@@ -22,7 +22,7 @@ _TITLES = (
 _PAGE = Template("""# Speed against error
 
 Made by the command in `benchmarks/README.md` on one core of a shared machine, so compare ratios.
-Kernels are already compiled and cached; scene, arrays and start take $setup ms more.
+Scene, arrays and start take $setup ms more.
 
 - *speed*: simulated time over processor time without samples, median of $rounds rounds; *spread*:
   the slowest and the fastest round; *sampled*: speed with samples of all meshes at $rate kHz.
@@ -48,7 +48,7 @@ $cases
 """)
 
 _PEERS = f"""- Methods other than {" and ".join(f"`{name}`" for name in METHODS)} are off-the-shelf
-  solvers and fixed steps, see `benchmark/peers/`. They take the same equations as one compiled
+  solvers and fixed steps, see `benchmarks/planetary_twin_benchmark/peers/`. They take the same equations as one compiled
   function of time and state, without information about events. Their only time is the one with
   samples, which they interpolate; it excludes the computation of losses from the states.
 """
