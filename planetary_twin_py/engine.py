@@ -36,7 +36,7 @@ from .dynamics.static_load import mesh_force, static_torques
 from .dynamics.train import build_train, lightest_body
 from .integrators.clock import NEVER, Sampling, delay, instant, sampling
 from .integrators.interpolant import Samples, new_samples
-from .runaway import Limits, RunawayError, squeeze
+from .runaway import Limits, RunawayError
 from .scene import OperatingPoint, Scene
 from .tolerance import check_tolerance
 
@@ -177,8 +177,10 @@ class Engine:
         samples, done = new_samples(self.train, room + 1), 0
         for stop in self._stops(until):
             # All that are due by then, and one at the stop, which the next of them overwrites.
-            due = math.floor(Fraction(stop) * Fraction(sample_rate)) + 1 - first_sample
-            part = room if stop == until else min(max(due, done), room)
+            part = room
+            if stop != until:
+                due = math.floor(Fraction(stop) * Fraction(sample_rate)) + 1 - first_sample
+                part = min(max(due, done), room)
             at = sampling(first_sample + done, sample_rate)
             self._run(stop, at, _rows(samples, done, part + 1))
             done = part
@@ -186,10 +188,11 @@ class Engine:
 
     def _stops(self, until: float | Fraction) -> Iterator[float | Fraction]:
         """Instants [s] up to `until` at which the run is checked against its limits."""
-        stop = self.reached + WATCHED
-        while stop < until:
-            yield stop
-            stop += WATCHED
+        if delay(self._end, instant(until)) > WATCHED:
+            stop = self.reached + WATCHED
+            while stop < until:
+                yield stop
+                stop += WATCHED
         yield until
 
     def _run(self, until: float | Fraction, at: Sampling, samples: Samples) -> None:
@@ -207,7 +210,7 @@ class Engine:
     def _check(self, samples: Samples) -> None:
         """Raise an `ArithmeticError` where the train shows what no gearbox can."""
         limits = self._limits
-        limits.squeeze.check(squeeze(samples, self.train, self.model.load))
+        limits.check_squeeze(samples, self.model.load)
         limits.speed.check(samples.speed)
         limits.torque.check(self.powers[None, IMPULSE : IMPULSE + int(self.train.machines)])
 

@@ -46,6 +46,8 @@ class Limit(NamedTuple):
             ArithmeticError: a value exceeds its limit, or is NaN.
         """
         peak = np.abs(values).max(axis=0, initial=0.0)  # NaN if there is one
+        if (peak <= self.largest).all():
+            return
         passed = np.flatnonzero(~(peak <= self.largest))
         if passed.size:
             k = int(passed[0])
@@ -65,6 +67,8 @@ class Limits:
 
     def __init__(self, scene: Scene, train: Train) -> None:
         drive, meshes = scene.drive, mesh_names(scene)
+        size = np.hypot(train.line_tangential, train.line_radial)
+        self._errors = size.sum(axis=1)[train.kind[: train.meshes]]
         self.squeeze = Limit(
             "squeeze",
             "m",
@@ -73,7 +77,7 @@ class Limits:
             "a base pitch, at which teeth break or jump; reduce the torques or increase the "
             "stiffness",
         )
-        """Of the mesh deflection, see `squeeze`."""
+        """Of the mesh deflection, see `check_squeeze`."""
         fastest = max(drive.speed_limit, abs(drive.speed_control.start_speed or 0.0))
         self.speed = Limit(
             "speed",
@@ -94,24 +98,20 @@ class Limits:
         )
         """Of the torques of the machines."""
 
+    def check_squeeze(self, samples: Samples, load: Load) -> None:
+        """Check the mesh deflection along the line of action.
 
-def squeeze(samples: Samples, train: Train, load: Load) -> np.ndarray:
-    """Lower bound of the mesh deflection along the line of action.
+        Its lower bound is |DTE| minus half the backlash and the largest form errors.
 
-    It is |DTE| minus half the backlash and the largest form errors.
+        Args:
+            samples: of the meshes.
+            load: gives the backlash.
 
-    Args:
-        samples: of the meshes.
-        train: gives the form errors.
-        load: gives the backlash.
-
-    Returns:
-        Deflection [m], at least 0, (times, meshes).
-    """
-    size = np.hypot(train.line_tangential, train.line_radial)
-    errors = size.sum(axis=1)[train.kind[: train.meshes]]
-    pressed = np.abs(samples.mesh[:, DTE]) - load.half_backlash - errors
-    return np.asarray(np.maximum(pressed, 0.0))
+        Raises:
+            ArithmeticError: a deflection exceeds its limit, or is NaN.
+        """
+        largest = np.abs(samples.mesh[:, DTE]).max(axis=0, initial=0.0)  # NaN if there is one
+        self.squeeze.check(np.maximum(largest - load.half_backlash - self._errors, 0.0)[None])
 
 
 def _inertia(train: Train) -> float:

@@ -212,7 +212,11 @@ class Twin:
 
     def _samples(self) -> int:
         """Number of samples up to the current time."""
-        return math.floor(self._clock * Fraction(self.sample_rate) + LEEWAY)
+        over, under = self.sample_rate.as_integer_ratio()
+        clock, leeway = self._clock, LEEWAY
+        ticks = clock.numerator * over * leeway.denominator
+        whole = clock.denominator * under  # in integers: fractions would be reduced at every step
+        return (ticks + leeway.numerator * whole) // (whole * leeway.denominator)
 
     def _account(self) -> tuple[Fraction, np.ndarray, float]:
         """Time reached by the integrator, ledger since the last call, and stored energy."""
@@ -232,8 +236,8 @@ class Twin:
         speed = ((turned + self._end.angle - begin.angle) / float(step))[0]
         mean_speed = np.append(speed, 0.0)[names.place]
         sun, carrier = mean_speed[names.names.index("sun")], mean_speed[-1]
-        mesh = samples.mesh[:, :, self._mesh_names.place]
-        sums = in_order(self._engine.take_mesh_sums(self._clock), self._mesh_names.place)
+        place, mesh = self._mesh_names.place, samples.mesh
+        sums = in_order(self._engine.take_mesh_sums(self._clock), place)
         return Window(
             start=float(self._clock - step),
             end=self.time,
@@ -245,9 +249,9 @@ class Twin:
             waveform=Waveform(
                 period=1.0 / self.sample_rate,
                 time=(first + np.arange(len(mesh))) / self.sample_rate,
-                dte=mesh[:, DTE],
-                mesh_force=mesh[:, MESH_FORCE],
-                friction=mesh[:, BOUNDARY] + mesh[:, VISCOUS],
+                dte=mesh[:, DTE][:, place],
+                mesh_force=mesh[:, MESH_FORCE][:, place],
+                friction=(mesh[:, BOUNDARY] + mesh[:, VISCOUS])[:, place],
             ),
             mesh=mesh_statistics(sums),
             angle=self._angles(),

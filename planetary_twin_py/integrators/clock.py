@@ -36,6 +36,9 @@ class Sampling(NamedTuple):
 
 def instant(time: float | Fraction) -> Instant:
     """The instant `time` [s]; a fraction is exact however late it is."""
+    if isinstance(time, Fraction):  # as below, without a fraction for the difference
+        seconds, rest = divmod(time.numerator, time.denominator)
+        return Instant(seconds, rest / time.denominator)
     seconds = math.floor(time)
     return Instant(seconds, float(time - seconds))
 

@@ -28,7 +28,7 @@ from ..dynamics.static_load import mesh_force
 from ..dynamics.train import build_train
 from ..integrators.clock import delay, instant, sampling
 from ..integrators.interpolant import Samples, new_samples
-from ..runaway import Limits, RunawayError, squeeze
+from ..runaway import Limits, RunawayError
 from ..scene import OperatingPoint, Scene
 from ..tolerance import check_tolerance
 from .ledger import Ledger
@@ -99,7 +99,7 @@ class QuasiStaticEngine:
         at = sampling(first_sample, sample_rate)
         sample_equilibria(self.model, self.tolerance, self._origin, self._run, at, samples)
         try:
-            self._limits.squeeze.check(squeeze(samples, self.train, self.model.load))
+            self._limits.check_squeeze(samples, self.model.load)
         except ArithmeticError as reason:
             raise RunawayError(f"the run stops before {float(until):g} s: {reason}") from None
         roll(self.model, self._origin, instant(until))
