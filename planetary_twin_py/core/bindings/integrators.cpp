@@ -111,7 +111,7 @@ void bind_parts_of_steps(nb::module_& m) {
         with_lanes(model.train, [&](auto lanes) { enter<lanes>(model, march); });
     }, "model"_a, "march"_a, "Express the start of a step in the modes of its contacts.");
     m.def("set_step", [](const Model& model, March& march, double h) {
-        with_lanes(model.train, [&](auto lanes) { set_step<lanes>(march.run, h); });
+        with_lanes(model.train, [&](auto lanes) { set_step<lanes>(march.run, h, false); });
     }, "model"_a, "march"_a, "h"_a, "Free motions at the nodes of a step of `h` seconds.");
     m.def("visit_nodes", [](const Model& model, March& march) {
         with_lanes(model.train, [&](auto lanes) { visit_nodes<lanes>(model, march); });

@@ -29,18 +29,36 @@ bool outdone(const Control& control, double h, bool settled, int restless) {
     return h < (control.slow ? 1.0 : OUTDONE) * control.next_stiff;
 }
 
+// Free waves h seconds after the start, most often just beside the last node.
+template <int L>
+void find_end_waves(Propagation& run, double h) {
+    const std::int64_t last = run.nodes.count - 1;
+    const double later = h - run.motion.step;
+    if (phase_within<L>(run, later) <= FEW_SHIFTED)
+        shift_waves<L, FEW_TERMS>(run.motion, later, run.cosine[last], run.sine[last],
+                                  run.end_cosine, run.end_sine);
+    else
+        waves<L>(run.motion, h, run.end_cosine, run.end_sine);
+}
+
 // Let the step end after h seconds: bodies alone.
 template <int L>
 void place_end(March& march, double h) {
-    const Propagation& run = march.run;
+    Propagation& run = march.run;
+    const std::int64_t last = run.nodes.count - 1;
+    march.control.step = h;
     if (h == run.motion.step) {
-        const std::int64_t last = run.nodes.count - 1;
+        copy<L>(run.cosine[last], run.end_cosine);
+        copy<L>(run.sine[last], run.end_sine);
         copy<L>(run.node_x[last], march.end.x);
         copy<L>(run.node_v[last], march.end.v);
-    } else {
-        propagate<L>(march, h, march.end.x, march.end.v);
+        return;
     }
-    march.control.step = h;
+    find_end_waves<L>(run, h);
+    modal_states<L>(run.motion, h / run.motion.step, run.end_cosine, run.end_sine, run.now_q,
+                    run.now_p);
+    const ContactState& contacts = contacts_of(run);
+    sum_rows_twice<L>(contacts.form, run.now_q, run.now_p, march.end.x, march.end.v);
 }
 
 // What else the end of the step has, once it stands.

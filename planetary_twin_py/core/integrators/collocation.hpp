@@ -138,11 +138,11 @@ void settle_meshes(const Model& model, March& march) {
     }
 }
 
-// Sweep until what the next one would change is a share of the tolerance.
+// Sweep until what the next one would change is a share of the tolerance; `known_pull` is by how much
+// less that is, per step length.
 template <int L>
-Outcome settle_friction(const Model& model, March& march) {
+Outcome settle_friction(const Model& model, March& march, double& known_pull) {
     Propagation& run = march.run;
-    double& known_pull = contacts_of(run).pull[1];
     double change = ASTRAY, tail = 0.0, pull = known_pull * run.motion.step;
     for (int round = 0; round < MOST_SWEEPS; ++round) {
         double before = change;
@@ -169,17 +169,19 @@ Outcome settle_friction(const Model& model, March& march) {
 template <int L>
 Outcome collocate(const Model& model, March& march, double h, bool fresh) {
     Propagation& run = march.run;
-    set_step<L>(run, h);
+    set_step<L>(run, h, fresh);
     for (int n = 0; n < run.nodes.count; ++n)
         copy<L>(march.first.rubbing, run.evaluation[n].rubbing);
     const bool recalled = fresh && recall<L>(march);
     visit_nodes<L>(model, march);
-    if (contacts_of(run).varies && !(recalled && contacts_of(run).predictable)) {
-        settle_meshes<L>(model, march);
-        double tail = tail_error<L>(march);
-        if (!(tail <= 1.0)) return {std::isfinite(tail) ? tail : ASTRAY, true};
-    }
-    return settle_friction<L>(model, march);
+    ContactState& contacts = contacts_of(run);
+    if (!contacts.varies) return settle_friction<L>(model, march, contacts.pull[1]);
+    // What was foreseen needs no sweep of the meshes alone; the others have them along.
+    if (recalled && contacts.predictable) return settle_friction<L>(model, march, contacts.pull[0]);
+    settle_meshes<L>(model, march);
+    double tail = tail_error<L>(march);
+    if (!(tail <= 1.0)) return {std::isfinite(tail) ? tail : ASTRAY, true};
+    return settle_friction<L>(model, march, contacts.pull[1]);
 }
 
 }  // namespace gearbox

@@ -21,35 +21,15 @@ namespace gearbox {
 
 inline constexpr double LONGEST_MEMORY = 1e3;  // c/(w^2 h) of a mode whose motion keeps ten digits
 
+// Relative change of the damping times for which the modes keep their damping.
+inline constexpr double DAMPING_KEPT = 5e-3;
+// Terms of the series of a free wave a little later, and the phase for which it keeps eleven digits.
+inline constexpr int FEW_TERMS = 5, MANY_TERMS = 9;
+inline constexpr double FEW_SHIFTED = 0.02, MANY_SHIFTED = 0.3;
+
 inline ContactState& contacts_of(Propagation& run) { return run.known.states[run.motion.modes]; }
 inline const ContactState& contacts_of(const Propagation& run) {
     return run.known.states[run.motion.modes];
-}
-
-// Express the start of a step in the modes of its contacts.
-template <int L>
-void enter(const Model& model, March& march) {
-    const Train& train = model.train;
-    const State& begin = march.begin;
-    Propagation& run = march.run;
-    ModalMotion& motion = run.motion;
-    motion.modes = find_modes(train, begin, run.known);
-    const ContactState& contacts = contacts_of(run);
-    const double* tau = march.moment.tau;
-    for (int m = 0; m < L; ++m) {
-        double damping = contacts.shaft_damping[m] + tau[0] * contacts.mesh_damping[0][m];
-        damping += tau[1] * contacts.mesh_damping[1][m];
-        motion.square[m] = contacts.square[m];
-        motion.damping[m] = damping;
-        DecayRates rates = decay_rates(contacts.square[m], damping);
-        motion.rate[m] = rates.rate;
-        motion.slow[m] = rates.slow;
-        motion.fast[m] = rates.fast;
-        run.now_q[m] = train.mass[m] * begin.x[m];
-        run.now_p[m] = train.mass[m] * begin.v[m];
-    }
-    sum_rows_twice<L>(contacts.share, run.now_q, run.now_p, run.q, run.p);
-    sum_rows<L>(contacts.share, march.first.force, run.force);
 }
 
 // `wave` of all modes.
@@ -63,9 +43,109 @@ inline void waves(const ModalMotion& motion, double t, double* cosine, double* s
     }
 }
 
+// Damp the modes of a contact state as its meshes are damped now. What the damping is off by later
+// is part of the rest.
+template <int L>
+void damp_modes(ContactState& contacts, const double* tau) {
+    bool near = std::fabs(tau[0] - contacts.tau[0]) <= DAMPING_KEPT * contacts.tau[0] &&
+                std::fabs(tau[1] - contacts.tau[1]) <= DAMPING_KEPT * contacts.tau[1];
+    if (near) return;
+    contacts.tau[0] = tau[0];
+    contacts.tau[1] = tau[1];
+    contacts.waves_step = 0.0;
+    for (int m = 0; m < L; ++m) {
+        double damping = contacts.shaft_damping[m] + tau[0] * contacts.mesh_damping[0][m];
+        damping += tau[1] * contacts.mesh_damping[1][m];
+        DecayRates rates = decay_rates(contacts.square[m], damping);
+        contacts.damping[m] = damping;
+        contacts.rate[m] = rates.rate;
+        contacts.slow[m] = rates.slow;
+        contacts.fast[m] = rates.fast;
+    }
+}
+
+// Express the start of a step in the modes of its contacts.
+template <int L>
+void enter(const Model& model, March& march) {
+    using V = Row<L>;
+    const Train& train = model.train;
+    Propagation& run = march.run;
+    ModalMotion& motion = run.motion;
+    motion.modes = find_modes(train, march.begin, run.known);
+    ContactState& contacts = contacts_of(run);
+    damp_modes<L>(contacts, march.moment.tau);
+    copy<L>(contacts.square, motion.square);
+    copy<L>(contacts.damping, motion.damping);
+    copy<L>(contacts.rate, motion.rate);
+    copy<L>(contacts.slow, motion.slow);
+    copy<L>(contacts.fast, motion.fast);
+    V mass(train.mass);
+    (mass * V(march.begin.x)).store(run.now_q);
+    (mass * V(march.begin.v)).store(run.now_p);
+    sum_rows_twice<L>(contacts.share, run.now_q, run.now_p, run.q, run.p);
+    sum_rows<L>(contacts.share, march.first.force, run.force);
+}
+
+// Largest part of a period or a decay of any mode within a time, where modes are not free masses.
+template <int L>
+double phase_within(const Propagation& run, double time) {
+    using V = Row<L>;
+    V square(run.spring), pace = square_root(square) + V(run.damper);
+    return largest(pace) * std::fabs(time);
+}
+
+// Free waves a little later (Taylor): C' = -w^2 S, S' = C - c S.
+template <int L, int TERMS>
+LAW void shift_waves(const ModalMotion& motion, double delay, const double* from_cosine,
+                     const double* from_sine, double* cosine, double* sine) {
+    using V = Row<L>;
+    V square(motion.square), damping(motion.damping), c(from_cosine), s(from_sine);
+    V sum_c = c, sum_s = s;
+    for (int k = 1; k <= TERMS; ++k) {
+        const double part = delay / k;
+        V next_c = square * s * -part, next_s = (c - damping * s) * part;
+        c = next_c;
+        s = next_s;
+        sum_c += c;
+        sum_s += s;
+    }
+    sum_c.store(cosine);
+    sum_s.store(sine);
+}
+
+// Free waves at the nodes of a step that is longer than the one they are kept of.
+template <int L, int TERMS>
+void shift_all_waves(Propagation& run, const ContactState& kept, double longer) {
+    for (int n = 0; n < run.nodes.count; ++n)
+        shift_waves<L, TERMS>(run.motion, run.nodes.abscissa[n] * longer, kept.cosine[n],
+                              kept.sine[n], run.cosine[n], run.sine[n]);
+}
+
+// Free motions at the nodes; `fresh`: of the first step in a contact state, which are kept for the
+// next such step.
+template <int L>
+void find_waves(Propagation& run, double h, bool fresh) {
+    ContactState& contacts = contacts_of(run);
+    const double longer = h - contacts.waves_step;
+    if (fresh && contacts.waves_step > 0.0 && contacts.waves_nodes == run.nodes.count) {
+        const double phase = phase_within<L>(run, longer);
+        if (phase <= FEW_SHIFTED) return shift_all_waves<L, FEW_TERMS>(run, contacts, longer);
+        if (phase <= MANY_SHIFTED) return shift_all_waves<L, MANY_TERMS>(run, contacts, longer);
+    }
+    for (int n = 0; n < run.nodes.count; ++n) {
+        waves<L>(run.motion, run.nodes.abscissa[n] * h, run.cosine[n], run.sine[n]);
+        if (!fresh) continue;
+        copy<L>(run.cosine[n], contacts.cosine[n]);
+        copy<L>(run.sine[n], contacts.sine[n]);
+    }
+    if (!fresh) return;
+    contacts.waves_step = h;
+    contacts.waves_nodes = run.nodes.count;
+}
+
 // Free motions of all modes at the nodes of a step of h, and the rest as it is at the start.
 template <int L>
-void set_step(Propagation& run, double h) {
+void set_step(Propagation& run, double h, bool fresh) {
     using V = Row<L>;
     run.motion.step = h;
     V square(run.motion.square), damping(run.motion.damping);
@@ -74,10 +154,8 @@ void set_step(Propagation& run, double h) {
     V rest = V(run.force) + damper * V(run.p) + spring * V(run.q);
     spring.store(run.spring);
     damper.store(run.damper);
-    for (int n = 0; n < run.nodes.count; ++n) {
-        waves<L>(run.motion, run.nodes.abscissa[n] * h, run.cosine[n], run.sine[n]);
-        rest.store(run.rest[n]);
-    }
+    find_waves<L>(run, h, fresh);
+    for (int n = 0; n < run.nodes.count; ++n) rest.store(run.rest[n]);
 }
 
 // Whether a step of h keeps its digits. A mode that creeps for much longer than the step is a small

@@ -32,6 +32,8 @@ struct alignas(64) Propagation {
     alignas(64) double rest[5][16];  // at the nodes
     alignas(64) double cosine[5][16];  // `wave` at the nodes
     alignas(64) double sine[5][16];
+    alignas(64) double end_cosine[16];  // at the end of the step
+    alignas(64) double end_sine[16];
     alignas(64) double node_q[5][16];
     alignas(64) double node_p[5][16];
     alignas(64) double node_x[5][16];

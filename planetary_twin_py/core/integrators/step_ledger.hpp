@@ -79,14 +79,7 @@ void integrate_powers(March& march, double h) {
         V rate(run.node_p[n]);
         quadrature += weight * rate * rate;
     }
-    alignas(64) double cosine[L], sine[L];
-    if (h == run.motion.step) {
-        copy<L>(run.cosine[last], cosine);
-        copy<L>(run.sine[last], sine);
-    } else {
-        waves<L>(run.motion, h, cosine, sine);
-    }
-    V exact = damped<L>(run, h, cosine, sine) - V(run.motion.damping) * quadrature;
+    V exact = damped<L>(run, h, run.end_cosine, run.end_sine) - V(run.motion.damping) * quadrature;
     end.energy[DAMPING] += total(select(swings<L>(run), exact, 0.0));
 }
 

@@ -38,21 +38,23 @@ void add_films_of_nodes(const Model& model, March& march, ContactSums<L>& contac
     }
 }
 
-// Films at the times of the look. Beyond the end of a step whose flanks part, nodes show films of no
-// load.
+// Films of a step that was cut short, at Gauss's points of what is left of it: beyond the end of a
+// step whose flanks part, nodes show films of no load.
 template <int L>
-void add_films_of_look(const Model& model, March& march, ContactSums<L>& contacts) {
+void add_films_of_cut_step(const Model& model, March& march, ContactSums<L>& contacts) {
+    constexpr double FROM_MIDDLE[] = {-0.3872983346207417, 0.0, 0.3872983346207417};
+    constexpr double SHARE[] = {5.0 / 18.0, 4.0 / 9.0, 5.0 / 18.0};
     const Train& train = model.train;
-    const Look& look = march.sums.look;
+    const double h = march.control.step;
     Evaluation& work = march.work.evaluation;
     double *x = march.dense.x, *v = march.dense.v;
-    for (std::int64_t k = 0; k < look.count; ++k) {
-        double at = look.at[k];
+    for (int k = 0; k < 3; ++k) {
+        const double at = (0.5 + FROM_MIDDLE[k]) * h;
         propagate<L>(march, at, x, v);
         move_meshes(train, x, v, work.now);
         mesh_forces(model, march.begin, march.moment, x, v, at, work);
         find_contacts(model, march.moment, v, work);
-        add_films(train, work.pairs, look.weight[k], contacts);
+        add_films(train, work.pairs, SHARE[k] * h, contacts);
     }
 }
 
@@ -104,7 +106,7 @@ void add_collocated(const Model& model, March& march) {
     std::int64_t intervals = even_intervals(march, train, h);
     if (std::fabs(h - run.motion.step) > NEAR * run.motion.step) {
         look_at_even_times<L>(model, march, std::max(intervals, FEWEST));
-        add_films_of_look(model, march, contacts);
+        add_films_of_cut_step(model, march, contacts);
     } else {
         if (intervals == 0)
             look_at_nodes<L>(march);
