@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from fractions import Fraction
 from typing import NamedTuple
 
@@ -77,7 +78,7 @@ class Twin:
         self._ratio = train.ratio[: train.bodies].T
         self._shafts = train.coupling[: train.machines, 0]
         self._machines = int(train.machines)
-        self._whole_turns = [_WholeTurns.of(ratios) for ratios in self._names.ratio]
+        self._whole_turns = _WholeTurns(self._names.ratio)
         self._clock = Fraction(0)
         self.log = [Change(0.0, scene.operating_point, tolerance, float(sample_rate))]
         """All changes. Applied at the same times, they reproduce the run and its samples."""
@@ -276,10 +277,9 @@ class Twin:
 
     def _angles(self) -> np.ndarray:
         """Angles modulo a turn [rad], computed from exact whole turns of the motors."""
-        turns = [int(turn) for turn in self._end.turns[0]]
         relative = np.append(self._end.angle[0], 0.0)[self._names.place]
-        whole = [body.part(turns) for body in self._whole_turns]
-        return np.mod(2.0 * math.pi * np.array(whole) + relative, 2.0 * math.pi)
+        whole = self._whole_turns.parts(self._end.turns[0])
+        return np.mod(2.0 * math.pi * whole + relative, 2.0 * math.pi)
 
 
 def _residual(rate: np.ndarray, machines: int) -> float:
@@ -288,22 +288,26 @@ def _residual(rate: np.ndarray, machines: int) -> float:
     return float(rate[WORK : WORK + machines].sum() + rate[STIFFNESS_WORK] - lost)
 
 
-class _WholeTurns(NamedTuple):
-    """Turns of a body per whole turns of the motors, as integers."""
+class _WholeTurns:
+    """Turns of the bodies per whole turns of the motors, as integers.
 
-    numerators: tuple[int, ...]
-    denominator: int
+    Args:
+        bodies: ratios of the speed of each body to that of each motor.
+    """
 
-    @classmethod
-    def of(cls, ratios: Ratios) -> _WholeTurns:
-        """From the ratios of the speed of the body to that of each motor."""
-        common = math.lcm(*(ratio.denominator for ratio in ratios))
-        return cls(tuple(int(ratio * common) for ratio in ratios), common)
+    def __init__(self, bodies: Sequence[Ratios]) -> None:
+        common = [math.lcm(*(ratio.denominator for ratio in ratios)) for ratios in bodies]
+        self._denominators = np.array(common, dtype=np.int64)
+        self._numerators = np.array(
+            [[int(r * n) for r in ratios] for ratios, n in zip(bodies, common, strict=True)],
+            dtype=np.int64,
+        )
 
-    def part(self, turns: list[int]) -> float:
-        """Fraction of a turn of the body, in [0, 1)."""
-        turned = sum(turn * n for turn, n in zip(turns, self.numerators, strict=False))
-        return turned % self.denominator / self.denominator
+    def parts(self, turns: np.ndarray) -> np.ndarray:
+        """Fractions of a turn of the bodies, in [0, 1), from whole turns of the motors."""
+        whole = turns[: self._numerators.shape[1]].astype(np.int64)
+        parts = whole % self._denominators[:, None] * self._numerators  # no product overflows
+        return np.asarray(parts.sum(axis=1) % self._denominators / self._denominators)
 
 
 def _check_sample_rate(sample_rate: float) -> None:
