@@ -30,15 +30,20 @@ class Box(NamedTuple):
 TALL = 58
 MODEL, RUN, ROS, OUT = "#dbe9f6", "#fde3c8", "#e3d9f2", "#dcefd9"
 SCENE = Box("scene/", "what is simulated: YAML, checked, in SI", 220, 16, 420, MODEL)
-LAWS = Box(
-    "gearset/  tooth/  mesh/  core/tribology/", "laws, one per file", 220, 106, 420, MODEL
-)
+LAWS = Box("gearset/  tooth/  mesh/  core/tribology/", "laws, one per file", 220, 106, 420, MODEL)
 DYNAMICS = Box(
-    "dynamics/  core/train/  core/mesh/", "bodies and meshes as arrays; forces; contact events; energy", 220, 196, 420, MODEL
+    "dynamics/  core/train/  core/mesh/",
+    "bodies and meshes as arrays; forces; contact events; energy",
+    220,
+    196,
+    420,
+    MODEL,
 )
 MODAL = Box("modal/", "natural modes", 680, 196, 164, MODEL)
 STATIC = Box("quasi_static/", "rigid motion, equilibrium", 16, 286, 190, RUN)
-MARCH = Box("core/integrators/", "one step: collocation, rosenbrock; march: events", 220, 286, 420, RUN)
+MARCH = Box(
+    "core/integrators/", "one step: collocation, rosenbrock; march: events", 220, 286, 420, RUN
+)
 TWIN = Box("twin.py", "stepped live", 220, 376, 200, RUN)
 WHOLE = Box("simulation.py  batch.py", "a whole run; many", 440, 376, 200, RUN)
 NODES = Box("ros_ws/src/planetary_twin", "paces, publishes, records, replays", 16, 476, 260, ROS)

@@ -28,7 +28,10 @@ def test_every_equation_appears():
 
 @pytest.mark.parametrize("equation", EQUATIONS, ids=lambda e: e.label)
 def test_files_named_exist(equation):
-    named = [equation.file, *re.findall(r"`([\w/]+\.[ch]?p[py])`", equation.default + equation.printed)]
+    named = [
+        equation.file,
+        *re.findall(r"`([\w/]+\.[ch]?p[py])`", equation.default + equation.printed),
+    ]
     assert all((PACKAGE / name).is_file() for name in named)
 
 
