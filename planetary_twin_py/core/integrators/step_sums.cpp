@@ -14,7 +14,7 @@ namespace gearbox {
 
 namespace {
 
-constexpr std::int64_t POINTS = 129;  // room
+constexpr std::int64_t MOST_LOOKS = 129;  // room
 constexpr double NEAR = 0.02;  // of a step, by which it may end beside its last node
 
 // Films at the nodes; at two of them without friction, as nothing else asks for them.
@@ -237,8 +237,8 @@ std::int64_t even_intervals(const March& march, const Train& train, double h) {
         if (swing * largest > march.control.tolerance_x) fastest = phase;
     }
     // A phase beyond the room counts as the room; so does none that is not a number.
-    double halves = std::ceil(0.5 * std::min(fastest, static_cast<double>(POINTS)));
-    return std::min(2 * static_cast<std::int64_t>(halves), POINTS - 1);
+    double halves = std::ceil(0.5 * std::min(fastest, static_cast<double>(MOST_LOOKS)));
+    return std::min(2 * static_cast<std::int64_t>(halves), MOST_LOOKS - 1);
 }
 
 void set_even_times(Look& look, double begin, double end, std::int64_t intervals) {
