@@ -14,6 +14,7 @@ from nanobind import stubgen
 ANYTHING = "def __init__(self, **kwargs) -> None: ..."
 ARRAY_SETTER = re.compile(r"(def \w+\(self, arg: )object(, /\) -> None)")
 SETTER = re.compile(r"\.setter\n +def (\w+)\(self, arg: (.+), /\)")
+NUMBERS = re.compile(r"^([A-Z_]+): dict = ", re.MULTILINE)  # of laws and methods by name
 CLASS = re.compile(r"^class \w+.*:\n(?:(?: .*)?\n)+", re.MULTILINE)
 
 
@@ -27,15 +28,15 @@ def with_fields(record: re.Match[str]) -> str:
 
 def main(folder: Path) -> None:
     """Write the stub beside what it describes."""
-    package = ModuleType(
-        "planetary_twin_py"
-    )  # that of the sources would come first, without a core
+    # That of the sources would come first, without a core.
+    package = ModuleType("planetary_twin_py")
     package.__path__ = [str(folder / "planetary_twin_py")]
     sys.modules["planetary_twin_py"] = package
     out = folder / "planetary_twin_py/_core/__init__.pyi"
     stubgen.main(["-q", "-m", "planetary_twin_py._core", "-o", str(out)])
     text = ARRAY_SETTER.sub(r"\1numpy.typing.ArrayLike\2", out.read_text())
     text = text.replace("import numpy\n", "import numpy\nimport numpy.typing\n", 1)
+    text = NUMBERS.sub(r"\1: dict[str, int] = ", text)
     out.write_text(CLASS.sub(with_fields, text))
 
 
