@@ -4,6 +4,7 @@
 
 #include "bindings/arrays.hpp"
 #include "bindings/parts.hpp"
+#include "bindings/unlocked.hpp"
 #include "rooms.hpp"
 
 namespace gearbox {
@@ -12,7 +13,7 @@ namespace {
 
 State py_initial_state(const Model& model, const ConstArray& speed, double force) {
     check_size("speed", speed.size(), AXES);
-    nb::gil_scoped_release release;
+    Unlocked release;
     return initial_state(model, speed.data(), force);
 }
 

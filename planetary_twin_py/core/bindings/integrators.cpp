@@ -3,6 +3,7 @@
 #include <nanobind/stl/pair.h>
 
 #include "bindings/arrays.hpp"
+#include "bindings/unlocked.hpp"
 #include "integrators/collocated_step.hpp"
 #include "integrators/collocation.hpp"
 #include "integrators/interpolant.hpp"
@@ -28,7 +29,7 @@ template <class Function>
 void run_unlocked(Function&& function) {
     bool finite = true;
     {
-        nb::gil_scoped_release release;
+        Unlocked release;
         try {
             function();
         } catch (const NoFiniteState&) {
@@ -76,12 +77,12 @@ Nodes py_radau(int points) {
 
 void bind_march(nb::module_& m) {
     m.def("begin_step", &begin_step, "model"_a, "march"_a,
-          nb::call_guard<nb::gil_scoped_release>(), "Start a new step where the last one ended.");
+          nb::call_guard<Unlocked>(), "Start a new step where the last one ended.");
     m.def("one_step", &py_one_step, "model"_a, "march"_a, "longest"_a,
           "Make one accepted step of at most `longest` seconds, ending on the first event.\n\n"
           "Raises:\n    ArithmeticError: no finite state can be reached.");
     m.def("accept", &accept, "model"_a, "march"_a, "mesh"_a,
-          nb::call_guard<nb::gil_scoped_release>(),
+          nb::call_guard<Unlocked>(),
           "Let the step stand; `mesh` changes its contact at its end (-1: none).");
     m.def("advance", &py_advance, "model"_a, "march"_a, "until"_a, "bound"_a, "samples"_a, "out"_a,
           "Integrate to `until`, and fill `out` with `samples` and one at `until`.\n\n"
@@ -91,13 +92,13 @@ void bind_march(nb::module_& m) {
           "Take back what lies beyond `until`, which is within the last step.\n\n"
           "Raises:\n    ArithmeticError: no finite state can be reached.");
     m.def("count_step", &count_step, "model"_a, "march"_a,
-          nb::call_guard<nb::gil_scoped_release>(),
+          nb::call_guard<Unlocked>(),
           "Let the last step count as far as it has not been taken.");
     m.def("count_until", &count_until, "model"_a, "march"_a, "delay"_a,
-          nb::call_guard<nb::gil_scoped_release>(),
+          nb::call_guard<Unlocked>(),
           "Let the last step count up to `delay` seconds after its start.");
     m.def("interpolate", &interpolate, "model"_a, "march"_a, "delay"_a,
-          nb::call_guard<nb::gil_scoped_release>(),
+          nb::call_guard<Unlocked>(),
           "Fill x and v of `march.dense`, `delay` seconds into the last step.");
     m.def("sample", &py_sample, "model"_a, "march"_a, "delay"_a, "out"_a, "row"_a,
           "Write what the train shows `delay` seconds into the last step to a row of `out`.");

@@ -4,6 +4,7 @@
 
 #include "bindings/arrays.hpp"
 #include "bindings/parts.hpp"
+#include "bindings/unlocked.hpp"
 #include "peers/fixed_step.hpp"
 #include "peers/foreign.hpp"
 #include "peers/right_hand_side.hpp"
@@ -30,7 +31,7 @@ void py_derivative(Problem& problem, double t, const ConstArray& y, const Array&
 void py_repeat(Problem& problem, double step, const ConstArray& y, const Array& dy,
                std::int64_t count) {
     check_states(problem, y, dy);
-    nb::gil_scoped_release release;
+    Unlocked release;
     for (std::int64_t k = 0; k < count; ++k)
         derivative(problem, static_cast<double>(k) * step, y.data(), dy.data());
 }
@@ -41,7 +42,7 @@ double py_show(Problem& problem, const ConstArray& times, const ConstArray& stat
     std::size_t meshes = static_cast<std::size_t>(problem.model.train.meshes);
     check_size("states", states.size(), count * size);
     check_size("out", out.size(), count * meshes);
-    nb::gil_scoped_release release;
+    Unlocked release;
     double lost = 0.0;
     for (std::size_t k = 0; k < count; ++k)
         lost += show_problem(problem, times.data()[k], states.data() + k * size,
@@ -55,7 +56,7 @@ void py_fixed_step(Problem& problem, const ConstArray& times, std::int64_t steps
     std::size_t size = size_of(problem);
     check_size("y", y.size(), size);
     check_size("times", times.size(), samples.size() / size + 1);
-    nb::gil_scoped_release release;
+    Unlocked release;
     march(problem, times.data(), steps, y.data(), samples.data(),
           static_cast<std::int64_t>(samples.size() / size));
 }
@@ -72,7 +73,7 @@ public:
     int march(std::uintptr_t memory, std::uintptr_t vector, const ConstArray& times,
               const Array& samples) const {
         check_size("samples", samples.size(), times.size() * size_of(*own_->problem));
-        nb::gil_scoped_release release;
+        Unlocked release;
         return cvode_march(*own_, reinterpret_cast<void*>(memory),
                            reinterpret_cast<void*>(vector), times.data(), samples.data(),
                            static_cast<std::int64_t>(times.size()));

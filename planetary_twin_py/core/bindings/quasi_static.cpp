@@ -6,6 +6,7 @@
 
 #include "bindings/arrays.hpp"
 #include "bindings/parts.hpp"
+#include "bindings/unlocked.hpp"
 #include "quasi_static/equilibrium.hpp"
 #include "quasi_static/motion.hpp"
 #include "quasi_static/planet_load.hpp"
@@ -33,7 +34,7 @@ auto shown_array(const Shown& shown, std::int64_t meshes) {
 auto py_settle(const Model& model, double tolerance, Equilibrium& run) {
     Shown shown;
     {
-        nb::gil_scoped_release release;
+        Unlocked release;
         settle(model, tolerance, run, shown);
     }
     return shown_array(shown, model.train.meshes);
@@ -44,7 +45,7 @@ auto py_integrate(const Model& model, double tolerance, const State& origin, Equ
     Shown shown;
     double out[TOTALS], peak[PEAKS][MESHES] = {};
     {
-        nb::gil_scoped_release release;
+        Unlocked release;
         integrate({model, tolerance, run, shown}, origin, {span.first, span.second}, out, peak);
     }
     return std::make_tuple(new_array(out, {TOTALS}), new_array(&peak[0][0], {PEAKS, MESHES}));
@@ -55,7 +56,7 @@ auto py_divide_cycle(const Model& model, double tolerance, const State& origin, 
     Shown shown;
     Panels panels;
     {
-        nb::gil_scoped_release release;
+        Unlocked release;
         panels = divide_cycle({model, tolerance, run, shown}, origin,
                               {edges.data(), edges.size()}, period);
     }
@@ -70,7 +71,7 @@ void py_follow(const Model& model, double tolerance, State& mark, Equilibrium& r
                const Array& peak) {
     check_size("totals", totals.size(), TOTALS);
     check_size("peak", peak.size(), PEAKS * MESHES);
-    nb::gil_scoped_release release;
+    Unlocked release;
     Shown shown;
     follow({model, tolerance, run, shown}, mark, {edges.data(), edges.size()}, instant_of(until),
            stop, totals.data(), reinterpret_cast<double (*)[MESHES]>(peak.data()));
@@ -80,14 +81,14 @@ void py_sample(const Model& model, double tolerance, const State& origin, Equili
                const InstantTuple& at, const SamplesTuple& out, std::int64_t row) {
     Samples samples = samples_of(out);
     if (row < 0 || row >= samples.rows) throw nb::index_error("row");
-    nb::gil_scoped_release release;
+    Unlocked release;
     sample(model, tolerance, origin, run, instant_of(at), samples, row);
 }
 
 void py_sample_all(const Model& model, double tolerance, State& origin, Equilibrium& run,
                    const SamplingTuple& at, const SamplesTuple& out) {
     Samples samples = samples_of(out);
-    nb::gil_scoped_release release;
+    Unlocked release;
     sample_all(model, tolerance, origin, run, sampling_of(at), samples);
 }
 
@@ -105,7 +106,7 @@ void py_add_rates(const Train& train, const ConstArray& power, const ConstArray&
 double py_steepest_torque(const Model& model, double tolerance, std::int64_t lean,
                           const State& origin, const ConstArray& speed) {
     check_size("speed", speed.size(), AXES);
-    nb::gil_scoped_release release;
+    Unlocked release;
     return steepest_torque(model, tolerance, lean, origin, speed.data());
 }
 

@@ -4,6 +4,7 @@
 
 #include "bindings/parts.hpp"
 #include "bindings/vectors.hpp"
+#include "bindings/unlocked.hpp"
 #include "train/declarations.hpp"
 
 namespace gearbox {
@@ -136,7 +137,7 @@ void bind_form(nb::module_& m) {
             const double* own = entries(counted, count * FAULTS);
             double *at = entries(position, count * PAIRS), *loads = entries(load, count * PAIRS);
             const double* reached = entries(cycles, count);
-            nb::gil_scoped_release unlocked;
+            Unlocked unlocked;
             for (std::size_t n = 0; n < count; ++n)
                 if (force.data()[n] != 0.0)
                     share_force(train, step, i, reached[n], own + n * FAULTS, force.data()[n],
@@ -221,7 +222,7 @@ void bind_equations(nb::module_& m) {
         [](const Model& model, const State& state, const StepConstants& step, const Vector& x,
            const Vector& v, double delay, const Vector& trim, Evaluation& out) {
             const double *at = bodies(x), *speeds = bodies(v), *trims = entries(trim, AXES);
-            nb::gil_scoped_release unlocked;
+            Unlocked unlocked;
             forces(model, state, step, at, speeds, delay, trims, out);
         },
         "model"_a, "state"_a, "step"_a, "x"_a, "v"_a, "delay"_a, "trim"_a, "out"_a,
@@ -242,7 +243,7 @@ void bind_equations(nb::module_& m) {
             auto room = static_cast<std::int64_t>(out.shape(1));
             if (out.shape(0) < QUANTITIES || room < model.train.meshes)
                 throw nb::value_error("out: must have room for all quantities of all meshes");
-            nb::gil_scoped_release unlocked;
+            Unlocked unlocked;
             observe(model, state, step, at, speeds, delay, work, out.data(), room);
         },
         "model"_a, "state"_a, "step"_a, "x"_a, "v"_a, "delay"_a, "work"_a, "out"_a,

@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "rooms.hpp"
+#include "bindings/unlocked.hpp"
 
 namespace gearbox {
 
@@ -20,7 +21,7 @@ using Rows = nb::ndarray<double, nb::ndim<2>, nb::c_contig, nb::device::cpu>;
 using Square = nb::ndarray<double, nb::shape<BODIES, BODIES>, nb::c_contig, nb::device::cpu>;
 using Lines = nb::ndarray<double, nb::shape<MESHES, LINES>, nb::c_contig, nb::device::cpu>;
 
-using release = nb::call_guard<nb::gil_scoped_release>;
+using release = nb::call_guard<Unlocked>;
 
 // The entries of an argument, of which there have to be `size` at least.
 template <class Array>
