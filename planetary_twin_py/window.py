@@ -24,6 +24,8 @@ from .accuracy import Course
 from .dynamics.bodies import LOAD_MACHINE, MOTOR, SECOND_MOTOR
 from .dynamics.mesh_sums import MeshSums
 
+ROUNDING = 1e-12  # of the sum of the steps of a window
+
 
 @dataclass(frozen=True)
 class Waveform:
@@ -142,6 +144,12 @@ class Window:
         return 1.0 - self.power_loss / put_in if put_in > 0.0 else math.nan
 
 
+def _fraction(mean: np.ndarray) -> np.ndarray:
+    """Fractions of time, without what rounding leaves of none and of all of it."""
+    exact = np.where(np.abs(mean - 1.0) < ROUNDING, 1.0, mean)
+    return np.minimum(np.where(np.abs(exact) < ROUNDING, 0.0, np.maximum(exact, 0.0)), 1.0)
+
+
 def mesh_statistics(sums: MeshSums) -> dict[str, np.ndarray]:
     """Mean, rms and peak values over an interval.
 
@@ -165,8 +173,8 @@ def mesh_statistics(sums: MeshSums) -> dict[str, np.ndarray]:
         "dte_peak": sums.dte_peak,
         "mesh_force_mean": mean[MESH_FORCE],
         "mesh_force_peak": sums.force_peak,
-        "contact_fraction": np.minimum(np.maximum(mean[CONTACT], 0.0), 1.0),
-        "without_viscous": np.minimum(np.maximum(mean[CLIPPED], 0.0), 1.0),
+        "contact_fraction": _fraction(mean[CONTACT]),
+        "without_viscous": _fraction(mean[CLIPPED]),
         "film_thickness": film,
         "lambda_ratio": lambda_ratio,
         "boundary_friction": mean[BOUNDARY],
