@@ -14,7 +14,6 @@ from typing import TYPE_CHECKING, NamedTuple
 from ._records import Record
 from .dynamics.bodies import rigid_ratios
 from .dynamics.creep import CREEPING
-from .gearset.geometry import pitch_radius
 from .scene import OperatingPoint, Scene
 
 if TYPE_CHECKING:
@@ -145,7 +144,8 @@ def settling_rate(scene: Scene, point: OperatingPoint) -> float:
     gearset, friction = scene.gearset, scene.lubrication
     if scene.dynamics != "torsional" or not friction.friction:
         return 0.0
-    radius = pitch_radius(gearset.teeth.sun, gearset.module) * math.sin(gearset.pressure_angle)
+    angle = min(mesh.pressure_angle for mesh in gearset.geometry.meshes)
+    radius = gearset.geometry.sun.base_radius * math.tan(angle)
     rolling = radius * _turning(scene, point)  # of both flanks at the pitch point [m/s]
     if rolling >= CREEPING:
         return math.inf

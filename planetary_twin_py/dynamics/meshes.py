@@ -6,27 +6,24 @@ with a first length of 2 hold the sun-planet mesh at 0 and the planet-ring mesh 
 
 from __future__ import annotations
 
-import math
 from typing import Any
 
 import numpy as np
 
 from .._records import MESHES, REAL, WHOLE
-from ..gearset.geometry import base_pitch, pitch_radius, planet_ring_path, sun_planet_path
-from ..gearset.phasing import mesh_phases
 from ..mesh.tooth_pairs import PAIRS, SEGMENTS, TERMS, pair_table, terms_in_use
 from ..scene import Scene
-from .alike import PlanetGroups, planet_groups
+from .alike import PlanetGroups, planet_groups, scene_phases
 from .bodies import Bodies
 from .faults import FAULTS_LAYOUT, build_faults, fault_kinks
 from .form_errors import FORM_ERRORS_LAYOUT, build_form_errors
 from .mesh_damping import damping_cycles, steady_damping_times
-from .stiffness_laws import GEARS, stiffness_laws
+from .stiffness_laws import stiffness_laws
 
 MESHES_LAYOUT: dict[str, Any] = {
     "meshes": WHOLE,
     "body": (WHOLE, (MESHES, 3)),  # first gear, second gear, carrier
-    "sign": (REAL, (MESHES, 3)),  # of their x in d
+    "sign": (REAL, (MESHES, 3)),  # factors of their x in d, +-1 of gears
     "copies": (REAL, (MESHES,)),  # meshes alike that count in forces and powers on the train
     "kind": (WHOLE, (MESHES,)),
     "phase": (REAL, (MESHES,)),  # delay in mesh cycles; whole cycles count teeth
@@ -59,28 +56,22 @@ def build_meshes(scene: Scene, bodies: Bodies) -> dict[str, Any]:
         ValueError: the teeth leave a moment without contact (see `pair_table`).
     """
     gearset, damping = scene.gearset, scene.mesh.damping
-    teeth, angle = gearset.tooth_numbers, gearset.pressure_angle
-    laws = stiffness_laws(scene)
+    gears, laws = gearset.geometry, stiffness_laws(scene)
     tables = [
         pair_table(
-            path(teeth, angle, gearset.addendum),
+            mesh.path,
             scene.mesh.ramp,
             laws[kind].strength,
             laws[kind].sharing,
             fault_kinks(scene, kind),
         )
-        for kind, path in enumerate((sun_planet_path, planet_ring_path))
+        for kind, mesh in enumerate(gears.meshes)
     ]
     groups = planet_groups(scene)
-    body, sign = _rows(groups, bodies.place)
+    body, sign = _rows(groups, bodies.place, gears.carrier_ratio)
     phases = np.array(
-        [float(phases[i]) for phases in mesh_phases(teeth, gearset.planet_angles)
-         for i in groups.leaders]
-    )  # fmt: skip
-    curvature = {
-        name: pitch_radius(z, gearset.module) * math.sin(angle)
-        for name, z in teeth._asdict().items()
-    }
+        [float(phases[i]) for phases in scene_phases(scene) for i in groups.leaders]
+    )
     stiffness = np.array([law.single for law in laws])
     return {
         "meshes": len(phases),
@@ -95,9 +86,9 @@ def build_meshes(scene: Scene, bodies: Bodies) -> dict[str, Any]:
         "damping_time": steady_damping_times(scene, stiffness),
         "damping_cycles": damping_cycles(scene),
         "lowest_frequency": damping.lowest_frequency,
-        "base_pitch": base_pitch(gearset.module, angle),
-        "rolling_advance": math.tan(angle) * base_pitch(gearset.module, angle),
-        "pitch_curvature": np.array([[curvature[gear] for gear in pair] for pair in GEARS]),
+        "base_pitch": gears.meshes[0].base_pitch,
+        "rolling_advance": min(mesh.rolling_advance for mesh in gears.meshes),
+        "pitch_curvature": np.array([mesh.curvatures for mesh in gears.meshes]),
         "external": np.array([1.0, -1.0]),
         "segments": np.array([table.segments for table in tables]),
         "edge": np.array([table.edge for table in tables]),
@@ -111,10 +102,15 @@ def build_meshes(scene: Scene, bodies: Bodies) -> dict[str, Any]:
     }
 
 
-def _rows(groups: PlanetGroups, place: dict[str, int]) -> tuple[np.ndarray, np.ndarray]:
-    """Bodies of each mesh and the signs of their x in its transmission error."""
+def _rows(
+    groups: PlanetGroups, place: dict[str, int], carrier: float
+) -> tuple[np.ndarray, np.ndarray]:
+    """Bodies of each mesh and the factors of their x in its transmission error.
+
+    `carrier` is that of the carrier in ring meshes, see `GearSet.carrier_ratio`.
+    """
     numbers = [leader + 1 for leader in groups.leaders]
     sun = [[place["sun"], place[f"planet_{i}"], place["carrier"]] for i in numbers]
     ring = [[place[f"planet_{i}"], place["ring"], place["carrier"]] for i in numbers]
-    signs = np.repeat([[1.0, 1.0, -1.0], [-1.0, 1.0, -1.0]], len(numbers), axis=0)
+    signs = np.repeat([[1.0, 1.0, -1.0], [-1.0, 1.0, -carrier]], len(numbers), axis=0)
     return np.array(sun + ring), signs

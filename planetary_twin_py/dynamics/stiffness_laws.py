@@ -14,7 +14,8 @@ from ..scene.faults import Crack
 from ..tooth.contact import ContactLaw, weber_banaschek, yang_sun
 from ..tooth.crack import Crack as RootCrack
 from ..tooth.material import Material
-from ..tooth.pair import ToothPair, planet_ring_pair, sun_planet_pair
+from ..tooth.pair import ToothPair
+from ..tooth.tooth import Tooth
 from .static_load import mesh_force
 
 GEARS = (("sun", "planet"), ("planet", "ring"))  # of each kind of mesh: first and second
@@ -47,16 +48,16 @@ def stiffness_follows_load(scene: Scene) -> bool:
 
 def tooth_pairs(scene: Scene) -> tuple[ToothPair, ToothPair]:
     """Healthy pairs of sun and planet, and of planet and ring."""
-    gearset, oil, how = scene.gearset, scene.lubrication, scene.mesh.tooth
-    sizes = (gearset.tooth_numbers, gearset.module, gearset.pressure_angle, gearset.addendum)
+    gears, oil, how = scene.gearset.geometry, scene.lubrication, scene.mesh.tooth
     material, contact = Material(oil.youngs_modulus, oil.poisson_ratio), _contact(scene)
-    sun_planet = sun_planet_pair(*sizes, material, contact)
-    planet_ring = planet_ring_pair(*sizes, material, contact)
-    sun, planet = (replace(tooth, held=how.hub) for tooth in (sun_planet.first, sun_planet.second))
-    ring = replace(planet_ring.second, held=how.rim)
+    sun, planet, ring = (
+        Tooth(gear, material, how.rim if gear.internal else how.hub)
+        for gear in (gears.sun, gears.planet, gears.ring)
+    )
+    sun_planet, planet_ring = gears.meshes
     return (
-        replace(sun_planet, first=sun, second=planet),
-        replace(planet_ring, first=planet, second=ring),
+        ToothPair(sun, planet, sun_planet.path, contact, angle=sun_planet.pressure_angle),
+        ToothPair(planet, ring, planet_ring.path, contact, angle=planet_ring.pressure_angle),
     )
 
 

@@ -6,9 +6,7 @@ import math
 from typing import Any, NamedTuple
 
 from ..dynamics.oil import build_oil
-from ..dynamics.stiffness_laws import GEARS
 from ..dynamics.tooth_contact import choices, tooth_contact
-from ..gearset.geometry import pitch_radius
 from ..lubrication.shear_thinning import LARGEST_EXPONENT
 from ..scene import Scene
 
@@ -46,12 +44,9 @@ def friction_figures(
     Returns:
         The friction fields of `MeshFigures`, by name.
     """
-    gearset, (load, peak) = scene.gearset, loaded
-    sine = math.sin(gearset.pressure_angle)
-    rho1, rho2 = (
-        pitch_radius(getattr(gearset.teeth, gear), gearset.module) * sine for gear in GEARS[kind]
-    )
-    speed = frequency * math.pi * gearset.module * sine
+    mesh, (load, peak) = scene.gearset.geometry.meshes[kind], loaded
+    rho1, rho2 = mesh.curvatures
+    speed = frequency * mesh.rolling_advance
     pair = TypicalPair(rho1, rho2, 1.0 if kind == 0 else -1.0, speed, load)
     by_law = {law: _friction(scene, law, pair) for law in ("eyring", "evans_johnson", "schlenk")}
     shear = _shear_number(scene, pair, 0.25 * math.pi * peak)

@@ -104,7 +104,9 @@ class Scene(Section):
         runout, angle = self.mesh.runout, self.gearset.pressure_angle
         backlash = self.operating_point.backlash
         half = self.mesh.flanks(backlash, angle)[0]
-        closed = math.sin(angle) * (runout.planet + max(runout.sun, runout.ring)) - half
+        sines = [math.sin(mesh.pressure_angle) for mesh in self.gearset.geometry.meshes]
+        most = max(sine * a for sine, a in zip(sines, (runout.sun, runout.ring), strict=True))
+        closed = max(sines) * runout.planet + most - half
         opened = self._least_deflection()
         if 2.0 * closed > 0.5 * opened:  # half of it may be lost to vibration
             least = 1.005 * (closed + half) / self.mesh.flanks(1.0, angle)[0]  # rounded upwards
