@@ -98,7 +98,7 @@ def _lines(defect: ErrorDetails, place: _Place) -> Iterator[str]:
     if not place.name:
         yield from reason.splitlines()
     elif isinstance(defect["input"], dict):
-        yield f"{place.name}: {reason}"
+        yield from (f"{place.name}: {line}" for line in reason.splitlines())
     else:
         allowed = None if _is_of_units(defect) else _allowed(place.field)
         yield f"{place.name} = {defect['input']!r}: {allowed or reason}"

@@ -212,8 +212,10 @@ class Gearset(Section):
             size = self._size()
         except ValueError:  # listed by `_teeth`
             return
-        yield from _error(lambda: check_clearance(size, angles))
-        yield from _error(lambda: check_assembly(teeth, angles, self.addendum, size))
+        touching = list(_error(lambda: check_clearance(size, angles)))
+        yield from touching
+        if not touching:
+            yield from _error(lambda: check_assembly(teeth, angles, self.addendum, size))
 
     @property
     def _standard(self) -> bool:

@@ -259,8 +259,18 @@ def parse_scene(text: str) -> Scene:
                 f"base = {name!r}: must be one of {', '.join(packaged_scenes())}"
                 f"{did_you_mean(name, packaged_scenes())}"
             )
-        data = _overlaid(load_scene(base).model_dump(), data)
+        data = _overlaid(_without_doubles(load_scene(base).model_dump(), data), data)
     return _validated(data)
+
+
+def _without_doubles(base: dict[str, Any], changes: dict[str, Any]) -> dict[str, Any]:
+    """`base` without the form of the moments of inertia that `changes` gives otherwise."""
+    given = changes.get("gearset")
+    forms = {"equivalent_mass": "inertia", "inertia": "equivalent_mass"}
+    if not isinstance(given, dict) or len(forms.keys() & given.keys()) != 1:
+        return base
+    (form,) = forms.keys() & given.keys()
+    return base | {"gearset": base["gearset"] | {forms[form]: None}}
 
 
 def _overlaid(base: Any, changes: Any) -> Any:
