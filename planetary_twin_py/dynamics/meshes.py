@@ -69,9 +69,7 @@ def build_meshes(scene: Scene, bodies: Bodies) -> dict[str, Any]:
     ]
     groups = planet_groups(scene)
     body, sign = _rows(groups, bodies.place, gears.carrier_ratio)
-    phases = np.array(
-        [float(phases[i]) for phases in scene_phases(scene) for i in groups.leaders]
-    )
+    phases = np.array([float(phases[i]) for phases in scene_phases(scene) for i in groups.leaders])
     stiffness = np.array([law.single for law in laws])
     return {
         "meshes": len(phases),

@@ -111,13 +111,13 @@ def build_gear_set(sizes: Sizes) -> GearSet:
             "their sum is too small: sun and planets mesh without play at no centre distance"
         )
     heights = _addenda(sizes, distance)
-    gears = [
+    sun, planet, ring = (
         SpurGear(z, sizes.module, sizes.pressure_angle, height, kind == 2, shift)
         for kind, (z, height, shift) in enumerate(
             zip(sizes.teeth, heights, sizes.shift, strict=True)
         )
-    ]
-    return GearSet(*gears, distance)
+    )
+    return GearSet(sun, planet, ring, distance)
 
 
 def _addenda(sizes: Sizes, distance: float) -> list[float]:

@@ -70,12 +70,10 @@ class WorkingMesh:
         )
         if angle is None:
             least = self.reference_distance * math.cos(self.first.pressure_angle)
+            what = "difference" if self.internal else "sum"
             raise ValueError(
-                f"gearset.centre_distance = {self.centre_distance:.6g} m: must be above the sum "
-                f"of the base radii of {' and '.join(self.names)}, {least:.6g} m"
-                if not self.internal
-                else f"gearset.centre_distance = {self.centre_distance:.6g} m: must be above the "
-                f"difference of the base radii of planet and ring, {least:.6g} m"
+                f"gearset.centre_distance = {1e3 * self.centre_distance:.6g} mm: must be above the "
+                f"{what} of the base radii of {' and '.join(self.names)}, {1e3 * least:.6g} mm"
             )
         return angle
 
@@ -153,11 +151,15 @@ class WorkingMesh:
         It is the tooth thickness of the first gear on its working pitch circle over the pitch, with
         half of the play: 1/2 + (s_w1 - s_w2)/(2 p_w); exactly 1/2 for gears without shift.
         """
-        if self.first.profile_shift == self.second.profile_shift == 0.0:
-            if self.centre_distance == self.reference_distance:
-                return 0.5
-        thick = [2.0 * radius * float(gear.half_thickness(np.array(radius)))
-                 for gear, radius in zip((self.first, self.second), self.pitch_radii, strict=True)]
+        gears = (self.first, self.second)
+        if self.centre_distance == self.reference_distance and not any(
+            gear.profile_shift for gear in gears
+        ):
+            return 0.5  # to the last bit
+        thick = [
+            2.0 * radius * float(gear.half_thickness(np.array(radius)))
+            for gear, radius in zip(gears, self.pitch_radii, strict=True)
+        ]
         return 0.5 + 0.5 * (thick[0] - thick[1]) / self.working_pitch
 
     @property

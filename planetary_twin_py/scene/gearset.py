@@ -59,8 +59,7 @@ class TipDiameters(Section):
 
 
 class EquivalentMasses(Section):
-    """J/r^2 with the reference circle m z/2; for the carrier with the radius of the planet centres.
-    """
+    """J/r^2 with the reference circle m z/2; for the carrier with the radius of the planet centres."""
 
     sun: float = quantity("kg", "J/r^2 of the sun", gt=0.0, le=1e6)
     planet: float = quantity("kg", "J/r^2 of one planet", gt=0.0, le=1e6)

@@ -17,9 +17,7 @@ LJUBLJANA = Sizes(Teeth(21, 43, 108), 1.75e-3, TWENTY, 1.0, PerGear(0.438, 0.042
 # Tooth numbers of public rigs; their shifts are not published, these are chosen.
 RIG_31 = Sizes(Teeth(31, 31, 95), 1e-3, TWENTY, 1.0, PerGear(0.26, 0.25, -0.2), 31.5e-3)
 RIG_21 = Sizes(Teeth(21, 31, 84), 1e-3, TWENTY, 1.0, PerGear(0.25, 0.25, -0.25))
-OH_58 = Sizes(
-    Teeth(27, 35, 99), 2.868e-3, math.radians(24.6), 1.0, PerGear(0.25, 0.25, 0.24)
-)
+OH_58 = Sizes(Teeth(27, 35, 99), 2.868e-3, math.radians(24.6), 1.0, PerGear(0.25, 0.25, 0.24))
 
 SETS = {
     "5 MW, first stage": STAGE_1,
