@@ -42,6 +42,9 @@ class GearSet:
         return planet_ring.teeth / sun_planet.teeth
 
 
+UNSHIFTED = PerGear(0.0, 0.0, 0.0)
+
+
 @dataclass(frozen=True)
 class Sizes:
     """What a gear set follows from."""
@@ -53,7 +56,7 @@ class Sizes:
     """On the reference circles [rad]."""
     addendum: float = 1.0
     """Of the basic rack [modules]."""
-    shift: PerGear = PerGear(0.0, 0.0, 0.0)
+    shift: PerGear = UNSHIFTED
     """Profile shifts, positive if they make teeth thicker [modules]."""
     centre_distance: float | None = None
     """[m]; default: sun and planets mesh without play."""
@@ -111,13 +114,23 @@ def build_gear_set(sizes: Sizes) -> GearSet:
             "their sum is too small: sun and planets mesh without play at no centre distance"
         )
     heights = _addenda(sizes, distance)
-    sun, planet, ring = (
-        SpurGear(z, sizes.module, sizes.pressure_angle, height, kind == 2, shift)
-        for kind, (z, height, shift) in enumerate(
-            zip(sizes.teeth, heights, sizes.shift, strict=True)
-        )
-    )
+    sun, planet, ring = (_gear(sizes, kind, height) for kind, height in enumerate(heights))
     return GearSet(sun, planet, ring, distance)
+
+
+def _gear(sizes: Sizes, kind: int, addendum: float) -> SpurGear:
+    """Sun (0), planet (1) or ring (2)."""
+    teeth, shift, internal = sizes.teeth[kind], sizes.shift[kind], kind == 2
+    try:
+        return SpurGear(teeth, sizes.module, sizes.pressure_angle, addendum, internal, shift)
+    except ValueError as error:
+        reason = str(error).partition(": ")[2]
+        height = addendum + shift
+        tip = 1e3 * sizes.module * (teeth + 2.0 * (-height if internal else height))
+        raise ValueError(
+            f"gearset.teeth.{Teeth._fields[kind]} = {teeth}: {reason}: change the tip diameter of "
+            f"{tip:.6g} mm, the profile shift of {shift:g} or the pressure angle"
+        ) from None
 
 
 def _addenda(sizes: Sizes, distance: float) -> list[float]:

@@ -1,10 +1,10 @@
 """Shape of involute spur gears, external and internal.
 
-The flanks are involutes of the base circle r cos(alpha). The tooth thickness on the reference circle
-is m (pi/2 + 2 x tan(alpha)) with the profile shift x (ISO 21771:2007, eq. 34; no backlash): a
-positive shift makes the teeth of external and internal gears thicker. The dedendum of the basic
-rack is 1.25 modules. The root is simplified: if the root circle is inside the base circle, a radial
-line connects it to the start of the involute, instead of the trochoid that a hob would cut.
+The flanks are involutes of the base circle r cos(alpha). The thickness on the reference circle is
+m (pi/2 + 2 x tan(alpha)) with the profile shift x (ISO 21771:2007, eq. 34; no backlash): a positive
+shift makes the teeth of external and internal gears thicker. The dedendum of the basic rack is 1.25
+modules. The root is simplified: if the root circle is inside the base circle, a radial line
+connects it to the start of the involute, instead of the trochoid that a hob would cut.
 """
 
 from __future__ import annotations

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 from typing import Literal, Self
 
-from pydantic import Field, model_validator
+from pydantic import Field, ValidationInfo, model_validator
 
 from ..gearset.clearance import Size, check_clearance
 from ..gearset.gear_set import GearSet, Sizes, build_gear_set
@@ -17,6 +17,9 @@ from ..gearset.phasing import check_assembly
 from ..gearset.shift import PerGear
 from ..tooth.undercut import check_undercut
 from .quantity import Section, quantity
+
+# Context of a validation that leaves out whether the fields fit together.
+FIELDS_ALONE = "fields alone"
 
 Member = Literal["sun", "ring", "carrier"]
 Held = Literal["sun", "ring", "carrier", "none"]
@@ -59,7 +62,7 @@ class TipDiameters(Section):
 
 
 class EquivalentMasses(Section):
-    """J/r^2 with the reference circle m z/2; for the carrier with the radius of the planet centres."""
+    """J/r^2 with the reference radius m z/2; for the carrier with that of the planet centres."""
 
     sun: float = quantity("kg", "J/r^2 of the sun", gt=0.0, le=1e6)
     planet: float = quantity("kg", "J/r^2 of one planet", gt=0.0, le=1e6)
@@ -169,7 +172,9 @@ class Gearset(Section):
         )
 
     @model_validator(mode="after")
-    def _can_be_put_together(self) -> Self:
+    def _can_be_put_together(self, info: ValidationInfo) -> Self:
+        if info.context == FIELDS_ALONE:
+            return self
         if errors := [*self._inertias(), *self._teeth(), *self._planets()]:
             raise ValueError("\n".join(line.removeprefix("gearset.") for line in errors))
         return self

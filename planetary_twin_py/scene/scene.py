@@ -6,15 +6,15 @@ import math
 from collections.abc import Iterator
 from importlib import resources
 from pathlib import Path
-from typing import Any, Literal, Self
+from typing import Annotated, Any, Literal, Self
 
-from pydantic import Field, ValidationError, model_validator
+from pydantic import Field, TypeAdapter, ValidationError, model_validator
 
 from ..printable import one_line
 from .defect import explain
 from .drive import Drive
 from .faults import MOST_FAULTS, Crack, Fault
-from .gearset import Gearset
+from .gearset import FIELDS_ALONE, Gearset
 from .losses import Losses
 from .lubrication import Lubrication
 from .mesh import Mesh
@@ -181,7 +181,30 @@ def _validated(data: Any) -> Scene:
     try:
         return Scene.model_validate(data)
     except ValidationError as error:
-        raise SceneError(explain(error, Scene)) from None
+        raise SceneError(explain(error, Scene, _across(data, error))) from None
+
+
+def _across(data: Any, error: ValidationError) -> Iterator[str]:
+    """Errors across sections in a scene with errors in sections, as far as they can be found."""
+    if not isinstance(data, dict) or not all(defect["loc"] for defect in error.errors()):
+        return  # then the scene itself was checked
+    valid = Scene.model_construct(**dict(_valid_sections(data)))
+    for check in (valid._machines, valid._limits, valid._faulty_teeth):
+        try:
+            yield from check()
+        except (AttributeError, KeyError):  # of a section that is invalid
+            continue
+
+
+def _valid_sections(data: dict[str, Any]) -> Iterator[tuple[str, Any]]:
+    """Sections whose own fields are valid."""
+    for name, field in Scene.model_fields.items():
+        if name in data:
+            try:
+                adapter = TypeAdapter(Annotated[field.annotation, field])
+                yield name, adapter.validate_python(data[name], context=FIELDS_ALONE)
+            except ValidationError:
+                continue
 
 
 def packaged_scenes() -> tuple[str, ...]:

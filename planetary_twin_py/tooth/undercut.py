@@ -11,6 +11,7 @@ from ..gearset.involute import SpurGear
 from ..gearset.working import WorkingMesh
 from .fillet import fillet, straight_reach
 
+TOLERANCE = 2e-3  # [modules] loss of flank that is below its roughness in small gears
 _END = np.array(1.0)  # of a fillet: where the involute starts
 
 
@@ -45,7 +46,7 @@ def check_undercut(mesh: WorkingMesh) -> Iterator[str]:
             continue
         touched = math.hypot(gear.base_radius, curvature - end * pitch)
         left = float(fillet(gear)(_END)[0])
-        if touched < left * (1.0 - 1e-9):
+        if touched < left - TOLERANCE * gear.module:
             yield (
                 f"gearset.profile_shift.{name} = {gear.profile_shift:g}: must be at least "
                 f"{least_shift(gear):.4g} for {gear.teeth} teeth: undercut leaves no involute "
