@@ -31,9 +31,7 @@ class _Place(NamedTuple):
     field: FieldInfo | None
 
 
-def explain(
-    error: ValidationError, model: type[Section], further: Iterable[str] = ()
-) -> str:
+def explain(error: ValidationError, model: type[Section], further: Iterable[str] = ()) -> str:
     """Format the errors of a validation: one line, or a heading and a line each.
 
     If a name is mistyped, the correct name is not listed as missing.

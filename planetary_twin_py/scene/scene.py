@@ -201,7 +201,8 @@ def _valid_sections(data: dict[str, Any]) -> Iterator[tuple[str, Any]]:
     for name, field in Scene.model_fields.items():
         if name in data:
             try:
-                adapter = TypeAdapter(Annotated[field.annotation, field])
+                kind: Any = Annotated[field.annotation, field]
+                adapter: TypeAdapter[Any] = TypeAdapter(kind)
                 yield name, adapter.validate_python(data[name], context=FIELDS_ALONE)
             except ValidationError:
                 continue

@@ -51,7 +51,10 @@ def refusal(**changes):
     [
         ({"profile_shift.ring": 0.0}, "gearset: profile_shift.planet + ring = 0.802: must be at"),
         ({"profile_shift.sun": 2.5}, "gearset.profile_shift.sun = 2.5: must be a number within"),
-        ({"tip_diameter.planet": "0.929 m"}, "gearset: tip_diameter.planet = 929 mm: must be below"),
+        (
+            {"tip_diameter.planet": "0.929 m"},
+            "gearset: tip_diameter.planet = 929 mm: must be below",
+        ),
         ({"tip_diameter.sun": "0.7 m"}, "gearset: "),
         ({"tip_diameter.sun": "2 m"}, "gearset: teeth.sun = 19: the tooth is pointed below its"),
         ({"tip_diameter.ring": "2.3 m"}, "gearset: teeth.ring = 56: the ring's tips are inside"),
@@ -85,7 +88,8 @@ def test_planets_are_kept_apart_by_centre_distance_and_tip_diameter():
 def test_moments_of_inertia_are_the_equivalent_masses_times_r_squared():
     gearset = PAPER.gearset
     radii = {
-        name: 0.5 * gearset.module * teeth for name, teeth in gearset.tooth_numbers._asdict().items()
+        name: 0.5 * gearset.module * teeth
+        for name, teeth in gearset.tooth_numbers._asdict().items()
     } | {"carrier": 0.5 * gearset.module * (gearset.teeth.sun + gearset.teeth.planet)}
     inertia = {name: getattr(gearset.equivalent_mass, name) * r**2 for name, r in radii.items()}
     scene = PAPER.replace(**{"gearset.inertia": inertia, "gearset.equivalent_mass": None})
