@@ -11,14 +11,16 @@ from typing import Any
 import numpy as np
 
 from .._records import MESHES, REAL, WHOLE
-from ..mesh.tooth_pairs import PAIRS, SEGMENTS, TERMS, pair_table, terms_in_use
+from ..mesh.stiffness import StiffnessLaw
+from ..mesh.tip_relief import relieved_table
+from ..mesh.tooth_pairs import PAIRS, SEGMENTS, TERMS, PairTable, pair_table, terms_in_use
 from ..scene import Scene
 from .alike import PlanetGroups, planet_groups, scene_phases
 from .bodies import Bodies
 from .faults import FAULTS_LAYOUT, build_faults, fault_kinks
 from .form_errors import FORM_ERRORS_LAYOUT, build_form_errors
 from .mesh_damping import damping_cycles, steady_damping_times
-from .stiffness_laws import stiffness_laws
+from .stiffness_laws import loaded_force, pair_gap, stiffness_laws
 
 MESHES_LAYOUT: dict[str, Any] = {
     "meshes": WHOLE,
@@ -57,16 +59,7 @@ def build_meshes(scene: Scene, bodies: Bodies) -> dict[str, Any]:
     """
     gearset, damping = scene.gearset, scene.mesh.damping
     gears, laws = gearset.geometry, stiffness_laws(scene)
-    tables = [
-        pair_table(
-            mesh.path,
-            scene.mesh.ramp,
-            laws[kind].strength,
-            laws[kind].sharing,
-            fault_kinks(scene, kind),
-        )
-        for kind, mesh in enumerate(gears.meshes)
-    ]
+    tables = [_table(scene, kind, law) for kind, law in enumerate(laws)]
     groups = planet_groups(scene)
     body, sign = _rows(groups, bodies.place, gears.carrier_ratio)
     phases = np.array([float(phases[i]) for phases in scene_phases(scene) for i in groups.leaders])
@@ -98,6 +91,15 @@ def build_meshes(scene: Scene, bodies: Bodies) -> dict[str, Any]:
         **build_form_errors(scene),
         **build_faults(scene, tables, groups.leaders, phases),
     }
+
+
+def _table(scene: Scene, kind: int, law: StiffnessLaw) -> PairTable:
+    """Tooth pairs of a kind of mesh, with tip relief at the load of the scene."""
+    ramp, kinks, gap = scene.mesh.ramp, fault_kinks(scene, kind), pair_gap(scene, kind)
+    if gap is not None:
+        return relieved_table(gap, ramp, law, loaded_force(scene), kinks)
+    path = scene.gearset.geometry.meshes[kind].path
+    return pair_table(path, ramp, law.strength, law.sharing, kinks)
 
 
 def _rows(

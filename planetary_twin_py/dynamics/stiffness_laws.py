@@ -8,9 +8,11 @@ from dataclasses import replace
 import numpy as np
 
 from ..mesh.stiffness import StiffnessLaw, given_stiffness, tooth_stiffness
+from ..mesh.tip_relief import PairGap, Relief
 from ..mesh.tooth_pairs import Along
 from ..scene import Scene
 from ..scene.faults import Crack
+from ..scene.mesh import TipReliefs
 from ..tooth.contact import ContactLaw, weber_banaschek, yang_sun
 from ..tooth.crack import Crack as RootCrack
 from ..tooth.material import Material
@@ -42,8 +44,29 @@ def stiffness_laws(scene: Scene) -> tuple[StiffnessLaw, StiffnessLaw]:
 
 
 def stiffness_follows_load(scene: Scene) -> bool:
-    """Whether teeth are as stiff as the scene's own torque makes their contact."""
+    """Whether teeth are as stiff as the scene's own torque makes them."""
+    if scene.mesh.tip_relief != TipReliefs():
+        return True
     return scene.mesh.stiffness == "involute" and scene.mesh.tooth.contact != "yang_sun"
+
+
+def pair_gap(scene: Scene, kind: int) -> PairGap | None:
+    """Gap of the pairs of a kind of mesh by tip relief, None without relief."""
+    mesh, reliefs = scene.gearset.geometry.meshes[kind], scene.mesh.tip_relief
+    given = [getattr(reliefs, gear) for gear in GEARS[kind]]
+    if not any(relief is not None and relief.amount > 0.0 for relief in given):
+        return None
+    first, second = (
+        None if one is None else Relief(one.amount, one.length / mesh.base_pitch, one.shape)
+        for one in given
+    )
+    return PairGap(mesh.path, first, second)
+
+
+def loaded_force(scene: Scene) -> float:
+    """Force of a mesh [N] at the torque of the scene, at least a light load."""
+    force = abs(mesh_force(scene, scene.operating_point.input_torque))
+    return max(force, LIGHTEST_LINE_LOAD * scene.gearset.face_width)
 
 
 def tooth_pairs(scene: Scene) -> tuple[ToothPair, ToothPair]:

@@ -17,7 +17,7 @@ from .faults import MOST_FAULTS, Crack, Fault
 from .gearset import FIELDS_ALONE, Gearset
 from .losses import Losses
 from .lubrication import Lubrication
-from .mesh import Mesh
+from .mesh import Mesh, TipReliefs
 from .names import did_you_mean, no_such_field
 from .operating_point import TUNABLES, OperatingPoint, Tunable
 from .paths import NoSuchPath, paths, put
@@ -59,7 +59,13 @@ class Scene(Section):
 
     @model_validator(mode="after")
     def _parts_fit_together(self) -> Self:
-        if errors := [*self._machines(), *self._limits(), *self._faulty_teeth(), *self._play()]:
+        if errors := [
+            *self._machines(),
+            *self._limits(),
+            *self._faulty_teeth(),
+            *self._play(),
+            *self._relief(),
+        ]:
             raise ValueError("\n".join(errors))
         return self
 
@@ -115,6 +121,20 @@ class Scene(Section):
                 f"the play by {2.0 * closed:.3g} m more than there is, of which the load opens "
                 f"{0.5 * opened:.3g} m: both flanks of a tooth would touch at once"
             )
+
+    def _relief(self) -> Iterator[str]:
+        """Errors of tip reliefs that are longer than the path of contact."""
+        if self.mesh.tip_relief == TipReliefs():
+            return
+        for mesh in self.gearset.geometry.meshes:
+            longest = mesh.path.contact_ratio * mesh.base_pitch
+            for name in mesh.names:
+                relief = getattr(self.mesh.tip_relief, name)
+                if relief is not None and relief.length > longest:
+                    yield (
+                        f"mesh.tip_relief.{name}.length = {relief.length:g}: must be at most "
+                        f"{longest:.4g} m, the path of contact of {' and '.join(mesh.names)}"
+                    )
 
     def _least_deflection(self) -> float:
         """Deflection [m] of the stiffer meshes under the least torque, all pairs in contact."""

@@ -72,8 +72,10 @@ def test_every_listed_field_has_a_valid_path():
         for body in ("planet", "sun", "ring", "carrier")
     }
     support = {"mass": 1.0, "bearing": 1e8}
+    relief = {"amount": 1e-6, "length": 1e-3}
     whole = pt.load_scene("differential").replace(
         **bearings,
+        **{"mesh.tip_relief": dict.fromkeys(("sun", "planet", "ring"), relief)},
         **{"losses.churning": {"fill": 0.5, "gap": 0.01, "sun": 0.02}},
         supports=dict.fromkeys(("sun", "planet", "ring", "carrier"), support),
         faults=[
