@@ -6,7 +6,7 @@ STAMPS := $(VENV)/stamps
 INSTALL := $(BIN)/uv pip install --quiet --python $(BIN)/python --no-deps --no-build-isolation
 INTERFACES := $(wildcard $(foreach spec,msgs_spec tools/tf2_msgs,$(addprefix $(spec)/,\
 	package.xml CMakeLists.txt msg/* srv/*)))
-CORE := $(shell find planetary_twin_py/core planetary_twin_py/_core -name '*.?pp' -o -name '*.txt' -o -name '*.py')
+CORE := $(shell find planetary_twin_py/core planetary_twin_py/_core -name '*.?pp' -o -name '*.txt' -o -name '*.py' 2>/dev/null)
 NODES := $(shell find ros_ws/src/planetary_twin -not -path '*/build*' -not -path '*.egg-info*' \
 	-not -name '*.pyc' -not -name __pycache__)
 
@@ -123,8 +123,8 @@ $(STAMPS)/interfaces: $(STAMPS)/dependencies tools/build_interfaces tools/ros_fr
 	@touch $@
 
 # Python reads the model from here; the core is compiled below, each time its sources change.
-$(STAMPS)/model: $(STAMPS)/dependencies pyproject.toml benchmarks/pyproject.toml
-	$(INSTALL) --config-setting wheel.cmake=false --config-setting editable.mode=inplace --editable .
+$(STAMPS)/model: $(STAMPS)/dependencies tools/install_model pyproject.toml benchmarks/pyproject.toml
+	tools/install_model $(VENV)
 	$(INSTALL) --editable benchmarks
 	@touch $@
 

@@ -13,7 +13,6 @@ from typing import TYPE_CHECKING, NamedTuple
 
 from ._core import CREEPING, Control
 from .dynamics.bodies import rigid_ratios
-from .gearset.geometry import pitch_radius
 from .scene import OperatingPoint, Scene
 
 if TYPE_CHECKING:
@@ -155,7 +154,8 @@ class Settling:
         gearset, friction = scene.gearset, scene.lubrication
         self._remembers = scene.dynamics == "torsional" and friction.friction
         self._distance = SETTLED * friction.presliding_displacement
-        lever = pitch_radius(gearset.teeth.sun, gearset.module) * math.sin(gearset.pressure_angle)
+        angle = min(mesh.pressure_angle for mesh in gearset.geometry.meshes)
+        lever = gearset.geometry.sun.base_radius * math.tan(angle)
         ratios = rigid_ratios(scene)
         self._rolling = [
             lever * float(sun - carrier)

@@ -153,13 +153,12 @@ def others() -> Iterator[Row]:
         "166.75 Hz by vibration, 166.80 Hz by encoder",
         f"{rig:.2f} Hz",
         verdict(abs(rig - 166.775) < 0.05),
-        "bound: 0.05 Hz. Kinematics only: these teeth need profile shift, which scenes lack.",
+        "bound: 0.05 Hz. Kinematics only.",
     )
     yield Row(
         "first carrier sideband over the mesh line, 31/31/95 gear set (SNU)",
         "left 0.92 to 1.11, planet fault 1.70 to 3.71; right 0.10 to 0.36, sun fault 0.40 to 1.20",
         "-",
         MISSES,
-        "the twin has no housing on which a sensor sees planets pass. These teeth need profile "
-        "shift, too.",
+        "the twin has no housing on which a sensor sees planets pass.",
     )

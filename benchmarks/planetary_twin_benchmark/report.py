@@ -48,10 +48,10 @@ $cases
 """)
 
 _PEERS = f"""- Methods other than {" and ".join(f"`{name}`" for name in METHODS)} are off-the-shelf
-  solvers and fixed steps, see `benchmarks/planetary_twin_benchmark/peers/`. They
-  take the same equations as one compiled function of time and state, without information about
-  events. Their only time is the one with samples, which they interpolate; it excludes the
-  computation of losses from the states.
+  solvers and fixed steps, see `benchmarks/planetary_twin_benchmark/peers/`. They take the same
+  equations as one compiled function of time and state, without information about events. Their
+  only time is the one with samples, which they interpolate; it excludes the computation of losses
+  from the states.
 """
 
 

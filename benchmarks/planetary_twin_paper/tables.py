@@ -161,7 +161,7 @@ def masses(evidence: Evidence) -> Entry:
 
 
 def _masses(scene: Scene) -> dict[str, float]:
-    data = scene.gearset.equivalent_mass
+    data = scene.gearset.rim_masses
     return {name: getattr(data, name) for name in MASSES}
 
 

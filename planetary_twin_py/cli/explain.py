@@ -94,7 +94,12 @@ def _mesh_table(scene: Scene, meshes: Meshes) -> Table:
 # Labels of the fields of `MeshFigures`, in their order.
 _MESH_ROWS = (
     "teeth [-]",
+    "working pressure angle [rad]",
     "contact ratio [-]",
+    "length of approach [base pitches]",
+    "length of recess [base pitches]",
+    "play of the teeth by profile shift and centre distance [m]",
+    "clearance of both tips from the mating root [m]",
     "stiffness of one pair [N/m]",
     "stiffness, mean over the mesh cycle [N/m]",
     "natural frequency of the two gears alone, one pair in contact [Hz]",
@@ -113,7 +118,9 @@ _MESH_ROWS = (
 
 
 def _shown(value: Any) -> str:
-    return "/".join(map(str, value)) if isinstance(value, tuple) else f"{value:.4g}"
+    if isinstance(value, tuple):
+        return "/".join(f"{part:.4g}" if isinstance(part, float) else str(part) for part in value)
+    return f"{value:.4g}"
 
 
 def _mesh_figures(meshes: Meshes) -> dict[str, Any]:

@@ -38,9 +38,16 @@ def planet_groups(scene: Scene) -> PlanetGroups:
     )
 
 
+def scene_phases(scene: Scene) -> tuple[list[Fraction], list[Fraction]]:
+    """Phases of sun and ring meshes [cycles], (planets,) each, see `mesh_phases`."""
+    gearset = scene.gearset
+    first, second = (mesh.coast_lead for mesh in gearset.geometry.meshes)
+    return mesh_phases(gearset.tooth_numbers, gearset.planet_angles, (first, second))
+
+
 def _looks(scene: Scene) -> list[_Look]:
     gearset = scene.gearset
-    sun, ring = mesh_phases(gearset.tooth_numbers, gearset.planet_angles)
+    sun, ring = scene_phases(scene)
     faulty = {fault.planet - 1 for fault in scene.faults if fault.gear == "planet"}
     sun_cycles, ring_cycles = _period(scene, "sun"), _period(scene, "ring")
     return [

@@ -9,7 +9,6 @@ from typing import NamedTuple
 import numpy as np
 
 from .._core import AXES
-from ..gearset.geometry import pitch_radius
 from ..gearset.kinematics import speeds_per_input
 from ..scene import Scene
 from ..scene.drive import Machine
@@ -50,27 +49,30 @@ class Bodies(NamedTuple):
 def rim_masses(scene: Scene) -> dict[str, float]:
     """J/r^2 [kg] of each kind of body, with the r of `base_radii`."""
     gearset = scene.gearset
-    mass = gearset.equivalent_mass
+    mass = gearset.rim_masses
     slant = 1.0 / math.cos(gearset.pressure_angle) ** 2  # (pitch radius/base radius)^2
     # The planets ride on the carrier: their mass turns with it.
     carried = mass.carrier + gearset.planets * gearset.planet_mass
+    turned = 1.0 / math.cos(gearset.geometry.meshes[0].pressure_angle) ** 2
     return {
         "sun": mass.sun * slant,
         "planet": mass.planet * slant,
         "ring": mass.ring * slant,
-        "carrier": carried * slant,
+        "carrier": carried * turned,
     }
 
 
 def base_radii(scene: Scene) -> dict[str, float]:
-    """r [m] of x = r theta for each kind of body: base radii, r_c cos(phi) for the carrier."""
-    teeth, module = scene.gearset.tooth_numbers, scene.gearset.module
-    cosine = math.cos(scene.gearset.pressure_angle)
+    """r [m] of x = r theta for each kind of body: base radii, r_c cos(phi) for the carrier.
+
+    With the working pressure angle phi of the sun meshes, so it is r_bs + r_bp for the carrier.
+    """
+    gears = scene.gearset.geometry
     return {
-        "sun": pitch_radius(teeth.sun, module) * cosine,
-        "planet": pitch_radius(teeth.planet, module) * cosine,
-        "ring": pitch_radius(teeth.ring, module) * cosine,
-        "carrier": pitch_radius(teeth.sun + teeth.planet, module) * cosine,
+        "sun": gears.sun.base_radius,
+        "planet": gears.planet.base_radius,
+        "ring": gears.ring.base_radius,
+        "carrier": gears.centre_distance * math.cos(gears.meshes[0].pressure_angle),
     }
 
 

@@ -40,13 +40,22 @@ def build_drag(scene: Scene, bodies: Bodies) -> dict[str, Any]:
         "joint_rubbing": np.array([joint.rubbing for joint in joints]),
         "joint_coulomb": np.array([joint.coulomb for joint in joints]),
         "joint_viscous": np.array([joint.viscous for joint in joints]),
-        "pin_share": math.cos(scene.gearset.pressure_angle),
+        "pin_share": _pin_share(scene),
         "discs": len(discs),
         "disc_body": np.array([place[member] for member in discs], dtype=int),
         "disc_radius": np.array(list(discs.values()), dtype=float),
         "disc_gap": churning.gap if churning else 0.0,
         "disc_fill": churning.fill if churning else 0.0,
     }
+
+
+def _pin_share(scene: Scene) -> float:
+    """cos((a_s + a_r)/2) with the working pressure angles of both meshes of a planet.
+
+    Equal forces F along their lines of action add up to 2 F cos((a_s + a_r)/2).
+    """
+    sun, ring = (mesh.pressure_angle for mesh in scene.gearset.geometry.meshes)
+    return math.cos(0.5 * (sun + ring))
 
 
 def _joints(scene: Scene, bodies: Bodies) -> Iterator[_Joint]:

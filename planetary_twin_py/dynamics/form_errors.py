@@ -34,8 +34,8 @@ def build_form_errors(scene: Scene) -> dict[str, Any]:
     """Fields of `Train`."""
     mesh = scene.mesh
     kinds = (
-        _harmonics(mesh.sun_planet_error) + _runout(scene, {"sun": +1.0, "planet": -1.0}),
-        _harmonics(mesh.planet_ring_error) + _runout(scene, {"planet": +1.0, "ring": +1.0}),
+        _harmonics(mesh.sun_planet_error) + _runout(scene, 0, {"sun": +1.0, "planet": -1.0}),
+        _harmonics(mesh.planet_ring_error) + _runout(scene, 1, {"planet": +1.0, "ring": +1.0}),
     )
     columns = np.zeros((len(_Line._fields), 2, LINES))
     columns[3] = 1.0
@@ -60,14 +60,15 @@ def _harmonics(error: TransmissionError) -> list[_Line]:
     return [_Line(a, 0.0, n + 1.0, 1, phase) for n, (a, phase) in enumerate(pairs) if a != 0.0]
 
 
-def _runout(scene: Scene, leans: dict[str, float]) -> list[_Line]:
-    """Lines a sin(turn + side lean phi) of the gears of a mesh.
+def _runout(scene: Scene, kind: int, leans: dict[str, float]) -> list[_Line]:
+    """Lines a sin(turn + side lean phi) of the gears of a mesh with working pressure angle phi.
 
     With the toothing off its axis by a towards phi_g from the planet's radius, the sun has
     e_T = -a cos(phi) sin(phi_g), e_R = -a sin(phi) cos(phi_g); the ring the same with -e_R; the
     planet the opposite of both, in both meshes (first order in a). All turn one way but the sun.
     """
-    angle, teeth = scene.gearset.pressure_angle, scene.gearset.tooth_numbers._asdict()
+    teeth = scene.gearset.tooth_numbers._asdict()
+    angle = scene.gearset.geometry.meshes[kind].pressure_angle
     sizes = {gear: getattr(scene.mesh.runout, gear) for gear in leans}
     return [
         _Line(

@@ -6,21 +6,20 @@ with a first length of 2 hold the sun-planet mesh at 0 and the planet-ring mesh 
 
 from __future__ import annotations
 
-import math
 from typing import Any
 
 import numpy as np
 
-from ..gearset.geometry import base_pitch, pitch_radius, planet_ring_path, sun_planet_path
-from ..gearset.phasing import mesh_phases
-from ..mesh.tooth_pairs import pair_table, terms_in_use
+from ..mesh.stiffness import StiffnessLaw
+from ..mesh.tip_relief import relieved_table
+from ..mesh.tooth_pairs import PairTable, pair_table, terms_in_use
 from ..scene import Scene
-from .alike import PlanetGroups, planet_groups
+from .alike import PlanetGroups, planet_groups, scene_phases
 from .bodies import Bodies
 from .faults import build_faults, fault_kinks
 from .form_errors import build_form_errors
 from .mesh_damping import damping_cycles, steady_damping_times
-from .stiffness_laws import GEARS, stiffness_laws
+from .stiffness_laws import loaded_force, pair_gap, stiffness_laws
 
 
 def build_meshes(scene: Scene, bodies: Bodies) -> dict[str, Any]:
@@ -30,28 +29,11 @@ def build_meshes(scene: Scene, bodies: Bodies) -> dict[str, Any]:
         ValueError: the teeth leave a moment without contact (see `pair_table`).
     """
     gearset, damping = scene.gearset, scene.mesh.damping
-    teeth, angle = gearset.tooth_numbers, gearset.pressure_angle
-    laws = stiffness_laws(scene)
-    tables = [
-        pair_table(
-            path(teeth, angle, gearset.addendum),
-            scene.mesh.ramp,
-            laws[kind].strength,
-            laws[kind].sharing,
-            fault_kinks(scene, kind),
-        )
-        for kind, path in enumerate((sun_planet_path, planet_ring_path))
-    ]
+    gears, laws = gearset.geometry, stiffness_laws(scene)
+    tables = [_table(scene, kind, law) for kind, law in enumerate(laws)]
     groups = planet_groups(scene)
-    body, sign = _rows(groups, bodies.place)
-    phases = np.array(
-        [float(phases[i]) for phases in mesh_phases(teeth, gearset.planet_angles)
-         for i in groups.leaders]
-    )  # fmt: skip
-    curvature = {
-        name: pitch_radius(z, gearset.module) * math.sin(angle)
-        for name, z in teeth._asdict().items()
-    }
+    body, sign = _rows(groups, bodies.place, gears.carrier_ratio)
+    phases = np.array([float(phases[i]) for phases in scene_phases(scene) for i in groups.leaders])
     stiffness = np.array([law.single for law in laws])
     return {
         "meshes": len(phases),
@@ -60,15 +42,16 @@ def build_meshes(scene: Scene, bodies: Bodies) -> dict[str, Any]:
         "copies": np.tile(groups.sizes, 2),
         "kind": np.repeat([0, 1], len(groups.leaders)),
         "phase": phases,
+        "coast_lead": np.array([mesh.coast_lead for mesh in gears.meshes]),
         "stiffness": stiffness,
         "stiffness_base": np.array([law.base for law in laws]),
         "stiffness_gain": np.array([law.gain for law in laws]),
         "damping_time": steady_damping_times(scene, stiffness),
         "damping_cycles": damping_cycles(scene),
         "lowest_frequency": damping.lowest_frequency,
-        "base_pitch": base_pitch(gearset.module, angle),
-        "rolling_advance": math.tan(angle) * base_pitch(gearset.module, angle),
-        "pitch_curvature": np.array([[curvature[gear] for gear in pair] for pair in GEARS]),
+        "base_pitch": gears.meshes[0].base_pitch,
+        "rolling_advance": min(mesh.rolling_advance for mesh in gears.meshes),
+        "pitch_curvature": np.array([mesh.curvatures for mesh in gears.meshes]),
         "external": np.array([1.0, -1.0]),
         "segments": np.array([table.segments for table in tables]),
         "edge": np.array([table.edge for table in tables]),
@@ -82,10 +65,24 @@ def build_meshes(scene: Scene, bodies: Bodies) -> dict[str, Any]:
     }
 
 
-def _rows(groups: PlanetGroups, place: dict[str, int]) -> tuple[np.ndarray, np.ndarray]:
-    """Bodies of each mesh and the signs of their x in its transmission error."""
+def _table(scene: Scene, kind: int, law: StiffnessLaw) -> PairTable:
+    """Tooth pairs of a kind of mesh, with tip relief at the load of the scene."""
+    ramp, kinks, gap = scene.mesh.ramp, fault_kinks(scene, kind), pair_gap(scene, kind)
+    if gap is not None:
+        return relieved_table(gap, ramp, law, loaded_force(scene), kinks)
+    path = scene.gearset.geometry.meshes[kind].path
+    return pair_table(path, ramp, law.strength, law.sharing, kinks)
+
+
+def _rows(
+    groups: PlanetGroups, place: dict[str, int], carrier: float
+) -> tuple[np.ndarray, np.ndarray]:
+    """Bodies of each mesh and the factors of their x in its transmission error.
+
+    `carrier` is that of the carrier in ring meshes, see `GearSet.carrier_ratio`.
+    """
     numbers = [leader + 1 for leader in groups.leaders]
     sun = [[place["sun"], place[f"planet_{i}"], place["carrier"]] for i in numbers]
     ring = [[place[f"planet_{i}"], place["ring"], place["carrier"]] for i in numbers]
-    signs = np.repeat([[1.0, 1.0, -1.0], [-1.0, 1.0, -1.0]], len(numbers), axis=0)
+    signs = np.repeat([[1.0, 1.0, -1.0], [-1.0, 1.0, -carrier]], len(numbers), axis=0)
     return np.array(sun + ring), signs

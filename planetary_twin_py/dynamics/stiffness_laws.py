@@ -8,13 +8,16 @@ from dataclasses import replace
 import numpy as np
 
 from ..mesh.stiffness import StiffnessLaw, given_stiffness, tooth_stiffness
+from ..mesh.tip_relief import PairGap, Relief
 from ..mesh.tooth_pairs import Along
 from ..scene import Scene
 from ..scene.faults import Crack
+from ..scene.mesh import TipReliefs
 from ..tooth.contact import ContactLaw, weber_banaschek, yang_sun
 from ..tooth.crack import Crack as RootCrack
 from ..tooth.material import Material
-from ..tooth.pair import ToothPair, planet_ring_pair, sun_planet_pair
+from ..tooth.pair import ToothPair
+from ..tooth.tooth import Tooth
 from .static_load import mesh_force
 
 GEARS = (("sun", "planet"), ("planet", "ring"))  # of each kind of mesh: first and second
@@ -41,22 +44,43 @@ def stiffness_laws(scene: Scene) -> tuple[StiffnessLaw, StiffnessLaw]:
 
 
 def stiffness_follows_load(scene: Scene) -> bool:
-    """Whether teeth are as stiff as the scene's own torque makes their contact."""
+    """Whether teeth are as stiff as the scene's own torque makes them."""
+    if scene.mesh.tip_relief != TipReliefs():
+        return True
     return scene.mesh.stiffness == "involute" and scene.mesh.tooth.contact != "yang_sun"
+
+
+def pair_gap(scene: Scene, kind: int) -> PairGap | None:
+    """Gap of the pairs of a kind of mesh by tip relief, None without relief."""
+    mesh, reliefs = scene.gearset.geometry.meshes[kind], scene.mesh.tip_relief
+    given = [getattr(reliefs, gear) for gear in GEARS[kind]]
+    if not any(relief is not None and relief.amount > 0.0 for relief in given):
+        return None
+    first, second = (
+        None if one is None else Relief(one.amount, one.length / mesh.base_pitch, one.shape)
+        for one in given
+    )
+    return PairGap(mesh.path, first, second)
+
+
+def loaded_force(scene: Scene) -> float:
+    """Force of a mesh [N] at the torque of the scene, at least a light load."""
+    force = abs(mesh_force(scene, scene.operating_point.input_torque))
+    return max(force, LIGHTEST_LINE_LOAD * scene.gearset.face_width)
 
 
 def tooth_pairs(scene: Scene) -> tuple[ToothPair, ToothPair]:
     """Healthy pairs of sun and planet, and of planet and ring."""
-    gearset, oil, how = scene.gearset, scene.lubrication, scene.mesh.tooth
-    sizes = (gearset.tooth_numbers, gearset.module, gearset.pressure_angle, gearset.addendum)
+    gears, oil, how = scene.gearset.geometry, scene.lubrication, scene.mesh.tooth
     material, contact = Material(oil.youngs_modulus, oil.poisson_ratio), _contact(scene)
-    sun_planet = sun_planet_pair(*sizes, material, contact)
-    planet_ring = planet_ring_pair(*sizes, material, contact)
-    sun, planet = (replace(tooth, held=how.hub) for tooth in (sun_planet.first, sun_planet.second))
-    ring = replace(planet_ring.second, held=how.rim)
+    sun, planet, ring = (
+        Tooth(gear, material, how.rim if gear.internal else how.hub)
+        for gear in (gears.sun, gears.planet, gears.ring)
+    )
+    sun_planet, planet_ring = gears.meshes
     return (
-        replace(sun_planet, first=sun, second=planet),
-        replace(planet_ring, first=planet, second=ring),
+        ToothPair(sun, planet, sun_planet.path, contact, angle=sun_planet.pressure_angle),
+        ToothPair(planet, ring, planet_ring.path, contact, angle=planet_ring.pressure_angle),
     )
 
 

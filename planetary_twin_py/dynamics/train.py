@@ -4,6 +4,7 @@ Coordinates. Every body has x = r theta, r its base radius (r_c cos(phi) for the
 its member for a machine), measured in a frame that turns with the rigid train at the speeds of the
 motors. A mesh's transmission error is then a sum of three x with signs: d = x_s + x_p - x_c at the
 sun, d = -x_p + x_r - x_c at the ring (al-Shyyab and Kahraman 2007, in base-circle coordinates).
+Where ring is not sun + 2 planet, x_c has the factor (r_br - r_bp)/(r_bs + r_bp) at the ring.
 A held body is the ground: one more entry whose x is zero.
 """
 
@@ -15,7 +16,6 @@ from typing import Any
 import numpy as np
 
 from .._core import AXES, REGISTER, Train
-from ..gearset.geometry import base_pitch
 from ..gearset.kinematics import mesh_cycles_per_turn
 from ..scene import OperatingPoint, Scene
 from .bodies import Bodies, base_radii, build_bodies, machines, rigid_ratios
@@ -47,7 +47,7 @@ def _built(scene: Scene) -> Train:
     bodies = build_bodies(scene)
     radii = base_radii(scene)
     meshes = build_meshes(scene, bodies)
-    pitch = base_pitch(scene.gearset.module, scene.gearset.pressure_angle)
+    pitch = meshes["base_pitch"]
     return Train(
         bodies=len(bodies.mass) - 1,
         lanes=_whole_registers(max(len(bodies.mass) - 1, len(meshes["phase"]))),

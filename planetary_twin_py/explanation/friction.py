@@ -7,8 +7,6 @@ from typing import Any, NamedTuple
 
 from .._core import tooth_contact
 from ..dynamics.oil import build_oil
-from ..dynamics.stiffness_laws import GEARS
-from ..gearset.geometry import pitch_radius
 from ..scene import Scene
 
 SLIDE_TO_ROLL = 0.1  # typical of a tooth pair between pitch point and tip
@@ -46,12 +44,9 @@ def friction_figures(
     Returns:
         The friction fields of `MeshFigures`, by name.
     """
-    gearset, (load, peak) = scene.gearset, loaded
-    sine = math.sin(gearset.pressure_angle)
-    rho1, rho2 = (
-        pitch_radius(getattr(gearset.teeth, gear), gearset.module) * sine for gear in GEARS[kind]
-    )
-    speed = frequency * math.pi * gearset.module * sine
+    mesh, (load, peak) = scene.gearset.geometry.meshes[kind], loaded
+    rho1, rho2 = mesh.curvatures
+    speed = frequency * mesh.rolling_advance
     pair = TypicalPair(rho1, rho2, 1.0 if kind == 0 else -1.0, speed, load)
     by_law = {law: _friction(scene, law, pair) for law in ("eyring", "evans_johnson", "schlenk")}
     shear = _shear_number(scene, pair, 0.25 * math.pi * peak)

@@ -12,7 +12,6 @@ from ..dynamics.start import build_load
 from ..dynamics.static_load import mesh_force
 from ..dynamics.stiffness_laws import GEARS
 from ..dynamics.train import build_train
-from ..gearset.geometry import pitch_radius, planet_ring_path, sun_planet_path
 from ..losses.ohlendorf import tooth_loss_factor
 from ..lubrication.hertz import contact_modulus
 from ..scene import Scene
@@ -23,7 +22,12 @@ class MeshFigures(NamedTuple):
     """Key figures of a mesh between two kinds of gears, with healthy teeth."""
 
     teeth: tuple[int, int]
+    pressure_angle: float  # working pressure angle [rad]
     contact_ratio: float
+    approach: float  # length of the path of contact up to the pitch point [base pitches]
+    recess: float  # and after it
+    tooth_play: float  # by profile shift and centre distance alone, along the line of action [m]
+    tip_clearances: tuple[float, float]  # of the tips of both gears from the mating root [m]
     single_stiffness: float  # of one pair, about the pitch point [N/m]
     mean_stiffness: float  # over the mesh cycle [N/m]
     natural_frequency: float  # of the two gears alone, with one pair in contact [Hz]
@@ -62,14 +66,17 @@ def describe_meshes(scene: Scene) -> Meshes:
     force = abs(mesh_force(scene, point.input_torque))
     pressure = [_pitch_pressure(scene, force, kind) for kind in range(len(GEARS))]
     gearset, teeth = scene.gearset, scene.gearset.tooth_numbers._asdict()
-    paths = [
-        path(gearset.tooth_numbers, gearset.pressure_angle, gearset.addendum)
-        for path in (sun_planet_path, planet_ring_path)
-    ]
+    found = gearset.geometry.meshes
+    paths = [mesh.path for mesh in found]
     sun_planet, planet_ring = (
         MeshFigures(
             teeth=(teeth[first], teeth[second]),
+            pressure_angle=found[kind].pressure_angle,
             contact_ratio=paths[kind].contact_ratio,
+            approach=paths[kind].approach,
+            recess=paths[kind].recess,
+            tooth_play=found[kind].play,
+            tip_clearances=found[kind].tip_clearances,
             single_stiffness=float(train.stiffness[kind]),
             mean_stiffness=float(mean[kind]),
             natural_frequency=float(natural[kind]) / (2.0 * math.pi),
@@ -91,10 +98,8 @@ def _pitch_pressure(scene: Scene, force: float, kind: int) -> float:
     p = E* b/(2 R) (Johnson 1985, sec. 4.2(c)). A flank's radius of curvature there is r sin(alpha).
     """
     gearset, oil = scene.gearset, scene.lubrication
-    first, second = (getattr(gearset.teeth, gear) for gear in GEARS[kind])
-    curvature = 1.0 / pitch_radius(first, gearset.module)
-    curvature += (-1.0 if kind == 1 else 1.0) / pitch_radius(second, gearset.module)
-    radius = math.sin(gearset.pressure_angle) / curvature
+    first, second = gearset.geometry.meshes[kind].curvatures
+    radius = 1.0 / (1.0 / first + (-1.0 if kind == 1 else 1.0) / second)
     modulus = contact_modulus(oil.youngs_modulus, oil.poisson_ratio)
     width = gearset.face_width
     return 0.5 * modulus * half_width(force, radius, width, modulus) / radius

@@ -1,7 +1,8 @@
 """Clearance between neighbouring planets: their tip circles must not touch.
 
 The centres of two planets with an angle delta between them have the distance 2 a sin(delta/2),
-where a = m (Zs + Zp)/2. The tip diameter is m (Zp + 2 ha), where ha is the addendum in modules.
+where a is the centre distance, m (Zs + Zp)/2 of gears without profile shift. Their tip diameter is
+then m (Zp + 2 ha), where ha is the addendum in modules.
 Two opposite planets are always clear, because the sun has more than 2 ha teeth.
 """
 
@@ -22,10 +23,16 @@ class Size(NamedTuple):
     """[m]"""
     addendum: float
     """[modules]"""
+    centre_distance: float | None = None
+    """Of sun and planets [m]; default: that of gears without profile shift."""
+    planet_tip: float | None = None
+    """Tip diameter of a planet [m]; default: that of a gear without profile shift."""
 
     @property
     def tip_diameter(self) -> float:
         """Tip diameter of a planet [m]."""
+        if self.planet_tip is not None:
+            return self.planet_tip
         return self.module * (self.teeth.planet + 2.0 * self.addendum)
 
     def distance(self, angle: float) -> float:
@@ -34,6 +41,8 @@ class Size(NamedTuple):
         Args:
             angle: between the planets [rad].
         """
+        if self.centre_distance is not None:
+            return 2.0 * self.centre_distance * abs(math.sin(0.5 * angle))
         return self.module * (self.teeth.sun + self.teeth.planet) * abs(math.sin(0.5 * angle))
 
 

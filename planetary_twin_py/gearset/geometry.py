@@ -1,4 +1,4 @@
-"""Radii and path of contact of standard involute spur gears."""
+"""Radii and path of contact of involute spur gears."""
 
 from __future__ import annotations
 
@@ -45,24 +45,47 @@ def base_pitch(module: float, pressure_angle: float) -> float:
     return math.pi * module * math.cos(pressure_angle)
 
 
-def _external_tip_reach(teeth: int, angle: float, addendum: float) -> float:
-    """Distance from the pitch point to the tip circle along the line of action, in modules."""
-    pitch, base, tip = teeth / 2, teeth / 2 * math.cos(angle), teeth / 2 + addendum
-    return math.sqrt(tip**2 - base**2) - pitch * math.sin(angle)
+def external_tip_reach(
+    teeth: int, angle: float, height: float, working: float | None = None
+) -> float:
+    """Distance from the pitch point to the tip circle along the line of action [modules].
+
+    ISO 21771:2007, sec. 6.5: sqrt(r_a^2 - r_b^2) - r_b tan(a_w).
+
+    Args:
+        teeth: number of teeth.
+        angle: pressure angle on the reference circle [rad].
+        height: of the tip above the reference circle [modules].
+        working: working pressure angle [rad]; default: `angle`.
+    """
+    pitch, base, tip = teeth / 2, teeth / 2 * math.cos(angle), teeth / 2 + height
+    return math.sqrt(tip**2 - base**2) - _tangent(pitch, angle, working)
 
 
-def _internal_tip_reach(teeth: int, angle: float, addendum: float) -> float:
-    pitch, base, tip = teeth / 2, teeth / 2 * math.cos(angle), teeth / 2 - addendum
-    return pitch * math.sin(angle) - math.sqrt(tip**2 - base**2)
+def internal_tip_reach(
+    teeth: int, angle: float, height: float, working: float | None = None
+) -> float:
+    """The same for an internal gear, whose tips are `height` [modules] inside the circle."""
+    pitch, base, tip = teeth / 2, teeth / 2 * math.cos(angle), teeth / 2 - height
+    return _tangent(pitch, angle, working) - math.sqrt(tip**2 - base**2)
 
 
-def _on_involute(reach: float, teeth: int, angle: float, tip: str, flank: str) -> float:
+def _tangent(pitch: float, angle: float, working: float | None) -> float:
+    """Distance from the pitch point to the base circle along the line of action, r_b tan(a_w)."""
+    if working is None:
+        working = angle
+    return pitch * (math.cos(angle) / math.cos(working)) * math.sin(working)
+
+
+def on_involute(
+    reach: float, teeth: int, angle: float, tip: str, flank: str, working: float | None = None
+) -> float:
     """`reach` of the mating tip; raises `ValueError` if it passes the start of the involute.
 
     The involute starts where the line of action touches the base circle (Buckingham 1949,
     Analytical Mechanics of Gears, ch. 4: involute interference).
     """
-    if reach >= teeth / 2 * math.sin(angle):
+    if reach >= _tangent(teeth / 2, angle, working):
         raise ValueError(
             f"gearset.teeth.{flank} = {teeth}: tips of the {tip} reach below its base circle, "
             "where there is no involute: increase the number of teeth or reduce the addendum"
@@ -85,11 +108,11 @@ def sun_planet_path(teeth: Teeth, pressure_angle: float, addendum: float) -> Pat
         ValueError: a tip reaches below the base circle of the mating gear.
     """
     pitch = math.pi * math.cos(pressure_angle)
-    sun = _external_tip_reach(teeth.sun, pressure_angle, addendum)
-    planet = _external_tip_reach(teeth.planet, pressure_angle, addendum)
+    sun = external_tip_reach(teeth.sun, pressure_angle, addendum)
+    planet = external_tip_reach(teeth.planet, pressure_angle, addendum)
     return PathOfContact(
-        _on_involute(planet, teeth.sun, pressure_angle, "planets", "sun") / pitch,
-        _on_involute(sun, teeth.planet, pressure_angle, "sun", "planet") / pitch,
+        on_involute(planet, teeth.sun, pressure_angle, "planets", "sun") / pitch,
+        on_involute(sun, teeth.planet, pressure_angle, "sun", "planet") / pitch,
     )
 
 
@@ -113,8 +136,8 @@ def planet_ring_path(teeth: Teeth, pressure_angle: float, addendum: float) -> Pa
             f"addendum = {addendum:g} module: the tip circle of the ring is inside its base circle"
         )
     pitch = math.pi * math.cos(pressure_angle)
-    ring = _internal_tip_reach(teeth.ring, pressure_angle, addendum)
+    ring = internal_tip_reach(teeth.ring, pressure_angle, addendum)
     return PathOfContact(
-        _on_involute(ring, teeth.planet, pressure_angle, "ring", "planet") / pitch,
-        _external_tip_reach(teeth.planet, pressure_angle, addendum) / pitch,
+        on_involute(ring, teeth.planet, pressure_angle, "ring", "planet") / pitch,
+        external_tip_reach(teeth.planet, pressure_angle, addendum) / pitch,
     )

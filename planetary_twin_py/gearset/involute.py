@@ -1,9 +1,10 @@
 """Shape of involute spur gears, external and internal.
 
-The flanks are involutes of the base circle r cos(alpha). The tooth thickness on the pitch circle is
-half the pitch (no profile shift, no backlash), and the dedendum is 1.25 modules. The root is
-simplified: if the root circle is inside the base circle, a radial line connects it to the start of
-the involute, instead of the trochoid that a hob would cut.
+The flanks are involutes of the base circle r cos(alpha). The thickness on the reference circle is
+m (pi/2 + 2 x tan(alpha)) with the profile shift x (ISO 21771:2007, eq. 34; no backlash): a positive
+shift makes the teeth of external and internal gears thicker. The dedendum of the basic rack is 1.25
+modules. The root is simplified: if the root circle is inside the base circle, a radial line
+connects it to the start of the involute, instead of the trochoid that a hob would cut.
 """
 
 from __future__ import annotations
@@ -22,7 +23,7 @@ _TURN = 2.0 * math.pi
 
 @dataclass(frozen=True)
 class SpurGear:
-    """A standard spur gear.
+    """A spur gear.
 
     Raises:
         ValueError: the teeth would be pointed, or the tip circle of an internal gear is inside its
@@ -36,9 +37,11 @@ class SpurGear:
     pressure_angle: float
     """[rad]"""
     addendum: float = 1.0
-    """[modules]"""
+    """Height of the tip above the reference circle, without profile shift [modules]."""
     internal: bool = False
     """Whether the teeth point inwards."""
+    profile_shift: float = 0.0
+    """x, positive if it makes the teeth thicker [modules]."""
 
     def __post_init__(self) -> None:
         if self.internal and self.tip_radius <= self.base_radius:
@@ -48,8 +51,13 @@ class SpurGear:
 
     @property
     def pitch_radius(self) -> float:
-        """Radius of the pitch circle [m]."""
+        """Radius of the reference circle m z/2 [m]."""
         return pitch_radius(self.teeth, self.module)
+
+    @property
+    def tip_height(self) -> float:
+        """Height of the tip above the reference circle, towards the tip [modules]."""
+        return self.addendum + self.profile_shift
 
     @property
     def base_radius(self) -> float:
@@ -59,13 +67,13 @@ class SpurGear:
     @property
     def tip_radius(self) -> float:
         """Radius of the tip circle [m]."""
-        height = self.addendum * self.module
+        height = self.tip_height * self.module
         return self.pitch_radius + (-height if self.internal else height)
 
     @property
     def root_radius(self) -> float:
         """Radius of the root circle [m]."""
-        depth = DEDENDUM * self.module
+        depth = (DEDENDUM - self.profile_shift) * self.module
         return self.pitch_radius + (depth if self.internal else -depth)
 
     def half_thickness(self, radius: NDArray[np.float64]) -> NDArray[np.float64]:
@@ -76,7 +84,10 @@ class SpurGear:
         """
         local = np.arccos(np.minimum(self.base_radius / radius, 1.0))
         thinning = _involute(local) - _involute(np.array(self.pressure_angle))
-        return 0.5 * math.pi / self.teeth + (thinning if self.internal else -thinning)
+        half = 0.5 * math.pi / self.teeth
+        if self.profile_shift != 0.0:
+            half += 2.0 * self.profile_shift * math.tan(self.pressure_angle) / self.teeth
+        return half + (thinning if self.internal else -thinning)
 
     def tooth(self, points: int = 9) -> NDArray[np.float64]:
         """Outline of a tooth and the root land after it.

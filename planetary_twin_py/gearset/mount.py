@@ -51,18 +51,19 @@ def mount_angle(teeth: int, direction: float, mate: Mate, internal: bool = False
     return direction + _TURN / teeth * (0.5 + (pitches if internal else -pitches))
 
 
-def mount(teeth: Teeth, planet_angles: Sequence[float]) -> Mount:
+def mount(teeth: Teeth, planet_angles: Sequence[float], lead: float = 0.5) -> Mount:
     """Mount angles of sun, planets and ring.
 
     Args:
         teeth: tooth numbers.
         planet_angles: positions of the planets [rad].
+        lead: `WorkingMesh.coast_lead` of the sun meshes [cycles].
 
     Returns:
         Direction of tooth 0 of each gear [rad].
     """
     first = planet_angles[0]
-    sun = first - 0.25 * _TURN / teeth.sun
+    sun = first - 0.5 * lead * _TURN / teeth.sun
     planets = tuple(
         mount_angle(teeth.planet, psi + math.pi, Mate(teeth.sun, sun, psi)) for psi in planet_angles
     )

@@ -42,13 +42,16 @@ def _places(teeth: Teeth, angles: Sequence[float]) -> list[int]:
     return [round((angle - angles[0]) / least_mesh_angle(teeth)) for angle in angles]
 
 
-def check_assembly(teeth: Teeth, angles: Sequence[float], addendum: float = 1.0) -> None:
+def check_assembly(
+    teeth: Teeth, angles: Sequence[float], addendum: float = 1.0, size: Size | None = None
+) -> None:
     """Check that the teeth of all planets mesh with sun and ring.
 
     Args:
         teeth: tooth numbers.
         angles: positions of the planets [rad].
-        addendum: [modules].
+        addendum: [modules], of gears without profile shift.
+        size: dimensions of other gears.
 
     Raises:
         ValueError: a planet cannot be assembled. The message suggests the nearest positions,
@@ -59,7 +62,7 @@ def check_assembly(teeth: Teeth, angles: Sequence[float], addendum: float = 1.0)
     misses = [abs(a - b) / step for a, b in zip(angles, fitting, strict=True)]
     if max(misses) > ASSEMBLY_TOLERANCE:
         advice = f"nearest: {_degrees(fitting)}"
-        if not are_clear(Size(teeth, 1.0, addendum), fitting):
+        if not are_clear(size or Size(teeth, 1.0, addendum), fitting):
             advice = "at the nearest possible angles, planets touch each other"
         raise ValueError(
             f"planets at {_degrees(angles)} cannot be assembled with "
@@ -71,21 +74,26 @@ def _degrees(angles: Sequence[float]) -> str:
     return f"{', '.join(f'{math.degrees(angle):g}' for angle in angles)} deg"
 
 
-def mesh_phases(teeth: Teeth, angles: Sequence[float]) -> tuple[list[Fraction], list[Fraction]]:
+def mesh_phases(
+    teeth: Teeth, angles: Sequence[float], leads: tuple[float, float] = (0.5, 0.5)
+) -> tuple[list[Fraction], list[Fraction]]:
     """Phases of the meshes (Parker and Lin 2004).
 
     Integer parts count teeth: tooth n of the sun, or of the ring, is at planet i after n + phase
     cycles. Between the pitch points of the two meshes of one planet, there is a phase of half a
-    cycle if it has an even number of teeth, otherwise zero.
+    cycle if it has an even number of teeth, otherwise zero. To this, thicker teeth add half the
+    difference of their leads, because a planet touches sun and ring with opposite flanks (Parker
+    and Lin 2004, eq. 5, gamma_rs of unequal thickness).
 
     Args:
         teeth: tooth numbers.
         angles: positions of the planets [rad], which pass `check_assembly`.
+        leads: `WorkingMesh.coast_lead` of both meshes [cycles].
 
     Returns:
         Phases of the sun-planet meshes and of the planet-ring meshes [cycles], (planets,) each,
         exact.
     """
-    offset = Fraction(1 - teeth.planet % 2, 2)
+    offset = Fraction(1 - teeth.planet % 2, 2) + (Fraction(leads[0]) - Fraction(leads[1])) / 2
     turns = [Fraction(place, teeth.sun + teeth.ring) for place in _places(teeth, angles)]
     return [teeth.sun * turn for turn in turns], [offset - teeth.ring * turn for turn in turns]

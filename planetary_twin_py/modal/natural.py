@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 
-from ..gearset.geometry import pitch_radius
 from ..scene import Scene, SceneError
 from ..scene.supports import Support, Supports
 from .mesh_stiffness import MeshStiffness, mesh_stiffness
@@ -72,7 +71,7 @@ def spring_model(scene: Scene, model: str = "torsional", stiffness: str = "singl
 
 
 def _printed_set(scene: Scene, mesh: MeshStiffness) -> PrintedSet:
-    mass, gearset = scene.gearset.equivalent_mass, scene.gearset
+    mass, gearset = scene.gearset.rim_masses, scene.gearset
     return PrintedSet(
         mass.sun,
         mass.planet,
@@ -92,7 +91,7 @@ def _supports(scene: Scene) -> Supports:
 
 def _rim_masses(scene: Scene) -> dict[str, float]:
     """J/r^2 [kg]; r is the base radius, for the carrier the radius of the planet centres."""
-    mass, slant = scene.gearset.equivalent_mass, math.cos(scene.gearset.pressure_angle) ** -2
+    mass, slant = scene.gearset.rim_masses, math.cos(scene.gearset.pressure_angle) ** -2
     return {
         "sun": mass.sun * slant,
         "planet": mass.planet * slant,
@@ -103,6 +102,7 @@ def _rim_masses(scene: Scene) -> dict[str, float]:
 
 def _planar_set(scene: Scene, mesh: MeshStiffness) -> PlanarSet:
     supports, rim, gearset = _supports(scene), _rim_masses(scene), scene.gearset
+    sun_planet, planet_ring = gearset.geometry.meshes
 
     def body(name: str) -> PlanarBody:
         support: Support = getattr(supports, name)
@@ -116,19 +116,20 @@ def _planar_set(scene: Scene, mesh: MeshStiffness) -> PlanarSet:
         gearset.planet_angles,
         mesh.sun_planet,
         mesh.planet_ring,
-        gearset.pressure_angle,
-        gearset.pressure_angle,
+        sun_planet.pressure_angle,
+        planet_ring.pressure_angle,
     )
 
 
 def _spatial_set(scene: Scene, mesh: MeshStiffness) -> SpatialSet:
     supports, rim, gearset = _supports(scene), _rim_masses(scene), scene.gearset
-    teeth, cosine = gearset.teeth, math.cos(gearset.pressure_angle)
+    gears = gearset.geometry
+    sun_planet, planet_ring = gears.meshes
     radius = {
-        "sun": pitch_radius(teeth.sun, gearset.module) * cosine,
-        "planet": pitch_radius(teeth.planet, gearset.module) * cosine,
-        "ring": pitch_radius(teeth.ring, gearset.module) * cosine,
-        "carrier": pitch_radius(teeth.sun + teeth.planet, gearset.module),
+        "sun": gears.sun.base_radius,
+        "planet": gears.planet.base_radius,
+        "ring": gears.ring.base_radius,
+        "carrier": gears.centre_distance,
     }
 
     def body(name: str) -> SpatialBody:
@@ -153,6 +154,7 @@ def _spatial_set(scene: Scene, mesh: MeshStiffness) -> SpatialSet:
         gearset.planet_angles,
         mesh.sun_planet,
         mesh.planet_ring,
-        gearset.pressure_angle,
-        math.atan(math.tan(gearset.helix_angle) * cosine),
+        sun_planet.pressure_angle,
+        math.atan(math.tan(gearset.helix_angle) * math.cos(gearset.pressure_angle)),
+        planet_ring.pressure_angle,
     )

@@ -58,9 +58,11 @@ class SpatialSet:
     planet_ring: float
     """Stiffness of a planet-ring mesh along its transverse line of action [N/m]."""
     pressure_angle: float
-    """In the transverse plane [rad]."""
+    """Working pressure angle of the sun-planet meshes in the transverse plane [rad]."""
     base_helix: float = 0.0
     """Helix angle on the base circle, positive for a right-hand sun [rad]."""
+    ring_angle: float | None = None
+    """Working pressure angle of the planet-ring meshes [rad]; default: that of the others."""
 
 
 def spatial_model(data: SpatialSet) -> SpringModel:
@@ -111,10 +113,11 @@ def _relative(first: dict[str, float], second: dict[str, float]) -> dict[str, fl
 
 def _meshes(data: SpatialSet, row: Rows, planet: str, psi: float) -> list[Spring]:
     """Springs along the contact normals at the pitch points."""
-    cosine, radial = math.cos(data.pressure_angle), np.array([math.cos(psi), math.sin(psi), 0.0])
-    springs = []
+    radial, springs = np.array([math.cos(psi), math.sin(psi), 0.0]), []
+    ring = data.pressure_angle if data.ring_angle is None else data.ring_angle
     for gear, lean, hand in (("sun", -1.0, 1.0), ("ring", 1.0, -1.0)):
-        turned, helix = psi + lean * data.pressure_angle, hand * data.base_helix
+        angle = data.pressure_angle if gear == "sun" else ring
+        cosine, turned, helix = math.cos(angle), psi + lean * angle, hand * data.base_helix
         flat = np.array([-math.sin(turned), math.cos(turned), 0.0])
         normal = math.cos(helix) * flat + math.sin(helix) * np.array([0.0, 0.0, 1.0])
         central = radial * _body(data, gear).radius / cosine

@@ -32,10 +32,11 @@ def torsional_model(scene: Scene, mesh: MeshStiffness, with_machines: bool = Fal
         names = [name for name in names if name not in found]
     coordinates = tuple(f"{name}.u" for name in names)
     row, springs = Rows(coordinates), []
+    carried = scene.gearset.geometry.carrier_ratio
     for i in range(scene.gearset.planets):
         planet = f"planet_{i + 1}.u"
         sun_row = row({"sun.u": 1.0, planet: 1.0, "carrier.u": -1.0})
-        ring_row = row({planet: -1.0, "ring.u": 1.0, "carrier.u": -1.0})
+        ring_row = row({planet: -1.0, "ring.u": 1.0, "carrier.u": -carried})
         springs += [Spring("sun_planet", mesh.sun_planet, sun_row)]
         springs += [Spring("planet_ring", mesh.planet_ring, ring_row)]
     if with_machines:

@@ -169,7 +169,7 @@ class Ledger:
             kind = train.kind[i]
             edge = train.edge[kind, : train.segments[kind]]
             for side in sides:
-                late = 0.5 if side == COAST_SIDE else 0.0
+                late = float(train.coast_lead[kind]) if side == COAST_SIDE else 0.0
                 corners.append(side * (edge - late) + train.phase[i] - shift)
         return np.unique(np.mod(np.concatenate(corners), 1.0))
 

@@ -23,17 +23,17 @@ SUN, PLANET, RING, CARRIER, PIN, MARK = (
 
 def sun(gearset: Gearset) -> TriangleMesh:
     """The sun: a toothed wheel with a bore for its shaft."""
-    return _wheel(gearset, gearset.teeth.sun, bore=0.3)
+    return _wheel(gearset, gearset.geometry.sun, bore=0.3)
 
 
 def planet(gearset: Gearset) -> TriangleMesh:
     """A planet: a toothed wheel with a bore for its pin."""
-    return _wheel(gearset, gearset.teeth.planet, bore=0.35)
+    return _wheel(gearset, gearset.geometry.planet, bore=0.35)
 
 
 def ring(gearset: Gearset) -> TriangleMesh:
     """The ring: an annulus with internal teeth."""
-    gear = gear_of(gearset, gearset.teeth.ring, internal=True)
+    gear = gearset.geometry.ring
     return _toothed_rim(gear, rim(gear), 0.5 * gearset.face_width)
 
 
@@ -55,13 +55,16 @@ def spider(gearset: Gearset) -> TriangleMesh:
 
 
 def gear_of(gearset: Gearset, teeth: int, internal: bool = False) -> SpurGear:
-    """The teeth of one gear."""
-    return SpurGear(teeth, gearset.module, gearset.pressure_angle, gearset.addendum, internal)
+    """The teeth of one gear; of sun and planets with equal teeth, those of the sun."""
+    gears = gearset.geometry
+    if internal:
+        return gears.ring
+    return gears.sun if teeth == gearset.teeth.sun else gears.planet
 
 
 def carrier_radius(gearset: Gearset) -> float:
     """Radius of the circle of the planet centres [m]."""
-    return 0.5 * gearset.module * (gearset.teeth.sun + gearset.teeth.planet)
+    return gearset.geometry.centre_distance
 
 
 def rim(ring: SpurGear) -> float:
@@ -71,17 +74,17 @@ def rim(ring: SpurGear) -> float:
 
 def pin_radius(gearset: Gearset) -> float:
     """Radius of the pin in a planet [m]."""
-    return 0.33 * gear_of(gearset, gearset.teeth.planet).root_radius
+    return 0.33 * gearset.geometry.planet.root_radius
 
 
 def arm_width(gearset: Gearset) -> float:
     """Half the width of an arm of the carrier, and the radius of its end [m]."""
-    return 0.6 * gear_of(gearset, gearset.teeth.planet).root_radius
+    return 0.6 * gearset.geometry.planet.root_radius
 
 
 def hub_radius(gearset: Gearset) -> float:
     """Radius of the carrier's hub [m]."""
-    return 0.9 * gear_of(gearset, gearset.teeth.sun).root_radius
+    return 0.9 * gearset.geometry.sun.root_radius
 
 
 def plate(gearset: Gearset) -> tuple[float, float]:
@@ -98,10 +101,9 @@ def _arm(angle: NDArray[np.float64], length: float, width: float) -> NDArray[np.
     return np.where(along > 0.0, reach, 0.0)
 
 
-def _wheel(gearset: Gearset, teeth: int, bore: float) -> TriangleMesh:
+def _wheel(gearset: Gearset, gear: SpurGear, bore: float) -> TriangleMesh:
     """Teeth on a rim, a thinner web inside it, and a hub around the bore."""
     half = 0.5 * gearset.face_width
-    gear = gear_of(gearset, teeth)
     root = gear.root_radius
     rim = max(root - 1.8 * gear.module, 0.7 * root)
     hub = min(1.35 * bore * root, 0.9 * rim)

@@ -12,7 +12,7 @@ import numpy as np
 
 from ..gearset.involute import SpurGear
 from ..scene.gearset import Gearset
-from .parts import arm_width, carrier_radius, gear_of, hub_radius, pin_radius, plate, rim
+from .parts import arm_width, carrier_radius, hub_radius, pin_radius, plate, rim
 
 Point = tuple[float, float, float]
 
@@ -30,27 +30,26 @@ class Shape(NamedTuple):
     angle: float = 0.0
 
 
-def wheel(gearset: Gearset, teeth: int, part: str, mount: float) -> list[Shape]:
+def wheel(gearset: Gearset, part: str, mount: float) -> list[Shape]:
     """An external gear: a disc up to the root circle, and its teeth.
 
     Args:
-        gearset: gives module, pressure angle and face width.
-        teeth: number of teeth.
-        part: name of the colour.
+        gearset: gives the gear and its face width.
+        part: "sun" or "planet", also the name of the colour.
         mount: direction of tooth 0 [rad].
 
     Returns:
         The shapes.
     """
-    gear = gear_of(gearset, teeth)
+    gear: SpurGear = getattr(gearset.geometry, part)
     disc = Shape((gear.root_radius, gearset.face_width), part)
-    return [disc, *_around(_tooth(gear, gearset.face_width, part), teeth, mount)]
+    return [disc, *_around(_tooth(gear, gearset.face_width, part), gear.teeth, mount)]
 
 
 def ring(gearset: Gearset, mount: float) -> list[Shape]:
     """The ring: teeth inside a rim of flat pieces, one behind each tooth; `mount` as in `wheel`."""
     teeth, width = gearset.teeth.ring, gearset.face_width
-    gear = gear_of(gearset, teeth, internal=True)
+    gear = gearset.geometry.ring
     inner, outer = gear.root_radius, rim(gear)
     length = 2.0 * outer * math.tan(math.pi / teeth)
     piece = Shape((outer - inner, length, width), "ring", (0.5 * (inner + outer), 0.0, 0.0))

@@ -11,7 +11,6 @@ from __future__ import annotations
 from collections.abc import Iterable
 from xml.etree.ElementTree import Element, SubElement, indent, tostring
 
-from ..gearset.mount import mount
 from ..scene.gearset import Gearset
 from . import parts, shapes
 from .frames import Frame, frames
@@ -42,12 +41,12 @@ def robot_description(gearset: Gearset, base: str = "gearbox") -> str:
         SubElement(SubElement(robot, "material", name=name), "color", rgba=f"{rgba} 1")
     SubElement(robot, "link", name=base)
     links = {frame.name: _turning(robot, frame) for frame in frames(gearset, base)}
-    stand = mount(gearset.tooth_numbers, gearset.planet_angles)
-    _show(links["sun"], shapes.wheel(gearset, gearset.teeth.sun, "sun", stand.sun))
+    stand = gearset.mounted
+    _show(links["sun"], shapes.wheel(gearset, "sun", stand.sun))
     _show(links["ring"], shapes.ring(gearset, stand.ring))
     _show(links["carrier"], shapes.carrier(gearset))
     for number, angle in enumerate(stand.planets, start=1):
-        wheel = shapes.wheel(gearset, gearset.teeth.planet, "planet", angle)
+        wheel = shapes.wheel(gearset, "planet", angle)
         _show(links[f"planet_{number}"], wheel)
     indent(robot, space="")
     return '<?xml version="1.0"?>\n' + tostring(robot, encoding="unicode") + "\n"

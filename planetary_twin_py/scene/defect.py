@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from typing import NamedTuple
 
 from pydantic import ValidationError
@@ -31,7 +31,7 @@ class _Place(NamedTuple):
     field: FieldInfo | None
 
 
-def explain(error: ValidationError, model: type[Section]) -> str:
+def explain(error: ValidationError, model: type[Section], further: Iterable[str] = ()) -> str:
     """Format the errors of a validation: one line, or a heading and a line each.
 
     If a name is mistyped, the correct name is not listed as missing.
@@ -39,6 +39,7 @@ def explain(error: ValidationError, model: type[Section]) -> str:
     Args:
         error: raised by pydantic for `model`.
         model: the section that was validated.
+        further: lines of errors that were found otherwise.
 
     Returns:
         The message.
@@ -51,7 +52,7 @@ def explain(error: ValidationError, model: type[Section]) -> str:
         if not (defect["type"] == "missing" and place.name in meant)
         for line in _lines(defect, place)
     ]
-    return listed(lines)
+    return listed([*lines, *further])
 
 
 def _locate(model: type[Section], location: Sequence[str | int]) -> _Place:
@@ -98,7 +99,7 @@ def _lines(defect: ErrorDetails, place: _Place) -> Iterator[str]:
     if not place.name:
         yield from reason.splitlines()
     elif isinstance(defect["input"], dict):
-        yield f"{place.name}: {reason}"
+        yield from (f"{place.name}: {line}" for line in reason.splitlines())
     else:
         allowed = None if _is_of_units(defect) else _allowed(place.field)
         yield f"{place.name} = {defect['input']!r}: {allowed or reason}"

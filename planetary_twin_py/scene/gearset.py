@@ -2,14 +2,24 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Iterator
 from typing import Literal, Self
 
-from pydantic import Field, model_validator
+from pydantic import Field, ValidationInfo, model_validator
 
 from ..gearset.clearance import Size, check_clearance
+from ..gearset.gear_set import GearSet, Sizes, build_gear_set
+from ..gearset.geometry import pitch_radius
+from ..gearset.interference import check_fit
 from ..gearset.kinematics import Teeth
+from ..gearset.mount import Mount, mount
 from ..gearset.phasing import check_assembly
+from ..gearset.shift import PerGear
+from ..tooth.undercut import check_undercut
 from .quantity import Section, quantity
+
+# Context of a validation that leaves out whether the fields fit together.
+FIELDS_ALONE = "fields alone"
 
 Member = Literal["sun", "ring", "carrier"]
 Held = Literal["sun", "ring", "carrier", "none"]
@@ -23,8 +33,36 @@ class ToothNumbers(Section):
     ring: int = Field(ge=15, le=3000, description="teeth of the ring")
 
 
+class ProfileShift(Section):
+    """Profile shift coefficients, with the signs of ISO 21771.
+
+    A positive coefficient makes the tooth of any gear thicker on its reference circle. It moves the
+    teeth of sun and planets outwards, and those of the ring inwards. Sources that count the ring's
+    shift outwards have the opposite sign there. In modules of the transverse plane: for helical
+    gears, x cos(helix angle) of the coefficient x of the normal plane.
+    """
+
+    sun: float = quantity("", "profile shift of the sun in modules", 0.0, ge=-1.5, le=2.0)
+    planet: float = quantity("", "profile shift of a planet in modules", 0.0, ge=-1.5, le=2.0)
+    ring: float = quantity(
+        "", "profile shift of the ring in modules, positive inwards", 0.0, ge=-2.0, le=1.5
+    )
+
+
+class TipDiameters(Section):
+    """Tip diameters; default: by addendum and profile shift.
+
+    By default a tip is lowered where it would leave less clearance to the mating root than the
+    basic rack (tip alteration of ISO 21771).
+    """
+
+    sun: float | None = quantity("m", "tip diameter of the sun", None, gt=0.0, le=100.0)
+    planet: float | None = quantity("m", "tip diameter of a planet", None, gt=0.0, le=100.0)
+    ring: float | None = quantity("m", "tip diameter of the ring", None, gt=0.0, le=100.0)
+
+
 class EquivalentMasses(Section):
-    """J/r^2 with the pitch radius; for the carrier with the radius of the planet centres."""
+    """J/r^2 with the reference radius m z/2; for the carrier with that of the planet centres."""
 
     sun: float = quantity("kg", "J/r^2 of the sun", gt=0.0, le=1e6)
     planet: float = quantity("kg", "J/r^2 of one planet", gt=0.0, le=1e6)
@@ -32,11 +70,24 @@ class EquivalentMasses(Section):
     carrier: float = quantity("kg", "J/r^2 of the carrier without planets", gt=0.0, le=1e6)
 
 
-class Gearset(Section):
-    """Geometry and inertia of a simple planetary gearset of standard gears.
+class Inertias(Section):
+    """Moments of inertia about the own axes, in place of `equivalent_mass`."""
 
-    Module and pressure angle are those of the transverse plane. Only the spatial natural modes use
-    the helix angle; in simulations helical gears are spur gears of the transverse section.
+    sun: float = quantity("kg m^2", "moment of inertia of the sun", gt=0.0, le=1e8)
+    planet: float = quantity("kg m^2", "moment of inertia of one planet", gt=0.0, le=1e8)
+    ring: float = quantity("kg m^2", "moment of inertia of the ring", gt=0.0, le=1e8)
+    carrier: float = quantity(
+        "kg m^2", "moment of inertia of the carrier without planets", gt=0.0, le=1e8
+    )
+
+
+class Gearset(Section):
+    """Geometry and inertia of a simple planetary gearset of involute gears.
+
+    Module and pressure angle are those of the transverse plane, on the reference circles. Only the
+    spatial natural modes use the helix angle; in simulations helical gears are spur gears of the
+    transverse section. Profile shift and centre distance determine the working pressure angle of
+    both meshes. Moments of inertia are given as `equivalent_mass` or as `inertia`.
     """
 
     teeth: ToothNumbers = Field(description="tooth numbers")
@@ -52,12 +103,26 @@ class Gearset(Section):
         le=0.8,
     )
     addendum: float = quantity("", "addendum in modules", 1.0, gt=0.0, le=1.5)
+    profile_shift: ProfileShift = Field(ProfileShift(), description="profile shift coefficients")
+    centre_distance: float | None = quantity(
+        "m",
+        "distance of the planet centres from the axis; default: sun and planets mesh without play",
+        None,
+        gt=0.0,
+        le=100.0,
+    )
+    tip_diameter: TipDiameters = Field(TipDiameters(), description="tip diameters")
     face_width: float = quantity("m", "face width", gt=0.0, le=5.0)
     planet_angles: tuple[float, ...] = quantity(
         "rad", "angular positions of the planets on the carrier", min_length=2, max_length=7
     )
     held: Held = Field("carrier", description="fixed member; none: a differential with two inputs")
-    equivalent_mass: EquivalentMasses = Field(description="moments of inertia divided by r^2")
+    equivalent_mass: EquivalentMasses | None = Field(
+        None, description="moments of inertia divided by r^2"
+    )
+    inertia: Inertias | None = Field(
+        None, description="moments of inertia, in place of equivalent_mass"
+    )
     planet_mass: float = quantity("kg", "mass of one planet", gt=0.0, le=1e6)
 
     @property
@@ -70,15 +135,117 @@ class Gearset(Section):
         """Tooth numbers as a tuple."""
         return Teeth(self.teeth.sun, self.teeth.planet, self.teeth.ring)
 
-    @model_validator(mode="after")
-    def _can_be_put_together(self) -> Self:
-        sun, planet, ring = self.tooth_numbers
-        if ring != sun + 2 * planet:
-            raise ValueError(
-                f"teeth = {sun}/{planet}/{ring}: standard gears are coaxial only if "
-                f"ring = sun + 2 planet = {sun + 2 * planet}"
+    @property
+    def geometry(self) -> GearSet:
+        """The gears and their meshes at the centre distance."""
+        shift, tip = self.profile_shift, self.tip_diameter
+        return build_gear_set(
+            Sizes(
+                self.tooth_numbers,
+                self.module,
+                self.pressure_angle,
+                self.addendum,
+                PerGear(shift.sun, shift.planet, shift.ring),
+                self.centre_distance,
+                (tip.sun, tip.planet, tip.ring),
             )
-        size = Size(self.tooth_numbers, self.module, self.addendum)
-        check_clearance(size, self.planet_angles)
-        check_assembly(self.tooth_numbers, self.planet_angles, self.addendum)
+        )
+
+    @property
+    def mounted(self) -> Mount:
+        """Direction of tooth 0 of all gears in the assembly position."""
+        lead = self.geometry.meshes[0].coast_lead
+        return mount(self.tooth_numbers, self.planet_angles, lead)
+
+    @property
+    def rim_masses(self) -> EquivalentMasses:
+        """J/r^2 [kg], given or from the moments of inertia."""
+        if self.inertia is None:
+            assert self.equivalent_mass is not None
+            return self.equivalent_mass
+        radii = {
+            name: pitch_radius(teeth, self.module)
+            for name, teeth in self.tooth_numbers._asdict().items()
+        } | {"carrier": self.geometry.centre_distance}
+        return EquivalentMasses(
+            **{name: getattr(self.inertia, name) / r**2 for name, r in radii.items()}
+        )
+
+    @model_validator(mode="after")
+    def _can_be_put_together(self, info: ValidationInfo) -> Self:
+        if info.context == FIELDS_ALONE:
+            return self
+        if errors := [*self._inertias(), *self._teeth(), *self._planets()]:
+            raise ValueError("\n".join(line.removeprefix("gearset.") for line in errors))
         return self
+
+    def _inertias(self) -> Iterator[str]:
+        """Error of moments of inertia that are missing or given twice."""
+        if (self.equivalent_mass is None) == (self.inertia is None):
+            which = "missing" if self.inertia is None else "given twice"
+            yield f"equivalent_mass, inertia: {which}: give one of the two"
+
+    def _teeth(self) -> Iterator[str]:
+        """Errors of teeth that do not fit into each other."""
+        sun, planet, ring = self.tooth_numbers
+        shifted = self.profile_shift != ProfileShift() or self.centre_distance is not None
+        if ring != sun + 2 * planet and not shifted:
+            yield (
+                f"teeth = {sun}/{planet}/{ring}: standard gears are coaxial only if "
+                f"ring = sun + 2 planet = {sun + 2 * planet}; other gears require "
+                "gearset.profile_shift or gearset.centre_distance"
+            )
+            return
+        if self._standard:
+            return
+        try:
+            gears = self.geometry
+        except ValueError as error:
+            yield str(error)
+            return
+        errors = list(check_fit(gears))
+        yield from errors
+        if not errors:
+            for mesh in gears.meshes:
+                yield from check_undercut(mesh)
+
+    def _planets(self) -> Iterator[str]:
+        """Errors of planets that touch each other or cannot be assembled."""
+        teeth, angles = self.tooth_numbers, self.planet_angles
+        try:
+            size = self._size()
+        except ValueError:  # listed by `_teeth`
+            return
+        touching = list(_error(lambda: check_clearance(size, angles)))
+        yield from touching
+        if not touching:
+            yield from _error(lambda: check_assembly(teeth, angles, self.addendum, size))
+
+    @property
+    def _standard(self) -> bool:
+        """Whether the teeth have no profile shift and the usual tips."""
+        return (
+            self.profile_shift == ProfileShift()
+            and self.tip_diameter == TipDiameters()
+            and self.centre_distance is None
+        )
+
+    def _size(self) -> Size:
+        if self._standard:
+            return Size(self.tooth_numbers, self.module, self.addendum)
+        gears = self.geometry
+        return Size(
+            self.tooth_numbers,
+            self.module,
+            self.addendum,
+            gears.centre_distance,
+            2.0 * gears.planet.tip_radius,
+        )
+
+
+def _error(check: Callable[[], None]) -> Iterator[str]:
+    """Message of a check that raises `ValueError`."""
+    try:
+        check()
+    except ValueError as error:
+        yield str(error)

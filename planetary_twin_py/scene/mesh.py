@@ -92,6 +92,27 @@ class Runout(Section):
     ring: float = quantity("m", "eccentricity of the ring", 0.0, ge=0.0, le=1e-2)
 
 
+class TipRelief(Section):
+    """Material that is missing near the tips of a gear, on both flanks."""
+
+    amount: float = quantity("m", "missing material at the tip", ge=0.0, le=LARGEST_ERROR)
+    length: float = quantity("m", "length from the tip, on the line of action", gt=0.0, le=1.0)
+    shape: Literal["linear", "parabolic"] = Field(
+        "linear", description="growth of the missing material towards the tip"
+    )
+
+
+class TipReliefs(Section):
+    """Tip relief of the gears; that of the planets acts in both meshes.
+
+    Stiffness and load sharing of a mesh are those of the load of the operating point.
+    """
+
+    sun: TipRelief | None = Field(None, description="relief of the sun")
+    planet: TipRelief | None = Field(None, description="relief of every planet")
+    ring: TipRelief | None = Field(None, description="relief of the ring")
+
+
 class ToothCompliance(Section):
     """Computation of the stiffness of a tooth pair from its geometry.
 
@@ -149,6 +170,7 @@ class Mesh(Section):
     tooth: ToothCompliance = Field(
         ToothCompliance(), description="tooth compliance, for stiffness: involute"
     )
+    tip_relief: TipReliefs = Field(TipReliefs(), description="relief of the tips")
     damping: MeshDamping = Field(MeshDamping(), description="damping of a mesh")
     sun_planet_error: TransmissionError = Field(
         TransmissionError(), description="static transmission error of every sun-planet mesh"
@@ -164,6 +186,10 @@ class Mesh(Section):
             for name in ("sun_planet_stiffness", "planet_ring_stiffness"):
                 if getattr(self, name) is None:
                     raise ValueError(f"{name}: missing; give it, or set stiffness: involute")
+            if self.tip_relief != TipReliefs() and self.double_pair_ratio == 1.0:
+                raise ValueError(
+                    "tip_relief: requires stiffness: involute, or a double_pair_ratio above 1"
+                )
         return self
 
     def flanks(self, backlash: float, pressure_angle: float) -> tuple[float, float]:

@@ -6,18 +6,18 @@ import math
 from collections.abc import Iterator, Mapping
 from importlib import resources
 from pathlib import Path
-from typing import Any, Literal, Self
+from typing import Annotated, Any, Literal, Self
 
-from pydantic import Field, ValidationError, model_validator
+from pydantic import Field, TypeAdapter, ValidationError, model_validator
 
 from ..printable import one_line
 from .defect import explain
 from .drive import Drive
 from .faults import MOST_FAULTS, Crack, Fault
-from .gearset import Gearset
+from .gearset import FIELDS_ALONE, Gearset
 from .losses import Losses
 from .lubrication import Lubrication
-from .mesh import Mesh
+from .mesh import Mesh, TipReliefs
 from .names import did_you_mean, no_such_field
 from .operating_point import TUNABLES, OperatingPoint, Tunable
 from .paths import NoSuchPath, paths, put
@@ -69,6 +69,7 @@ class Scene(Section):
         yield from self._limits()
         yield from self._faulty_teeth()
         yield from self._play()
+        yield from self._relief()
 
     def _machines(self) -> Iterator[str]:
         """Errors of the drive: a machine on the fixed member, or a wrong number of inputs."""
@@ -112,7 +113,9 @@ class Scene(Section):
         runout, angle = self.mesh.runout, self.gearset.pressure_angle
         backlash = self.operating_point.backlash
         half = self.mesh.flanks(backlash, angle)[0]
-        closed = math.sin(angle) * (runout.planet + max(runout.sun, runout.ring)) - half
+        sines = [math.sin(mesh.pressure_angle) for mesh in self.gearset.geometry.meshes]
+        most = max(sine * a for sine, a in zip(sines, (runout.sun, runout.ring), strict=True))
+        closed = max(sines) * runout.planet + most - half
         opened = self._least_deflection()
         if 2.0 * closed > 0.5 * opened:  # half of it may be lost to vibration
             least = 1.005 * (closed + half) / self.mesh.flanks(1.0, angle)[0]  # rounded upwards
@@ -121,6 +124,20 @@ class Scene(Section):
                 f"the play by {2.0 * closed:.3g} m more than there is, of which the load opens "
                 f"{0.5 * opened:.3g} m: both flanks of a tooth would touch at once"
             )
+
+    def _relief(self) -> Iterator[str]:
+        """Errors of tip reliefs that are longer than the path of contact."""
+        if self.mesh.tip_relief == TipReliefs():
+            return
+        for mesh in self.gearset.geometry.meshes:
+            longest = mesh.path.contact_ratio * mesh.base_pitch
+            for name in mesh.names:
+                relief = getattr(self.mesh.tip_relief, name)
+                if relief is not None and relief.length > longest:
+                    yield (
+                        f"mesh.tip_relief.{name}.length = {relief.length:g}: must be at most "
+                        f"{longest:.4g} m, the path of contact of {' and '.join(mesh.names)}"
+                    )
 
     def _least_deflection(self) -> float:
         """Deflection [m] of the stiffer meshes under the least torque, all pairs in contact."""
@@ -214,7 +231,31 @@ def _validated(data: Any) -> Scene:
     try:
         return Scene.model_validate(data)
     except ValidationError as error:
-        raise SceneError(explain(error, Scene)) from None
+        raise SceneError(explain(error, Scene, _across(data, error))) from None
+
+
+def _across(data: Any, error: ValidationError) -> Iterator[str]:
+    """Errors across sections in a scene with errors in sections, as far as they can be found."""
+    if not isinstance(data, dict) or not all(defect["loc"] for defect in error.errors()):
+        return  # then the scene itself was checked
+    valid = Scene.model_construct(**dict(_valid_sections(data)))
+    for check in (valid._machines, valid._limits, valid._faulty_teeth):
+        try:
+            yield from check()
+        except (AttributeError, KeyError):  # of a section that is invalid
+            continue
+
+
+def _valid_sections(data: dict[str, Any]) -> Iterator[tuple[str, Any]]:
+    """Sections whose own fields are valid."""
+    for name, field in Scene.model_fields.items():
+        if name in data:
+            try:
+                kind: Any = Annotated[field.annotation, field]
+                adapter: TypeAdapter[Any] = TypeAdapter(kind)
+                yield name, adapter.validate_python(data[name], context=FIELDS_ALONE)
+            except ValidationError:
+                continue
 
 
 def packaged_scenes() -> tuple[str, ...]:
@@ -292,8 +333,18 @@ def parse_scene(text: str) -> Scene:
                 f"base = {name!r}: must be one of {', '.join(packaged_scenes())}"
                 f"{did_you_mean(name, packaged_scenes())}"
             )
-        data = _overlaid(load_scene(base).model_dump(), data)
+        data = _overlaid(_without_doubles(load_scene(base).model_dump(), data), data)
     return _validated(data)
+
+
+def _without_doubles(base: dict[str, Any], changes: dict[str, Any]) -> dict[str, Any]:
+    """`base` without the form of the moments of inertia that `changes` gives otherwise."""
+    given = changes.get("gearset")
+    forms = {"equivalent_mass": "inertia", "inertia": "equivalent_mass"}
+    if not isinstance(given, dict) or len(forms.keys() & given.keys()) != 1:
+        return base
+    (form,) = forms.keys() & given.keys()
+    return base | {"gearset": base["gearset"] | {forms[form]: None}}
 
 
 def _overlaid(base: Any, changes: Any) -> Any:

@@ -42,20 +42,15 @@ def _trochoid(gear: SpurGear) -> Fillet:
 
     A point of the tip with its normal at the angle psi to the pitch line cuts when this normal
     passes through the pitch point; psi decreases from 90 deg at the root circle to the pressure
-    angle.
+    angle. A profile shift draws the rack out of the gear by x modules, so its pitch line is not its
+    datum line (Salamoun and Suchy 1973).
     """
     pitch, alpha = gear.pitch_radius, gear.pressure_angle
     depth = DEDENDUM * gear.module
-    room = 0.25 * math.pi * gear.module - depth * math.tan(alpha)
-    if room <= 0.0:
-        raise ValueError(
-            f"pressure_angle = {math.degrees(alpha):g} deg: the rack tooth that cuts the gear is "
-            f"pointed above its tip; must be below {math.degrees(math.atan(math.pi / 5)):.4g} deg"
-        )
-    full = room * math.cos(alpha) / (1.0 - math.sin(alpha))  # one arc for both corners
-    rounding = min(TIP_ROUNDING * gear.module, full)
+    rounding = _rounding(gear)
     centre = depth - rounding
     offset = 0.25 * math.pi * gear.module - centre * math.tan(alpha) - rounding / math.cos(alpha)
+    centre -= gear.profile_shift * gear.module  # from the rack's datum line to its pitch line
 
     def cut(psi: Floats) -> tuple[Floats, Floats]:
         across = centre / np.tan(psi) + rounding * np.cos(psi)
@@ -64,14 +59,40 @@ def _trochoid(gear: SpurGear) -> Fillet:
         half = math.pi / gear.teeth - (np.arctan2(across, along) - rolled)
         return np.hypot(across, along), half
 
-    last = _undercut(gear, cut) if _undercuts(gear, centre, rounding) else alpha
+    last = _undercut(gear, cut) if _undercuts(gear) else alpha
     return lambda t: cut(0.5 * math.pi + (last - 0.5 * math.pi) * t)
 
 
-def _undercuts(gear: SpurGear, centre: float, rounding: float) -> bool:
+def straight_reach(gear: SpurGear) -> float:
+    """Depth of the end of the rack's straight flank below the pitch line [m].
+
+    Args:
+        gear: the external gear that the rack cuts.
+    """
+    depth, alpha = DEDENDUM * gear.module, gear.pressure_angle
+    rounding = _rounding(gear)
+    return depth - rounding * (1.0 - math.sin(alpha)) - gear.profile_shift * gear.module
+
+
+def _rounding(gear: SpurGear) -> float:
+    """Tip radius of the rack [m]: that of ISO 53, or one arc for both corners.
+
+    Raises:
+        ValueError: the pressure angle leaves no space for a tip.
+    """
+    alpha = gear.pressure_angle
+    room = 0.25 * math.pi * gear.module - DEDENDUM * gear.module * math.tan(alpha)
+    if room <= 0.0:
+        raise ValueError(
+            f"pressure_angle = {math.degrees(alpha):g} deg: the rack tooth that cuts the gear is "
+            f"pointed above its tip; must be below {math.degrees(math.atan(math.pi / 5)):.4g} deg"
+        )
+    return min(TIP_ROUNDING * gear.module, room * math.cos(alpha) / (1.0 - math.sin(alpha)))
+
+
+def _undercuts(gear: SpurGear) -> bool:
     """Whether the straight flank of the rack extends beyond the start of the involute."""
-    reach = centre + rounding * math.sin(gear.pressure_angle)
-    return reach > gear.pitch_radius * math.sin(gear.pressure_angle) ** 2
+    return straight_reach(gear) > gear.pitch_radius * math.sin(gear.pressure_angle) ** 2
 
 
 def _undercut(gear: SpurGear, cut: Fillet) -> float:

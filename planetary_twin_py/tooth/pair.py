@@ -35,6 +35,8 @@ class ToothPair:
     """Between the base circles, see `gearset.geometry`."""
     contact: ContactLaw
     spall: Spall = NO_SPALL
+    angle: float | None = None
+    """Working pressure angle [rad]; default: that of the gears."""
 
     @property
     def _gears(self) -> tuple[SpurGear, SpurGear]:
@@ -48,7 +50,7 @@ class ToothPair:
         """Distance of the contact from the tangent point on each base circle [m]."""
         first, second = self._gears
         moved = position * base_pitch(first.module, first.pressure_angle)
-        tangent = math.tan(first.pressure_angle)
+        tangent = math.tan(first.pressure_angle if self.angle is None else self.angle)
         return (
             first.base_radius * tangent + moved,
             second.base_radius * tangent + (moved if second.internal else -moved),

@@ -16,7 +16,6 @@ import rerun as rr
 from numpy.typing import NDArray
 
 from ..dynamics.pair_loads import pair_loads
-from ..gearset.geometry import base_pitch, pitch_radius
 from ..gearset.line_of_action import COAST, DRIVE, line_of_action
 from ..recording.runs.reader import Recording
 from ..scene import Scene
@@ -98,15 +97,14 @@ def contacts(scene: Scene, mesh: int, angle: Mapping[str, Array], force: Array) 
     """
     gearset = scene.gearset
     ring, planet = divmod(mesh, gearset.planets)
-    teeth = gearset.teeth.ring if ring else gearset.teeth.sun
-    radius = pitch_radius(teeth, gearset.module)
-    pitch = base_pitch(gearset.module, gearset.pressure_angle)
+    working = gearset.geometry.meshes[ring]
+    radius, pitch = working.pitch_radii[ring], working.base_pitch
     position, load = pair_loads(scene, mesh, angle, force)
     point, push = np.zeros((*load.shape, 2)), np.zeros((*load.shape, 2))
     for flank in (DRIVE, COAST):
         rows = np.sign(force) == flank
         line = line_of_action(
-            gearset.planet_angles[planet], radius, gearset.pressure_angle, flank, bool(ring)
+            gearset.planet_angles[planet], radius, working.pressure_angle, flank, bool(ring)
         )
         point[rows] = line.at(pitch * position[rows])
         push[rows] = line.direction

@@ -14,7 +14,6 @@ import rerun as rr
 from numpy.typing import NDArray
 
 from ..gearset.involute import SpurGear
-from ..gearset.mount import mount
 from ..gearset.solid import TriangleMesh
 from ..robot.parts import (
     CARRIER,
@@ -24,7 +23,6 @@ from ..robot.parts import (
     RING,
     SUN,
     carrier_radius,
-    gear_of,
     pin,
     planet,
     ring,
@@ -41,21 +39,21 @@ MILLIMETRES = 1e3
 
 def log_gears(layer: Layer, gearset: Gearset) -> None:
     """Log the gearset's solids."""
-    teeth = gearset.teeth
-    _solid(layer, "gears/sun", sun(gearset), SUN, gear_of(gearset, teeth.sun))
-    _solid(layer, "gears/ring", ring(gearset), RING, gear_of(gearset, teeth.ring, True))
+    gears = gearset.geometry
+    _solid(layer, "gears/sun", sun(gearset), SUN, gears.sun)
+    _solid(layer, "gears/ring", ring(gearset), RING, gears.ring)
     _solid(layer, "gears/carrier", spider(gearset), CARRIER)
     for i, psi in enumerate(gearset.planet_angles):
         radius = MILLIMETRES * carrier_radius(gearset)
         centre = rr.Transform3D(translation=[radius * math.cos(psi), radius * math.sin(psi), 0.0])
         layer.log(_pin(i), centre, static=True)
         _solid(layer, _pin(i), pin(gearset), PIN)
-        _solid(layer, _planet(i), planet(gearset), PLANET, gear_of(gearset, teeth.planet))
+        _solid(layer, _planet(i), planet(gearset), PLANET, gears.planet)
 
 
 def log_motion(layer: Layer, gearset: Gearset, motion: Motion) -> None:
     """Log the rotation of the solids."""
-    stand = mount(gearset.tooth_numbers, gearset.planet_angles)
+    stand = gearset.mounted
     carrier = motion.angle["carrier"]
     _turn(layer, "gears/sun", motion, stand.sun + motion.angle["sun"])
     _turn(layer, "gears/ring", motion, stand.ring + motion.angle["ring"])

@@ -86,6 +86,7 @@ inline void bind_records(nb::module_& m) {
         .FIELD(Train, copies)
         .FIELD(Train, kind)
         .FIELD(Train, phase)
+        .FIELD(Train, coast_lead)
         .FIELD(Train, stiffness)
         .FIELD(Train, stiffness_base)
         .FIELD(Train, stiffness_gain)

@@ -36,12 +36,12 @@ inline double frame_cycle(const Train& train, const State& state, std::int64_t m
 }
 
 // Cycles since tooth pair 0 of mesh i was at the pitch point, from the mesh `cycle` that the train
-// has reached since the start, modulo `modulus`. The coast flanks see the motion mirrored, half a
-// pitch later.
+// has reached since the start, modulo `modulus`. The coast flanks see the motion mirrored, later by
+// `coast_lead`, half a pitch for teeth as thick as their spaces.
 inline double cycle_on_side(const Train& train, std::int64_t i, std::int64_t side, double cycle,
                             std::int64_t modulus) {
     cycle = static_cast<double>(side) * (cycle - train.phase[i]);
-    if (side == COAST_SIDE) cycle += 0.5;
+    if (side == COAST_SIDE) cycle += train.coast_lead[train.kind[i]];
     double m = static_cast<double>(modulus);
     return cycle - m * std::floor(cycle / m);
 }

@@ -89,7 +89,7 @@ void find_contacts(Problem& problem, const TablesHeld& held) {
         std::int64_t side = d > 0.0 ? DRIVE_SIDE : COAST_SIDE;
         // As `mesh_cycle`, but the cycles of the frame, which take long to count, are counted once.
         double cycle = static_cast<double>(side) * (cycles - train.phase[i]);
-        cycle += side == COAST_SIDE ? 0.5 : 0.0;
+        if (side == COAST_SIDE) cycle += train.coast_lead[train.kind[i]];
         cycle -= std::floor(cycle);
         state.side[i] = side;
         state.segment[i] =

@@ -37,6 +37,11 @@ void choose_sides(const Train& train, Equilibrium& run) {
     }
 }
 
+// Factor of the carrier's x in w, the sum of the transmission errors of a planet's two meshes.
+double carrier_factor(const Train& train) {
+    return train.sign[0][2] + train.sign[train.meshes / 2][2];
+}
+
 // Let couplings and members yield; w [m] is what the ring stands behind the sun.
 void wind(const Train& train, Equilibrium& run, double w) {
     double* x = run.state.x;
@@ -47,8 +52,8 @@ void wind(const Train& train, Equilibrium& run, double w) {
         x[member] = -run.external[machine] / train.coupling_stiffness[c];
     }
     x[train.bodies] = 0.0;
-    double wound = x[train.sun] + x[train.body[planets][1]] - 2.0 * x[train.carrier];
-    x[loaded] = (w - wound) / (loaded == train.carrier ? -2.0 : 1.0);
+    double wound = x[train.sun] + x[train.body[planets][1]] + carrier_factor(train) * x[train.carrier];
+    x[loaded] = (w - wound) / (loaded == train.carrier ? carrier_factor(train) : 1.0);
 }
 
 // d [m] of a mesh that carries its force.
@@ -125,7 +130,7 @@ void deflect(const Model& model, Equilibrium& run) {
     std::int64_t planets = train.meshes / 2;
     double sun = x[train.sun], ring = x[train.body[planets][1]], carrier = x[train.carrier];
     for (std::int64_t p = 0; p < planets; ++p) {
-        double d, w = sun + ring - 2.0 * carrier;
+        double d, w = sun + ring + carrier_factor(train) * carrier;
         if (run.force[p] != 0.0)
             d = stretch(run, p);
         else if (run.force[planets + p] != 0.0)

@@ -49,8 +49,8 @@ inline void place_mesh(const Train& train, const State& state, StepConstants& st
         step.start[i] = step.low[i];
         return;
     }
-    double cycle =
-        static_cast<double>(side) * (cycles - train.phase[i]) + (side == COAST_SIDE ? 0.5 : 0.0);
+    double cycle = static_cast<double>(side) * (cycles - train.phase[i]);
+    if (side == COAST_SIDE) cycle += train.coast_lead[kind];
     step.start[i] = nearest_to_segment(train, kind, state.segment[i], cycle);
     if (train.faults > 0) find_faults(train, state, i, side, step.start[i], step.faulty);
 }

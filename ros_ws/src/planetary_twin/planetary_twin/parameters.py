@@ -216,12 +216,12 @@ def declare_geometry(node: Declaring, prefix: str, section: BaseModel) -> None:
 
 
 def _fields(prefix: str, section: BaseModel) -> Iterator[tuple[str, FieldInfo, Any]]:
-    """Yield dotted name, field and value of each leaf."""
+    """Yield dotted name, field and value of each leaf that has a value."""
     for key, field in type(section).model_fields.items():
         name, value = f"{prefix}.{key}", getattr(section, key)
         if isinstance(value, BaseModel):
             yield from _fields(name, value)
-        else:
+        elif value is not None:
             yield name, field, list(value) if isinstance(value, tuple) else value
 
 

@@ -1,0 +1,171 @@
+"""Tip relief: material that is missing near the tips, in the stiffness of a mesh at one load.
+
+A relieved pair p carries k_p (d - g_p) once the mesh deflection d exceeds its gap g_p, so under the
+force F of a mesh d follows from F = sum of k_p max(d - g_p, 0) over the pairs in contact (Harris
+1958, Proc. IMechE 172; Munro 1994: relief that just relieves the pair at its change-over). The
+table of tooth pairs gets the secant stiffness F/d and the shares of the pairs at this force, as the
+contact compliance of `tooth.contact` is that of one load. At this load deflection, transmission
+error and load sharing are exact; at others the effect of the relief scales with the load, and the
+frequencies of small vibration are those of the secant, which lies below the tangent.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Literal, NamedTuple
+
+import numpy as np
+from numpy.polynomial import Polynomial
+
+from ..gearset.geometry import PathOfContact
+from .stiffness import StiffnessLaw
+from .tooth_pairs import PAIRS, SEGMENTS, TERMS, TOTAL, PairTable, pair_table
+
+PATH_CORNERS = 6  # ends of the cycle, of the path, and of its ramps
+SAMPLES = 65  # of a segment, between which a pair comes into contact at most once
+BISECTIONS = 50
+SAME = 1e-9  # base pitches within which kinks coincide
+CLEAR = 1e-12  # of a mesh cycle: distance from an edge at which a segment is evaluated
+
+Shape = Literal["linear", "parabolic"]
+
+
+class Relief(NamedTuple):
+    """Relief of the tip of one gear."""
+
+    amount: float
+    """Missing material at the tip, normal to the flank [m]."""
+    length: float
+    """From the tip along the line of action [base pitches]."""
+    shape: Shape
+
+
+class PairGap(NamedTuple):
+    """Gap of a pair along its path, by the relief of both gears."""
+
+    path: PathOfContact
+    first: Relief | None
+    """Its tip is in contact at the end of the recess."""
+    second: Relief | None
+    """Its tip is in contact at the start of the approach."""
+
+    @property
+    def kinks(self) -> tuple[float, ...]:
+        """Positions at which the relief begins [base pitches]."""
+        late = () if self.first is None else (self.path.recess - self.first.length,)
+        early = () if self.second is None else (self.second.length - self.path.approach,)
+        return late + early
+
+    def at(self, position: np.ndarray) -> np.ndarray:
+        """Missing material [m] of pairs at positions after the pitch point [base pitches]."""
+        gap = np.zeros_like(position)
+        if self.first is not None:
+            gap += _depth(self.first, self.path.recess - position)
+        if self.second is not None:
+            gap += _depth(self.second, position + self.path.approach)
+        return gap
+
+
+def _depth(relief: Relief, from_tip: np.ndarray) -> np.ndarray:
+    share = np.clip(1.0 - from_tip / relief.length, 0.0, 1.0)
+    return relief.amount * (share if relief.shape == "linear" else share**2)
+
+
+def relieved_table(
+    gap: PairGap, ramp: float, law: StiffnessLaw, force: float, kinks: Sequence[float] = ()
+) -> PairTable:
+    """Table of tooth pairs with the secant stiffness of relieved teeth.
+
+    Args:
+        gap: of the pairs.
+        ramp: see `pair_table`.
+        law: stiffness of pairs without relief; its gain is above 0.
+        force: of the mesh, to which stiffness and shares belong [N].
+        kinks: see `pair_table`.
+
+    Returns:
+        The table.
+
+    Raises:
+        ValueError: see `pair_table`; or the table has no room for the changes of contact.
+    """
+    plain = _table(gap.path, ramp, law, (*kinks, *gap.kinks))
+    engaged = _changes(plain, gap, law, force)
+    corners = (*kinks, *gap.kinks, *engaged)
+    if len(corners) + PATH_CORNERS > SEGMENTS:
+        raise ValueError("mesh.tip_relief: too many changes of contact in one mesh cycle")
+    table = _table(gap.path, ramp, law, corners)
+    nodes = 0.5 - 0.5 * np.cos(np.pi * (np.arange(TERMS) + 0.5) / TERMS)
+    for j in range(table.segments):
+        low, high = table.edge[j], table.edge[j + 1]
+        weights = _weights(table, j, low + (high - low) * nodes, gap, law, force)
+        for p in np.flatnonzero(table.present[j]):
+            fitted = Polynomial.fit(nodes, weights[:, p], TERMS - 1, domain=[0, 1], window=[0, 1])
+            table.weight[j, p] = fitted.coef / (high - low) ** np.arange(TERMS)
+        table.weight[j, TOTAL] = table.weight[j, :TOTAL].sum(axis=0)
+    return table
+
+
+def _table(
+    path: PathOfContact, ramp: float, law: StiffnessLaw, kinks: Sequence[float]
+) -> PairTable:
+    return pair_table(path, ramp, law.strength, law.sharing, kinks)
+
+
+def _weights(
+    table: PairTable, j: int, cycle: np.ndarray, gap: PairGap, law: StiffnessLaw, force: float
+) -> np.ndarray:
+    """Weights of the pairs (n, PAIRS) at fractions (n,) of the cycle in segment j."""
+    loads, squeeze = _share(table, j, cycle, gap, law, force)
+    total = (force / squeeze - law.base) / law.gain
+    return np.asarray(total[:, None] * loads / force)
+
+
+def _share(
+    table: PairTable, j: int, cycle: np.ndarray, gap: PairGap, law: StiffnessLaw, force: float
+) -> tuple[np.ndarray, np.ndarray]:
+    """Loads of the pairs [N] (n, PAIRS) and deflection of the mesh [m] (n,)."""
+    powers = (cycle - table.edge[j])[:, None] ** np.arange(TERMS)
+    weight = powers @ table.weight[j, :PAIRS].T
+    weight[:, ~table.present[j]] = 0.0
+    stiffness = weight * (law.base / weight.sum(axis=1) + law.gain)[:, None]
+    missing = gap.at(cycle[:, None] + table.shift[j])
+    carries = stiffness > 0.0
+    for _ in range(PAIRS):  # each pass drops pairs whose gap is not closed
+        acting = np.where(carries, stiffness, 0.0)
+        squeeze = (force + (acting * missing).sum(axis=1)) / acting.sum(axis=1)
+        carries &= missing < squeeze[:, None]
+    acting = np.where(carries, stiffness, 0.0)
+    squeeze = (force + (acting * missing).sum(axis=1)) / acting.sum(axis=1)
+    return acting * (squeeze[:, None] - missing), squeeze
+
+
+def _changes(table: PairTable, gap: PairGap, law: StiffnessLaw, force: float) -> list[float]:
+    """Positions on the path at which pairs come into contact or leave it [base pitches]."""
+    found = []
+    for j in range(table.segments):
+        low, high = table.edge[j] + CLEAR, table.edge[j + 1] - CLEAR
+        cycle = np.linspace(low, high, SAMPLES)
+        carries = _share(table, j, cycle, gap, law, force)[0] > 0.0
+        for n, p in np.argwhere(carries[1:] != carries[:-1]):
+            at = _bisect(table, j, int(p), (cycle[n], cycle[n + 1]), gap, law, force)
+            found.append(at + float(table.shift[j, p]))
+    distinct: list[float] = []
+    for kink in sorted(found):
+        if not distinct or kink - distinct[-1] > SAME:
+            distinct.append(kink)
+    return distinct
+
+
+def _bisect(
+    table: PairTable, j: int, p: int, ends: tuple[float, float], gap: PairGap, law: StiffnessLaw,
+    force: float,
+) -> float:  # fmt: skip
+    """Fraction of the cycle between `ends` at which pair p comes into contact or leaves it."""
+    low, high = ends
+    begins = bool(_share(table, j, np.array([low]), gap, law, force)[0][0, p] > 0.0)
+    for _ in range(BISECTIONS):
+        middle = 0.5 * (low + high)
+        carries = bool(_share(table, j, np.array([middle]), gap, law, force)[0][0, p] > 0.0)
+        low, high = (middle, high) if carries == begins else (low, middle)
+    return 0.5 * (low + high)

@@ -1,0 +1,117 @@
+"""Trains with profile shift: kinematics of the rows, forces, energy, and natural modes."""
+
+import math
+
+import numpy as np
+import pytest
+
+import planetary_twin_py as pt
+from planetary_twin_py.dynamics.train import build_train
+from planetary_twin_py.explanation.meshes import describe_meshes
+
+PAPER = pt.load_scene("paper")
+STAGE = pt.load_scene("reference_gearbox_stage")
+
+
+def rig(held, driver, driven, **changes):
+    """31/31/95 teeth, whose ring has two teeth more than sun + 2 planet, in any power flow."""
+    gears = {
+        "teeth": {"sun": 31, "planet": 31, "ring": 95},
+        "planet_angles": ["0 deg", "120 deg", "240 deg"],
+        "module": "0.8 mm",
+        "pressure_angle": "20 deg",
+        "centre_distance": "25.2 mm",
+        "profile_shift": {"sun": 0.26, "planet": 0.25, "ring": -0.2},
+        "held": held,
+    }
+    return PAPER.replace(
+        **{f"gearset.{name}": value for name, value in gears.items()},
+        **{"drive.input.member": driver, "drive.output.member": driven},
+        **{"mesh.damping.law": "viscous"},
+        **changes,
+    )
+
+
+FLOWS = [("carrier", "sun", "ring"), ("ring", "sun", "carrier"), ("sun", "ring", "carrier")]
+SCENES = pytest.mark.parametrize(
+    "scene",
+    [STAGE, *(rig(*flow) for flow in FLOWS)],
+    ids=lambda scene: f"{scene.name}-{scene.gearset.held}",
+)
+
+
+@SCENES
+def test_rigid_turning_moves_no_mesh_and_slides_at_no_pitch_point(scene):
+    train = build_train(scene)
+    for i in range(train.meshes):
+        kind, bodies = train.kind[i], train.body[i]
+        moved = train.sign[i] * train.radius[bodies] * train.ratio[bodies, 0]
+        assert abs(moved.sum()) < 1e-12 * np.abs(moved).max()
+        speeds = train.ratio[bodies, 0] - train.ratio[bodies[2], 0]
+        rolled = train.pitch_curvature[kind] * speeds[:2]
+        assert rolled[0] + train.external[kind] * rolled[1] == pytest.approx(
+            0.0, abs=1e-12 * abs(rolled[0])
+        )
+
+
+@SCENES
+def test_radii_of_curvature_end_on_the_line_of_action(scene):
+    """r1 + r2 = a sin(a_w) at the sun, r2 - r1 = a sin(a_w) at the ring."""
+    train, gears = build_train(scene), scene.gearset.geometry
+    for kind, mesh in enumerate(gears.meshes):
+        first, second = train.pitch_curvature[kind]
+        length = gears.centre_distance * math.sin(mesh.pressure_angle)
+        assert second + (first if kind == 0 else -first) == pytest.approx(length, rel=1e-12)
+
+
+@pytest.mark.parametrize("flow", FLOWS, ids=str)
+def test_forces_and_energy_of_a_dynamic_run(flow):
+    scene = rig(*flow)
+    run = pt.simulate(scene, 0.1, tolerance=1e-5)
+    assert abs(run.energy.residual) < 1e-6 * run.energy.put_in
+    lossless = pt.simulate(scene.replace(**{"lubrication.friction": False}), 0.1, tolerance=1e-5)
+    teeth = scene.gearset.teeth
+    torque = {"sun": teeth.sun, "ring": teeth.ring}[flow[1]]
+    base = scene.gearset.geometry.sun.base_radius
+    expected = 63.0 * teeth.sun / torque / (3 * base)
+    means = np.abs(lossless.mesh_force.mean(axis=0))
+    assert means == pytest.approx(np.full(6, expected), rel=2e-3)
+
+
+def test_stiffness_of_shifted_teeth_is_that_of_steel_gears():
+    """Of one pair, over the face width; ISO 6336-1 has about 14 to 20 N/(mm um)."""
+    figures = describe_meshes(STAGE)
+    width = STAGE.gearset.face_width
+    single = figures.sun_planet.single_stiffness / width
+    assert 12e9 < single < 22e9
+
+
+@pytest.mark.parametrize("model", ["planar", "spatial"])
+@pytest.mark.parametrize("held", ["ring", "carrier"])
+def test_free_bodies_have_the_rigid_modes_of_their_motions(model, held):
+    """Without bearings and held members every rigid motion of the set deforms no spring."""
+    body = {"mass": 1.0, "bearing": 0.0, "axial": 0.0, "tilting": 0.0}
+    supports = dict.fromkeys(("sun", "ring", "carrier"), body)
+    supports["planet"] = {"mass": 0.1, "bearing": 1e8, "axial": 1e7, "tilting": 1e6}
+    flow = {"ring": FLOWS[1], "carrier": FLOWS[0]}[held]
+    scene = rig(*flow, supports=supports)
+    kinds = pt.natural_modes(scene, model).kinds
+    # Held is one rotation; the set moves in x and y, and on its teeth; in space along z and tilts.
+    members = {"gearset.held": held, "drive.input.member": flow[1], "drive.output.member": flow[2]}
+    standard = PAPER.replace(supports=supports, **members)
+    assert kinds.count("rigid") == pt.natural_modes(standard, model).kinds.count("rigid")
+
+
+def test_working_angles_decide_hertz_pressure_film_and_sliding():
+    """p = sqrt(F E*/(pi L R)) with 1/R = 1/(r_b1 tan a_w) +- 1/(r_b2 tan a_w) (Johnson 1985)."""
+    figures, oil = describe_meshes(STAGE), STAGE.lubrication
+    modulus = 0.5 * oil.youngs_modulus / (1.0 - oil.poisson_ratio**2)
+    alpha, m = math.radians(20.0), 0.045
+    for mesh, first, second in ((figures.sun_planet, 19, 17), (figures.planet_ring, 17, -56)):
+        cosine = 0.5 * m * abs(first + second) * math.cos(alpha) / 0.863
+        base = 0.5 * m * math.cos(alpha) * math.tan(math.acos(cosine))
+        curvature = 1.0 / (base * first) + 1.0 / (base * second)
+        line = mesh.static_force / STAGE.gearset.face_width
+        assert mesh.pitch_pressure == pytest.approx(
+            math.sqrt(line * modulus * curvature / math.pi), rel=1e-9
+        )
