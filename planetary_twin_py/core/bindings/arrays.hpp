@@ -31,7 +31,8 @@ inline void check_size(const char* name, std::size_t size, std::size_t least) {
 }
 
 // A new array (NumPy owns it) with a copy of values.
-inline nb::ndarray<nb::numpy, double> new_array(const double* values, std::initializer_list<std::size_t> shape) {
+inline nb::ndarray<nb::numpy, double> new_array(const double* values,
+                                                std::initializer_list<std::size_t> shape) {
     std::size_t size = 1;
     for (std::size_t extent : shape) size *= extent;
     double* data = new double[size];

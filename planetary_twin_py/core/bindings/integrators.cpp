@@ -47,8 +47,7 @@ void py_one_step(const Model& model, March& march, double longest) {
 }
 
 void py_advance(const Model& model, March& march, const InstantTuple& until,
-                const InstantTuple& bound, const SamplingTuple& samples,
-                const SamplesTuple& out) {
+                const InstantTuple& bound, const SamplingTuple& samples, const SamplesTuple& out) {
     Samples room = samples_of(out);
     if (room.rows < 1) throw std::invalid_argument("samples: no room for the one at the end");
     run_unlocked([&] {
@@ -76,13 +75,12 @@ Nodes py_radau(int points) {
 }
 
 void bind_march(nb::module_& m) {
-    m.def("begin_step", &begin_step, "model"_a, "march"_a,
-          nb::call_guard<Unlocked>(), "Start a new step where the last one ended.");
+    m.def("begin_step", &begin_step, "model"_a, "march"_a, nb::call_guard<Unlocked>(),
+          "Start a new step where the last one ended.");
     m.def("one_step", &py_one_step, "model"_a, "march"_a, "longest"_a,
           "Make one accepted step of at most `longest` seconds, ending on the first event.\n\n"
           "Raises:\n    ArithmeticError: no finite state can be reached.");
-    m.def("accept", &accept, "model"_a, "march"_a, "mesh"_a,
-          nb::call_guard<Unlocked>(),
+    m.def("accept", &accept, "model"_a, "march"_a, "mesh"_a, nb::call_guard<Unlocked>(),
           "Let the step stand; `mesh` changes its contact at its end (-1: none).");
     m.def("advance", &py_advance, "model"_a, "march"_a, "until"_a, "bound"_a, "samples"_a, "out"_a,
           "Integrate to `until`, and fill `out` with `samples` and one at `until`.\n\n"
@@ -91,14 +89,11 @@ void bind_march(nb::module_& m) {
     m.def("cut", &py_cut, "model"_a, "march"_a, "until"_a,
           "Take back what lies beyond `until`, which is within the last step.\n\n"
           "Raises:\n    ArithmeticError: no finite state can be reached.");
-    m.def("count_step", &count_step, "model"_a, "march"_a,
-          nb::call_guard<Unlocked>(),
+    m.def("count_step", &count_step, "model"_a, "march"_a, nb::call_guard<Unlocked>(),
           "Let the last step count as far as it has not been taken.");
-    m.def("count_until", &count_until, "model"_a, "march"_a, "delay"_a,
-          nb::call_guard<Unlocked>(),
+    m.def("count_until", &count_until, "model"_a, "march"_a, "delay"_a, nb::call_guard<Unlocked>(),
           "Let the last step count up to `delay` seconds after its start.");
-    m.def("interpolate", &interpolate, "model"_a, "march"_a, "delay"_a,
-          nb::call_guard<Unlocked>(),
+    m.def("interpolate", &interpolate, "model"_a, "march"_a, "delay"_a, nb::call_guard<Unlocked>(),
           "Fill x and v of `march.dense`, `delay` seconds into the last step.");
     m.def("sample", &py_sample, "model"_a, "march"_a, "delay"_a, "out"_a, "row"_a,
           "Write what the train shows `delay` seconds into the last step to a row of `out`.");
@@ -108,18 +103,30 @@ void bind_march(nb::module_& m) {
 void bind_parts_of_steps(nb::module_& m) {
     m.def("hold_friction", &hold_friction, "model"_a, "march"_a,
           "Forces at the start of a step, with the friction of the end of the last.");
-    m.def("enter", [](const Model& model, March& march) {
-        with_lanes(model.train, [&](auto lanes) { enter<lanes>(model, march); });
-    }, "model"_a, "march"_a, "Express the start of a step in the modes of its contacts.");
-    m.def("set_step", [](const Model& model, March& march, double h) {
-        with_lanes(model.train, [&](auto lanes) { set_step<lanes>(march.run, h, false); });
-    }, "model"_a, "march"_a, "h"_a, "Free motions at the nodes of a step of `h` seconds.");
-    m.def("visit_nodes", [](const Model& model, March& march) {
-        with_lanes(model.train, [&](auto lanes) { visit_nodes<lanes>(model, march); });
-    }, "model"_a, "march"_a, "Answer the rest as it is now, at all nodes.");
-    m.def("sweep", [](const Model& model, March& march, bool with_friction) {
-        with_lanes(model.train, [&](auto lanes) { sweep<lanes>(model, march, with_friction); });
-    }, "model"_a, "march"_a, "with_friction"_a, "Take the rest anew at all nodes.");
+    m.def(
+        "enter",
+        [](const Model& model, March& march) {
+            with_lanes(model.train, [&](auto lanes) { enter<lanes>(model, march); });
+        },
+        "model"_a, "march"_a, "Express the start of a step in the modes of its contacts.");
+    m.def(
+        "set_step",
+        [](const Model& model, March& march, double h) {
+            with_lanes(model.train, [&](auto lanes) { set_step<lanes>(march.run, h, false); });
+        },
+        "model"_a, "march"_a, "h"_a, "Free motions at the nodes of a step of `h` seconds.");
+    m.def(
+        "visit_nodes",
+        [](const Model& model, March& march) {
+            with_lanes(model.train, [&](auto lanes) { visit_nodes<lanes>(model, march); });
+        },
+        "model"_a, "march"_a, "Answer the rest as it is now, at all nodes.");
+    m.def(
+        "sweep",
+        [](const Model& model, March& march, bool with_friction) {
+            with_lanes(model.train, [&](auto lanes) { sweep<lanes>(model, march, with_friction); });
+        },
+        "model"_a, "march"_a, "with_friction"_a, "Take the rest anew at all nodes.");
     m.def("end_within", &end_within, "model"_a, "march"_a, "h"_a,
           "Let the step of collocation end after `h` seconds, on its own motion.");
     m.def("rosenbrock_step", &rosenbrock_step, "model"_a, "state"_a, "constants"_a, "h"_a,
@@ -128,15 +135,21 @@ void bind_parts_of_steps(nb::module_& m) {
 }
 
 void bind_oscillator(nb::module_& m) {
-    m.def("decay_rates", [](double square, double damping) {
-        DecayRates rates = decay_rates(square, damping);
-        return std::make_tuple(rates.rate, rates.slow, rates.fast);
-    }, "square"_a, "damping"_a, "Angular rate, and both decays [1/s].");
-    m.def("wave", [](double damping, double rate, double slow, double fast, double t) {
-        Wave at = wave(damping, rate, slow, fast, t);
-        return std::pair(at.cosine, at.sine);
-    }, "damping"_a, "rate"_a, "slow"_a, "fast"_a, "t"_a,
-          "Free motions from (1, 0) and (0, 1) after `t` seconds.");
+    m.def(
+        "decay_rates",
+        [](double square, double damping) {
+            DecayRates rates = decay_rates(square, damping);
+            return std::make_tuple(rates.rate, rates.slow, rates.fast);
+        },
+        "square"_a, "damping"_a, "Angular rate, and both decays [1/s].");
+    m.def(
+        "wave",
+        [](double damping, double rate, double slow, double fast, double t) {
+            Wave at = wave(damping, rate, slow, fast, t);
+            return std::pair(at.cosine, at.sine);
+        },
+        "damping"_a, "rate"_a, "slow"_a, "fast"_a, "t"_a,
+        "Free motions from (1, 0) and (0, 1) after `t` seconds.");
     m.def("radau", &py_radau, "points"_a, "Radau's points, so many of them.");
 }
 

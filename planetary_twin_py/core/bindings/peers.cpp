@@ -74,9 +74,8 @@ public:
               const Array& samples) const {
         check_size("samples", samples.size(), times.size() * size_of(*own_->problem));
         Unlocked release;
-        return cvode_march(*own_, reinterpret_cast<void*>(memory),
-                           reinterpret_cast<void*>(vector), times.data(), samples.data(),
-                           static_cast<std::int64_t>(times.size()));
+        return cvode_march(*own_, reinterpret_cast<void*>(memory), reinterpret_cast<void*>(vector),
+                           times.data(), samples.data(), static_cast<std::int64_t>(times.size()));
     }
 
 private:
@@ -97,8 +96,8 @@ void bind_foreign(nb::module_& m) {
             "function", [](nb::handle) { return address<&cvode_function>(); },
             "Address of a CVRhsFn.")
         .def_prop_ro("data", &CvodeProblem::data, "Address of its user data.")
-        .def("march", &CvodeProblem::march, nb::arg("memory"), nb::arg("vector"),
-             nb::arg("times"), nb::arg("samples"),
+        .def("march", &CvodeProblem::march, nb::arg("memory"), nb::arg("vector"), nb::arg("times"),
+             nb::arg("samples"),
              "Fill samples (times, size) up to the last of the times; 0, or what CVODE returned.");
     m.def("cyrk_function", &address<&cyrk_function>,
           "Address of the right-hand side as CyRK calls it.");

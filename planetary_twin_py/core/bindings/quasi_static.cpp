@@ -57,13 +57,13 @@ auto py_divide_cycle(const Model& model, double tolerance, const State& origin, 
     Panels panels;
     {
         Unlocked release;
-        panels = divide_cycle({model, tolerance, run, shown}, origin,
-                              {edges.data(), edges.size()}, period);
+        panels = divide_cycle({model, tolerance, run, shown}, origin, {edges.data(), edges.size()},
+                              period);
     }
     std::size_t m = panels.phase.size();
     return std::make_tuple(new_array(panels.phase.data(), {m}),
-                          new_array(panels.totals.data()->data(), {m, TOTALS}),
-                          new_array(panels.peaks.data()->data(), {m, PEAKS, MESHES}));
+                           new_array(panels.totals.data()->data(), {m, TOTALS}),
+                           new_array(panels.peaks.data()->data(), {m, PEAKS, MESHES}));
 }
 
 void py_follow(const Model& model, double tolerance, State& mark, Equilibrium& run,

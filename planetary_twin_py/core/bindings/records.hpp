@@ -2,6 +2,7 @@
 
 // Python classes of the records; a field that does not exist does not compile.
 
+#include "bindings/record.hpp"
 #include "integrators/contact_modes_record.hpp"
 #include "integrators/control.hpp"
 #include "integrators/march_record.hpp"
@@ -25,7 +26,6 @@
 #include "tribology/constants.hpp"
 #include "tribology/oil.hpp"
 #include "tribology/tooth_pairs.hpp"
-#include "bindings/record.hpp"
 
 namespace gearbox {
 
@@ -213,13 +213,8 @@ inline void bind_records(nb::module_& m) {
         .FIELD(ToothPairs, bristle_decay)
         .FIELD(ToothPairs, bristle_gain)
         .FIELD(ToothPairs, lost);
-    record<DragOfMeshes>(m, "DragOfMeshes")
-        .FIELD(DragOfMeshes, torque)
-        .FIELD(DragOfMeshes, power);
-    record<Model>(m, "Model")
-        .FIELD(Model, train)
-        .FIELD(Model, oil)
-        .FIELD(Model, load);
+    record<DragOfMeshes>(m, "DragOfMeshes").FIELD(DragOfMeshes, torque).FIELD(DragOfMeshes, power);
+    record<Model>(m, "Model").FIELD(Model, train).FIELD(Model, oil).FIELD(Model, load);
     record<Evaluation>(m, "Evaluation")
         .FIELD(Evaluation, force)
         .FIELD(Evaluation, rubbing)
@@ -273,8 +268,10 @@ inline void bind_records(nb::module_& m) {
         .FIELD(ContactState, past_rubbing);
     nb::class_<ContactModes>(m, "ContactModes")
         .def_prop_ro("count", &ContactModes::count, "Contact states kept.")
-        .def("state", [](ContactModes& self, size_t n) -> ContactState& { return self.states.at(n); },
-             nb::rv_policy::reference_internal, "Modes of contact state n.");
+        .def(
+            "state",
+            [](ContactModes& self, size_t n) -> ContactState& { return self.states.at(n); },
+            nb::rv_policy::reference_internal, "Modes of contact state n.");
     record<Propagation>(m, "Propagation")
         .FIELD(Propagation, nodes)
         .FIELD(Propagation, known)

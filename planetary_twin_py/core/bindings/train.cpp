@@ -3,8 +3,8 @@
 #include <nanobind/stl/tuple.h>
 
 #include "bindings/parts.hpp"
-#include "bindings/vectors.hpp"
 #include "bindings/unlocked.hpp"
+#include "bindings/vectors.hpp"
 #include "train/declarations.hpp"
 
 namespace gearbox {

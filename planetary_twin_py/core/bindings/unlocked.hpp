@@ -2,8 +2,8 @@
 
 // Without the interpreter's lock, for the time of a call of the core.
 //
-// A thread that comes back while the interpreter ends would be unwound by Python, through C++ frames
-// that may not be: the process would abort. It waits for the end of the process instead.
+// A thread that comes back while the interpreter ends would be unwound by Python, through C++
+// frames that may not be: the process would abort. It waits for the end of the process instead.
 
 #include <Python.h>
 #include <unistd.h>

@@ -7,8 +7,8 @@
 
 #include <stdexcept>
 
-#include "rooms.hpp"
 #include "bindings/unlocked.hpp"
+#include "rooms.hpp"
 
 namespace gearbox {
 

@@ -17,9 +17,9 @@ namespace gearbox {
 namespace {
 
 constexpr double ON_EDGE = 1e-13;  // [s] to which a step ends on the edge of a tooth pair
-constexpr double WITHIN = 0.1;  // of the step, by which its end is moved for that at most
-constexpr double STRETCH = 1.2;  // by which a planned step is stretched to end on an event
-constexpr double OUTDONE = 0.2;  // of the other method's step, below which it is taken
+constexpr double WITHIN = 0.1;     // of the step, by which its end is moved for that at most
+constexpr double STRETCH = 1.2;    // by which a planned step is stretched to end on an event
+constexpr double OUTDONE = 0.2;    // of the other method's step, below which it is taken
 constexpr int LANDINGS = 3;
 
 // Whether Rosenbrock's method is to be taken rather than collocation over h seconds.
@@ -192,9 +192,8 @@ void end_within(const Model& model, March& march, double h) {
 
 std::int64_t collocated_step(const Model& model, March& march, double longest,
                              const NextEvent& event) {
-    return with_lanes(model.train, [&](auto lanes) {
-        return make_step<lanes>(model, march, longest, event);
-    });
+    return with_lanes(model.train,
+                      [&](auto lanes) { return make_step<lanes>(model, march, longest, event); });
 }
 
 }  // namespace gearbox

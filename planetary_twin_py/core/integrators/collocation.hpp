@@ -22,7 +22,7 @@ inline constexpr double LEFT_OVER = 0.3;  // of the tolerance that a sweep not m
 // Pull of a sweep beyond which a shorter step or another method is called for.
 inline constexpr double WEAKEST_PULL = 0.5;
 inline constexpr double CLOSE = 0.1;  // of that, below which the next passage is predicted too
-inline constexpr double TAIL = 4.0;  // by which the estimated error of the polynomial counts more
+inline constexpr double TAIL = 4.0;   // by which the estimated error of the polynomial counts more
 inline constexpr double LEAST_DAMPED = 1e-6;  // c h below which errors last for ever
 inline constexpr double ASTRAY = std::numeric_limits<double>::infinity();
 
@@ -34,8 +34,7 @@ struct Outcome {
 
 // The rest at node n from what the meshes, friction and machines do there.
 template <int L>
-LAW void find_rest(const Model& model, March& march, const ContactState& contacts,
-                            std::int64_t n) {
+LAW void find_rest(const Model& model, March& march, const ContactState& contacts, std::int64_t n) {
     using V = Row<L>;
     Propagation& run = march.run;
     Evaluation& out = run.evaluation[n];
@@ -82,8 +81,8 @@ double difference(const Model& model, const March& march) {
     V d = V(run.node_d[last]) - V(run.before_d), rate = V(run.node_rate[last]) - V(run.before_rate);
     V speed = absolute(V(run.node_v[last]) - V(run.before_v));
     double of_meshes = largest(larger(absolute(d), V(tau) * absolute(rate)));
-    double change = std::max(of_meshes / march.control.tolerance_x,
-                             largest(speed) / march.control.tolerance_v);
+    double change =
+        std::max(of_meshes / march.control.tolerance_x, largest(speed) / march.control.tolerance_v);
     return std::isfinite(total(d + rate)) ? change : ASTRAY;  // a maximum loses what is no number
 }
 
@@ -91,7 +90,7 @@ double difference(const Model& model, const March& march) {
 template <int L>
 double tail_of_speeds(const March& march, const Row<L>& error) {
     using V = Row<L>;
-    const double(*form)[BODIES] = contacts_of(march.run).form;
+    const double (*form)[BODIES] = contacts_of(march.run).form;
     V speed(0.0);
     for (int m = 0; m < L; ++m) speed += absolute(V(form[m])) * error[m];
     return largest(speed) / march.control.tolerance_v;
@@ -138,8 +137,8 @@ void settle_meshes(const Model& model, March& march) {
     }
 }
 
-// Sweep until what the next one would change is a share of the tolerance; `known_pull` is by how much
-// less that is, per step length.
+// Sweep until what the next one would change is a share of the tolerance; `known_pull` is by how
+// much less that is, per step length.
 template <int L>
 Outcome settle_friction(const Model& model, March& march, double& known_pull) {
     Propagation& run = march.run;

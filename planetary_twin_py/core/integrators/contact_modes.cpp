@@ -116,8 +116,7 @@ std::int64_t find_modes(const Train& train, const State& state, ContactModes& kn
     if (known.count() > 0) {
         if (known.states[known.last].key == key) return known.last;
         std::int64_t likely = known.states[known.last].follower;
-        if (likely < known.count() && known.states[likely].key == key)
-            return known.last = likely;
+        if (likely < known.count() && known.states[likely].key == key) return known.last = likely;
     }
     std::int64_t n = search(train, state, known, key);
     known.states[known.last].follower = n;

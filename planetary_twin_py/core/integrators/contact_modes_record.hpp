@@ -22,8 +22,8 @@ struct ContactKey {
 struct HashOfContacts {
     std::size_t operator()(const ContactKey& key) const {
         constexpr std::uint64_t golden = 0x9e3779b97f4a7c15;
-        auto mixed = (static_cast<std::uint64_t>(key.sun) * golden) ^
-                     static_cast<std::uint64_t>(key.ring);
+        auto mixed =
+            (static_cast<std::uint64_t>(key.sun) * golden) ^ static_cast<std::uint64_t>(key.ring);
         mixed *= golden;
         return static_cast<std::size_t>(mixed ^ (mixed >> 32));
     }
@@ -35,24 +35,24 @@ struct HashOfContacts {
 struct alignas(64) ContactState {
     ContactKey key;
     std::int64_t follower;  // the state that came next last time
-    double step;  // that did last time such a state began, 0: none yet [s]
-    double past_step;  // see the predictor, 0: none yet [s]
-    double pull[2];  // by which a sweep brings the next closer, per step length [1/s]
-    bool predictable;  // whether friction came to rest in one sweep last time
-    bool varies;  // whether a stiffness changes within its segment
+    double step;            // that did last time such a state began, 0: none yet [s]
+    double past_step;       // see the predictor, 0: none yet [s]
+    double pull[2];         // by which a sweep brings the next closer, per step length [1/s]
+    bool predictable;       // whether friction came to rest in one sweep last time
+    bool varies;            // whether a stiffness changes within its segment
     alignas(64) double stiffness[MESHES];  // of every mesh with its copies [N/m]
     alignas(64) double form[BODIES][BODIES];
     alignas(64) double share[BODIES][BODIES];
     alignas(64) double motion[BODIES][MESHES];
     alignas(64) double reach[BODIES][MESHES];
     alignas(64) double press[MESHES][BODIES];
-    alignas(64) double square[BODIES];  // w^2 [1/s^2]
-    alignas(64) double shaft_damping[BODIES];  // c of the couplings [1/s]
+    alignas(64) double square[BODIES];           // w^2 [1/s^2]
+    alignas(64) double shaft_damping[BODIES];    // c of the couplings [1/s]
     alignas(64) double mesh_damping[2][BODIES];  // c/tau of each kind of mesh [1/s^2]
     // Free waves at the nodes of the first step in such a state, and what they were computed for.
-    double tau[2];  // damping times of both kinds of mesh [s]
-    double waves_step;  // length of the step, 0: none yet [s]
-    std::int64_t waves_nodes;  // and its nodes
+    double tau[2];                       // damping times of both kinds of mesh [s]
+    double waves_step;                   // length of the step, 0: none yet [s]
+    std::int64_t waves_nodes;            // and its nodes
     alignas(64) double damping[BODIES];  // c [1/s], and the decay rates of these
     alignas(64) double rate[BODIES];
     alignas(64) double slow[BODIES];

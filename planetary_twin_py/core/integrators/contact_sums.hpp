@@ -8,20 +8,20 @@
 #include "train/model.hpp"
 #include "train/step_constants.hpp"
 #include "tribology/tooth_friction.hpp"
-#include "vector/rows.hpp"
 #include "vector/math.hpp"
+#include "vector/rows.hpp"
 
 namespace gearbox {
 
 // Sums over the tooth pairs of each mesh.
 template <int L>
 struct ContactSums {
-    Row<L> share = 0.0;  // of the mesh force [s]
-    Row<L> film = 0.0;  // by that share [m s]
+    Row<L> share = 0.0;                    // of the mesh force [s]
+    Row<L> film = 0.0;                     // by that share [m s]
     Row<L> boundary = 0.0, viscous = 0.0;  // [N s]
-    Row<L> lost = 0.0;  // [J]
+    Row<L> lost = 0.0;                     // [J]
     Row<L> touching = 0.0, clipped = 0.0;  // [s]
-    Row<L> rolled = 0.0;  // through the mesh [J]
+    Row<L> rolled = 0.0;                   // through the mesh [J]
 };
 
 // Films of a train without friction, under the pushes in `work`.
@@ -35,7 +35,7 @@ inline void find_contacts(const Model& model, const StepConstants& constants, co
 // Add shares and films of all pairs, times `weight` [s].
 template <int L>
 LAW void add_films(const Train& train, const ToothPairs& pairs, double weight,
-                            ContactSums<L>& sums) {
+                   ContactSums<L>& sums) {
     for (std::int64_t p = 0, first = 0; p < train.slots; ++p, first += train.meshes) {
         alignas(64) double film[L];
         for (int i = 0; i < L; ++i) film[i] = exp(pairs.log_film[first + i]);
@@ -48,7 +48,7 @@ LAW void add_films(const Train& train, const ToothPairs& pairs, double weight,
 // Add friction and forces of an evaluation, times `weight` [s].
 template <int L>
 LAW void add_friction(const Train& train, const Evaluation& work, double weight,
-                               ContactSums<L>& sums) {
+                      ContactSums<L>& sums) {
     using V = Row<L>;
     const ToothPairs& pairs = work.pairs;
     const double rolling = weight * train.base_pitch * std::fabs(work.now.pace);
@@ -71,7 +71,7 @@ LAW void add_friction(const Train& train, const Evaluation& work, double weight,
 // Write the sums into `out`, the integrals of a MeshSums.
 template <int L>
 LAW void put_contacts(const Train& train, const Oil& oil, const ContactSums<L>& sums,
-                               double (*out)[MESHES]) {
+                      double (*out)[MESHES]) {
     const double given = oil.prescribed ? oil.lambda_ratio : 0.0;
     const double per_film = oil.prescribed ? 0.0 : exp(-oil.log_roughness);
     alignas(64) double number[L];

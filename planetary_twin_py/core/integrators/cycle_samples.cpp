@@ -65,8 +65,8 @@ std::int64_t columns_of(const Train& train) {
 
 // What an empty `Samples` of one row needs, a column after the other.
 Samples row_in(const Train& train, double* turns, double* columns) {
-    Samples out{1, QUANTITIES, train.meshes, train.bodies, AXES, columns, turns, nullptr, nullptr,
-                nullptr};
+    Samples out{1,       QUANTITIES, train.meshes, train.bodies, AXES,
+                columns, turns,      nullptr,      nullptr,      nullptr};
     out.angle = out.mesh + QUANTITIES * train.meshes;
     out.speed = out.angle + train.bodies;
     out.drag = out.speed + train.bodies;
@@ -147,8 +147,8 @@ void fit(const Rows& rows, double* table) {
                 table[k * rows.columns + c] += FROM_VALUES.weight[k][j] * rows.value[j][c];
 }
 
-// Fit polynomials to so many equal pieces of the step on which the march stands; in how many of them
-// they fit.
+// Fit polynomials to so many equal pieces of the step on which the march stands; in how many of
+// them they fit.
 int fit_pieces(const Model& model, March& march, int pieces, SampleTable& table) {
     std::int64_t size = TERMS_OF_TIME * columns_of(model.train);
     table.coefficient.resize(static_cast<std::size_t>(pieces * size));
@@ -215,8 +215,8 @@ PieceAt piece_at(const CycleStep& step, double passed) {
 }
 
 // Write a sample from the table of a step.
-void read_table(const Model& model, const Repetition& repetition, const CycleStep& step,
-                PieceAt at, const Samples& out, std::int64_t row) {
+void read_table(const Model& model, const Repetition& repetition, const CycleStep& step, PieceAt at,
+                const Samples& out, std::int64_t row) {
     const Train& train = model.train;
     std::int64_t shown = QUANTITIES * train.meshes, n = train.bodies;
     std::int64_t columns = columns_of(train);

@@ -20,7 +20,7 @@ namespace gearbox {
 inline constexpr double EDGE = 1e-9;
 
 struct NextEvent {
-    double time;  // [s]
+    double time;        // [s]
     std::int64_t mesh;  // NO_MESH: a change of the set-point's slope
 };
 

@@ -6,12 +6,12 @@ namespace gearbox {
 
 namespace {
 
-constexpr double ENOUGH = 0.1;  // of the slack, to which an event is located
+constexpr double ENOUGH = 0.1;        // of the slack, to which an event is located
 constexpr double LEAST_SHARE = 1e-3;  // of an interval, by which its ends move
-constexpr double CLOSEST = 1e-16;  // relative length of an interval without anything between
+constexpr double CLOSEST = 1e-16;     // relative length of an interval without anything between
 
-// Where the play of mesh i falls below zero: regula falsi, Illinois form (Dahlquist and Björck 1974,
-// Numerical Methods, section 6.3).
+// Where the play of mesh i falls below zero: regula falsi, Illinois form (Dahlquist and Björck
+// 1974, Numerical Methods, section 6.3).
 double close_in(const Model& model, March& march, std::int64_t i, double low, double high) {
     double above = departure_at(model, march, i, low), below = departure_at(model, march, i, high);
     double enough = ENOUGH * slack_of(march);
@@ -207,7 +207,8 @@ FlankEvent first_of_collocation(const Model& model, March& march) {
     for (std::int64_t i = 0; i < model.train.meshes; ++i) {
         if (!march.run.suspect[i]) continue;
         int place = first_scanned(model, march, i, end);
-        double low = place * end / SCANNED, high = std::min((place + 1) * end / SCANNED, first.when);
+        double low = place * end / SCANNED,
+               high = std::min((place + 1) * end / SCANNED, first.when);
         if (low < high && departure_at(model, march, i, high) < 0.0)
             first = {i, close_in(model, march, i, low, high)};
     }
@@ -218,9 +219,8 @@ FlankEvent first_of_collocation(const Model& model, March& march) {
 
 FlankEvent first_flank_event(const Model& model, March& march) {
     if (!march.control.collocated) return first_of_stiff_step(model, march);
-    return with_lanes(model.train, [&](auto lanes) {
-        return first_of_collocation<lanes>(model, march);
-    });
+    return with_lanes(model.train,
+                      [&](auto lanes) { return first_of_collocation<lanes>(model, march); });
 }
 
 }  // namespace gearbox

@@ -16,22 +16,24 @@ namespace gearbox {
 
 // Share of the local tolerance by which flanks may pull or pass each other.
 inline constexpr double SLACK = 0.01;
-inline constexpr int ROUNDS = 60;  // of closing in on an event
+inline constexpr int ROUNDS = 60;    // of closing in on an event
 inline constexpr double TAME = 0.5;  // (w h)^2 + c h below which a mode does not turn round
-inline constexpr int SCANNED = 8;  // times at which flanks are looked at
+inline constexpr int SCANNED = 8;    // times at which flanks are looked at
 
 struct FlankEvent {
     std::int64_t mesh;  // NO_MESH: none
-    double when;  // after the start of the step [s]
+    double when;        // after the start of the step [s]
 };
 
-inline double slack_of(const March& march) { return SLACK * march.control.tolerance_x; }
+inline double slack_of(const March& march) {
+    return SLACK * march.control.tolerance_x;
+}
 
 // `departure` of mesh i within the step, where no error of form moves its flanks.
 template <int L>
 double smooth_departure(const Model& model, March& march, std::int64_t i, double delay) {
     Propagation& run = march.run;
-    const double(*motion)[MESHES] = contacts_of(run).motion;
+    const double (*motion)[MESHES] = contacts_of(run).motion;
     modes_at<L>(run, delay);
     double d = 0.0, rate = 0.0;
     for (int m = 0; m < L; ++m) {
@@ -39,17 +41,15 @@ double smooth_departure(const Model& model, March& march, std::int64_t i, double
         rate += motion[m][i] * run.now_p[m];
     }
     double tau = march.moment.tau[model.train.kind[i]];
-    return play_left(model.load, march.begin.side[i], {d, tau * rate}, {0.0, 0.0},
-                     slack_of(march));
+    return play_left(model.load, march.begin.side[i], {d, tau * rate}, {0.0, 0.0}, slack_of(march));
 }
 
 // `departure` of mesh i on the interpolant.
 inline double departure_at(const Model& model, March& march, std::int64_t i, double delay) {
     const Train& train = model.train;
     if (march.control.collocated && train.lines[train.kind[i]] == 0)
-        return with_lanes(train, [&](auto lanes) {
-            return smooth_departure<lanes>(model, march, i, delay);
-        });
+        return with_lanes(
+            train, [&](auto lanes) { return smooth_departure<lanes>(model, march, i, delay); });
     interpolate(model, march, delay);
     const double *x = march.dense.x, *v = march.dense.v;
     double advance = march.moment.cycle_rate * delay;

@@ -5,8 +5,8 @@
 #include <cstring>
 
 #include "integrators/propagation.hpp"
-#include "integrators/trial_step.hpp"
 #include "integrators/step_control.hpp"
+#include "integrators/trial_step.hpp"
 #include "run/samples.hpp"
 
 namespace gearbox {
@@ -18,9 +18,8 @@ namespace gearbox {
 inline void interpolate(const Model& model, March& march, double delay) {
     State& dense = march.dense;
     if (march.control.collocated) {
-        with_lanes(model.train, [&](auto lanes) {
-            propagate<lanes>(march, delay, dense.x, dense.v);
-        });
+        with_lanes(model.train,
+                   [&](auto lanes) { propagate<lanes>(march, delay, dense.x, dense.v); });
         return;
     }
     bool at_begin = delay <= SHORTEST_STEP;

@@ -23,15 +23,16 @@ namespace gearbox {
 
 namespace {
 
-// Errors of speeds, over the layer in which friction reverses, in tolerances: where pairs slide, and
-// where they hold and the gears may stick and slip.
+// Errors of speeds, over the layer in which friction reverses, in tolerances: where pairs slide,
+// and where they hold and the gears may stick and slip.
 constexpr double SLIDING_SHARE = 60.0, CREEPING_SHARE = 1.0;
-constexpr double AT_TARGET = 1e-12;  // [s] of the slew rate, by which a set-point may miss its target
+constexpr double AT_TARGET =
+    1e-12;  // [s] of the slew rate, by which a set-point may miss its target
 
 // Allow errors in proportion to what the meshes yield, be it to torques or to inertia.
 //
-// Friction turns round within a narrow layer of sliding speeds: where the gears turn slowly, this is
-// what an error of a speed is measured by.
+// Friction turns round within a narrow layer of sliding speeds: where the gears turn slowly, this
+// is what an error of a speed is measured by.
 void set_tolerances(const Model& model, March& march) {
     const Train& train = model.train;
     Control& control = march.control;

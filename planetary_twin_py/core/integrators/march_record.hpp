@@ -18,9 +18,9 @@ struct alignas(64) March {
     State end;
     StepConstants moment;
     StepConstants aside;  // room for where a mesh stands at an event
-    Evaluation first;  // forces at `begin`
-    Evaluation last;  // forces at `end`, with the contacts of `begin`
-    State dense;  // x and v within the step
+    Evaluation first;     // forces at `begin`
+    Evaluation last;      // forces at `end`, with the contacts of `begin`
+    State dense;          // x and v within the step
     Control control;
     Workspace work;
     Propagation run;

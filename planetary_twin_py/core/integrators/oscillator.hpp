@@ -9,9 +9,9 @@
 
 namespace gearbox {
 
-inline constexpr double FREE_MASS = 1e-3;  // (w h)^2 + c h below which a mode hardly moves
+inline constexpr double FREE_MASS = 1e-3;        // (w h)^2 + c h below which a mode hardly moves
 inline constexpr double NEARLY_CRITICAL = 1e-4;  // phase below which a sine counts as its series
-inline constexpr double SMALLEST = 1e-300;  // keeps divisions finite
+inline constexpr double SMALLEST = 1e-300;       // keeps divisions finite
 
 // Whether a mode hardly moves of its own within h seconds.
 LAW bool is_free(double square, double damping, double h) {
@@ -35,7 +35,7 @@ LAW DecayRates decay_rates(double square, double damping) {
 
 struct Wave {
     double cosine;  // motion from (q, q') = (1, 0)
-    double sine;  // motion from (0, 1)
+    double sine;    // motion from (0, 1)
 };
 
 // Free motions after t seconds. The rates are those of `decay_rates`. Those of the motions are

@@ -24,7 +24,9 @@ constexpr double SETTLED = 0.25;  // of all cycles so far, for which the train m
 // Change of the transmission errors, in static deflections, when the teeth are a mesh cycle late.
 constexpr double PHASE = 20.0;
 
-Instant now_of(const State& state) { return {state.seconds, state.time}; }
+Instant now_of(const State& state) {
+    return {state.seconds, state.time};
+}
 
 // Whether a mesh cycle begins at the end of the step.
 bool comes_round(const March& march) {
@@ -43,7 +45,8 @@ double distance_of_bodies(const Train& train, const Control& control, const Stat
                           const State& b) {
     double largest = 0.0;
     for (std::int64_t i = 0; i < train.meshes; ++i)
-        largest = std::max(largest, std::fabs(mesh_motion(train, i, a.x) - mesh_motion(train, i, b.x)));
+        largest =
+            std::max(largest, std::fabs(mesh_motion(train, i, a.x) - mesh_motion(train, i, b.x)));
     double stiffness = std::min(train.stiffness[0], train.stiffness[1]);
     for (std::int64_t c = 0; c < train.machines; ++c) {
         std::int64_t p = train.coupling[c][0], q = train.coupling[c][1];
@@ -72,7 +75,8 @@ double distance(const Model& model, const March& march, const State& a, const St
     }
     if (control.creeping)
         for (std::int64_t k = 0; k < train.slots * train.meshes; ++k)
-            largest = std::max(largest, std::fabs(a.bristle[k] - b.bristle[k]) * control.deflection);
+            largest =
+                std::max(largest, std::fabs(a.bristle[k] - b.bristle[k]) * control.deflection);
     return largest / control.deflection;
 }
 
@@ -118,14 +122,14 @@ bool close_cycle(const Model& model, March& march) {
     keep(repetition.start, end, whole);
     double took = whole.after;
     double turned = whole.turned + end.x[motor] / train.radius[motor] / TURN;
-    double turns = static_cast<double>(repetition.numerator) /
-                   static_cast<double>(repetition.denominator);
+    double turns =
+        static_cast<double>(repetition.numerator) / static_cast<double>(repetition.denominator);
     whole.turned = std::copysign(turns, turned);
     whole.after = whole.turned * TURN / model.load.target_speed[0];
     repetition.place = repetition.steps;
     repetition.part = 0;
-    double late = std::max(std::fabs(took / whole.after - 1.0),
-                           std::fabs(turned / whole.turned - 1.0));
+    double late =
+        std::max(std::fabs(took / whole.after - 1.0), std::fabs(turned / whole.turned - 1.0));
     return late * static_cast<double>(repetition.cycles) * PHASE <=
            MISSED_SHARE * march.control.tolerance;
 }
@@ -141,8 +145,8 @@ void look(const Model& model, March& march) {
     Repetition& repetition = march.repetition;
     const State& end = march.end;
     ++repetition.age;
-    bool near = distance(model, march, end, repetition.anchor) <=
-                MISSED_SHARE * march.control.tolerance;
+    bool near =
+        distance(model, march, end, repetition.anchor) <= MISSED_SHARE * march.control.tolerance;
     if (repetition.recording) {
         repetition.recording = false;
         repetition.playing = near && close_cycle(model, march);
@@ -182,11 +186,14 @@ void stand(const Repetition& repetition, const Place& place, State& state) {
 
 }  // namespace
 
-CycleStep& played_step(Repetition& repetition) { return repetition.tape[repetition.place - 1]; }
+CycleStep& played_step(Repetition& repetition) {
+    return repetition.tape[repetition.place - 1];
+}
 
 Turns turns_at(const Repetition& repetition, const Place& place) {
     const State& start = repetition.start;
-    double part = static_cast<double>(repetition.part) / static_cast<double>(repetition.denominator);
+    double part =
+        static_cast<double>(repetition.part) / static_cast<double>(repetition.denominator);
     double turns = start.fraction[0] + place.turned + part, whole = std::floor(turns);
     return {start.turns[0] + whole, turns - whole};
 }

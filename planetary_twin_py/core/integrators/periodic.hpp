@@ -7,7 +7,8 @@
 // cycle is kept and repeats until something acts on the train from outside. Dense output reads a
 // repeated step as it reads a computed one.
 //
-// The cycle lasts as long as the speed set-point takes for it: the speed loop would not let it drift.
+// The cycle lasts as long as the speed set-point takes for it: the speed loop would not let it
+// drift.
 
 #include "integrators/march_record.hpp"
 #include "run/clock.hpp"

@@ -12,8 +12,8 @@ namespace gearbox {
 
 struct alignas(64) Place {
     State state;
-    double after;  // start of the cycle [s]
-    double turned;  // by the motor since then [turns]
+    double after;                   // start of the cycle [s]
+    double turned;                  // by the motor since then [turns]
     alignas(64) double energy[11];  // growth of the ledger since then [J], [N m s]
 };
 
@@ -29,12 +29,12 @@ struct alignas(64) CycleStep {
 };
 
 struct alignas(64) Repetition {
-    std::int64_t cycles;  // mesh cycles until all is as before, 0: never
+    std::int64_t cycles;     // mesh cycles until all is as before, 0: never
     std::int64_t numerator;  // turns of the motor meanwhile, as a fraction
     std::int64_t denominator;
-    double pause;  // [s] for which the train must not stray at least
+    double pause;         // [s] for which the train must not stray at least
     std::int64_t passed;  // mesh cycles since it was last looked whether the train repeats
-    std::int64_t age;  // times that it was since something acted from outside
+    std::int64_t age;     // times that it was since something acted from outside
     std::int64_t anchor_age;
     State anchor;  // from which the train has not strayed since
     bool recording;
@@ -44,7 +44,7 @@ struct alignas(64) Repetition {
     std::int64_t known;  // contact states known when the last step was put on the tape
     State start;  // clock, turns and ledger where the present cycle starts; the fraction of the ...
     std::int64_t part;  // ... turn is that of the first cycle, and this many denominators
-    Place whole;  // end of the cycle
+    Place whole;        // end of the cycle
     std::vector<CycleStep> tape;
 };
 

@@ -3,8 +3,8 @@
 // What the last passage through a contact state says of the next.
 //
 // Meshing returns to the same contacts in every cycle. In steady running the rest of the motion
-// then grows from the start of the step as it did the last time, so it needs no further sweep. It is
-// a guess: where it is wrong, the sweeps find out.
+// then grows from the start of the step as it did the last time, so it needs no further sweep. It
+// is a guess: where it is wrong, the sweeps find out.
 
 #include <cmath>
 
@@ -15,13 +15,13 @@ namespace gearbox {
 inline constexpr double ALIKE = 0.25;  // relative difference of the lengths of two steps compared
 inline constexpr int START = MOST_NODES;  // row of what was at the start
 
-// Let rest and friction grow over the step as they did when it was last made; whether that is known.
+// Let rest and friction grow over the step as they did when it was last made; whether that is
+// known.
 template <int L>
 bool recall(March& march) {
     Propagation& run = march.run;
     const ContactState& past = contacts_of(run);
-    if (!(std::fabs(past.past_step - run.motion.step) < ALIKE * run.motion.step))
-        return false;
+    if (!(std::fabs(past.past_step - run.motion.step) < ALIKE * run.motion.step)) return false;
     using V = Row<L>;
     V rest(past.past_rest[START]), rubbing(past.past_rubbing[START]);
     for (int n = 0; n < run.nodes.count; ++n) {

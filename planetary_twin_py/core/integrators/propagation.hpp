@@ -6,16 +6,17 @@
 // rest is friction, machines, errors of form, damping out of proportion, stiffness that changes
 // within its segment; a polynomial through its values at the nodes of the step is answered exactly,
 // at the nodes and at any time between them: by a polynomial and a free wave. A mode that hardly
-// moves of its own within the step counts as a free mass, its spring and damper as part of the rest.
+// moves of its own within the step counts as a free mass, its spring and damper as part of the
+// rest.
 
 #include <algorithm>
 #include <cmath>
 
 #include "integrators/contact_modes.hpp"
-#include "vector/rows.hpp"
 #include "integrators/march_record.hpp"
 #include "integrators/oscillator.hpp"
 #include "train/model.hpp"
+#include "vector/rows.hpp"
 
 namespace gearbox {
 
@@ -23,11 +24,14 @@ inline constexpr double LONGEST_MEMORY = 1e3;  // c/(w^2 h) of a mode whose moti
 
 // Relative change of the damping times for which the modes keep their damping.
 inline constexpr double DAMPING_KEPT = 5e-3;
-// Terms of the series of a free wave a little later, and the phase for which it keeps eleven digits.
+// Terms of the series of a free wave a little later, and the phase for which it keeps eleven
+// digits.
 inline constexpr int FEW_TERMS = 5, MANY_TERMS = 9;
 inline constexpr double FEW_SHIFTED = 0.02, MANY_SHIFTED = 0.3;
 
-inline ContactState& contacts_of(Propagation& run) { return run.known.states[run.motion.modes]; }
+inline ContactState& contacts_of(Propagation& run) {
+    return run.known.states[run.motion.modes];
+}
 inline const ContactState& contacts_of(const Propagation& run) {
     return run.known.states[run.motion.modes];
 }
@@ -208,11 +212,11 @@ void respond(Propagation& run) {
 
 // q and q' of all modes at t/h, from `waves` at that time.
 template <int L>
-LAW void modal_states(const ModalMotion& motion, double t, const double* cosine,
-                               const double* sine, double* q, double* p) {
+LAW void modal_states(const ModalMotion& motion, double t, const double* cosine, const double* sine,
+                      double* q, double* p) {
     using V = Row<L>;
     const double per_step = 1.0 / motion.step;
-    const double(*y)[BODIES] = motion.particular;
+    const double (*y)[BODIES] = motion.particular;
     V a(y[0]), b(y[1]), c(y[2]), d(y[3]), e(y[4]), f(y[5]), g(y[6]);
     V u(motion.free[0]), w(motion.free[1]), first(cosine), second(sine);
     V value = a + t * (b + t * (c + t * (d + t * (e + t * (f + t * g)))));
@@ -262,7 +266,7 @@ LAW void move_node(Propagation& run, const ContactState& contacts, std::int64_t 
 // Bodies at node n, and the trim of the speed loops.
 template <int L>
 LAW void move_bodies(const Model& model, March& march, const ContactState& contacts,
-                              std::int64_t n) {
+                     std::int64_t n) {
     Propagation& run = march.run;
     sum_rows_twice<L>(contacts.form, run.node_q[n], run.node_p[n], run.node_x[n], run.node_v[n]);
     double delay = run.nodes.abscissa[n] * run.motion.step;

@@ -9,15 +9,15 @@
 namespace gearbox {
 
 struct alignas(64) ModalMotion {
-    std::int64_t modes;  // place in `known`
-    double step;  // [s]
-    alignas(64) double square[16];  // w^2 [1/s^2]
+    std::int64_t modes;              // place in `known`
+    double step;                     // [s]
+    alignas(64) double square[16];   // w^2 [1/s^2]
     alignas(64) double damping[16];  // c [1/s]
-    alignas(64) double rate[16];  // see `oscillator.decay_rates`
+    alignas(64) double rate[16];     // see `oscillator.decay_rates`
     alignas(64) double slow[16];
     alignas(64) double fast[16];
     alignas(64) double particular[7][16];  // motion under the polynomial, of powers of t/h
-    alignas(64) double free[2][16];  // q and q' of the free motion at the start
+    alignas(64) double free[2][16];        // q and q' of the free motion at the start
 };
 
 struct alignas(64) Propagation {
@@ -26,10 +26,10 @@ struct alignas(64) Propagation {
     ModalMotion motion;
     alignas(64) double spring[16];  // w^2 and c, but 0 for what counts as a free mass
     alignas(64) double damper[16];
-    alignas(64) double q[16];  // at the start
-    alignas(64) double p[16];  // q' at the start
-    alignas(64) double force[16];  // at the start, friction being as it was before
-    alignas(64) double rest[5][16];  // at the nodes
+    alignas(64) double q[16];          // at the start
+    alignas(64) double p[16];          // q' at the start
+    alignas(64) double force[16];      // at the start, friction being as it was before
+    alignas(64) double rest[5][16];    // at the nodes
     alignas(64) double cosine[5][16];  // `wave` at the nodes
     alignas(64) double sine[5][16];
     alignas(64) double end_cosine[16];  // at the end of the step
@@ -50,7 +50,7 @@ struct alignas(64) Propagation {
     alignas(64) double now_p[16];
     alignas(64) double now_d[16];
     alignas(64) double now_rate[16];
-    std::int8_t suspect[16];  // may change its contact within the step
+    std::int8_t suspect[16];           // may change its contact within the step
     alignas(64) double scan_d[8][16];  // at even times
     alignas(64) double scan_rate[8][16];
 };

@@ -112,8 +112,7 @@ void make_stage(const Model& model, const State& state, const StepConstants& con
     double* right = work.uv[i];
     for (std::int64_t j = 0; j < bodies; ++j) {
         double value = out.force[j] + work.rv[j] + h * STAGE.drift_weight[i] * work.drift[j];
-        for (std::int64_t k = 0; k < bodies; ++k)
-            value -= work.stiffness[j][k] * work.rx[k] / g;
+        for (std::int64_t k = 0; k < bodies; ++k) value -= work.stiffness[j][k] * work.rx[k] / g;
         right[j] = value;
     }
     if (first.pairs.held)

@@ -26,14 +26,14 @@ inline constexpr Table GAMMAS = {
     {2.4212380706095346e-01, -1.2232505839045147e00, 5.4526025533510214e-01, GAMMA},
 };
 inline constexpr Weights B = {2.4212380706095346e-01, -1.2232505839045147e00, 1.5452602553351020e00,
-                          GAMMA};
+                              GAMMA};
 inline constexpr Weights B_EMBEDDED = {3.7810903145819369e-01, -9.6042292212423178e-02, 5.0e-01,
-                                   2.1793326075422950e-01};
+                                       2.1793326075422950e-01};
 
 struct Transformed {
-    double a[STAGES][STAGES];  // alpha Gamma^-1
-    double c[STAGES][STAGES];  // 1/gamma - Gamma^-1
-    double weight[STAGES];  // b Gamma^-1
+    double a[STAGES][STAGES];     // alpha Gamma^-1
+    double c[STAGES][STAGES];     // 1/gamma - Gamma^-1
+    double weight[STAGES];        // b Gamma^-1
     double error_weight[STAGES];  // (b - embedded b) Gamma^-1
     double abscissa[STAGES];
     double drift_weight[STAGES];

@@ -9,8 +9,8 @@ namespace gearbox {
 struct SampleTable {
     static constexpr int MOST_PIECES = 8;
 
-    bool known = false;  // whether it has been made
-    int pieces = 0;  // equal parts of the step; 0: there are no polynomials
+    bool known = false;           // whether it has been made
+    int pieces = 0;               // equal parts of the step; 0: there are no polynomials
     bool fits[MOST_PIECES] = {};  // whether those of a piece are accurate enough
     bool all_fit = false;
     std::vector<double> coefficient;  // (pieces, terms, columns)

@@ -21,7 +21,7 @@ constexpr NamedMethod METHODS[] = {
 };
 
 inline constexpr std::int64_t NO_MESH = -1;
-inline constexpr std::int64_t FAILED = -2;  // no mesh, and no step
+inline constexpr std::int64_t FAILED = -2;      // no mesh, and no step
 inline constexpr double SHORTEST_STEP = 1e-13;  // [s] below it two events count as one
 // Steps of Rosenbrock's method before collocation is tried again.
 inline constexpr std::int64_t DETOUR = 20;

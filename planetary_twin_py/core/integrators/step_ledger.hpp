@@ -6,7 +6,8 @@
 
 namespace gearbox {
 
-inline constexpr double SLOWEST_SWING = 30.0;  // (1 + c h)/(w h)^2, to whose 4th power digits are lost
+inline constexpr double SLOWEST_SWING =
+    30.0;  // (1 + c h)/(w h)^2, to whose 4th power digits are lost
 
 // Weight of node n in the integral over the part t of the step [s].
 inline double node_weight(const Propagation& run, std::int64_t n, double t) {
@@ -33,8 +34,7 @@ LAW Mask<L> swings(const Propagation& run) {
 // energy (u'^2 + w^2 u^2)/2 it has less at the end; int t^k u' and int t^k u follow from each other
 // by u'' + c u' + w^2 u = 0.
 template <int L>
-LAW Row<L> damped(const Propagation& run, double h, const double* cosine,
-                             const double* sine) {
+LAW Row<L> damped(const Propagation& run, double h, const double* cosine, const double* sine) {
     using V = Row<L>;
     const ModalMotion& motion = run.motion;
     const double step = motion.step, part = h / step, per_step = 1.0 / step;
@@ -43,7 +43,7 @@ LAW Row<L> damped(const Propagation& run, double h, const double* cosine,
     V u1 = first * u0 + second * w0, w1 = (first - c * second) * w0 - square * second * u0;
     V lost = 0.5 * (w0 * w0 - w1 * w1 + square * (u0 * u0 - u1 * u1));
     // y' = (a + b s + d s^2 + e s^3)/h with s = t/h, from 0 to `part`
-    const double(*y)[BODIES] = motion.particular;
+    const double (*y)[BODIES] = motion.particular;
     V a(y[1]), b = 2.0 * V(y[2]), d = 3.0 * V(y[3]), e = 4.0 * V(y[4]);
     V inverse = 1.0 / larger(square * step, V(SMALLEST));
     V rate0 = u1 - u0;  // integral of u', then of s^k u', and of s^k u over h

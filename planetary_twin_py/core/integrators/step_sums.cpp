@@ -15,7 +15,7 @@ namespace gearbox {
 namespace {
 
 constexpr std::int64_t MOST_LOOKS = 129;  // room
-constexpr double NEAR = 0.02;  // of a step, by which it may end beside its last node
+constexpr double NEAR = 0.02;             // of a step, by which it may end beside its last node
 
 // Films at the nodes; at two of them without friction, as nothing else asks for them.
 template <int L>
@@ -172,7 +172,7 @@ struct Around {
 // Vertex of the parabola through three values, if it lies between them; else the middle one.
 template <int L>
 LAW Row<L> vertex(const Around& at, const double* before, const double* middle,
-                             const double* after) {
+                  const double* after) {
     using V = Row<L>;
     V here(middle), a = (V(before) - here) * at.lean, b = (V(after) - here) * at.rise;
     V curve = (b - a) * at.bend;
@@ -226,7 +226,7 @@ void sum_step(const Model& model, March& march) {
 std::int64_t even_intervals(const March& march, const Train& train, double h) {
     const Propagation& run = march.run;
     const ModalMotion& motion = run.motion;
-    const double(*reach)[MESHES] = run.known.states[motion.modes].reach;
+    const double (*reach)[MESHES] = run.known.states[motion.modes].reach;
     const double by_nodes = static_cast<double>(run.nodes.count);
     double fastest = 0.0;
     for (std::int64_t m = 0; m < train.lanes; ++m) {

@@ -3,8 +3,8 @@
 // Integrals and extremes of what the meshes show, over the last step.
 //
 // A step by collocation is read at its nodes, as its energy ledger is; where its meshes vibrate too
-// fast for them, transmission errors and forces are read at even times, by Simpson's rule. A step by
-// Rosenbrock's method is read at its ends, by trapezoids.
+// fast for them, transmission errors and forces are read at even times, by Simpson's rule. A step
+// by Rosenbrock's method is read at its ends, by trapezoids.
 
 #include "integrators/march_record.hpp"
 #include "train/model.hpp"

@@ -8,21 +8,21 @@ namespace gearbox {
 
 struct alignas(64) Look {
     std::int64_t count;
-    alignas(64) double at[129];  // [s] since its start
-    alignas(64) double weight[129];  // of a quadrature [s]
-    alignas(64) double d[129][16];  // [m]
+    alignas(64) double at[129];        // [s] since its start
+    alignas(64) double weight[129];    // of a quadrature [s]
+    alignas(64) double d[129][16];     // [m]
     alignas(64) double push[129][16];  // [N]
 };
 
 struct alignas(64) StepSums {
-    MeshSums step;  // over the last step
-    MeshSums part;  // over a part of it
+    MeshSums step;   // over the last step
+    MeshSums part;   // over a part of it
     MeshSums total;  // since it was taken, up to the start of the last step
-    double taken;  // of the last step [s]
+    double taken;    // of the last step [s]
     Look look;
-    bool stale;  // `rates` are not those of the start of the step
+    bool stale;                        // `rates` are not those of the start of the step
     alignas(64) double rates[12][16];  // by which the integrals grow at the end of a stiff step
-    alignas(64) double push[16];  // there [N]
+    alignas(64) double push[16];       // there [N]
 };
 
 }  // namespace gearbox

@@ -23,7 +23,7 @@ namespace {
 constexpr double STIFF = 3.0;  // by which errors count more
 // Of the tolerance: error of the share of friction of a pair that holds.
 constexpr double BRISTLE_SHARE = 1.0;
-constexpr double ROUNDING = 1e-15;  // [m/s] errors of a speed below it are none
+constexpr double ROUNDING = 1e-15;       // [m/s] errors of a speed below it are none
 constexpr std::int64_t EVALUATIONS = 4;  // of the equations in a step
 constexpr double ASTRAY = std::numeric_limits<double>::infinity();
 
@@ -40,8 +40,8 @@ void try_step(const Model& model, March& march, double h) {
     march.control.evaluations += EVALUATIONS;
 }
 
-// Largest local error of a mesh or of the speed of a body, relative to its tolerance. Infinite where
-// the step went astray: a comparison with NaN would let it pass.
+// Largest local error of a mesh or of the speed of a body, relative to its tolerance. Infinite
+// where the step went astray: a comparison with NaN would let it pass.
 double error_norm(const Model& model, const March& march) {
     const Train& train = model.train;
     const Workspace& work = march.work;

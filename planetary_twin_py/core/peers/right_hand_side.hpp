@@ -7,8 +7,8 @@
 // derivatives wherever a tooth pair or a flank changes, and its solver has to find that out.
 //
 // The state y holds x [m] of all bodies less that at the start, in a frame that turns uniformly at
-// the speeds the motors start with; then v [m/s] and the integral of each motor's speed error [rad],
-// so that nothing drifts and nothing that is much larger than it varies loosens a relative
+// the speeds the motors start with; then v [m/s] and the integral of each motor's speed error
+// [rad], so that nothing drifts and nothing that is much larger than it varies loosens a relative
 // tolerance.
 
 #include <cstdint>

@@ -4,12 +4,12 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "mesh/form_errors.hpp"
+#include "mesh/cycle.hpp"
 #include "mesh/deflection.hpp"
+#include "mesh/form_errors.hpp"
 #include "quasi_static/mesh_springs.hpp"
 #include "quasi_static/statics.hpp"
 #include "train/body_speed.hpp"
-#include "mesh/cycle.hpp"
 #include "train/equations.hpp"
 #include "train/observe.hpp"
 
@@ -21,8 +21,8 @@ constexpr int MOST_PASSES = 60;
 constexpr int BRISK_PASSES = 5;  // then oscillating friction is under-relaxed
 constexpr int FREE_PASSES = 20;  // then tooth pairs stay: at a jump of the stiffness they may not
                                  // come to rest
-constexpr double PLACE = 0.01;  // mesh cycles over which stiffness changes by as much as counts
-                                // for the tolerance
+constexpr double PLACE = 0.01;   // mesh cycles over which stiffness changes by as much as counts
+                                 // for the tolerance
 constexpr double LIGHTEST_FORCE = 1.0;  // [N] smaller forces do not tighten the tolerance further
 
 // Whether stiffness and play were those of the sides and tooth pairs that carry now.
@@ -96,8 +96,7 @@ Equilibrium first_guess(std::int64_t lean) {
     return run;
 }
 
-void settle(const Model& model, double tolerance, Equilibrium& run,
-            double (*shown)[MESHES]) {
+void settle(const Model& model, double tolerance, Equilibrium& run, double (*shown)[MESHES]) {
     const Train& train = model.train;
     State& state = run.state;
     bool kept = false;

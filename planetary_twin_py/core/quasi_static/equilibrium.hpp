@@ -4,9 +4,10 @@
 //
 // The motors keep their speeds, so along each rigid motion the load (and the second motor of a
 // differential) gives what friction, drag and the inertia of a changing speed leave to be given.
-// Tooth forces are those of bodies at rest in the frame that turns with the motors. Friction depends
-// on them and they on friction, by some hundredths: a few passes bring both together. All laws are
-// those of the dynamic model, applied to a state whose x squeezes every mesh by its static force.
+// Tooth forces are those of bodies at rest in the frame that turns with the motors. Friction
+// depends on them and they on friction, by some hundredths: a few passes bring both together. All
+// laws are those of the dynamic model, applied to a state whose x squeezes every mesh by its static
+// force.
 
 #include "quasi_static/equilibrium_record.hpp"
 #include "rooms.hpp"
@@ -31,7 +32,6 @@ Equilibrium first_guess(std::int64_t lean);
 // shown: (QUANTITIES, MESHES), see `observe`.
 //
 // Throws std::invalid_argument: there is no equilibrium, or it is not found.
-void settle(const Model& model, double tolerance, Equilibrium& run,
-            double (*shown)[MESHES]);
+void settle(const Model& model, double tolerance, Equilibrium& run, double (*shown)[MESHES]);
 
 }  // namespace gearbox

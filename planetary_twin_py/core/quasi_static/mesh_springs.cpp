@@ -4,12 +4,12 @@
 #include <cmath>
 #include <limits>
 
+#include "mesh/cycle.hpp"
+#include "mesh/deflection.hpp"
 #include "mesh/faults.hpp"
 #include "mesh/form_errors.hpp"
 #include "mesh/stiffness.hpp"
-#include "mesh/deflection.hpp"
 #include "quasi_static/equilibrium.hpp"
-#include "mesh/cycle.hpp"
 #include "train/set_step_constants.hpp"
 
 namespace gearbox {
@@ -21,7 +21,7 @@ constexpr double LEAST_STIFFNESS = 1e-9;  // of a healthy mesh whose only pair i
 // A spring and where it begins.
 struct Spring {
     double stiffness;  // [N/m]
-    double gap;  // missing material [m]
+    double gap;        // missing material [m]
 };
 
 // Side and tooth pairs of a mesh: an open one is where it would close.
@@ -30,8 +30,7 @@ void place_pairs(const Train& train, Equilibrium& run, std::int64_t i, double ra
     if (state.side[i] != OPEN) run.lean[i] = state.side[i];
     std::int64_t side = state.side[i] = run.lean[i];
     double cycle = mesh_cycle(train, state, i, side);
-    state.segment[i] =
-        find_segment(train, train.kind[i], cycle, std::copysign(1.0, side * rate));
+    state.segment[i] = find_segment(train, train.kind[i], cycle, std::copysign(1.0, side * rate));
 }
 
 // The pairs of mesh i that carry, as one spring: pair by pair, since each may have its faults.
@@ -75,8 +74,8 @@ void place_springs(const Model& model, Equilibrium& run) {
         // what a flank that does not carry stands off is positive.
         run.play[i][DRIVE_PLAY] = run.play[i][COAST_PLAY] = std::abs(play);
         run.play[i][carrying] = play;
-        Spring spring{
-            mesh_stiffness(train, train.kind[i], run.state.segment[i], step.start[i]), 0.0};
+        Spring spring{mesh_stiffness(train, train.kind[i], run.state.segment[i], step.start[i]),
+                      0.0};
         if (train.faults > 0) spring = faulty_spring(model, run, i, spring.stiffness);
         run.stiffness[i] = spring.stiffness;
         run.play[i][carrying] += spring.gap;

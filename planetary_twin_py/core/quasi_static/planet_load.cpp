@@ -10,9 +10,9 @@ constexpr double INFINITE = std::numeric_limits<double>::infinity();
 
 // Forces of all planets at one wind-up.
 struct Sum {
-    double force;  // [N]
+    double force;   // [N]
     double growth;  // [N/m]
-    double size;  // sum of magnitudes [N]
+    double size;    // sum of magnitudes [N]
 };
 
 Sum add_up(double total, std::int64_t planets, const Springs& springs, double w) {

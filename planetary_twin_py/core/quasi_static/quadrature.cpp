@@ -5,8 +5,8 @@
 #include <numbers>
 #include <stdexcept>
 
-#include "quasi_static/motion.hpp"
 #include "mesh/cycle.hpp"
+#include "quasi_static/motion.hpp"
 #include "train/set_step_constants.hpp"
 
 namespace gearbox {
@@ -15,17 +15,17 @@ namespace {
 
 constexpr std::size_t MOST_PANELS = 1024;
 constexpr double NARROWEST = 1e-10;  // of a mesh cycle: a panel about a jump of the stiffness
-constexpr double SHARE = 1.0 / 64;  // of the mesh cycle; a narrower panel may err as much
-constexpr double NOTHING = 1e-12;  // of the power of the first motor: less of a loss is none
+constexpr double SHARE = 1.0 / 64;   // of the mesh cycle; a narrower panel may err as much
+constexpr double NOTHING = 1e-12;    // of the power of the first motor: less of a loss is none
 constexpr double SHORTEST_PANEL = 1e-12, LONGEST_PANEL = 0.1;  // [s]
 constexpr double PER_RIPPLE = 8.0;  // panels at least to a cycle of the torque ripple
-constexpr double ON_EDGE = 1e-11;  // mesh cycles within which a panel counts as ended
+constexpr double ON_EDGE = 1e-11;   // mesh cycles within which a panel counts as ended
 constexpr double TURN = 2.0 * std::numbers::pi;
 
 using Totals = std::array<double, TOTALS>;
 using Peaks = std::array<double, PEAKS * MESHES>;
 
-double (*rows(Peaks& peaks))[MESHES] { return reinterpret_cast<double (*)[MESHES]>(peaks.data()); }
+double (*rows(Peaks& peaks)) [MESHES] { return reinterpret_cast<double (*)[MESHES]>(peaks.data()); }
 
 double lost(const Totals& energy) {
     return energy[FRICTION] + energy[BEARING] + energy[CHURNING];
@@ -90,8 +90,7 @@ double panel_length(const Model& model, const State& state, std::span<const doub
     double distance = to_next_edge(edges, frame_cycle(train, state, 1), sense);
     // distance = |rate| t + sense bend t^2/2
     double square = rate * rate + 2.0 * sense * bend * distance;
-    if (square >= 0.0)
-        step = std::min(step, 2.0 * distance / (std::abs(rate) + std::sqrt(square)));
+    if (square >= 0.0) step = std::min(step, 2.0 * distance / (std::abs(rate) + std::sqrt(square)));
     return step;
 }
 
@@ -110,9 +109,11 @@ void integrate(const Follower& follower, const State& origin, Span span, double*
     double half = 0.5 * (span.end - span.begin);
     std::fill(out, out + TOTALS, 0.0);
     for (int n = 0; n < PANEL_NODES; ++n) {
-        turn_to(follower.model, origin, span.begin + half * (1.0 + GAUSS_NODES[n]), follower.run.state);
+        turn_to(follower.model, origin, span.begin + half * (1.0 + GAUSS_NODES[n]),
+                follower.run.state);
         settle(follower.model, follower.tolerance, follower.run, follower.shown);
-        add_rates(train, follower.run.evaluation.power, follower.shown, half * GAUSS_WEIGHTS[n], out);
+        add_rates(train, follower.run.evaluation.power, follower.shown, half * GAUSS_WEIGHTS[n],
+                  out);
         see_node(train, follower.shown, n, peak);
     }
     see_ends(train, peak);
@@ -147,7 +148,7 @@ Panels divide_cycle(const Follower& follower, const State& origin, std::span<con
 }
 
 void follow(const Follower& follower, State& mark, std::span<const double> edges,
-           const Instant& until, bool stop, double* integral, double (*peak)[MESHES]) {
+            const Instant& until, bool stop, double* integral, double (*peak)[MESHES]) {
     Totals gain;
     while (true) {
         double length = std::max(panel_length(follower.model, mark, edges), SHORTEST_PANEL);

@@ -38,8 +38,8 @@ void integrate(const Follower& follower, const State& origin, Span span, double*
 
 // Panels of one mesh cycle.
 struct Panels {
-    std::vector<double> phase;  // edges, from 0 to 1
-    std::vector<std::array<double, TOTALS>> totals;  // up to them
+    std::vector<double> phase;                              // edges, from 0 to 1
+    std::vector<std::array<double, TOTALS>> totals;         // up to them
     std::vector<std::array<double, PEAKS * MESHES>> peaks;  // of the panel before each
 };
 
@@ -58,6 +58,6 @@ Panels divide_cycle(const Follower& follower, const State& origin, std::span<con
 // stop: whether to end where all speeds are those wanted.
 // integral, peak: which grow along.
 void follow(const Follower& follower, State& mark, std::span<const double> edges,
-           const Instant& until, bool stop, double* integral, double (*peak)[MESHES]);
+            const Instant& until, bool stop, double* integral, double (*peak)[MESHES]);
 
 }  // namespace gearbox

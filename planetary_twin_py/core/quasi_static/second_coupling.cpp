@@ -18,8 +18,8 @@ constexpr double RIGID = 1e9;  // times the stiffness: a coupling that friction 
 
 }  // namespace
 
-double steepest_torque(const Model& model, double tolerance, std::int64_t lean,
-                       const State& origin, const double* speed) {
+double steepest_torque(const Model& model, double tolerance, std::int64_t lean, const State& origin,
+                       const double* speed) {
     auto rigid = std::make_unique<Model>(model);
     rigid->train.coupling_stiffness[SECOND_MOTOR] *= RIGID;
     State begin = origin;

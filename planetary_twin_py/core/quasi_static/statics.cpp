@@ -24,7 +24,7 @@ void place_spring(const Train& train, Equilibrium& run, std::int64_t p) {
     steps[0] = -run.play[s][COAST_PLAY] - run.play[r][COAST_PLAY];
     steps[2] = run.play[s][DRIVE_PLAY] + run.play[r][DRIVE_PLAY];
     steps[1] = friction > 0.0 ? run.play[s][DRIVE_PLAY] - run.play[r][COAST_PLAY]
-                         : run.play[r][DRIVE_PLAY] - run.play[s][COAST_PLAY];
+                              : run.play[r][DRIVE_PLAY] - run.play[s][COAST_PLAY];
 }
 
 // Let the meshes be on the sides that their forces ask for.
@@ -81,14 +81,13 @@ void balance_torques(const Model& model, Equilibrium& run) {
     for (std::int64_t j = 0; j < train.bodies; ++j) {
         double speeding = 0.0;
         for (std::int64_t a = 0; a < axes; ++a) speeding += train.ratio[j][a] * run.step.slew[a];
-        run.external[j] =
-            run.evaluation.rubbing[j] - train.mass[j] * train.radius[j] * speeding;
+        run.external[j] = run.evaluation.rubbing[j] - train.mass[j] * train.radius[j] * speeding;
         for (std::int64_t a = 0; a < axes; ++a)
             run.balance[a] += train.ratio[j][a] * train.radius[j] * run.external[j];
     }
     double torque = load.torque[MOTOR];
-    torque += load.ripple *
-              std::sin(load.ripple_order * 2.0 * std::numbers::pi * run.state.fraction[0]);
+    torque +=
+        load.ripple * std::sin(load.ripple_order * 2.0 * std::numbers::pi * run.state.fraction[0]);
     for (std::int64_t a = 0; a < axes; ++a) torque += load.inertia[0][a] * run.step.slew[a];
     run.torque[MOTOR] = torque;
     std::int64_t loaded = train.coupling[LOAD_MACHINE][0];

@@ -5,9 +5,9 @@
 namespace gearbox {
 
 const double GAUSS_NODES[PANEL_NODES] = {-0.8611363115940526, -0.33998104358485626,
-                                   0.33998104358485626, 0.8611363115940526};
+                                         0.33998104358485626, 0.8611363115940526};
 const double GAUSS_WEIGHTS[PANEL_NODES] = {0.34785484513745357, 0.6521451548625464,
-                                     0.6521451548625464, 0.34785484513745357};
+                                           0.6521451548625464, 0.34785484513745357};
 
 namespace {
 
@@ -17,7 +17,9 @@ constexpr double ENDS[2][PANEL_NODES] = {
     {-0.11391719628198993, 0.40076152031165035, -0.813632449486927, 1.5267881254572662}};
 
 // The larger of two numbers, or NaN.
-double raise(double peak, double value) { return value <= peak ? peak : value; }
+double raise(double peak, double value) {
+    return value <= peak ? peak : value;
+}
 
 void see_value(double value, int row, int n, std::int64_t i, double (*peak)[MESHES]) {
     peak[row][i] = raise(peak[row][i], std::abs(value));

@@ -13,14 +13,14 @@ namespace gearbox {
 // A simulated instant.
 struct Instant {
     std::int64_t seconds;  // whole ones
-    double time;  // since then [s]
+    double time;           // since then [s]
 };
 
 // Where the next sample lies, and the distance between samples.
 struct Sampling {
     std::int64_t seconds;  // whole ones
-    std::int64_t ticks;  // since then
-    std::int64_t period;  // ticks
+    std::int64_t ticks;    // since then
+    std::int64_t period;   // ticks
     std::int64_t ticks_per_second;
 };
 

@@ -14,11 +14,11 @@ struct Samples {
     std::int64_t meshes;
     std::int64_t bodies;
     std::int64_t axes;
-    double* mesh;  // (rows, quantities, meshes)
+    double* mesh;   // (rows, quantities, meshes)
     double* turns;  // (rows, axes) whole turns of the motors
     double* angle;  // (rows, bodies) [rad]
     double* speed;  // (rows, bodies) [rad/s]
-    double* drag;  // (rows, SAMPLE_DRAGS) [W]
+    double* drag;   // (rows, SAMPLE_DRAGS) [W]
 
     double* mesh_row(std::int64_t row) const { return mesh + row * quantities * meshes; }
 };

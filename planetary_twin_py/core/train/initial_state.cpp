@@ -20,8 +20,8 @@ namespace gearbox {
 namespace {
 
 constexpr double ENDS[2] = {1.0, -1.0};  // of a coupling
-constexpr int CYCLE_POINTS = 64;  // places in the mesh cycle over which friction is averaged
-constexpr int BALANCING_PASSES = 12;  // each leaves some per cent of what friction was off by
+constexpr int CYCLE_POINTS = 64;         // places in the mesh cycle over which friction is averaged
+constexpr int BALANCING_PASSES = 12;     // each leaves some per cent of what friction was off by
 constexpr int SETTLING_PASSES = 3;  // the first winds up the couplings, the others find the tooth
                                     // pairs there
 
@@ -62,8 +62,8 @@ void yield_to_forces(Start& start) {
     Balance& balance = start.balance;
     std::fill(&balance.stiffness[0][0], &balance.stiffness[0][0] + BODIES * BODIES, 0.0);
     for (std::int64_t i = 0; i < train.meshes; ++i) {
-        double k = mesh_stiffness(train, train.kind[i], start.state.segment[i],
-                                  start.step.start[i]);
+        double k =
+            mesh_stiffness(train, train.kind[i], start.state.segment[i], start.step.start[i]);
         add_outer(balance.stiffness, train.body[i], train.sign[i], GEARS, train.copies[i] * k);
     }
     for (std::int64_t c = 0; c < train.machines; ++c)
@@ -103,8 +103,8 @@ void balance_mean_forces(Start& start) {
 
 // Choose x so that every mesh and coupling carries its mean load at the present motor angle.
 //
-// The couplings wind up by a good part of a mesh cycle, which moves the tooth pairs, whose stiffness
-// decides how far the meshes yield.
+// The couplings wind up by a good part of a mesh cycle, which moves the tooth pairs, whose
+// stiffness decides how far the meshes yield.
 void balance_at_angle(Start& start) {
     for (int n = 0; n < SETTLING_PASSES; ++n) {
         place_pairs(start);

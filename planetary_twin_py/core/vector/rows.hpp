@@ -51,24 +51,24 @@ struct Row {
     LAW Row& operator*=(const Row& other) { return *this = *this * other; }
 };
 
-#define ROW_ARITHMETIC(sign)                                                              \
-    template <int L>                                                                        \
-    LAW Row<L> operator sign(const Row<L>& a, const Row<L>& b) {             \
-        Row<L> out;                                                                       \
-        for (int k = 0; k < Row<L>::PARTS; ++k) out.part[k] = a.part[k] sign b.part[k];   \
-        return out;                                                                         \
-    }                                                                                       \
-    template <int L>                                                                        \
-    LAW Row<L> operator sign(const Row<L>& a, double b) {                      \
-        Row<L> out;                                                                       \
-        for (int k = 0; k < Row<L>::PARTS; ++k) out.part[k] = a.part[k] sign b;           \
-        return out;                                                                         \
-    }                                                                                       \
-    template <int L>                                                                        \
-    LAW Row<L> operator sign(double a, const Row<L>& b) {                      \
-        Row<L> out;                                                                       \
-        for (int k = 0; k < Row<L>::PARTS; ++k) out.part[k] = a sign b.part[k];           \
-        return out;                                                                         \
+#define ROW_ARITHMETIC(sign)                                                            \
+    template <int L>                                                                    \
+    LAW Row<L> operator sign(const Row<L>& a, const Row<L>& b) {                        \
+        Row<L> out;                                                                     \
+        for (int k = 0; k < Row<L>::PARTS; ++k) out.part[k] = a.part[k] sign b.part[k]; \
+        return out;                                                                     \
+    }                                                                                   \
+    template <int L>                                                                    \
+    LAW Row<L> operator sign(const Row<L>& a, double b) {                               \
+        Row<L> out;                                                                     \
+        for (int k = 0; k < Row<L>::PARTS; ++k) out.part[k] = a.part[k] sign b;         \
+        return out;                                                                     \
+    }                                                                                   \
+    template <int L>                                                                    \
+    LAW Row<L> operator sign(double a, const Row<L>& b) {                               \
+        Row<L> out;                                                                     \
+        for (int k = 0; k < Row<L>::PARTS; ++k) out.part[k] = a sign b.part[k];         \
+        return out;                                                                     \
     }
 ROW_ARITHMETIC(+)
 ROW_ARITHMETIC(-)
@@ -76,16 +76,16 @@ ROW_ARITHMETIC(*)
 ROW_ARITHMETIC(/)
 #undef ROW_ARITHMETIC
 
-#define ROW_COMPARISON(sign)                                                              \
-    template <int L>                                                                        \
-    LAW Mask<L> operator sign(const Row<L>& a, const Row<L>& b) {              \
-        Mask<L> out;                                                                        \
-        for (int k = 0; k < Row<L>::PARTS; ++k) out.part[k] = a.part[k] sign b.part[k];   \
-        return out;                                                                         \
-    }                                                                                       \
-    template <int L>                                                                        \
-    LAW Mask<L> operator sign(const Row<L>& a, double b) {                       \
-        return a sign Row<L>(b);                                                          \
+#define ROW_COMPARISON(sign)                                                            \
+    template <int L>                                                                    \
+    LAW Mask<L> operator sign(const Row<L>& a, const Row<L>& b) {                       \
+        Mask<L> out;                                                                    \
+        for (int k = 0; k < Row<L>::PARTS; ++k) out.part[k] = a.part[k] sign b.part[k]; \
+        return out;                                                                     \
+    }                                                                                   \
+    template <int L>                                                                    \
+    LAW Mask<L> operator sign(const Row<L>& a, double b) {                              \
+        return a sign Row<L>(b);                                                        \
     }
 ROW_COMPARISON(<)
 ROW_COMPARISON(>)
@@ -191,8 +191,8 @@ LAW void sum_rows(const double (*rows)[BODIES], const double* weights, double* o
 
 // The same for two vectors at once, which takes hardly longer than for one.
 template <int L>
-LAW void sum_rows_twice(const double (*rows)[BODIES], const double* first,
-                                 const double* second, double* out_first, double* out_second) {
+LAW void sum_rows_twice(const double (*rows)[BODIES], const double* first, const double* second,
+                        double* out_first, double* out_second) {
     Row<L> row(rows[0]), one = row * first[0], two = row * second[0];
     for (int m = 1; m < L; ++m) {
         row = Row<L>(rows[m]);
