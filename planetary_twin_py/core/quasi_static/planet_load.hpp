@@ -3,8 +3,9 @@
 // How planets share the load: each is a spring with play between sun and ring.
 //
 // The transmission errors of a planet's two meshes add up to w = x_s + x_r - 2 x_c, whatever the
-// planet does (2 differs where ring != sun + 2 planet), so one wind-up w squeezes all planets. The force F on the ring and F + R on the sun
-// (R: friction on the planet) follow from w by pieces of straight lines.
+// planet does (2 differs where ring != sun + 2 planet), so one wind-up w squeezes all planets. The
+// force F on the ring and F + R on the sun (R: friction on the planet) follow from w by pieces of
+// straight lines.
 
 #include <algorithm>
 #include <cmath>

@@ -52,7 +52,8 @@ void wind(const Train& train, Equilibrium& run, double w) {
         x[member] = -run.external[machine] / train.coupling_stiffness[c];
     }
     x[train.bodies] = 0.0;
-    double wound = x[train.sun] + x[train.body[planets][1]] + carrier_factor(train) * x[train.carrier];
+    double wound =
+        x[train.sun] + x[train.body[planets][1]] + carrier_factor(train) * x[train.carrier];
     x[loaded] = (w - wound) / (loaded == train.carrier ? carrier_factor(train) : 1.0);
 }
 

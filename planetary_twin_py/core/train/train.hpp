@@ -35,7 +35,7 @@ struct alignas(64) Train {
     alignas(64) double copies[MESHES];  // meshes alike that count in forces and powers on the train
     alignas(64) std::int64_t kind[MESHES];
     alignas(64) double phase[MESHES];  // delay in mesh cycles; whole cycles count teeth
-    double coast_lead[KINDS];  // mesh cycles by which coast flanks follow drive flanks
+    double coast_lead[KINDS];          // mesh cycles by which coast flanks follow drive flanks
     double stiffness[KINDS];           // of one tooth pair, about [N/m]
     double stiffness_base[KINDS];      // of the law of stiffness, see `tooth_pairs` [N/m]
     double stiffness_gain[KINDS];
