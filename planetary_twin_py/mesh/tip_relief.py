@@ -17,9 +17,10 @@ from typing import Literal, NamedTuple
 import numpy as np
 from numpy.polynomial import Polynomial
 
+from .._core import PAIRS, SEGMENTS, TERMS, TOTAL
 from ..gearset.geometry import PathOfContact
 from .stiffness import StiffnessLaw
-from .tooth_pairs import PAIRS, SEGMENTS, TERMS, TOTAL, PairTable, pair_table
+from .tooth_pairs import PairTable, pair_table
 
 PATH_CORNERS = 6  # ends of the cycle, of the path, and of its ramps
 SAMPLES = 65  # of a segment, between which a pair comes into contact at most once
