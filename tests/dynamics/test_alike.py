@@ -97,7 +97,13 @@ def assert_alike(one, every):
     for name in ("bearing_loss", "churning_loss"):
         assert getattr(one, name) == pytest.approx(getattr(every, name), rel=TOLERANCE)
     allowed = 2.0 * TOLERANCE * every.energy.put_in
-    for name in ("kinetic", "elastic", "friction", "damping", "bearing", "churning", "output"):
+    # Ledgers end with the last step, which may end a little later in one of the runs.
+    longer = every.duration / one.duration
+    assert longer == pytest.approx(1.0, abs=1e-3)
+    for name in ("friction", "damping", "bearing", "churning", "output"):
+        mine, full = getattr(one.energy, name), getattr(every.energy, name)
+        assert mine * longer == pytest.approx(full, abs=allowed), name
+    for name in ("kinetic", "elastic"):
         mine, full = getattr(one.energy, name), getattr(every.energy, name)
         assert mine == pytest.approx(full, abs=allowed), name
     assert one.energy.stiffness_work == pytest.approx(every.energy.stiffness_work, abs=allowed)

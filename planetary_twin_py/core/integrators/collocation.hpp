@@ -18,7 +18,7 @@
 namespace gearbox {
 
 inline constexpr int MOST_SWEEPS = 6;
-inline constexpr double LEFT_OVER = 0.3;  // of the tolerance that a sweep not made may leave
+inline constexpr double LEFT_OVER = 0.1;  // of the tolerance that a sweep not made may leave
 // Pull of a sweep beyond which a shorter step or another method is called for.
 inline constexpr double WEAKEST_PULL = 0.5;
 inline constexpr double CLOSE = 0.1;  // of that, below which the next passage is predicted too

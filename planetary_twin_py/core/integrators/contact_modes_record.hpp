@@ -50,9 +50,9 @@ struct alignas(64) ContactState {
     alignas(64) double shaft_damping[BODIES];    // c of the couplings [1/s]
     alignas(64) double mesh_damping[2][BODIES];  // c/tau of each kind of mesh [1/s^2]
     // Free waves at the nodes of the first step in such a state, and what they were computed for.
-    double tau[2];                       // damping times of both kinds of mesh [s]
-    double waves_step;                   // length of the step, 0: none yet [s]
-    std::int64_t waves_nodes;            // and its nodes
+    double tau[2] = {-1.0, -1.0};  // damping times of both kinds of mesh, below 0: none yet [s]
+    double waves_step;             // length of the step, 0: none yet [s]
+    std::int64_t waves_nodes;      // and its nodes
     alignas(64) double damping[BODIES];  // c [1/s], and the decay rates of these
     alignas(64) double rate[BODIES];
     alignas(64) double slow[BODIES];
