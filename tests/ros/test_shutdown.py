@@ -68,23 +68,6 @@ def ask(peer: Peer, kind: type, service: str, request: object) -> None:
     client.call_async(request)
 
 
-@pytest.mark.parametrize(
-    "number", [signal.SIGINT, pytest.param(signal.SIGTERM, marks=pytest.mark.exhaustive)]
-)
-def test_a_signal_while_the_model_is_built_ends_the_node_at_once(
-    start: Start, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, number: signal.Signals
-) -> None:
-    # With nothing compiled yet, building takes far longer than the node may take to end.
-    monkeypatch.setenv("NUMBA_CACHE_DIR", str(tmp_path / "compiled"))
-    process = start("planetary_twin.simulation")
-    deadline = time.monotonic() + 120.0
-    while not any((tmp_path / "compiled").rglob("*.nbi")):
-        assert time.monotonic() < deadline and process.poll() is None
-        time.sleep(0.02)
-    twice(process, number)
-    ended_well(process)
-
-
 @pytest.mark.parametrize("name", ["simulation", "logger"])
 def test_a_signal_while_a_node_loads_ends_it_without_output(
     domain: int, tmp_path: Path, name: str

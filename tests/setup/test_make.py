@@ -65,6 +65,7 @@ def test_second_setup_does_nothing():
             "requirements.lock",
             {
                 "tools/make_venv",
+                "tools/install_model",
                 "tools/build_interfaces",
                 ".venv/bin/uv",
                 "tools/build_core",
@@ -95,7 +96,7 @@ def test_python_that_does_not_run_is_refused_in_one_line(fresh):
     assert_refused_in_one_line(result, fresh, "/nonexistent/python does not run")
 
 
-@pytest.mark.parametrize(("variable", "language"), [("CC", "C "), ("CXX", "C++ ")])
+@pytest.mark.parametrize(("variable", "language"), [("CC", "C "), ("CXX", "C++20 ")])
 def test_missing_compiler_is_refused_in_one_line(fresh, variable, language):
     result = make("setup", directory=fresh, **{variable: "/nonexistent/compiler"})
     assert_refused_in_one_line(result, fresh, language + "compiler", variable, "apt install")

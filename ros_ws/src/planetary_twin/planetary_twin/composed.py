@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import sys
+from functools import partial
 
 from .logger import Logger
 from .managed import run_nodes
@@ -10,8 +11,10 @@ from .simulation import Simulation
 
 
 def main(args: list[str] | None = None) -> int:
-    """Run both nodes until a signal; the logger starts first, so that it misses nothing."""
-    return run_nodes({"logger": Logger, "simulation": Simulation}, args)
+    """Run both nodes until a signal; the simulation waits until the logger has subscribed."""
+    return run_nodes(
+        {"logger": Logger, "simulation": partial(Simulation, {"wait_for": "logger"})}, args
+    )
 
 
 if __name__ == "__main__":

@@ -8,6 +8,7 @@ import sys
 import traceback
 from collections.abc import Mapping
 from concurrent.futures import Future
+from typing import Any
 
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
 from planetary_twin_msgs.srv import NaturalModes, SetOperatingPoint
@@ -43,8 +44,8 @@ _SWITCH_INTERVAL = 2e-4  # [s]
 class Simulation(ManagedNode):
     """Runs a scene in real time: configure builds it, activate runs it, deactivate pauses it."""
 
-    def __init__(self) -> None:
-        super().__init__("simulation")
+    def __init__(self, given: Mapping[str, Any] | None = None) -> None:
+        super().__init__("simulation", given)
         self._twin: pt.Twin | None = None
         self._live: LiveTwin | None = None
         self._report: RealTimeReport | None = None
