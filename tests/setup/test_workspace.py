@@ -5,9 +5,12 @@ import subprocess
 import sys
 from pathlib import Path
 
+import pytest
+
 ROOT = Path(__file__).parents[2]
 
 
+@pytest.mark.exhaustive  # compiles the core once more
 def test_the_linked_model_is_installed_with_its_scenes(tmp_path):
     venv = Path(sys.prefix)
     tools = {"PATH": f"{venv / 'bin'}:{os.environ['PATH']}"}
