@@ -78,12 +78,12 @@ def test_dop853_reports_success_and_returns_garbage(rattle, tolerance):
 
 @pytest.mark.exhaustive
 def test_dop853_returns_garbage_at_a_tight_tolerance_too():
-    """From which start it does so hangs on the last digits; everywhere it is far off."""
+    """From which start hangs on the last digits; everywhere it is off by 500 tolerances or more."""
     outcomes = [Rattle(begin, 6e-3).peer("DOP853", 1e-4) for begin in (0.02, 0.021, 0.022, 0.023)]
     assert all(success for success, _ in outcomes)
     errors = [error for _, error in outcomes]
     assert not max(errors) < 1.0
-    assert not min(errors) < 1000.0 * 1e-4
+    assert not min(errors) < 500.0 * 1e-4
 
 
 @pytest.mark.parametrize("method", ["RK45", "LSODA", "BDF"])
