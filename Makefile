@@ -28,7 +28,7 @@ run: setup
 PYTEST := $(BIN)/pytest --quiet --numprocesses=3 --dist=loadfile
 
 test:
-	@echo "lint, then tests of every feature: about 8 minutes on 2 idle cores"
+	@echo "lint, then tests of every feature: about 7 minutes on 2 idle cores"
 	@$(MAKE) --no-print-directory lint
 	$(PYTEST) -m "not exhaustive" --ignore=tests/ros/test_soak.py $(ARGS)
 
