@@ -64,7 +64,7 @@ class Cost(NamedTuple):
     speed: Speed
 
 
-# Lines of a table: what is told, and what measures it.
+# Lines of a table: what is reported, and the function that measures it.
 _Entries = Iterator[tuple[str, Callable[[], Speed]]]
 
 

@@ -67,7 +67,7 @@ def measure(
     Args:
         cases: what to measure.
         tolerances: each gives a row of every method.
-        progress: is told what is under way.
+        progress: receives the name of what is being measured.
         beside: gives further rows.
         methods: of `Engine`.
     """

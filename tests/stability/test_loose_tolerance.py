@@ -76,14 +76,25 @@ def test_dop853_reports_success_and_returns_garbage(rattle, tolerance):
     assert not error < 1.0  # as large as the motion itself
 
 
+STARTS = (0.02, 0.021, 0.022, 0.023)
+
+
+@pytest.fixture(scope="module")
+def dop853_at_1e4():
+    return [Rattle(begin, 6e-3).peer("DOP853", 1e-4) for begin in STARTS]
+
+
 @pytest.mark.exhaustive
-def test_dop853_returns_garbage_at_a_tight_tolerance_too():
-    """From which start hangs on the last digits; everywhere it is off by 500 tolerances or more."""
-    outcomes = [Rattle(begin, 6e-3).peer("DOP853", 1e-4) for begin in (0.02, 0.021, 0.022, 0.023)]
-    assert all(success for success, _ in outcomes)
-    errors = [error for _, error in outcomes]
-    assert not max(errors) < 1.0
-    assert not min(errors) < 500.0 * 1e-4
+def test_dop853_returns_garbage_at_a_tight_tolerance_too(dop853_at_1e4):
+    """From which start it does so depends on the last digits."""
+    assert all(success for success, _ in dop853_at_1e4)
+    assert not max(error for _, error in dop853_at_1e4) < 1.0
+
+
+@pytest.mark.exhaustive
+@pytest.mark.xfail(strict=True, reason="from one of the starts it is off by 696 tolerances")
+def test_dop853_is_off_by_a_thousand_tolerances_from_every_start(dop853_at_1e4):
+    assert not min(error for _, error in dop853_at_1e4) < 1000.0 * 1e-4
 
 
 @pytest.mark.parametrize("method", ["RK45", "LSODA", "BDF"])

@@ -88,7 +88,7 @@ def cvode(setting: Setting) -> Iterator[Solver]:
         context = _POINTER()
         _check(lib.SUNContext_Create(NO_COMMUNICATOR, ctypes.byref(context)), "SUNContext_Create")
         held.callback(lib.SUNContext_Free, ctypes.byref(context))
-        lib.SUNContext_ClearErrHandlers(context)  # failures are told by what CVode returns
+        lib.SUNContext_ClearErrHandlers(context)  # the return value of CVode reports failures
         vector = _vector(held, y, context)
         memory = lib.CVodeCreate(setting.method, context)
         held.callback(lib.CVodeFree, ctypes.byref(_POINTER(memory)))

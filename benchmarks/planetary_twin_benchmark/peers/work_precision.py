@@ -24,7 +24,7 @@ def peer_rows(
     tolerances: Iterable[float] = TOLERANCES,
     names: Iterable[str] = tuple(SOLVERS),
 ) -> Beside:
-    """What gives the rows of the peers `names`; `progress` is told what is under way."""
+    """What gives the rows of the peers `names`; `progress` receives what is being measured."""
     tolerances, names = sorted(tolerances, reverse=True), list(names)
 
     def rows(case: Case, reference: np.ndarray) -> Iterator[Row]:
