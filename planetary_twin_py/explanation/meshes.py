@@ -31,12 +31,14 @@ class MeshFigures(NamedTuple):
     single_stiffness: float  # of one pair, about the pitch point [N/m]
     mean_stiffness: float  # over the mesh cycle [N/m]
     natural_frequency: float  # of the two gears alone, with one pair in contact [Hz]
-    damping_ratio: float  # of that mode at the operating point [-]
+    damping_ratio: float  # of this mode at the operating point [-]
     static_force: float  # mean under the torque of the operating point, without friction [N]
-    pitch_pressure: float  # largest Hertz pressure at the pitch point, that force on one pair [Pa]
+    pitch_pressure: (
+        float  # largest Hertz pressure at the pitch point, static force on one pair [Pa]
+    )
     loss_factor: float  # H_v (Ohlendorf 1958): relative loss = H_v times friction coefficient [-]
     backlash: float  # total, along the line of action [m]
-    friction: float  # coefficient by the laws of the scene, that force on one pair [-]
+    friction: float  # coefficient by the laws of the scene, static force on one pair [-]
     friction_eyring: float  # the same with this law of viscous friction [-]
     friction_evans_johnson: float
     friction_schlenk: float  # regression of measured gear losses, includes boundary friction

@@ -7,6 +7,7 @@ from typing import Any, NamedTuple
 
 from ..dynamics.stiffness_laws import stiffness_laws
 from ..scene import Scene
+from .axes import meaning_of_held_axes
 
 
 class Term(NamedTuple):
@@ -25,10 +26,6 @@ class Limit(NamedTuple):
 
 
 NOT_MODELLED = (
-    Limit(
-        "translation of axes",
-        "gears and carrier rotate about rigid axes: no bearing loads, no orbits",
-    ),
     Limit("tilting, axial motion", "only in `modal --model spatial`; no face load distribution"),
     Limit(
         "flexibility of carrier, ring and shafts",
@@ -55,7 +52,8 @@ def limits(scene: Scene) -> tuple[Limit, ...]:
     """Limits of the model that apply to `scene`."""
     statics = (STATICS_ONLY,) if scene.dynamics == "quasi_static" else ()
     helix = (HELIX,) if scene.gearset.helix_angle != 0.0 else ()
-    return (*statics, *helix, *NOT_MODELLED)
+    axes = Limit("translation of axes", meaning_of_held_axes(scene))
+    return (*statics, *helix, axes, *NOT_MODELLED)
 
 
 def terms(scene: Scene) -> tuple[Term, ...]:
@@ -142,6 +140,13 @@ def _runout(scene: Scene) -> Term | None:
     if runout.sun == runout.planet == runout.ring == 0.0:
         return None
     return Term("runout", "once per turn of each gear", {"mesh.runout": {}})
+
+
+def _positions(scene: Scene) -> Term | None:
+    errors, planets = scene.errors, range(scene.gearset.planets)
+    if not (errors.of_axes or any(any(errors.of_planet(i)[:3]) for i in planets)):
+        return None
+    return Term("errors of position", "pins, teeth and axes off their places", {"errors": {}})
 
 
 def _damping(scene: Scene) -> Term | None:

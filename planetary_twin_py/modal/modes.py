@@ -28,7 +28,8 @@ class NaturalModes(NamedTuple):
     frequencies: np.ndarray
     """[Hz], ascending, (modes,)."""
     shapes: np.ndarray
-    """Mode shapes in columns, mass-normalised [kg^-1/2], (coordinates, modes)."""
+    """Mode shapes in columns, mass-normalised [kg^-1/2], (coordinates, modes); complex if the
+    carrier turns."""
     kinds: tuple[str, ...]
     """"rigid", "planet", "rotational", "translational" or "mixed" (Lin and Parker 1999)."""
     coordinates: tuple[str, ...]
@@ -58,10 +59,24 @@ def modes_of(model: SpringModel) -> NaturalModes:
     _, speeds, shapes = svd(weighted @ basis[:, rigid:], full_matrices=False)
     vectors = np.hstack([basis[:, :rigid], basis[:, rigid:] @ shapes[::-1].T])
     frequencies = np.append(np.zeros(rigid), speeds[::-1]) / (2.0 * np.pi)
+    return classified(model.coordinates, vectors, scale, frequencies)
+
+
+def classified(
+    coordinates: tuple[str, ...], vectors: np.ndarray, scale: np.ndarray, frequencies: np.ndarray
+) -> NaturalModes:
+    """Modes with their kinds.
+
+    Args:
+        coordinates: names, (coordinates,).
+        vectors: shapes in coordinates of unit mass, of unit length, (coordinates, modes).
+        scale: displacement over that in coordinates of unit mass [kg^-1/2], (coordinates,).
+        frequencies: ascending [Hz], (modes,).
+    """
     kinds: list[str] = []
     for cluster in clusters(frequencies):
-        kinds += _kinds(model.coordinates, vectors[:, cluster], frequencies[cluster.start])
-    return NaturalModes(frequencies, vectors * scale[:, None], tuple(kinds), model.coordinates)
+        kinds += _kinds(coordinates, vectors[:, cluster], frequencies[cluster.start])
+    return NaturalModes(frequencies, vectors * scale[:, None], tuple(kinds), coordinates)
 
 
 def clusters(frequencies: np.ndarray) -> list[slice]:
@@ -102,4 +117,4 @@ def _kinds(coordinates: tuple[str, ...], vectors: np.ndarray, frequency: float) 
 def _gram(vectors: np.ndarray, wanted: list[bool]) -> np.ndarray:
     """Scalar products of the modes over the wanted coordinates."""
     part = vectors[np.array(wanted, dtype=bool)]
-    return part.T @ part
+    return part.conj().T @ part

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 
+from ..dynamics.bodies import rigid_ratios
 from ..scene import Scene, SceneError
 from ..scene.supports import Support, Supports
 from .mesh_stiffness import MeshStiffness, mesh_stiffness
@@ -13,14 +14,16 @@ from .printed import PrintedSet, printed_model
 from .spatial import SpatialBody, SpatialSet, spatial_model
 from .springs import SpringModel
 from .torsional import torsional_model
+from .turning import turning_modes, turning_terms
 
+MOVING_AXES = ("planar", "spatial")
 MODELS = ("torsional", "machines", "printed", "planar", "spatial")
 
 
 def natural_modes(
-    scene: Scene, model: str = "torsional", stiffness: str = "single"
+    scene: Scene, model: str = "torsional", stiffness: str = "single", input_speed: float = 0.0
 ) -> NaturalModes:
-    """Natural modes of a scene at rest, without damping.
+    """Natural modes of a scene without damping, at rest or turning at a constant speed.
 
     Args:
         scene: the scene.
@@ -30,6 +33,9 @@ def natural_modes(
             require `scene.supports`.
         stiffness: of every mesh. "single": one tooth pair is in contact; "mean": mean over the
             mesh cycle, which gives the modes at which a simulation resonates.
+        input_speed: of the first motor [rad/s]. For the models planar and spatial, the frequencies
+            are those in the frame of the carrier, with gyroscopic and centripetal terms (Lin and
+            Parker 1999). It has no effect in the others.
 
     Returns:
         Frequencies [Hz] (modes,), mass-normalised shapes [kg^-1/2] (coordinates, modes), and kinds
@@ -37,9 +43,15 @@ def natural_modes(
 
     Raises:
         ValueError: the model or the stiffness is unknown, the scene lacks data of the model, or the
-            stiffness is "mean" and at times no tooth pair is in contact.
+            stiffness is "mean" and at times no tooth pair is in contact; or centrifugal forces
+            exceed the stiffness of bearings.
     """
-    return modes_of(spring_model(scene, model, stiffness))
+    springs = spring_model(scene, model, stiffness)
+    if input_speed == 0.0 or model not in MOVING_AXES:
+        return modes_of(springs)
+    speeds = {kind: input_speed * float(ratio[0]) for kind, ratio in rigid_ratios(scene).items()}
+    angles = scene.gearset.planet_angles
+    return turning_modes(springs, turning_terms(springs, speeds["carrier"], speeds, angles))
 
 
 def spring_model(scene: Scene, model: str = "torsional", stiffness: str = "single") -> SpringModel:

@@ -4,7 +4,7 @@ It is the model that eqs. (20)-(31) of Salagianni et al. 2017 intend. The coordi
 its displacements x, y and z, tilts w_x and w_y, and rotation u; the last three are arc lengths at
 its base radius, for the carrier at the radius of the planet centres. The deformation of a spring
 follows from the displacements of both bodies at their contact point, so a rigid motion of the
-unsupported gearset deforms no spring at any helix angle. There are no gyroscopic terms.
+unsupported gearset deforms no spring at any helix angle. Gyroscopic terms are in `turning`.
 """
 
 from __future__ import annotations

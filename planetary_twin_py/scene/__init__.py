@@ -1,5 +1,6 @@
 """Scenes: schema, packaged scenes and the operating point."""
 
+from .friction_table import friction_table
 from .operating_point import TUNABLES, OperatingPoint, Tunable
 from .quantity import SceneError
 from .scene import Scene, load_scene, packaged_scenes, parse_scene
@@ -10,6 +11,7 @@ __all__ = [
     "Scene",
     "SceneError",
     "Tunable",
+    "friction_table",
     "load_scene",
     "packaged_scenes",
     "parse_scene",

@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from typing import Literal
+from typing import Literal, Self
 
-from pydantic import Field
+from pydantic import Field, model_validator
 
+from .friction_table import FrictionTable
 from .quantity import Section, quantity
 
 
@@ -35,11 +36,14 @@ class Lubrication(Section):
     boundary: Literal["greenwood_tripp", "load_sharing"] = Field(
         "load_sharing", description="law of boundary friction"
     )
-    traction: Literal["eyring", "evans_johnson", "printed", "schlenk"] = Field(
+    traction: Literal["eyring", "evans_johnson", "printed", "schlenk", "table"] = Field(
         "eyring",
         description="law of viscous friction; eyring: shear-thinning film up to its limiting "
         "stress; evans_johnson: plateau under heavy load; printed: (12) of Salagianni et al.; "
-        "schlenk: regression of gear losses, includes boundary friction",
+        "schlenk: regression of gear losses, includes boundary friction; table: friction_table",
+    )
+    friction_table: FrictionTable | None = Field(
+        None, description="friction coefficient over its quantities, for traction: table"
     )
     modulus: Literal["by_equation", "printed"] = Field(
         "by_equation", description="by_equation: E* in (11), 2 E* in (13) and (15)"
@@ -112,3 +116,9 @@ class Lubrication(Section):
         ge=1e-9,
         le=1e-4,
     )
+
+    @model_validator(mode="after")
+    def _has_its_table(self) -> Self:
+        if self.traction == "table" and self.friction_table is None:
+            raise ValueError("traction = 'table': requires friction_table")
+        return self

@@ -13,6 +13,7 @@ from pydantic import Field, TypeAdapter, ValidationError, model_validator
 from ..printable import one_line
 from .defect import explain
 from .drive import Drive
+from .errors import Errors
 from .faults import MOST_FAULTS, Crack, Fault
 from .gearset import FIELDS_ALONE, Gearset
 from .losses import Losses
@@ -55,6 +56,9 @@ class Scene(Section):
     supports: Supports | None = Field(
         None, description="masses and bearings, for planar and spatial natural modes"
     )
+    errors: Errors = Field(
+        Errors(), description="deviations of gears and carrier, which make planets differ"
+    )
     faults: tuple[Fault, ...] = Field((), max_length=MOST_FAULTS, description="faulty teeth")
 
     @model_validator(mode="after")
@@ -70,6 +74,7 @@ class Scene(Section):
         yield from self._faulty_teeth()
         yield from self._play()
         yield from self._relief()
+        yield from self._errors_of_planets()
 
     def _machines(self) -> Iterator[str]:
         """Errors of the drive: a machine on the fixed member, or a wrong number of inputs."""
@@ -138,6 +143,18 @@ class Scene(Section):
                         f"mesh.tip_relief.{name}.length = {relief.length:g}: must be at most "
                         f"{longest:.4g} m, the path of contact of {' and '.join(mesh.names)}"
                     )
+
+    def _errors_of_planets(self) -> Iterator[str]:
+        """Errors of lists that have no entry for each planet."""
+        planets = self.gearset.planets
+        for name in (
+            "pin_radial", "pin_tangential", "planet_thickness", "planet_runout_phases",
+        ):  # fmt: skip
+            count = len(getattr(self.errors, name))
+            if count not in (0, planets):
+                yield f"errors.{name}: has {count} entries: must have {planets}, one a planet"
+        if self.errors.of_axes and self.gearset.held == "none":
+            yield "errors: ring_offset and carrier_offset require a fixed member (gearset.held)"
 
     def _least_deflection(self) -> float:
         """Deflection [m] of the stiffer meshes under the least torque, all pairs in contact."""

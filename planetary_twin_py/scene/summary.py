@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from ..engineering_units import figure
 from ..units import customary
 from .scene import Scene
 
@@ -34,6 +35,6 @@ def operating_point(scene: Scene) -> Iterator[str]:
     yield f"input speed {customary(point.input_speed, 'rad/s')}"
     if scene.drive.second_input is not None:
         yield f"second input speed {customary(point.second_input_speed, 'rad/s')}"
-    yield f"input torque {point.input_torque:.4g} N m"
+    yield f"input torque {figure(point.input_torque, 'N m')}"
     yield f"backlash {customary(point.backlash, 'm')}"
     yield f"oil {customary(point.oil_temperature, 'K')}"

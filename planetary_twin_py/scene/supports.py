@@ -15,6 +15,7 @@ class Support(Section):
         "kg", "diametral inertia I/r^2; default: half of J/r^2", None, gt=0.0, le=1e7
     )
     bearing: float = quantity("N/m", "radial bearing stiffness", ge=0.0, le=1e14)
+    clearance: float = quantity("m", "radial clearance of the bearing", 0.0, ge=0.0, le=1e-2)
     axial: float = quantity("N/m", "axial bearing stiffness", 0.0, ge=0.0, le=1e14)
     tilting: float = quantity("N/m", "tilting stiffness: moment/angle/r^2", 0.0, ge=0.0, le=1e14)
     torsion: float = quantity("N/m", "torsional stiffness: torque/angle/r^2", 0.0, ge=0.0, le=1e14)

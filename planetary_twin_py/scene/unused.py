@@ -6,7 +6,7 @@ from collections.abc import Iterable, Iterator
 
 from .scene import Scene
 
-_UNUSED_BY_SCHLENK = (
+_UNUSED_WITHOUT_BOUNDARY = (
     "lubrication.boundary",
     "lubrication.boundary_coefficient",
     "lubrication.limiting_stress",
@@ -30,10 +30,15 @@ def not_in_use(scene: Scene, name: str) -> str | None:
             "the scene computes it (lubrication.lambda_ratio = computed); "
             "set lubrication.lambda_ratio = prescribed to prescribe it"
         )
-    if scene.lubrication.traction == "schlenk" and plain in _UNUSED_BY_SCHLENK:
-        return "lubrication.traction = schlenk includes boundary friction"
+    traction = scene.lubrication.traction
+    if traction in ("schlenk", "table") and plain in _UNUSED_WITHOUT_BOUNDARY:
+        return f"lubrication.traction = {traction} includes boundary friction"
+    if traction != "table" and plain.startswith("lubrication.friction_table"):
+        return f"lubrication.traction = {traction}; set lubrication.traction = table to use it"
     if plain == "second_input_speed" and scene.drive.second_input is None:
         return "the scene has no second input"
+    if plain.startswith("supports."):
+        return "runs hold the axes; see the commands load-sharing and modal"
     held = scene.gearset.held
     if plain.startswith((f"losses.{held}_bearing", f"losses.{held}_drag")):
         return f"this member is fixed (gearset.held = {held})"

@@ -74,7 +74,7 @@ def test_what_leaving_friction_out_changes_is_what_two_runs_differ_by():
 
 @pytest.mark.parametrize("name", ["paper", "wind_turbine_stage", "lightly_loaded"])
 def test_explain_and_simulate_tell_the_same_figures_of_the_same_run(name):
-    told = [
+    explained = [
         json.loads(CliRunner().invoke(build_app(), [*command, "--json", "-"]).stdout)
         for command in (
             ["explain", name, "--duration", "0.01"],
@@ -89,8 +89,8 @@ def test_explain_and_simulate_tell_the_same_figures_of_the_same_run(name):
         "mesh_force_mean": "mean_mesh_force_N",
         "mesh_force_peak": "mesh_force_peak_N",
     }
-    assert told[0]["scene"] == {mine: told[1][its] for mine, its in names.items()}
-    assert told[0]["remarks"] == told[1]["remarks"]
+    assert explained[0]["scene"] == {mine: explained[1][its] for mine, its in names.items()}
+    assert explained[0]["remarks"] == explained[1]["remarks"]
 
 
 def test_a_crack_shows_in_the_peaks_of_a_turn_that_means_do_not_show():
@@ -110,8 +110,8 @@ def test_a_value_and_its_unit_stand_in_one_line():
         env={"COLUMNS": "80"},
     )
     lines = [line.strip() for line in shown.output.splitlines()]
-    assert "input torque 4.18e+06 N m" in lines
-    assert any(line.startswith("power loss") and line.endswith(" W") for line in lines)
+    assert "input torque 4180 kN m" in lines
+    assert any(line.startswith("power loss") and line.endswith(" kW") for line in lines)
 
 
 def test_the_command_prints_terms_and_limits_and_figures_for_machines():
@@ -136,19 +136,22 @@ def test_meshes_are_shown_before_the_terms_with_units():
         if line.startswith("│")
     )
     figures = describe_meshes(pt.load_scene("paper"))
-    assert len(rows) == len(figures.sun_planet) and all(label.endswith("]") for label in rows)
-    assert rows["damping ratio of that mode [-]"].split() == [
+    assert len(rows) == len(figures.sun_planet)
+    assert rows["damping ratio of this mode"].split() == [
         f"{figures.sun_planet.damping_ratio:.4g}",
         "│",
         f"{figures.planet_ring.damping_ratio:.4g}",
     ]
+    pressures = (f"{1e-6 * mesh.pitch_pressure:.4g} MPa" for mesh in figures[1:])
+    (pressure,) = (row for label, row in rows.items() if label.startswith("Hertz pressure"))
+    assert [cell.strip() for cell in pressure.split("│")] == list(pressures)
     captions = [line.strip() for line in before.splitlines()]
     for caption in ("mesh frequency f_m 500 Hz", "input speed 1000 rpm", "input torque 63 N m"):
         assert caption in captions
     assert "the change of results without each" in after
 
 
-def test_a_scene_without_a_description_is_told_by_its_name_alone(tmp_path):
+def test_a_scene_without_a_description_is_shown_by_its_name_only(tmp_path):
     file = tmp_path / "my.yaml"
     file.write_text('base: paper\nname: my\ndescription: ""\n')
     done = CliRunner().invoke(build_app(), ["explain", str(file), "--duration", "0.005"])

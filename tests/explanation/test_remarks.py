@@ -1,4 +1,4 @@
-"""Viscous friction that is clipped to zero is told: runs of known loads, and samples made here."""
+"""Viscous friction that is clipped to zero is reported: known loads, and samples made here."""
 
 from dataclasses import replace
 
@@ -29,7 +29,7 @@ def test_a_heavy_load_has_viscous_friction_throughout(heavy):
 
 
 @pytest.mark.parametrize("dynamics", ["torsional", "quasi_static"])
-def test_a_light_load_has_none_and_that_is_told(dynamics):
+def test_a_light_load_has_none_and_that_is_reported(dynamics):
     scene = LIGHT.replace(dynamics=dynamics)
     run = pt.simulate(scene, 0.01)
     assert run.boundary_friction.max() > 0.0
@@ -38,7 +38,7 @@ def test_a_light_load_has_none_and_that_is_told(dynamics):
     assert "for 100 % (sun-planet meshes) and 100 % (planet-ring meshes) of the time" in line
 
 
-def test_only_the_kind_of_mesh_that_is_clipped_is_told(heavy):
+def test_only_the_kind_of_mesh_that_is_clipped_is_reported(heavy):
     """A fifth of the time of one of three ring meshes."""
     without = np.array([0.0, 0.0, 0.0, 0.2, 0.0, 0.0])
     scene, run = HEAVY, replace(heavy, mesh=heavy.mesh | {"without_viscous": without})
@@ -58,13 +58,13 @@ def test_teeth_that_have_parted_are_not_clipped(heavy):
     assert set(clipped_friction(HEAVY, replace(heavy, mesh=heavy.mesh | parted)).values()) == {0.0}
 
 
-def test_neither_a_scene_without_friction_nor_the_printed_law_is_told():
+def test_neither_a_scene_without_friction_nor_the_printed_law_is_reported():
     for change in ({"lubrication.friction": False}, {"lubrication.traction": "printed"}):
         scene = LIGHT.replace(**change)
         assert list(remarks(scene, pt.simulate(scene, 0.005), 1e-4)) == []
 
 
-def test_a_film_that_carries_all_of_the_load_is_told_too():
+def test_a_film_that_carries_all_of_the_load_is_reported_too():
     """Then there is no boundary friction either, and an efficiency of 1."""
     scene = LIGHT.replace(lambda_ratio=3.0, **{"lubrication.boundary": "load_sharing"})
     run = pt.simulate(scene, 0.005)
@@ -82,6 +82,6 @@ def test_the_commands_warn_in_one_line(command, tmp_path):
     for scene, lines in ((str(light), 1), ("paper", 0)):
         done = CliRunner().invoke(build_app(), [command, scene, "--duration", "0.005"])
         assert done.exit_code == 0, done.stderr
-        told = done.stderr.splitlines()
-        assert len(told) == lines
-        assert all("viscous friction is clipped to zero" in line for line in told)
+        warned = done.stderr.splitlines()
+        assert len(warned) == lines
+        assert all("viscous friction is clipped to zero" in line for line in warned)

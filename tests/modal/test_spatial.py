@@ -100,8 +100,8 @@ def test_helical_modes_are_rotational_translational_or_of_the_planets():
     modes = modes_of(spatial_model(spatial(0.3, planets=5)))
     assert len(modes.frequencies) == 48
     assert "mixed" not in modes.kinds
-    # Families: 2 motions of 3 members and 6 of the planets alike; 4 of 3 and 6 twice; 6 (N - 3).
-    # Planets that all tilt about their own radius move nothing else: a planet mode among the first.
+    # Families: 2 motions of 3 members and 6 common to the planets; 4 of 3 and 6 twice; 6 (N - 3).
+    # Planets that all tilt about their own radius move nothing else: a planet mode of the first.
     assert modes.kinds.count("rotational") + modes.kinds.count("rigid") == 12 - 1
     assert modes.kinds.count("translational") == 24
     assert modes.kinds.count("planet") == 12 + 1

@@ -77,6 +77,7 @@ def test_every_listed_field_has_a_valid_path():
         **bearings,
         **{"mesh.tip_relief": dict.fromkeys(("sun", "planet", "ring"), relief)},
         **{"losses.churning": {"fill": 0.5, "gap": 0.01, "sun": 0.02}},
+        **{"lubrication.friction_table": {"coefficient": [0.05]}},
         supports=dict.fromkeys(("sun", "planet", "ring", "carrier"), support),
         faults=[
             {"kind": "crack", "gear": "sun", "stiffness_loss": 0.1},

@@ -11,6 +11,7 @@ from typing import Any
 
 import numpy as np
 
+from ...integrators.clock import TICKS
 from ...recording.container.records import RecordingError
 from ...recording.ros2.namespaces import choose_namespace
 from ...recording.ros2.tape import Tape
@@ -25,7 +26,7 @@ from ...recording.runs.schedule import (
 )
 from ...recording.runs.steadiness import between, length, longest_steady_part, settling
 from ...scene import Scene
-from ...twin import TICKS, Twin
+from ...twin import Twin
 
 LONGEST = 1.0  # [s] used by default
 HISTORY = 2.0  # [s] before the excerpt that are simulated as recorded; if longer, see `_reference`

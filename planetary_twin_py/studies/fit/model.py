@@ -11,9 +11,10 @@ from functools import reduce
 import numpy as np
 
 from ...accuracy import Course
+from ...integrators.clock import TICKS
 from ...quantities import TRAIN
 from ...scene import TUNABLES
-from ...twin import LONGEST_WINDOW, TICKS, Twin
+from ...twin import LONGEST_WINDOW, Twin
 from ...window import Window
 from .excerpt import Excerpt
 from .readings import Array, IntervalReadings, Readings, read, simulated

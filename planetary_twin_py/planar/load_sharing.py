@@ -1,0 +1,272 @@
+"""How planets share the static load, position by position.
+
+Meshes push along the line of action with their stiffness at that position, both flanks of a tooth
+if both touch; bearings yield, with clearance. Friction, inertia and faults of teeth are left out.
+With all teeth in contact and equal stiffnesses the shares are those of Singh 2005 and Ligata,
+Kahraman and Singh 2008, on epicyclic load sharing.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import NamedTuple
+
+import numpy as np
+
+from .._core import TERMS, TOTAL, Train
+from ..dynamics.bodies import rigid_ratios
+from ..dynamics.planet_groups import scene_phases
+from ..dynamics.static_load import mesh_force
+from ..dynamics.train import build_train
+from ..gearset.kinematics import mesh_cycles_per_turn
+from ..scene import Scene
+from ..scene.supports import Supports
+from .errors import Displacements, displacements
+from .rows import CENTRAL, COAST, DRIVE, PlanarRows, planar_rows
+from .statics import Equilibrium, Springs, equilibrium
+
+POSITIONS = 64  # in a mesh cycle, where nothing lasts longer
+PER_CYCLE = 8  # where something does
+MOST_CYCLES = 2000
+SIDES = (DRIVE, COAST)
+
+
+class LoadSharing(NamedTuple):
+    """Static forces and displacements at P positions of N planets."""
+
+    turns: np.ndarray
+    """Of the first motor, (P,)."""
+    mesh_force: np.ndarray
+    """Force of the drive flanks, then of the coast flanks, of each mesh, those with the sun first
+    [N], (P, 2, 2 N)."""
+    share: np.ndarray
+    """Torque that each planet carries over the mean of all planets, (P, N)."""
+    planet_bearing: np.ndarray
+    """Force of each planet on its pin, radial and tangential [N], (P, N, 2)."""
+    bearing: np.ndarray
+    """Force of sun, ring and carrier on their bearings, x and y in the frame of the carrier [N],
+    (P, 3, 2)."""
+    displacement: np.ndarray
+    """Of sun, ring and carrier, x and y in the frame of the carrier [m], (P, 3, 2)."""
+
+    @property
+    def factor(self) -> float:
+        """Load sharing factor K_gamma: the largest share of a planet at any position."""
+        return float(self.share.max())
+
+    @property
+    def both_flanks(self) -> bool:
+        """Whether at some position both flanks of a mesh touch."""
+        return bool((self.mesh_force > 0.0).all(axis=1).any())
+
+
+def load_sharing(scene: Scene, turns: np.ndarray | None = None) -> LoadSharing:
+    """Static load sharing among the planets.
+
+    Bearings are those of `scene.supports`; without these, all axes are held. Speeds do not matter.
+
+    Args:
+        scene: whose operating point gives torque and backlash.
+        turns: of the first motor, (P,); default: a mesh cycle, or with runout and offsets as many
+            cycles as their angles take to return, at most 2000.
+
+    Returns:
+        Forces and displacements at each position.
+
+    Raises:
+        ValueError: the torque is 0, the teeth are impossible, or bearings cannot hold the load.
+    """
+    if scene.operating_point.input_torque == 0.0:
+        raise ValueError("input_torque = 0: must not be 0, as there is no load to share")
+    turns = _positions(scene) if turns is None else np.asarray(turns, dtype=float)
+    gears = scene.gearset.geometry
+    angles = [mesh.pressure_angle for mesh in gears.meshes]
+    rows = planar_rows(scene.gearset.planet_angles, *angles)
+    errors = displacements(scene, rows, turns)
+    basis = _free(scene, rows)
+    springs = _springs(scene, rows, errors, turns, basis)
+    force = np.tile(_input_force(scene, rows) @ basis, (len(turns), 1))
+    driven = np.sign(mesh_force(scene, scene.operating_point.input_torque))
+    closed = np.repeat([driven > 0.0, driven < 0.0], 2 * scene.gearset.planets)
+    found = equilibrium(springs, force, closed)
+    return _result(scene, rows, turns, errors, basis, found)
+
+
+def _positions(scene: Scene) -> np.ndarray:
+    """Turns of the first motor at which the load is evaluated."""
+    teeth, runout, errors = scene.gearset.tooth_numbers, scene.mesh.runout, scene.errors
+    uneven = [kind for kind in teeth._fields if getattr(runout, kind)]
+    cycles = math.lcm(*(getattr(teeth, kind) for kind in uneven))
+    ratios = {name: ratio[0] for name, ratio in rigid_ratios(scene).items()}
+    per_turn = mesh_cycles_per_turn(teeth, ratios)
+    if (errors.ring_offset.size or errors.carrier_offset.size) and ratios["carrier"]:
+        cycles = math.lcm(cycles, abs((per_turn / ratios["carrier"]).numerator))
+    cycles = min(cycles, MOST_CYCLES)
+    count = POSITIONS if cycles == 1 else PER_CYCLE * cycles
+    # The middle of each interval, so that no position is on the edge of a tooth pair.
+    return np.asarray((np.arange(count) + 0.5) / count * cycles / abs(float(per_turn)))
+
+
+def _free(scene: Scene, rows: PlanarRows) -> np.ndarray:
+    """Displacement of each coordinate per free coordinate, (coordinates, free).
+
+    The input member turns; the other central members are held against turning. Without bearings
+    the axes are held, and planets turn with the carrier.
+    """
+    basis = np.eye(len(rows.coordinates))
+    held = [f"{body}.u" for body in CENTRAL if body != scene.drive.input.member]
+    if scene.supports is None:
+        held += [f"{body}.{motion}" for body in CENTRAL for motion in "xy"]
+        for i in range(scene.gearset.planets):
+            held += [f"planet_{i + 1}.xi", f"planet_{i + 1}.eta"]
+            basis[rows.place(f"planet_{i + 1}.eta"), rows.place("carrier.u")] = 1.0
+    return np.delete(basis, [rows.place(name) for name in held], axis=1)
+
+
+def _input_force(scene: Scene, rows: PlanarRows) -> np.ndarray:
+    """Force of the input torque on each coordinate [N], (coordinates,)."""
+    gears, member = scene.gearset.geometry, scene.drive.input.member
+    radius = {
+        "sun": gears.sun.base_radius,
+        "ring": gears.ring.base_radius,
+        "carrier": gears.centre_distance,
+    }
+    force = np.zeros(len(rows.coordinates))
+    force[rows.place(f"{member}.u")] = scene.operating_point.input_torque / radius[member]
+    return force
+
+
+def _springs(
+    scene: Scene, rows: PlanarRows, errors: Displacements, turns: np.ndarray, basis: np.ndarray
+) -> Springs:
+    flanks = np.vstack([rows.flanks(side) for side in SIDES])
+    displaced = errors.toothing
+    if scene.supports is None:
+        displaced = displaced + _held_pins(scene, rows, errors)
+    backlash = scene.operating_point.backlash
+    _, offset = scene.mesh.flanks(backlash, scene.gearset.pressure_angle)
+    form = _harmonic_errors(scene, turns)
+    gap = np.concatenate([side * form + offset - errors.closing for side in SIDES], axis=1)
+    stiffness = np.concatenate([_stiffness(scene, turns, side) for side in SIDES], axis=1)
+    bearing, radial, clearance, centre = _bearings(scene, rows, errors)
+    return Springs(
+        np.zeros((basis.shape[1],) * 2),
+        flanks @ basis,
+        stiffness,
+        gap - displaced @ flanks.T,
+        bearing @ basis,
+        radial,
+        clearance,
+        centre,
+    )
+
+
+def _held_pins(scene: Scene, rows: PlanarRows, errors: Displacements) -> np.ndarray:
+    """Displacements of planets on pins that are off, and of axes that are held, (P, n)."""
+    found = np.zeros((len(errors.axis), len(rows.coordinates)))
+    for place, body in enumerate(CENTRAL):
+        for direction, motion in enumerate("xy"):
+            found[:, rows.place(f"{body}.{motion}")] = errors.axis[:, place, direction]
+    carried = -rows.pin @ found.T  # what the axis of the carrier takes along
+    for i in range(scene.gearset.planets):
+        for direction, motion in enumerate(("xi", "eta")):
+            place = rows.place(f"planet_{i + 1}.{motion}")
+            found[:, place] = errors.pin[i, direction] + carried[i, direction]
+    return found
+
+
+def _bearings(
+    scene: Scene, rows: PlanarRows, errors: Displacements
+) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
+    """Rows, stiffness, clearance and centre of the bearings: sun, ring, carrier, planets."""
+    supports, count = scene.supports, len(errors.axis)
+    if supports is None:
+        none = np.zeros((0, 2, len(rows.coordinates)))
+        return none, np.zeros(0), np.zeros(0), np.zeros((count, 0, 2))
+    central = np.zeros((3, 2, len(rows.coordinates)))
+    for place, body in enumerate(CENTRAL):
+        for direction, motion in enumerate("xy"):
+            central[place, direction, rows.place(f"{body}.{motion}")] = 1.0
+    pins = np.tile(errors.pin, (count, 1, 1))
+    stiffness, clearance = _of_bodies(supports, scene.gearset.planets)
+    return (
+        np.concatenate([central, rows.pin]),
+        stiffness,
+        clearance,
+        np.concatenate([errors.axis, pins], axis=1),
+    )
+
+
+def _of_bodies(supports: Supports, planets: int) -> tuple[np.ndarray, np.ndarray]:
+    bodies = [supports.sun, supports.ring, supports.carrier, *[supports.planet] * planets]
+    return np.array([body.bearing for body in bodies]), np.array([b.clearance for b in bodies])
+
+
+def _cycles(scene: Scene, turns: np.ndarray) -> np.ndarray:
+    """Cycles since a pair was at the pitch point of each mesh, on drive flanks, (P, meshes)."""
+    ratios = {name: ratio[0] for name, ratio in rigid_ratios(scene).items()}
+    per_turn = float(mesh_cycles_per_turn(scene.gearset.tooth_numbers, ratios))
+    phases = np.array([float(phase) for kind in scene_phases(scene) for phase in kind])
+    return np.asarray(per_turn * turns[:, None] - phases)
+
+
+def _harmonic_errors(scene: Scene, turns: np.ndarray) -> np.ndarray:
+    """Transmission errors of the teeth, harmonics of the mesh frequency [m], (P, meshes)."""
+    cycles, planets = _cycles(scene, turns), scene.gearset.planets
+    found = np.zeros_like(cycles)
+    for kind, error in enumerate((scene.mesh.sun_planet_error, scene.mesh.planet_ring_error)):
+        own = slice(kind * planets, (kind + 1) * planets)
+        phases = error.phases or (0.0,) * len(error.amplitudes)
+        for n, (size, phase) in enumerate(zip(error.amplitudes, phases, strict=True), 1):
+            found[:, own] += size * np.sin(2.0 * np.pi * n * cycles[:, own] + phase)
+    return found
+
+
+def _stiffness(scene: Scene, turns: np.ndarray, side: float) -> np.ndarray:
+    """Stiffness of each mesh on the flanks of one side [N/m], (P, meshes)."""
+    train, planets = build_train(scene), scene.gearset.planets
+    kinds = np.repeat([0, 1], planets)
+    lead = np.array([mesh.coast_lead for mesh in scene.gearset.geometry.meshes])[kinds]
+    cycles = side * _cycles(scene, turns) + (lead if side == COAST else 0.0)
+    fractions = cycles - np.floor(cycles)
+    return np.column_stack(
+        [_mesh_stiffness(train, kind, fractions[:, i]) for i, kind in enumerate(kinds)]
+    )
+
+
+def _mesh_stiffness(train: Train, kind: int, fraction: np.ndarray) -> np.ndarray:
+    """Stiffness of a mesh with healthy teeth [N/m], at fractions of the mesh cycle."""
+    segments = int(train.segments[kind])
+    edge = train.edge[kind][: segments + 1]
+    segment = np.clip(np.searchsorted(edge, fraction, side="right") - 1, 0, segments - 1)
+    powers = (fraction - edge[segment])[:, None] ** np.arange(TERMS)
+    weight = np.sum(train.weight[kind][segment, TOTAL] * powers, axis=1)
+    return np.asarray(train.stiffness_base[kind] + train.stiffness_gain[kind] * weight)
+
+
+def _result(
+    scene: Scene,
+    rows: PlanarRows,
+    turns: np.ndarray,
+    errors: Displacements,
+    basis: np.ndarray,
+    found: Equilibrium,
+) -> LoadSharing:
+    planets, count = scene.gearset.planets, len(turns)
+    forces = found.contact_force.reshape(count, 2, 2 * planets)
+    sun_mesh = forces[:, 0, :planets] - forces[:, 1, :planets]
+    moved = (found.displacement @ basis.T)[:, : 3 * len(CENTRAL)].reshape(count, 3, 3)
+    flanks = np.vstack([rows.flanks(side) for side in SIDES])
+    on_bodies = -found.contact_force @ flanks  # what the meshes push each coordinate by
+    pins = on_bodies[:, 3 * len(CENTRAL) :].reshape(count, planets, 3)[:, :, :2]
+    bearing = on_bodies[:, : 3 * len(CENTRAL)].reshape(count, 3, 3)[:, :, :2]
+    on_carrier = -np.einsum("pid,idn->pn", pins, rows.pin)
+    place = rows.place("carrier.x")
+    return LoadSharing(
+        turns,
+        forces,
+        sun_mesh / sun_mesh.mean(axis=1, keepdims=True),
+        pins,
+        bearing + np.eye(3)[2][:, None] * on_carrier[:, None, place : place + 2],
+        moved[:, :, :2] + (errors.axis if scene.supports is None else 0.0),
+    )

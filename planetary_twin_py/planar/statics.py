@@ -1,0 +1,165 @@
+"""Static equilibrium of springs that push only, and of bearings with clearance.
+
+The elastic energy of a linear structure, of flanks that only push and of bearings with radial
+clearance is convex, so an equilibrium is a minimum of the potential energy. Newton's method with a
+line search finds it (Nocedal and Wright 2006, Numerical Optimization, algorithm 3.2); the energy
+is piecewise smooth, and close to the solution a step is exact as soon as the set of touching
+flanks is that of the solution. All positions are solved side by side.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+
+MOST_STEPS = 200
+MOST_HALVINGS = 40
+BALANCED = 1e-11  # of the largest force, to which forces balance
+DECREASE = 1e-4  # of the predicted decrease of the energy that a step must reach
+LOOSE = 1e-9  # of the largest stiffness, added for what nothing holds: it stays where it is
+SMALLEST = 1e-300
+
+
+class Springs(NamedTuple):
+    """Springs over n coordinates, at P positions."""
+
+    linear: np.ndarray
+    """Stiffness matrix of springs that push and pull [N/m], (n, n)."""
+    contact: np.ndarray
+    """Row of each pair of flanks, their approach per displacement, (flanks, n)."""
+    contact_stiffness: np.ndarray
+    """[N/m], (P, flanks)."""
+    gap: np.ndarray
+    """Approach at which flanks touch [m], (P, flanks)."""
+    bearing: np.ndarray
+    """Rows of each bearing in two directions, (bearings, 2, n)."""
+    bearing_stiffness: np.ndarray
+    """Radial stiffness [N/m], (bearings,)."""
+    clearance: np.ndarray
+    """Radial clearance [m], (bearings,)."""
+    offset: np.ndarray
+    """Displacement at which each bearing is centred [m], (P, bearings, 2)."""
+
+
+class Equilibrium(NamedTuple):
+    """Displacements and forces in equilibrium, at P positions."""
+
+    displacement: np.ndarray
+    """[m], (P, n)."""
+    contact_force: np.ndarray
+    """Of each pair of flanks, 0 where they do not touch [N], (P, flanks)."""
+    bearing_force: np.ndarray
+    """On what the first body of a bearing is held by, in two directions [N], (P, bearings, 2)."""
+
+
+def equilibrium(springs: Springs, force: np.ndarray, closed: np.ndarray) -> Equilibrium:
+    """Find the equilibrium at each position.
+
+    What no spring holds, such as a floating member in a direction in which nothing pushes it, stays
+    where the initial guess leaves it.
+
+    Args:
+        springs: of the structure.
+        force: external force on each coordinate [N], (P, n).
+        closed: whether the initial guess lets flanks carry, (flanks,).
+
+    Returns:
+        The equilibrium.
+
+    Raises:
+        ValueError: the forces cannot be balanced, or no equilibrium is found.
+    """
+    q = _guess(springs, force, closed)
+    limit = BALANCED * np.abs(force).max()
+    for _ in range(MOST_STEPS):
+        gradient = _gradient(springs, force, q)
+        if np.abs(gradient).max() <= limit:
+            return Equilibrium(q, _contact_forces(springs, q), _bearing_forces(springs, q))
+        q = _line_search(springs, force, q, gradient)
+    raise ValueError("no static equilibrium is found: bearings or meshes cannot balance the load")
+
+
+def _guess(springs: Springs, force: np.ndarray, closed: np.ndarray) -> np.ndarray:
+    """Displacements with flanks that push and pull, and without clearance."""
+    stiffness = springs.contact_stiffness * closed
+    right = force + (stiffness * springs.gap) @ springs.contact
+    per_bearing = springs.bearing_stiffness[:, None, None] * springs.bearing
+    right = right + np.einsum("pbd,bdn->pn", springs.offset, per_bearing)
+    matrix = springs.linear + np.einsum("bdn,bdm->nm", per_bearing, springs.bearing)
+    matrix = matrix + np.einsum("pf,fn,fm->pnm", stiffness, springs.contact, springs.contact)
+    return _solve(matrix, right)
+
+
+def _solve(matrix: np.ndarray, right: np.ndarray) -> np.ndarray:
+    size = np.abs(matrix).max(axis=(1, 2))[:, None, None]
+    held = matrix + LOOSE * size * np.eye(matrix.shape[-1])
+    return np.asarray(np.linalg.solve(held, right[..., None])[..., 0])
+
+
+def _contact_forces(springs: Springs, q: np.ndarray) -> np.ndarray:
+    approach = q @ springs.contact.T - springs.gap
+    return np.asarray(springs.contact_stiffness * np.maximum(approach, 0.0))
+
+
+def _bearing_forces(springs: Springs, q: np.ndarray) -> np.ndarray:
+    eccentricity = _eccentricity(springs, q)
+    size = np.linalg.norm(eccentricity, axis=-1, keepdims=True)
+    pressed = np.maximum(size - springs.clearance[:, None], 0.0)
+    unit = eccentricity / np.maximum(size, SMALLEST)
+    return np.asarray(springs.bearing_stiffness[:, None] * pressed * unit)
+
+
+def _eccentricity(springs: Springs, q: np.ndarray) -> np.ndarray:
+    return np.einsum("bdn,pn->pbd", springs.bearing, q) - springs.offset
+
+
+def _gradient(springs: Springs, force: np.ndarray, q: np.ndarray) -> np.ndarray:
+    forces = q @ springs.linear + _contact_forces(springs, q) @ springs.contact
+    forces = forces + np.einsum("pbd,bdn->pn", _bearing_forces(springs, q), springs.bearing)
+    return np.asarray(forces - force)
+
+
+def _energy(springs: Springs, force: np.ndarray, q: np.ndarray) -> np.ndarray:
+    approach = np.maximum(q @ springs.contact.T - springs.gap, 0.0)
+    size = np.linalg.norm(_eccentricity(springs, q), axis=-1)
+    pressed = np.maximum(size - springs.clearance, 0.0)
+    total = 0.5 * np.einsum("pn,nm,pm->p", q, springs.linear, q) - np.sum(force * q, axis=1)
+    total += 0.5 * np.sum(springs.contact_stiffness * approach**2, axis=1)
+    return np.asarray(total + 0.5 * (pressed**2) @ springs.bearing_stiffness)
+
+
+def _tangent(springs: Springs, q: np.ndarray) -> np.ndarray:
+    """Stiffness matrix [N/m] of what touches, (P, n, n)."""
+    touching = springs.contact_stiffness * (q @ springs.contact.T > springs.gap)
+    matrix = springs.linear + np.einsum("pf,fn,fm->pnm", touching, springs.contact, springs.contact)
+    eccentricity = _eccentricity(springs, q)
+    size = np.linalg.norm(eccentricity, axis=-1)
+    share = np.minimum(springs.clearance / np.maximum(size, SMALLEST), 1.0)
+    unit = eccentricity / np.maximum(size, SMALLEST)[..., None]
+    # along the load the bearing is as stiff as given, across it by the share that is pressed
+    block = (1.0 - share)[..., None, None] * np.eye(2)
+    block = block + np.where(size > springs.clearance, share, 0.0)[..., None, None] * (
+        unit[..., :, None] * unit[..., None, :]
+    )
+    block = block * springs.bearing_stiffness[:, None, None]
+    return np.asarray(
+        matrix + np.einsum("pbde,bdn,bem->pnm", block, springs.bearing, springs.bearing)
+    )
+
+
+def _line_search(
+    springs: Springs, force: np.ndarray, q: np.ndarray, gradient: np.ndarray
+) -> np.ndarray:
+    """A Newton step at each position, shortened until the energy falls."""
+    step = _solve(_tangent(springs, q), -gradient)
+    slope = np.sum(gradient * step, axis=1)
+    before = _energy(springs, force, q)
+    part = np.ones(len(q))
+    for _ in range(MOST_HALVINGS):
+        after = _energy(springs, force, q + part[:, None] * step)
+        high = after > before + DECREASE * part * slope + 1e-15 * np.abs(before)
+        if not high.any():
+            break
+        part = np.where(high, 0.5 * part, part)
+    return np.asarray(q + part[:, None] * step)

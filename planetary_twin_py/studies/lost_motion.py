@@ -1,0 +1,188 @@
+"""Lost-motion test: the output is loaded slowly both ways while the input is held.
+
+The twist of the output against the input, at the members of the gear set and so without couplings,
+draws a loop over the torque: play, elastic deflection of the teeth, and friction that holds. Two
+figures are those of data sheets of precision gears: lost motion, the twist between small torques of
+both senses, each the mean of loading and unloading (3 % of the rated torque is usual), and the
+torsional stiffness between half and full torque.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+
+from ..dynamics.bodies import LOAD_MACHINE, rigid_ratios
+from ..dynamics.static_load import static_torques
+from ..dynamics.stiffness_laws import stiffness_laws
+from ..scene import Scene
+from ..twin import Twin
+
+SHARE = 0.03  # of the torque, at which lost motion is measured
+UPPER = 0.5  # of the torque, from which the stiffness is measured
+LEVELS = 25  # torques from 0 to the largest
+DWELL = 0.01  # [s] from one look at the twist to the next
+PATIENCE = 100  # looks at most at each torque
+FREQUENCY = 200.0  # [Hz] of a machine of the bench on the gear set
+COUPLING = 10.0  # stiffness of its coupling over that of the gear set
+MESH_DAMPING = 0.3  # damping ratio of a mesh on the bench
+SETTLED = 1e-4  # of the elastic twist, by which it may still move between two looks
+
+
+@dataclass(frozen=True)
+class LostMotion:
+    """A closed loop of twist over torque, from the largest torque to its opposite and back."""
+
+    torque: np.ndarray
+    """On the output member [N m], (points,)."""
+    twist: np.ndarray
+    """Angle of the output member less that of the input member times the ratio [rad], (points,)."""
+    settled: bool
+    """Whether the twist came to rest at every torque."""
+    share: float
+    """Part of the largest torque at which lost motion is measured."""
+
+    def _branches(self) -> tuple[tuple[np.ndarray, np.ndarray], tuple[np.ndarray, np.ndarray]]:
+        """Torque and twist of the falling branch, reversed, and of the rising one."""
+        turn = int(np.argmin(self.torque))
+        falling = self.torque[: turn + 1][::-1], self.twist[: turn + 1][::-1]
+        return falling, (self.torque[turn:], self.twist[turn:])
+
+    def _at(self, torque: float) -> tuple[float, float]:
+        """Twist of both branches at a torque [rad]."""
+        falling, rising = (float(np.interp(torque, *branch)) for branch in self._branches())
+        return falling, rising
+
+    @property
+    def lost_motion(self) -> float:
+        """Twist between both senses of `share` of the torque, means of both branches [rad]."""
+        small = self.share * float(self.torque.max())
+        return float(np.mean(self._at(small)) - np.mean(self._at(-small)))
+
+    @property
+    def hysteresis(self) -> float:
+        """Distance of both branches at zero torque [rad]: friction, and play it holds open."""
+        falling, rising = self._at(0.0)
+        return abs(falling - rising)
+
+    @property
+    def stiffness(self) -> float:
+        """Torsional stiffness from half to full torque, mean of both senses [N m/rad]."""
+        largest, (torque, twist) = float(self.torque.max()), self._branches()[1]
+        loading = np.polyfit(
+            *_between(twist, torque, UPPER * largest, largest), 1
+        )  # the rising branch loads where the torque is positive
+        torque, twist = self._branches()[0]
+        back = np.polyfit(*_between(twist, torque, -largest, -UPPER * largest), 1)
+        return float(0.5 * (loading[0] + back[0]))
+
+
+def _between(
+    twist: np.ndarray, torque: np.ndarray, low: float, high: float
+) -> tuple[np.ndarray, np.ndarray]:
+    margin = 1e-6 * (high - low)
+    chosen = (torque >= low - margin) & (torque <= high + margin)
+    return twist[chosen], torque[chosen]
+
+
+def lost_motion(
+    scene: Scene,
+    torque: float,
+    share: float = SHARE,
+    levels: int = LEVELS,
+    dwell: float = DWELL,
+    tolerance: float = 1e-4,
+    report: Callable[[int], None] = lambda done: None,
+) -> LostMotion:
+    """Load the output from 0 to a torque, to its opposite and back, with the input held.
+
+    The scene runs at speed 0, with dynamics, so that friction holds and breaks away by the laws of
+    the scene. Machines and couplings of the scene are replaced by stiff, well damped ones, which
+    hold the input and come to rest between two torques; they do not change the statics.
+
+    Args:
+        scene: with one input.
+        torque: largest torque on the output member [N m].
+        share: part of it at which lost motion is measured.
+        levels: torques from 0 to the largest.
+        dwell: time between two looks at the twist, which is to be at rest [s].
+        tolerance: relative local error tolerance.
+        report: called with the number of torques completed since the last call.
+
+    Returns:
+        The loop, without the first loading.
+
+    Raises:
+        ValueError: the torque is not positive or exceeds drive.torque_limit, or the scene has two
+            inputs.
+        RunawayError: the teeth yield more than they can.
+    """
+    if scene.drive.second_input is not None:
+        raise ValueError("drive.second_input: must be none for a lost-motion test")
+    if not (math.isfinite(torque) and torque > 0.0):
+        raise ValueError(f"torque = {torque!r}: must be a number above 0")
+    still = _on_bench(scene)
+    per_input = static_torques(still)[LOAD_MACHINE]
+    twin = Twin(still, tolerance=tolerance)
+    # Not at torque 0, at which the output may rest anywhere in its play.
+    up = np.unique([share * torque, *np.linspace(0.0, torque, levels + 1)[1:]])
+    steps = np.concatenate([up, up[-2::-1], -up, -up[-2::-1], up])
+    rest = SETTLED * torque / _stiffness(scene, scene.drive.output.member)
+    loop, moving = [], 0.0
+    for step in steps:
+        twin.set(input_torque=float(step / per_input))
+        last = _twist(twin, still, dwell)
+        for _ in range(PATIENCE):
+            before, last = last, _twist(twin, still, dwell)
+            if abs(last[1] - before[1]) <= rest:
+                break
+        moving = max(moving, abs(last[1] - before[1]))
+        loop.append(last)
+        report(1)
+    closed = np.array(loop[len(up) - 1 :])
+    return LostMotion(closed[:, 0], closed[:, 1], moving <= rest, share)
+
+
+def _on_bench(scene: Scene) -> Scene:
+    """The gear set at rest between stiff machines."""
+    changes: dict[str, object] = {
+        "input_speed": 0.0,
+        "input_torque": 0.0,
+        "torque_ripple": 0.0,
+        "dynamics": "torsional",
+        "mesh.damping": {"law": "viscous", "damping_ratio": MESH_DAMPING},
+        "drive.speed_control": {},
+    }
+    for side in ("input", "output"):
+        member = getattr(scene.drive, side).member
+        stiffness = _stiffness(scene, member)
+        inertia = stiffness / (2.0 * math.pi * FREQUENCY) ** 2
+        coupling = COUPLING * stiffness
+        changes[f"drive.{side}"] = {
+            "member": member,
+            "inertia": inertia,
+            "coupling_stiffness": coupling,
+            "coupling_damping": math.sqrt(coupling * inertia),
+        }
+    return scene.replace(**changes)
+
+
+def _stiffness(scene: Scene, member: str) -> float:
+    """Torsional stiffness of the teeth [N m/rad], seen from a member, the others at rest."""
+    gears, laws = scene.gearset.geometry, stiffness_laws(scene)
+    branch = scene.gearset.planets / sum(1.0 / law.single for law in laws)
+    sun, ring = gears.sun.base_radius, gears.ring.base_radius
+    return branch * {"sun": sun, "ring": ring, "carrier": sun + ring}[member] ** 2
+
+
+def _twist(twin: Twin, scene: Scene, duration: float) -> tuple[float, float]:
+    """Mean torque on the output [N m] and twist at the end [rad] after another `duration`."""
+    window = twin.advance(duration)
+    members = scene.drive.input.member, scene.drive.output.member
+    angle = dict(zip(window.bodies, np.remainder(window.angle + np.pi, 2.0 * np.pi), strict=True))
+    driving, driven = (float(angle[member] - np.pi) for member in members)
+    ratio = float(rigid_ratios(scene)[members[1]][0])
+    return float(window.machine_torque[LOAD_MACHINE]), driven - ratio * driving

@@ -1,0 +1,150 @@
+"""Modes of a gear set whose carrier turns, against closed forms and a general eigenvalue solver."""
+
+import math
+
+import numpy as np
+import pytest
+from scipy.linalg import eigvals
+
+import planetary_twin_py as pt
+from planetary_twin_py.modal.modes import modes_of
+from planetary_twin_py.modal.natural import spring_model
+from planetary_twin_py.modal.planar import PlanarBody, PlanarSet, planar_model
+from planetary_twin_py.modal.spatial import SpatialBody, SpatialSet, spatial_model
+from planetary_twin_py.modal.turning import turning_modes, turning_terms
+
+ANGLE = math.radians(24.6)
+SPINS = {"sun": 700.0, "planet": -300.0, "ring": 0.0, "carrier": 200.0}
+
+
+def lin_parker(planets, **changes):
+    data = {
+        "sun": PlanarBody(0.4, 0.39, 1e8),
+        "ring": PlanarBody(2.35, 3.0, 1e8, 1e9),
+        "carrier": PlanarBody(5.43, 6.29, 1e8),
+        "planet": PlanarBody(0.66, 0.61, 1e8),
+        "planet_angles": tuple(2.0 * math.pi * np.arange(planets) / planets),
+        "sun_planet": 5e8,
+        "planet_ring": 5e8,
+        "sun_angle": ANGLE,
+        "ring_angle": ANGLE,
+    }
+    return PlanarSet(**(data | changes))
+
+
+def spatial_set(**changes):
+    body = {"bearing": 1e8, "axial": 0.7e8, "tilting": 0.4e8}
+    data = {
+        "sun": SpatialBody(0.4, 0.39, 0.2, 0.024, **body),
+        "ring": SpatialBody(2.35, 3.0, 1.5, 0.056, **body, torsion=1e9),
+        "carrier": SpatialBody(5.43, 6.29, 3.1, 0.044, **body),
+        "planet": SpatialBody(0.66, 0.61, 0.3, 0.016, **body),
+        "planet_angles": tuple(2.0 * math.pi * np.arange(3) / 3),
+        "sun_planet": 5e8,
+        "planet_ring": 5e8,
+        "pressure_angle": ANGLE,
+        "base_helix": 0.2,
+    }
+    return SpatialSet(**(data | changes))
+
+
+def modes_at(model, speed, angles):
+    spins = {kind: spin * speed / SPINS["carrier"] for kind, spin in SPINS.items()}
+    return turning_modes(model, turning_terms(model, speed, spins, angles))
+
+
+def test_a_slow_carrier_has_the_modes_of_one_at_rest():
+    data = lin_parker(4)
+    still = modes_of(planar_model(data)).frequencies
+    slow = modes_at(planar_model(data), 1e-4, data.planet_angles).frequencies
+    assert slow == pytest.approx(still, abs=1e-3)
+
+
+@pytest.mark.parametrize("speed", [20.0, 500.0])
+def test_an_axis_on_an_isotropic_bearing_whirls_at_its_frequency_less_and_plus_the_speed(speed):
+    soft = lin_parker(3, sun_planet=1e-3)
+    found = modes_at(planar_model(soft), speed, soft.planet_angles).frequencies
+    own = math.sqrt(1e8 / 0.4)
+    for expected in ((own - speed) / (2 * math.pi), (own + speed) / (2 * math.pi)):
+        assert np.abs(found - expected).min() == pytest.approx(0.0, abs=1e-6)
+
+
+def test_a_spinning_sun_tilts_as_a_gyroscope():
+    speed, soft = 200.0, spatial_set(sun_planet=1e-3, planet_ring=1e-3)
+    found = modes_at(spatial_model(soft), speed, soft.planet_angles).frequencies
+    polar, diametral, spin, stiffness = 0.39, 0.2, SPINS["sun"], 0.4e8
+    root = math.sqrt(polar**2 * spin**2 + 4.0 * diametral * stiffness)
+    for sense in (1.0, -1.0):
+        in_housing = (sense * polar * spin + root) / (2.0 * diametral)
+        in_frame = (in_housing - sense * speed) / (2.0 * math.pi)
+        assert np.abs(found - in_frame).min() == pytest.approx(0.0, abs=1e-6)
+
+
+@pytest.mark.parametrize("planets", [3, 5])
+@pytest.mark.parametrize("kind", ["planar", "spatial"])
+def test_frequencies_are_those_of_a_general_solver(planets, kind):
+    angles = tuple(2.0 * math.pi * np.arange(planets) / planets)
+    if kind == "planar":
+        model = planar_model(lin_parker(planets))
+    else:
+        model = spatial_model(spatial_set(planet_angles=angles))
+    terms = turning_terms(model, 400.0, SPINS, angles)
+    size, inverse = len(model.mass), 1.0 / model.mass[:, None]
+    companion = np.block(
+        [
+            [np.zeros((size, size)), np.eye(size)],
+            [-inverse * (model.stiffness - terms.centripetal), -inverse * terms.gyroscopic],
+        ]
+    )
+    found = turning_modes(model, terms).frequencies
+    general = np.sort(np.abs(eigvals(companion).imag))[::2] / (2.0 * math.pi)
+    assert found[1:] == pytest.approx(general[1:], rel=1e-7)
+    assert found[0] == 0.0
+
+
+def test_a_mode_keeps_its_shape_as_it_moves():
+    data = lin_parker(3)
+    model, speed = planar_model(data), 300.0
+    terms = turning_terms(model, speed, SPINS, data.planet_angles)
+    modes = turning_modes(model, terms)
+    for frequency, shape in zip(modes.frequencies[1:], modes.shapes.T[1:], strict=True):
+        rate = -2j * math.pi * frequency
+        left = rate**2 * model.mass * shape + rate * terms.gyroscopic @ shape
+        left += (model.stiffness - terms.centripetal) @ shape
+        assert np.abs(left).max() < 1e-9 * (2 * math.pi * modes.frequencies[-1]) ** 2
+
+
+def test_turning_splits_translational_pairs_and_no_others():
+    data = lin_parker(4)
+    still, turning = (
+        modes_at(planar_model(data), speed, data.planet_angles) for speed in (1e-3, 300.0)
+    )
+    for kind, count in (("rotational", 5), ("planet", 3), ("translational", 12), ("rigid", 1)):
+        assert turning.kinds.count(kind) == still.kinds.count(kind) == count
+    pairs = turning.frequencies[[kind == "translational" for kind in turning.kinds]]
+    assert np.diff(pairs).min() > 1.0
+
+
+def test_a_rigid_rotation_stays_rigid_though_the_carrier_turns():
+    data = lin_parker(3)
+    free = lin_parker(3, ring=PlanarBody(2.35, 3.0, 1e8))
+    assert modes_at(planar_model(free), 300.0, data.planet_angles).kinds[:2] == ("rigid", "rigid")
+
+
+def test_a_speed_beyond_the_bearings_is_refused():
+    weak = lin_parker(3, sun=PlanarBody(0.4, 0.39, 1.0), sun_planet=1e-3)
+    with pytest.raises(ValueError, match="centrifugal forces exceed"):
+        modes_at(planar_model(weak), 300.0, weak.planet_angles)
+
+
+def test_modes_of_a_scene_are_those_at_the_speed_of_its_carrier():
+    scene = pt.load_scene("wind_turbine_stage")
+    speed = scene.operating_point.input_speed  # of the carrier
+    found = pt.natural_modes(scene, "planar", input_speed=100.0 * speed)
+    model = spring_model(scene, "planar")
+    terms = turning_terms(model, 100.0 * speed, SPINS, scene.gearset.planet_angles)
+    assert found.frequencies == pytest.approx(turning_modes(model, terms).frequencies)
+    still = pt.natural_modes(scene, "planar").frequencies
+    assert np.abs(found.frequencies - still).max() > 1.0
+    torsional = pt.natural_modes(scene, input_speed=speed).frequencies
+    assert torsional == pytest.approx(pt.natural_modes(scene).frequencies)

@@ -1,0 +1,107 @@
+"""The lost-motion test against closed forms of play and stiffness."""
+
+import json
+import math
+
+import numpy as np
+import pytest
+from typer.testing import CliRunner
+
+import planetary_twin_py as pt
+from planetary_twin_py.cli import build_app
+from planetary_twin_py.studies.lost_motion import lost_motion
+
+TORQUE, PLAY = 100.0, 2e-5  # [N m], [m]
+# 5 planets in phase, so that every mesh yields equally; constant stiffness.
+SMOOTH = pt.load_scene("paper").replace(
+    **{
+        "gearset.planet_angles": tuple(2.0 * math.pi * k / 5 for k in range(5)),
+        "gearset.held": "ring",
+        "drive.output.member": "carrier",
+        "mesh.double_pair_ratio": 1.0,
+        "mesh.ramp": 0.0,
+        "mesh.damping.law": "viscous",
+        "lubrication.friction": False,
+        "backlash": PLAY,
+    }
+)
+GEARS = SMOOTH.gearset.geometry
+LEVER = GEARS.sun.base_radius + GEARS.ring.base_radius  # of the carrier's angle in both meshes
+# Per planet both meshes in series; each branch is wound up by angle times lever.
+STIFFNESS = 5 * 0.5 * 2e8 * LEVER**2
+FREE_PLAY = 2.0 * PLAY / LEVER  # both meshes, from flank to flank
+
+
+def test_without_friction_it_is_play_and_elastic_twist_and_no_loop():
+    found = lost_motion(SMOOTH, TORQUE, levels=20)
+    assert found.settled
+    assert found.stiffness == pytest.approx(STIFFNESS, rel=1e-3)
+    elastic = 2.0 * found.share * TORQUE / STIFFNESS
+    assert found.lost_motion == pytest.approx(FREE_PLAY + elastic, rel=1e-3)
+    assert np.ptp(found.twist) == pytest.approx(FREE_PLAY + 2.0 * TORQUE / STIFFNESS, rel=1e-3)
+    assert found.hysteresis < 1e-3 * FREE_PLAY
+
+
+def test_friction_opens_a_loop_that_takes_energy():
+    oil = {"lubrication.friction": True, "lubrication.boundary": "load_sharing", "backlash": 0.0}
+    smooth = lost_motion(SMOOTH.replace(backlash=0.0), TORQUE, levels=20)
+    rough = lost_motion(SMOOTH.replace(**oil), TORQUE, levels=20)
+    assert smooth.settled and rough.settled
+    assert rough.stiffness == pytest.approx(smooth.stiffness, rel=0.02)
+
+    def taken(loop):
+        return -np.trapezoid(loop.twist, loop.torque)
+
+    stored = 0.5 * TORQUE**2 / STIFFNESS
+    assert abs(taken(smooth)) < 5e-4 * stored
+    assert taken(rough) > 1e-3 * stored
+
+
+def test_more_play_is_more_lost_motion_by_as_much():
+    small, large = (
+        lost_motion(SMOOTH.replace(backlash=play), TORQUE, levels=10) for play in (PLAY, 3 * PLAY)
+    )
+    assert large.lost_motion - small.lost_motion == pytest.approx(2.0 * FREE_PLAY, rel=2e-3)
+
+
+@pytest.mark.parametrize("held, output", [("carrier", "ring"), ("sun", "carrier")])
+def test_any_member_may_be_held(held, output):
+    driver = ({"sun", "ring", "carrier"} - {held, output}).pop()
+    scene = SMOOTH.replace(
+        **{
+            "gearset.held": held,
+            "drive.output.member": output,
+            "drive.input.member": driver,
+        }
+    )
+    found = lost_motion(scene, TORQUE, levels=10)
+    lever = {"ring": GEARS.ring.base_radius, "carrier": LEVER}[output]
+    assert found.stiffness == pytest.approx(5 * 0.5 * 2e8 * lever**2, rel=1e-3)
+
+
+def test_the_command_prints_and_draws_what_the_library_finds(tmp_path):
+    png = tmp_path / "loop.png"
+    arguments = ["lost-motion", "paper", "--torque", "50 N m", "--picture", str(png)]
+    figures = json.loads(CliRunner().invoke(build_app(), [*arguments, "--json", "-"]).stdout)
+    found = lost_motion(pt.load_scene("paper"), 50.0)
+    assert figures["lost_motion"] == pytest.approx(found.lost_motion)
+    assert figures["stiffness"] == pytest.approx(found.stiffness)
+    assert png.read_bytes().startswith(b"\x89PNG")
+    shown = CliRunner().invoke(build_app(), arguments[:4]).output
+    assert "lost motion at 3 % of it [deg]" in shown
+
+
+@pytest.mark.parametrize(
+    ("arguments", "words"),
+    [
+        (("paper", "--torque", "-1 N m"), "torque = -1.0: must be a number above 0"),
+        (("paper", "--torque", "20 m"), "--torque = '20 m'"),
+        (("paper", "--share", "0.7"), "--share = 0.7"),
+        (("differential",), "drive.second_input"),
+        (("paper", "--torque", "1e6 N m"), "drive.torque_limit"),
+    ],
+)
+def test_invalid_input_ends_in_one_line(arguments, words):
+    result = CliRunner().invoke(build_app(), ["lost-motion", *arguments])
+    assert result.exit_code == 2
+    assert words in result.output.strip().splitlines()[-1]
