@@ -17,7 +17,7 @@ constexpr int PAIRS = 3;      // tooth pairs in contact at most: contact ratios 
 constexpr int TOTAL = PAIRS;  // place of the sum over the pairs
 constexpr int SEGMENTS = 32;  // breakpoints: 4 of each pair and those of faults
 constexpr int TERMS = 6;      // coefficients of a polynomial
-constexpr int LINES = 6;      // errors of form: 4 harmonics, the runout of 2 gears
+constexpr int LINES = 8;      // errors of form: 4 harmonics, runout of 2 gears, pins, axes
 constexpr int FAULTS = 4;
 constexpr int ROOM =
     (PAIRS + 1) * MESHES;   // all tooth pairs, and what whole registers write beyond

@@ -1,4 +1,4 @@
-"""The bodies of a scene: which there are, how heavy, and how fast they turn together."""
+"""The bodies of a scene: names, inertias, radii and speed ratios."""
 
 from __future__ import annotations
 
@@ -8,13 +8,13 @@ from typing import NamedTuple
 
 import numpy as np
 
-from .._core import AXES
+from .._core import AXES, Report
 from ..gearset.kinematics import speeds_per_input
 from ..scene import Scene
 from ..scene.drive import Machine
-from .alike import planet_groups
+from .planet_groups import planet_groups
 
-# Places of the machines. The motor of input 0 is machine 0, that of input 1 machine 2, if any.
+# Indices of the machines. The motor of input 0 is machine 0, the motor of input 1 is machine 2.
 MOTOR, LOAD_MACHINE, SECOND_MOTOR = 0, 1, 2
 MACHINE_NAMES = ("motor", "load", "second_motor")
 
@@ -22,26 +22,26 @@ Ratios = tuple[Fraction, ...]  # speed per speed of each input
 
 
 class BodyNames(NamedTuple):
-    """How the bodies that are reported map to the bodies that are integrated."""
+    """Map from the reported bodies to the integrated bodies."""
 
     names: tuple[str, ...]  # ("sun", "planet_1", ..., "ring", "carrier")
-    place: np.ndarray  # (bodies,) in the arrays of `TRAIN`
+    place: np.ndarray  # (bodies,) index in the arrays of `Train`
     ratio: tuple[Ratios, ...]
 
 
 class MeshNames(NamedTuple):
-    """How the meshes that are reported map to the meshes that are integrated."""
+    """Map from the reported meshes to the integrated meshes."""
 
     names: tuple[str, ...]  # ("sun_planet_1", ..., "planet_ring_1", ...)
-    place: np.ndarray  # (meshes,) in the arrays of `TRAIN`
+    place: np.ndarray  # (meshes,) index in the arrays of `Train`
 
 
 class Bodies(NamedTuple):
-    """Arrays over the bodies that can turn, and the ground as the last entry."""
+    """Arrays over the bodies that can turn; the last entry is the ground."""
 
-    place: dict[str, int]  # of every body; a held one is the ground
-    copies: np.ndarray  # bodies that move alike, of which an entry is one
-    mass: np.ndarray  # J/r^2 of one of them [kg]
+    place: dict[str, int]  # index of every body; a held body is the ground
+    copies: np.ndarray  # number of bodies with this motion
+    mass: np.ndarray  # J/r^2 of one body [kg]
     radius: np.ndarray  # r of x = r theta [m]
     ratio: np.ndarray  # (bodies, AXES) rigid speed per speed of each input [-]
 
@@ -51,7 +51,7 @@ def rim_masses(scene: Scene) -> dict[str, float]:
     gearset = scene.gearset
     mass = gearset.rim_masses
     slant = 1.0 / math.cos(gearset.pressure_angle) ** 2  # (pitch radius/base radius)^2
-    # The planets ride on the carrier: their mass turns with it.
+    # The mass of the planets turns with the carrier.
     carried = mass.carrier + gearset.planets * gearset.planet_mass
     turned = 1.0 / math.cos(gearset.geometry.meshes[0].pressure_angle) ** 2
     return {
@@ -77,7 +77,7 @@ def base_radii(scene: Scene) -> dict[str, float]:
 
 
 def machines(scene: Scene) -> dict[str, Machine]:
-    """Motors and load by their names, in the order of their places."""
+    """Motors and load by name, in the order of their indices."""
     motor, *second = scene.drive.inputs
     return dict(zip(MACHINE_NAMES, (motor, scene.drive.output, *second), strict=False))
 
@@ -92,7 +92,7 @@ def rigid_ratios(scene: Scene) -> dict[str, Ratios]:
 
 
 def body_names(scene: Scene) -> BodyNames:
-    """Names and places of the bodies a result reports."""
+    """Names and indices of the bodies that a result reports."""
     names = ("sun", *_planets(scene), "ring", "carrier")
     place, ratios = _places(scene), rigid_ratios(scene)
     index = np.array([place[name] for name in names])
@@ -100,11 +100,25 @@ def body_names(scene: Scene) -> BodyNames:
 
 
 def mesh_names(scene: Scene) -> MeshNames:
-    """Names and places of the meshes a result reports."""
+    """Names and indices of the meshes that a result reports."""
     numbers, groups = range(1, scene.gearset.planets + 1), planet_groups(scene)
     names = (*(f"sun_planet_{i}" for i in numbers), *(f"planet_ring_{i}" for i in numbers))
     place = np.array(groups.group)
     return MeshNames(names, np.concatenate([place, place + len(groups.leaders)]))
+
+
+def build_report(names: BodyNames, meshes: MeshNames) -> Report:
+    """What the core reports of a train: all bodies and meshes, in the order of their names."""
+    common = [math.lcm(*(ratio.denominator for ratio in ratios)) for ratios in names.ratio]
+    whole = zip(names.ratio, common, strict=True)
+    return Report(
+        bodies=len(names.names),
+        body=names.place,
+        numerator=[[int(ratio * n) for ratio in ratios] for ratios, n in whole],
+        denominator=common,
+        meshes=len(meshes.names),
+        mesh=meshes.place,
+    )
 
 
 def build_bodies(scene: Scene) -> Bodies:
@@ -137,9 +151,9 @@ def _kind(name: str) -> str:
 
 
 def _order(scene: Scene) -> list[str]:
-    """Bodies that can turn: planets, then what is free of the members, then the machines.
+    """Bodies that can turn: planets, then members that are not held, then machines.
 
-    Of planets that move alike, the first.
+    Of planets with the same motion, only the first is listed.
     """
     free = [member for member in ("sun", "ring", "carrier") if member != scene.gearset.held]
     planets = [_planets(scene)[leader] for leader in planet_groups(scene).leaders]

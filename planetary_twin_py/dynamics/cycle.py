@@ -1,7 +1,7 @@
-"""Where each mesh stands in its cycle: which teeth are in contact, and where on their path.
+"""Position of the meshes in their cycles.
 
 A mesh cycle is the passage of one tooth. The rigid frame gives whole turns as integers, so cycles
-stay exact however long the gearbox turns; whole cycles are counted modulo the teeth of a gear.
+are exact for any run time. Whole cycles are counted modulo the number of teeth of a gear.
 """
 
 from __future__ import annotations
@@ -13,14 +13,14 @@ from .._core import Load, Train
 
 
 def turns_per_cycle(train: Train) -> Fraction:
-    """Turns of the first motor in a mesh cycle, the others at rest."""
+    """Turns of the first motor in one mesh cycle while the others are at rest."""
     return Fraction(int(train.cycles_denominator[0]), int(train.cycles_numerator[0]))
 
 
 def common_cycles(train: Train, load: Load) -> int:
-    """Mesh cycles until faulty teeth, errors of form and fluctuation come round all together.
+    """Mesh cycles after which faults, errors of form and torque ripple repeat together.
 
-    0 if never: a train with two motors.
+    0 for a train with two motors, which never repeats.
     """
     if train.axes > 1:
         return 0

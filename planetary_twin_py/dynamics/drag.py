@@ -1,4 +1,4 @@
-"""Drag outside the tooth contacts: bearings, seals and grease, and members that churn oil."""
+"""Drag outside the tooth contacts: bearings, seals, grease, and churning of oil."""
 
 from __future__ import annotations
 
@@ -11,14 +11,14 @@ import numpy as np
 from .._core import NO_PLANET
 from ..scene import Scene
 from ..scene.losses import Bearing
-from .alike import planet_groups
 from .bodies import Bodies
+from .planet_groups import planet_groups
 
 MEMBERS = ("sun", "ring", "carrier")
 
 
 class _Joint(NamedTuple):
-    """What resists the rotation of one body against another; see `Train`."""
+    """Resistance to the rotation of one body relative to another; see `Train`."""
 
     body: tuple[int, int]
     planet: int = NO_PLANET

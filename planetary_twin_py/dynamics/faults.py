@@ -1,8 +1,9 @@
-"""Faulty teeth: which pairs of which mesh they are in, and what they change there.
+"""Faulty teeth: the tooth pairs that contain them, and their effect on these pairs.
 
-Pairs are numbered as they pass the pitch point. On the drive side pair n of a mesh is tooth n of
-both gears (counted modulo their teeth, backwards on the mate); on the coast side, where the motion
-is mirrored and half a pitch late, it is tooth -n of the first gear and tooth 1 - n of the second.
+Pairs are numbered in the order in which they pass the pitch point. On the drive side, pair n of a
+mesh is tooth n of both gears, modulo their numbers of teeth and counted backwards on the second
+gear. On the coast side the motion is mirrored and half a pitch later: pair n is tooth -n of the
+first gear and tooth 1 - n of the second.
 """
 
 from __future__ import annotations
@@ -22,7 +23,7 @@ FAULTS = MOST_FAULTS
 
 
 def fault_kinks(scene: Scene, kind: int) -> tuple[float, ...]:
-    """Positions on the path of a kind of mesh where a fault begins or ends."""
+    """Positions on the path of contact of a kind of mesh at which a fault begins or ends."""
     spalls = [f for f in scene.faults if isinstance(f, Spall) and kind in _kinds(f)]
     ends = [(f.begin, f.end) for f in spalls]
     return tuple(
@@ -33,8 +34,10 @@ def fault_kinks(scene: Scene, kind: int) -> tuple[float, ...]:
 def build_faults(
     scene: Scene, tables: list[PairTable], planets: Sequence[int], phases: np.ndarray
 ) -> dict[str, Any]:
-    """Fields of `Train`, for the sun meshes of `planets` and then their ring meshes, whose
-    `phases` (meshes,) count whole cycles, too."""
+    """Fields of `Train`, for the sun meshes of `planets` and then their ring meshes.
+
+    `phases` (meshes,) [mesh cycles] of these meshes include whole cycles.
+    """
     teeth = scene.gearset.tooth_numbers._asdict()
     pairs = np.full((FAULTS, MESHES, 2), NOWHERE)
     factors = np.zeros((FAULTS, 2, SEGMENTS, PAIRS, TERMS))
@@ -56,7 +59,7 @@ def build_faults(
 
 
 def _kinds(fault: Fault) -> tuple[int, ...]:
-    """Kinds of mesh a fault is felt in."""
+    """Kinds of mesh on which a fault acts."""
     if fault.gear != "planet":
         return (0,) if fault.gear == "sun" else (1,)
     if isinstance(fault, Crack):
@@ -71,7 +74,7 @@ def _pairs(scene: Scene, fault: Fault, kind: int, lead: float) -> tuple[int, int
     """
     teeth, number = scene.gearset.tooth_numbers, fault.tooth
     if fault.gear == "planet" and kind == 1:
-        # A tooth comes to the ring half a turn after the sun, with its other flank.
+        # A tooth meets the ring half a turn after the sun, with its other flank.
         number += round(lead + 0.5 * teeth.planet - 0.5)
     first = fault.gear == ("sun", "planet")[kind]
     modulus = teeth._asdict()[fault.gear]
@@ -82,7 +85,7 @@ def _pairs(scene: Scene, fault: Fault, kind: int, lead: float) -> tuple[int, int
 
 
 def _factor(scene: Scene, fault: Fault, kind: int) -> Along:
-    """Factor on the stiffness of the pair at its positions on the path."""
+    """Factor on the stiffness of the pair over its position on the path of contact."""
     if isinstance(fault, Wear):
         return np.ones_like
     if isinstance(fault, Crack):

@@ -1,83 +1,156 @@
-"""Errors of form: the static transmission error e that the teeth themselves put into a mesh.
+"""Errors of form and position: the static transmission error e of the teeth of a mesh.
 
-A mesh is squeezed by side (d - e) - b on its side, b half the backlash. e = e_T + side e_R: the
-tangential part e_T shifts both flanks of a tooth the same way, the radial part e_R draws them away
-from the other gear's and widens the play. Harmonics of the meshing frequency are e_T alone; runout,
-which returns with the turn of a gear, has both parts and leans by the pressure angle, the other way
-on the other flank. All are sines of the mesh cycle.
+The squeeze of a mesh on one side (side = +1 or -1) is side (d - e) - b, where b is half the
+backlash. e = e_T + side e_R: the tangential part e_T shifts both flanks of a tooth in the same
+direction; the radial part e_R moves both flanks away from the other gear and increases the
+backlash. Harmonics of the meshing frequency have e_T only. Runout repeats with each turn of a gear
+and has both parts, at the pressure angle, with opposite sign on the other flank. Errors of pins,
+planet teeth and axes have both parts, too, where the axes are held. All errors are sines of the
+mesh cycle, e_T = a sin(angle) and e_R = b cos(angle).
 """
 
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
 
-from .._core import LINES
+from .._core import LINES, MESHES
+from ..gearset.kinematics import mesh_cycles_per_turn
 from ..scene import Scene
 from ..scene.mesh import TransmissionError
+from .bodies import rigid_ratios
+from .planet_groups import scene_phases
+
+CONSTANT = 0.25 * math.pi  # angle of a line that does not turn: it has both parts
 
 
 class _Line(NamedTuple):
-    """A column of `Train`."""
+    """A sine in every mesh of one kind."""
 
-    tangential: float
-    radial: float
     harmonic: float
+    """Number of sines ..."""
     period: int
-    phase: float = 0.0
-    of_planet: int = 0
+    """... in so many mesh cycles."""
+    tangential: np.ndarray
+    """a [m], (planets that are integrated,)."""
+    radial: np.ndarray
+    """b [m], likewise."""
+    phase: np.ndarray
+    """Angle at cycle 0 [rad], likewise."""
+    of_planet: bool = False
+    """Whether the cycles are those of the sun mesh of the planet."""
 
 
-def build_form_errors(scene: Scene) -> dict[str, Any]:
-    """Fields of `Train`."""
-    mesh = scene.mesh
-    kinds = (
-        _harmonics(mesh.sun_planet_error) + _runout(scene, 0, {"sun": +1.0, "planet": -1.0}),
-        _harmonics(mesh.planet_ring_error) + _runout(scene, 1, {"planet": +1.0, "ring": +1.0}),
-    )
-    columns = np.zeros((len(_Line._fields), 2, LINES))
-    columns[3] = 1.0
+def build_form_errors(scene: Scene, leaders: Sequence[int]) -> dict[str, Any]:
+    """Fields of `Train`; `leaders` are the planets that are integrated, counted from 0."""
+    mesh, count = scene.mesh, len(leaders)
+    kinds = [
+        _harmonics(error, count) + _runout(scene, kind, leaders) + _positions(scene, kind, leaders)
+        for kind, error in enumerate((mesh.sun_planet_error, mesh.planet_ring_error))
+    ]
+    for lines in kinds:
+        lines.sort(key=lambda line: bool(line.radial.any()))  # those without it first
+    harmonic, of_planet = np.zeros((2, LINES)), np.zeros((2, LINES), dtype=int)
+    period = np.ones((2, LINES), dtype=int)
+    tangential, radial, phase = (np.zeros((MESHES, LINES)) for _ in range(3))
     for kind, lines in enumerate(kinds):
+        own = slice(kind * count, (kind + 1) * count)
         for place, line in enumerate(lines):
-            columns[:, kind, place] = line
+            harmonic[kind, place], period[kind, place] = line.harmonic, line.period
+            of_planet[kind, place] = line.of_planet
+            tangential[own, place], radial[own, place] = line.tangential, line.radial
+            phase[own, place] = line.phase
     return {
         "lines": np.array([len(lines) for lines in kinds]),
-        "harmonics": np.array([sum(line.radial == 0.0 for line in lines) for lines in kinds]),
-        "line_tangential": columns[0],
-        "line_radial": columns[1],
-        "line_harmonic": columns[2],
-        "line_period": columns[3].astype(int),
-        "line_phase": columns[4],
-        "line_of_planet": columns[5].astype(int),
+        "harmonics": np.array([sum(not line.radial.any() for line in lines) for lines in kinds]),
+        "line_tangential": tangential,
+        "line_radial": radial,
+        "line_harmonic": harmonic,
+        "line_period": period,
+        "line_phase": phase,
+        "line_of_planet": of_planet,
     }
 
 
-def _harmonics(error: TransmissionError) -> list[_Line]:
+def _harmonics(error: TransmissionError, count: int) -> list[_Line]:
     phases = error.phases or (0.0,) * len(error.amplitudes)
-    pairs = zip(error.amplitudes, phases, strict=True)
-    return [_Line(a, 0.0, n + 1.0, 1, phase) for n, (a, phase) in enumerate(pairs) if a != 0.0]
+    one = np.ones(count)
+    return [
+        _Line(n, 1, a * one, 0.0 * one, phase * one)
+        for n, (a, phase) in enumerate(zip(error.amplitudes, phases, strict=True), 1)
+        if a != 0.0
+    ]
 
 
-def _runout(scene: Scene, kind: int, leans: dict[str, float]) -> list[_Line]:
+def _runout(scene: Scene, kind: int, leaders: Sequence[int]) -> list[_Line]:
     """Lines a sin(turn + side lean phi) of the gears of a mesh with working pressure angle phi.
 
-    With the toothing off its axis by a towards phi_g from the planet's radius, the sun has
-    e_T = -a cos(phi) sin(phi_g), e_R = -a sin(phi) cos(phi_g); the ring the same with -e_R; the
-    planet the opposite of both, in both meshes (first order in a). All turn one way but the sun.
+    If the toothing is displaced from the axis by a, in the direction phi_g from the radius of the
+    planet, the sun has e_T = -a cos(phi) sin(phi_g) and e_R = -a sin(phi) cos(phi_g). The ring has
+    the same e_T and the opposite e_R; the planet has the opposite of both, in both meshes (first
+    order in a). The sun turns in the opposite direction to the others.
     """
-    teeth = scene.gearset.tooth_numbers._asdict()
+    teeth, runout, errors = scene.gearset.tooth_numbers, scene.mesh.runout, scene.errors
     angle = scene.gearset.geometry.meshes[kind].pressure_angle
-    sizes = {gear: getattr(scene.mesh.runout, gear) for gear in leans}
-    return [
-        _Line(
-            size * math.cos(angle),
-            leans[gear] * size * math.sin(angle),
-            1.0,
-            teeth[gear],
-            of_planet=int(gear == "planet"),
+    one = np.ones(len(leaders))
+    own = -np.array([errors.of_planet(i)[3] for i in leaders])
+    central = ("ring", 1.0, -errors.ring_runout_phase * one) if kind else (
+        "sun", 1.0, errors.sun_runout_phase * one
+    )  # fmt: skip
+    found = []
+    for gear, lean, phase in (central, ("planet", 1.0 if kind else -1.0, own)):
+        size = getattr(runout, gear)
+        if size != 0.0:
+            across, along = size * math.cos(angle), lean * size * math.sin(angle)
+            period, of_planet = getattr(teeth, gear), gear == "planet"
+            found.append(_Line(1.0, period, across * one, along * one, phase, of_planet))
+    return found
+
+
+def _positions(scene: Scene, kind: int, leaders: Sequence[int]) -> list[_Line]:
+    """Lines of pins and axes off their places, and of thicker teeth; the axes are held there."""
+    errors, angle = scene.errors, scene.gearset.geometry.meshes[kind].pressure_angle
+    outwards, across, thicker, _ = np.array([errors.of_planet(i) for i in leaders]).T
+    lean = -1.0 if kind else 1.0
+    tangential = math.cos(angle) * across
+    radial = lean * math.sin(angle) * outwards - 0.5 * math.cos(angle) * thicker
+    found = []
+    if tangential.any() or radial.any():
+        found.append(
+            _Line(
+                0.0,
+                1,
+                tangential / math.sin(CONSTANT),
+                radial / math.cos(CONSTANT),
+                np.full(len(leaders), CONSTANT),
+            )
         )
-        for gear, size in sizes.items()
-        if size != 0.0
-    ]
+    carried, offset = errors.carrier_offset, errors.ring_offset
+    moved = carried.size * np.exp(1j * carried.angle)
+    if kind:
+        moved -= offset.size * np.exp(1j * offset.angle)
+    if moved:
+        found.append(_offset(scene, kind, leaders, moved))
+    return found
+
+
+def _offset(scene: Scene, kind: int, leaders: Sequence[int], moved: complex) -> _Line:
+    """Line of all planets displaced by `moved` [m], x + i y in the housing, against sun or ring.
+
+    Against the radius of a planet it points by phi_g = its direction - planet angle - angle of the
+    carrier, which the mesh cycles give: e_T = size cos(phi) sin(phi_g) and
+    e_R = +-size sin(phi) cos(phi_g).
+    """
+    gearset = scene.gearset
+    ratios = {name: ratio[0] for name, ratio in rigid_ratios(scene).items()}
+    turns = ratios["carrier"] / mesh_cycles_per_turn(gearset.tooth_numbers, ratios)
+    angle = gearset.geometry.meshes[kind].pressure_angle
+    planets = np.array([gearset.planet_angles[i] for i in leaders])
+    phases = np.array([float(scene_phases(scene)[kind][i]) for i in leaders])
+    start = planets + 2.0 * np.pi * float(turns) * phases - float(np.angle(moved))
+    size, one = abs(moved), np.ones(len(leaders))
+    across, along = -size * math.cos(angle), size * math.sin(angle) * (-1.0 if kind else 1.0)
+    return _Line(float(turns.numerator), turns.denominator, across * one, along * one, start)

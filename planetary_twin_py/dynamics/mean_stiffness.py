@@ -1,4 +1,4 @@
-"""The mean stiffness of a train's two kinds of mesh, with healthy teeth."""
+"""Mean stiffness of the two kinds of mesh of a train, with healthy teeth."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from ..mesh.tooth_pairs import mean_weight
 
 
 def mean_stiffness(train: Train) -> np.ndarray:
-    """Over the mesh cycle: of sun-planet, of planet-ring meshes [N/m], shape (2,)."""
+    """Mean over the mesh cycle [N/m], shape (2,): sun-planet meshes, planet-ring meshes."""
     mean = [
         mean_weight(edge, weight[:, TOTAL])
         for edge, weight in zip(train.edge, train.weight, strict=True)

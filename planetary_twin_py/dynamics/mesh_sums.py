@@ -1,6 +1,6 @@
-"""What a stretch of time adds up to in each mesh: integrals and extremes.
+"""Integrals and extremes of each mesh over a time interval.
 
-Statistics of windows and runs follow from them, whatever samples are taken.
+Statistics of windows and runs follow from them, independent of the samples.
 """
 
 from __future__ import annotations
@@ -13,10 +13,10 @@ from .. import _core
 
 
 class MeshSums(NamedTuple):
-    """A `_core.MeshSums` as arrays over the meshes that are integrated."""
+    """A `_core.MeshSums` as arrays over the integrated meshes."""
 
     time: float
-    """Length of the stretch [s]."""
+    """Length of the interval [s]."""
     integral: np.ndarray
     """(SUMS, meshes)"""
     dte_peak: np.ndarray
@@ -26,18 +26,28 @@ class MeshSums(NamedTuple):
 
 
 def mesh_sums(record: _core.MeshSums, meshes: int) -> MeshSums:
-    """A copy of `record` without the room for meshes beyond `meshes`."""
+    """A copy of `record` with its first `meshes` meshes."""
     peaks = (record.dte_peak[:meshes].copy(), record.force_peak[:meshes].copy())
     return MeshSums(float(record.time), record.integral[:, :meshes].copy(), *peaks)
 
 
+def record_of(sums: MeshSums) -> _core.MeshSums:
+    """The same as a record."""
+    return _core.MeshSums(
+        time=sums.time,
+        integral=sums.integral,
+        dte_peak=sums.dte_peak,
+        force_peak=sums.force_peak,
+    )
+
+
 def in_order(sums: MeshSums, place: np.ndarray) -> MeshSums:
-    """The same of the meshes `place` (meshes,) among those that are integrated."""
+    """The sums of the meshes with indices `place` (meshes,) among the integrated meshes."""
     peaks = sums.dte_peak[place], sums.force_peak[place]
     return MeshSums(sums.time, sums.integral[:, place], *peaks)
 
 
 def clear(total: _core.MeshSums) -> None:
-    """Let `total` begin again."""
+    """Set `total` to zero."""
     total.time = 0.0
     total.integral[:] = total.dte_peak[:] = total.force_peak[:] = 0.0

@@ -1,6 +1,6 @@
 """The meshes of a scene as arrays: tables of tooth pairs, phases, errors of form.
 
-Order of the meshes: sun meshes of the planets that are integrated, then their ring meshes. Arrays
+Order of the meshes: sun meshes of the integrated planets, then their ring meshes. Arrays
 with a first length of 2 hold the sun-planet mesh at 0 and the planet-ring mesh at 1.
 """
 
@@ -14,11 +14,11 @@ from ..mesh.stiffness import StiffnessLaw
 from ..mesh.tip_relief import relieved_table
 from ..mesh.tooth_pairs import PairTable, pair_table, terms_in_use
 from ..scene import Scene
-from .alike import PlanetGroups, planet_groups, scene_phases
 from .bodies import Bodies
 from .faults import build_faults, fault_kinks
 from .form_errors import build_form_errors
 from .mesh_damping import damping_cycles, steady_damping_times
+from .planet_groups import PlanetGroups, planet_groups, scene_phases
 from .stiffness_laws import loaded_force, pair_gap, stiffness_laws
 
 
@@ -26,7 +26,7 @@ def build_meshes(scene: Scene, bodies: Bodies) -> dict[str, Any]:
     """Fields of `Train`.
 
     Raises:
-        ValueError: the teeth leave a moment without contact (see `pair_table`).
+        ValueError: there is an instant without contact of teeth (see `pair_table`).
     """
     gearset, damping = scene.gearset, scene.mesh.damping
     gears, laws = gearset.geometry, stiffness_laws(scene)
@@ -60,7 +60,7 @@ def build_meshes(scene: Scene, bodies: Bodies) -> dict[str, Any]:
         "slots": max(int(table.present.sum(axis=1).max()) for table in tables),
         "terms": max(terms_in_use(table) for table in tables),
         "weight": np.array([table.weight for table in tables]),
-        **build_form_errors(scene),
+        **build_form_errors(scene, groups.leaders),
         **build_faults(scene, tables, groups.leaders, phases),
     }
 
@@ -79,7 +79,7 @@ def _rows(
 ) -> tuple[np.ndarray, np.ndarray]:
     """Bodies of each mesh and the factors of their x in its transmission error.
 
-    `carrier` is that of the carrier in ring meshes, see `GearSet.carrier_ratio`.
+    `carrier` is the factor of the carrier in ring meshes, see `GearSet.carrier_ratio`.
     """
     numbers = [leader + 1 for leader in groups.leaders]
     sun = [[place["sun"], place[f"planet_{i}"], place["carrier"]] for i in numbers]

@@ -1,9 +1,12 @@
-"""The lubrication laws of a scene as the numbers the compiled equations read."""
+"""The lubrication laws of a scene as constants of the compiled equations."""
 
 from __future__ import annotations
 
 import math
 
+import numpy as np
+
+from .. import _core
 from .._core import (
     TRACTION_LAWS,
     Asperities,
@@ -18,13 +21,14 @@ from ..lubrication.hertz import contact_modulus
 from ..lubrication.schlenk import log_schlenk_factor
 from ..lubrication.viscosity import viscosity_at
 from ..scene import OperatingPoint, Scene
+from ..scene.friction_table import AXES, FrictionTable
 from ..scene.lubrication import Lubrication
 
-THINNEST = 1e-12  # lambda ratio that stands for none at all: a share of 0.04 %
+THINNEST = 1e-12  # lambda ratio used for 0: the film carries 0.04 %
 
 
 def build_oil(scene: Scene, point: OperatingPoint) -> Oil:
-    """Collect the constants of the laws a scene chooses, at the temperature of the oil."""
+    """Collect the constants of the selected laws at the oil temperature."""
     data = scene.lubrication
     modulus = contact_modulus(data.youngs_modulus, data.poisson_ratio)
     width = scene.gearset.face_width
@@ -63,11 +67,23 @@ def build_oil(scene: Scene, point: OperatingPoint) -> Oil:
         rolling=data.rolling == "goksem_hargreaves",
         sliding_threshold=data.sliding_threshold,
         presliding=data.presliding_displacement,
+        table=_friction_table(data.friction_table),
     )
 
 
+def _friction_table(data: FrictionTable | None) -> _core.FrictionTable:
+    """The table of a scene with logarithms of its quantities."""
+    if data is None:
+        return _core.FrictionTable()
+    knots = [np.log(getattr(data, name) or (1.0,)) for name in AXES]
+    table = _core.FrictionTable(size=[len(each) for each in knots], coefficient=data.coefficient)
+    for row, each in zip(table.knot, knots, strict=True):
+        row[: len(each)] = each
+    return table
+
+
 def _asperities(data: Lubrication, modulus: float) -> Asperities:
-    """What roughness makes of them, from E* [Pa]."""
+    """Constants of the asperities, from the roughness and E* [Pa]."""
     roughness_squared = math.pi * data.roughness_parameter**2
     return Asperities(
         area_factor=math.pi * roughness_squared,

@@ -1,8 +1,8 @@
-"""How the tooth pairs of a mesh share a given force, e.g. a recorded one.
+"""Loads of the tooth pairs of a mesh under a given, for example recorded, force.
 
-The pairs have the stiffnesses k and the missing material g of a mesh with faults, at the squeeze q
-at which they carry the force F: F = sum of k (q - g) over the pairs with q > g. Damping acts on all
-pairs in proportion to k, so it does not change the shares, except for a worn pair that only just
+The pairs have stiffnesses k and gaps g (missing material) as in a mesh with faults. They carry
+the force F at the squeeze q: F = sum of k (q - g) over the pairs with q > g. Damping acts on all
+pairs in proportion to k, so it does not change the shares, except for a worn pair that barely
 touches.
 """
 
@@ -30,7 +30,7 @@ class PairLoads(NamedTuple):
     position: Array
     """Distance past the pitch point [base pitches]."""
     load: Array
-    """[N], 0 where there is no pair, or where it does not touch."""
+    """[N], 0 if there is no pair or if it does not touch."""
 
 
 def pair_loads(scene: Scene, mesh: int, angle: Mapping[str, Array], force: Array) -> PairLoads:
@@ -59,7 +59,7 @@ def pair_loads(scene: Scene, mesh: int, angle: Mapping[str, Array], force: Array
 
 
 def _cycles(scene: Scene, member: str, angle: Mapping[str, Array]) -> Array:
-    """Mesh cycles since the start, by the teeth of a gear that have passed the carrier."""
+    """Mesh cycles since the start, from the angle of a gear relative to the carrier."""
     teeth = scene.gearset.tooth_numbers._asdict()[member.partition("_")[0]]
     forwards = 1.0 if member == "sun" else -1.0
     return forwards * teeth * (angle[member] - angle["carrier"]) / (2.0 * math.pi)

@@ -1,18 +1,17 @@
-"""The speed loop of the drive: its gains, its default bandwidth, and whether it is stable.
+"""The speed loop of the drive: gains, default bandwidth, stability.
 
 Each motor has a proportional controller of its speed; the integral of its speed error trims the
 load of the first input and the motor of the second. With J the inertia of the train at a motor
 and w = 2 pi bandwidth, the gains J w and J w^2/4 make the loop critically damped on a rigid train.
 
-The train is not rigid. Between motor and load of inertia J in all on one shaft of stiffness k,
-the loop is stable as long as J w^2/4 < k (Routh-Hurwitz), whatever the shares of the inertia: a
-faster integrator turns the load while the motor does not yet feel it. For a whole train the same
-limit follows from the eigenvalues of
+The train is not rigid. For motor and load of total inertia J on one shaft of stiffness k, the loop
+is stable if J w^2/4 < k (Routh-Hurwitz), for any division of the inertia: a faster integrator moves
+the load before the motor responds. For a whole train the limit follows from the eigenvalues of
 
     M x'' + (C + w P) x' + (K + w^2 I) x = 0
 
-in the coordinates of `TRAIN`, with P of the proportional controllers and I of the integrators.
-The meshes have their mean stiffness and stay closed; drag and friction of teeth are left out.
+in the coordinates of `Train`, with P of the proportional controllers and I of the integrators.
+The meshes have their mean stiffness and stay in contact; drag and tooth friction are omitted.
 """
 
 from __future__ import annotations
@@ -32,20 +31,20 @@ from .train import TRAINS_KEPT, build_train, unloaded
 
 FIELD = "drive.speed_control.bandwidth"
 FASTEST_DEFAULT = 3.0  # [Hz]
-# Bandwidth up to which a loop must be stable, over its own. A factor of sqrt(2) in the bandwidth
-# is one of 2 in the integrator: the gain margin of 6 dB that is customary (Astrom and Murray 2008,
-# Feedback Systems, section 9.3). At a margin of 4, motor and load on one shaft have real
+# Bandwidth up to which a loop must be stable, relative to its own. A factor of sqrt(2) in the
+# bandwidth is a factor of 2 in the integrator: the usual gain margin of 6 dB (Astrom and Murray
+# 2008, Feedback Systems, section 9.3). At a margin of 4, motor and load on one shaft have real
 # eigenvalues of the loop, between -w and -0.38 w; on a rigid train both are -0.5 w.
 LEAST_MARGIN = math.sqrt(2.0)
 DEFAULT_MARGIN = 4.0
-SLOWEST = 1e-9  # [Hz] below it no stable bandwidth is looked for
+SLOWEST = 1e-9  # [Hz] lower limit of the search for a stable bandwidth
 BISECTIONS = 40
 FREQUENCIES_KEPT = 64
 ROUNDING = 1e-12  # growth rates below it, over the largest eigenvalue, are rounding
 
 
 class Gains(NamedTuple):
-    """What the speed loop of a train is made of."""
+    """Gains of the speed loop of a train."""
 
     inertia: np.ndarray  # of the whole train at the motors [kg m^2], (AXES, AXES)
     proportional: np.ndarray  # of each motor [N m s/rad], (AXES,)
@@ -53,9 +52,9 @@ class Gains(NamedTuple):
 
 
 class Loop(NamedTuple):
-    """A linearised train and what its speed loop adds to it, shape (bodies, bodies) each.
+    """Matrices of a linearised train and of its speed loop, (bodies, bodies) each.
 
-    In coordinates of unit mass, the first of which turn the train rigidly.
+    In coordinates of unit mass; the first of them are rigid rotations of the train.
     """
 
     damping: np.ndarray  # C [1/s]
@@ -73,7 +72,7 @@ class Loop(NamedTuple):
         return np.asarray(np.linalg.eigvals(matrix))
 
     def is_stable(self, bandwidth: float) -> bool:
-        """Whether nothing grows at a `bandwidth` [Hz]."""
+        """Whether no eigenvalue at a `bandwidth` [Hz] has a positive real part."""
         found = self.eigenvalues(bandwidth)
         return bool(found.real.max() <= ROUNDING * np.abs(found).max())
 
@@ -89,18 +88,18 @@ class Loop(NamedTuple):
 
 
 def bandwidth(scene: Scene) -> float:
-    """Bandwidth of the speed loop [Hz]: that of the scene, or one that its train allows.
+    """Bandwidth of the speed loop [Hz]: given by the scene, or derived from its train.
 
-    The default is 3 Hz, or a quarter of the largest stable bandwidth where that is less, rounded
-    down to two digits. Mesh damping that follows the speed is taken at the highest speed that the
-    drive allows, where it is least.
+    The default is 3 Hz, or a quarter of the largest stable bandwidth if that is lower, rounded
+    down to two digits. Mesh damping that depends on speed is taken at the highest speed that the
+    drive allows, where it is lowest.
 
     Args:
-        scene: the train and its drive. Of its operating point only the torque matters, and only
-            where the stiffness of the teeth follows it.
+        scene: the train and its drive. Of its operating point only the torque is used, and only if
+            the stiffness of the teeth depends on it.
 
     Raises:
-        ValueError: the teeth leave a moment without contact.
+        ValueError: there is an instant without contact of teeth.
     """
     given = scene.drive.speed_control.bandwidth
     return _default(unloaded(scene)) if given is None else given
@@ -118,7 +117,7 @@ def speed_loop_gains(scene: Scene, train: Train, bandwidth: float) -> Gains:
     """Gains of the speed loop.
 
     Args:
-        scene: whose drive it is.
+        scene: scene of the drive.
         train: of `build_train`.
         bandwidth: of the loop [Hz].
 
@@ -129,7 +128,7 @@ def speed_loop_gains(scene: Scene, train: Train, bandwidth: float) -> Gains:
     inertia = np.einsum("j,ja,jb->ab", train.mass * train.radius**2, train.ratio, train.ratio)
     integral = np.diag(inertia) * w**2 / 4.0
     trim = np.zeros((MACHINES, AXES))
-    # The first motor gives just its torque; the load is trimmed so that its speed holds.
+    # The first motor gives its torque only; the load is trimmed to hold the speed.
     trim[LOAD_MACHINE, 0] = -static_torques(scene)[LOAD_MACHINE] * integral[0]
     if axes > 1:
         trim[SECOND_MOTOR, 1] = integral[1]
@@ -137,10 +136,10 @@ def speed_loop_gains(scene: Scene, train: Train, bandwidth: float) -> Gains:
 
 
 class LinearTrain:
-    """The linearised train with its speed loop, at one speed after the other.
+    """The linearised train with its speed loop, at any speed.
 
     Args:
-        scene: whose drive it is.
+        scene: scene of the drive.
         train: of `build_train`.
     """
 
@@ -149,13 +148,13 @@ class LinearTrain:
         coupling, found = slice(machines), mean_stiffness(train)
         mesh = (train.copies * found[train.kind])[:meshes]
         springs = np.concatenate([mesh, train.coupling_stiffness[coupling]])
-        rows = np.zeros((meshes + machines, train.bodies + 1))  # what stretches each of them
+        rows = np.zeros((meshes + machines, train.bodies + 1))  # elongation of each spring
         place = meshes + np.arange(machines)[:, None]
         np.add.at(rows, (np.arange(meshes)[:, None], train.body[:meshes]), train.sign[:meshes])
         np.add.at(rows, (place, train.coupling[coupling]), [1.0, -1.0])
         basis = _basis(train)
-        stretch = rows[:, :-1] @ basis  # the ground stands still
-        stretch[:, : train.axes] = 0.0  # by rigid motion, without what rounding leaves
+        stretch = rows[:, :-1] @ basis  # the ground is at rest
+        stretch[:, : train.axes] = 0.0  # rigid motion: exactly zero, without rounding
         self._train, self._mesh, self._stretch = train, mesh, stretch
         self._stiffness = (stretch.T * springs) @ stretch
         self._proportional, self._integral = (
@@ -166,10 +165,10 @@ class LinearTrain:
         """The loop at a speed.
 
         Args:
-            mesh_frequency: rate at which teeth pass [Hz], which mesh damping may follow.
+            mesh_frequency: meshing frequency [Hz], on which mesh damping may depend.
 
         Returns:
-            Its matrices, from which the eigenvalues at any bandwidth follow.
+            Matrices, which give the eigenvalues at any bandwidth.
         """
         train, stretch = self._train, self._stretch
         tau = np.array([damping_time(train, kind, mesh_frequency) for kind in range(2)])
@@ -193,7 +192,7 @@ def _basis(train: Train) -> np.ndarray:
 
 
 def _feedback(scene: Scene, train: Train) -> np.ndarray:
-    """P and I [kg] in the coordinates of `TRAIN`, shape (2, bodies, bodies)."""
+    """P and I [kg] in the coordinates of `Train`, shape (2, bodies, bodies)."""
     gains, machines = speed_loop_gains(scene, train, 0.5 / math.pi), train.coupling[:, 0]
     feedback = np.zeros((2, train.bodies, train.bodies))
     for a in range(train.axes):
@@ -206,26 +205,26 @@ def _feedback(scene: Scene, train: Train) -> np.ndarray:
 
 
 class SpeedLoopCheck:
-    """Refuses operating points at which the train makes the speed loop unstable, or nearly so.
+    """Refuses operating points at which the speed loop is unstable or has too little margin.
 
     Args:
-        scene: whose drive it is.
+        scene: scene of the drive.
         train: of `build_train`.
     """
 
     def __init__(self, scene: Scene, train: Train) -> None:
         self._cycles, self._chosen = train.cycles.copy(), bandwidth(scene)
         self._linear = LinearTrain(scene, train)
-        self._stable: set[float] = set()  # mesh frequencies [Hz] found stable, the last few
+        self._stable: set[float] = set()  # recent mesh frequencies [Hz] that are stable
 
     def check(self, point: OperatingPoint) -> None:
-        """Check an operating point: mesh damping may follow its speeds.
+        """Check an operating point; mesh damping may depend on its speeds.
 
         Args:
             point: the operating point.
 
         Raises:
-            SceneError: at sqrt(2) times its bandwidth the loop is not stable.
+            SceneError: the loop is not stable at sqrt(2) times its bandwidth.
         """
         speeds = np.zeros(AXES)
         speeds[:] = point.input_speed, point.second_input_speed
@@ -252,15 +251,15 @@ class SpeedLoopCheck:
 
 
 def check_speed_loop(scene: Scene, train: Train, point: OperatingPoint) -> None:
-    """Refuse a speed loop that the train makes unstable, or hardly stable.
+    """Refuse a speed loop that is unstable or has too little margin with this train.
 
     Args:
-        scene: whose drive it is.
+        scene: scene of the drive.
         train: of `build_train`.
-        point: where the train runs: mesh damping may follow its speeds.
+        point: operating point; mesh damping may depend on its speeds.
 
     Raises:
-        SceneError: at sqrt(2) times its bandwidth the loop is not stable.
+        SceneError: the loop is not stable at sqrt(2) times its bandwidth.
     """
     SpeedLoopCheck(scene, train).check(point)
 

@@ -1,8 +1,8 @@
-"""Where a run begins: the train in quasi-static equilibrium at its operating point.
+"""Initial state of a run: quasi-static equilibrium at the operating point.
 
-Each flank carries what the mean torque puts on it, the couplings are wound up, and the torques
-are trimmed for the friction of one mesh cycle, so that a run is steady from its first moment but
-for the vibration that the meshes start.
+Flanks carry the mean torque, couplings are deflected, and the torques are trimmed for the mean
+friction of one mesh cycle. So the run is steady from the start, except for the vibration that the
+meshes excite.
 """
 
 from __future__ import annotations
@@ -15,10 +15,10 @@ from .static_load import mesh_force, static_torques
 
 
 class LoadBuilder:
-    """Builds what acts on a train at one operating point after the other.
+    """Builds the loads of a train for any operating point.
 
     Args:
-        scene: whose drive it is.
+        scene: scene of the drive.
         train: of `build_train`.
     """
 
@@ -37,7 +37,7 @@ class LoadBuilder:
         )
 
     def build(self, point: OperatingPoint) -> Load:
-        """What acts at an operating point."""
+        """Loads at an operating point."""
         load = self._constant.copy()
         half, offset = self._mesh.flanks(point.backlash, self._angle)
         load.half_backlash, load.offset = half, offset
@@ -49,12 +49,12 @@ class LoadBuilder:
 
 
 def build_load(scene: Scene, point: OperatingPoint, train: Train) -> Load:
-    """What acts on the train at an operating point."""
+    """Loads on the train at an operating point."""
     return LoadBuilder(scene, train).build(point)
 
 
 def start_state(scene: Scene, model: Model) -> State:
-    """The state in which a run begins, at time zero and motor angle zero."""
+    """State at the start of a run, at time zero and motor angle zero."""
     speed = model.load.target_speed.copy()
     if scene.drive.speed_control.start_speed is not None:
         speed[0] = scene.drive.speed_control.start_speed

@@ -1,6 +1,6 @@
 """Statics of the train without loss.
 
-Torques on sun, ring and carrier are as their teeth: Ts : Tr : Tc = Zs : Zr : -(Zs + Zr).
+Torques on sun, ring and carrier follow from the teeth: Ts : Tr : Tc = Zs : Zr : -(Zs + Zr).
 """
 
 from __future__ import annotations
@@ -12,14 +12,14 @@ from .bodies import MOTOR, base_radii, machines
 
 
 def static_torques(scene: Scene) -> np.ndarray:
-    """Torque of every machine per torque of the first motor."""
+    """Torque of each machine divided by the torque of the first motor [-]."""
     parts = _parts(scene)
     members = [parts[machine.member] for machine in machines(scene).values()]
     return np.array(members) / members[MOTOR]
 
 
 def mesh_force(scene: Scene, torque: float) -> float:
-    """Mean force [N] of every mesh that carries a torque [N m] of the first motor."""
+    """Mean force [N] of each mesh at a torque [N m] of the first motor."""
     sun_torque = torque * _parts(scene)["sun"] / _parts(scene)[scene.drive.input.member]
     return sun_torque / (base_radii(scene)["sun"] * scene.gearset.planets)
 

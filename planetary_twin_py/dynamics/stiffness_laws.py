@@ -1,4 +1,4 @@
-"""The stiffness laws of a scene's two kinds of mesh: given, or computed from the teeth."""
+"""Stiffness laws of the two kinds of mesh of a scene: given, or computed from the teeth."""
 
 from __future__ import annotations
 
@@ -21,14 +21,14 @@ from ..tooth.tooth import Tooth
 from .static_load import mesh_force
 
 GEARS = (("sun", "planet"), ("planet", "ring"))  # of each kind of mesh: first and second
-LIGHTEST_LINE_LOAD = 1e3  # [N/m] below it contact compliance is that of this load
+LIGHTEST_LINE_LOAD = 1e3  # [N/m] contact compliance at lower loads is that of this load
 
 
 def stiffness_laws(scene: Scene) -> tuple[StiffnessLaw, StiffnessLaw]:
-    """Those of sun-planet and planet-ring meshes.
+    """Laws of sun-planet and planet-ring meshes.
 
     Raises:
-        ValueError: there are no such teeth (see `tooth.pair`).
+        ValueError: such teeth cannot exist (see `tooth.pair`).
     """
     mesh = scene.mesh
     if mesh.stiffness == "involute":
@@ -44,7 +44,7 @@ def stiffness_laws(scene: Scene) -> tuple[StiffnessLaw, StiffnessLaw]:
 
 
 def stiffness_follows_load(scene: Scene) -> bool:
-    """Whether teeth are as stiff as the scene's own torque makes them."""
+    """Whether the stiffness of the teeth depends on the torque of the scene."""
     if scene.mesh.tip_relief != TipReliefs():
         return True
     return scene.mesh.stiffness == "involute" and scene.mesh.tooth.contact != "yang_sun"

@@ -1,11 +1,11 @@
-"""The gearbox as arrays: bodies, meshes, couplings, as the compiled equations read them.
+"""The gearbox as arrays for the compiled equations: bodies, meshes, couplings.
 
 Coordinates. Every body has x = r theta, r its base radius (r_c cos(phi) for the carrier; that of
 its member for a machine), measured in a frame that turns with the rigid train at the speeds of the
 motors. A mesh's transmission error is then a sum of three x with signs: d = x_s + x_p - x_c at the
 sun, d = -x_p + x_r - x_c at the ring (al-Shyyab and Kahraman 2007, in base-circle coordinates).
 Where ring is not sun + 2 planet, x_c has the factor (r_br - r_bp)/(r_bs + r_bp) at the ring.
-A held body is the ground: one more entry whose x is zero.
+A held body is the ground: one additional entry with x = 0.
 """
 
 from __future__ import annotations
@@ -27,16 +27,16 @@ TRAINS_KEPT = 16
 
 
 def build_train(scene: Scene) -> Train:
-    """Translate a scene into arrays, which scenes have in common that differ in what may change.
+    """Translate a scene into arrays, which do not depend on quantities that may change in a run.
 
     Raises:
-        ValueError: the teeth leave a moment without contact (see `pair_table`).
+        ValueError: there is an instant without contact of teeth (see `pair_table`).
     """
     return _built(unloaded(scene)).copy()
 
 
 def unloaded(scene: Scene) -> Scene:
-    """The scene with nothing in its operating point but what the train itself follows from."""
+    """The scene with only those operating quantities on which the train itself depends."""
     torque = scene.operating_point.input_torque if stiffness_follows_load(scene) else 0.0
     point = OperatingPoint(backlash=0.0, input_speed=0.0, input_torque=torque)
     return scene.model_copy(update={"operating_point": point})
@@ -82,7 +82,7 @@ def _whole_registers(count: int) -> int:
 
 
 def _cycles(scene: Scene) -> dict[str, Any]:
-    """Mesh cycles per turn of each input; a fraction, so that whole turns add no error."""
+    """Mesh cycles per turn of each input, as fractions, so that whole turns add no error."""
     ratios = rigid_ratios(scene)
     axes = range(len(ratios["sun"]))
     cycles = [

@@ -1,6 +1,6 @@
-"""The clock of a run: whole seconds, and what has passed since.
+"""The clock of a run: whole seconds and a remainder.
 
-So an instant is as sharp after years as at the start, and nothing depends on the age of a run.
+So the resolution of time does not depend on the age of a run.
 """
 
 from __future__ import annotations
@@ -12,30 +12,37 @@ from typing import NamedTuple
 
 from .._core import State
 
+TICKS = 10**12  # of the clock of windows per second: exact, and a whole number of each
 LONGEST_CYCLE = 2**52  # [s] after which samples lie on whole seconds again; ticks stay whole
 
 
 class Instant(NamedTuple):
     """A simulated instant."""
 
-    seconds: int  # whole ones
-    time: float  # since then [s]
+    seconds: int  # whole seconds
+    time: float  # remainder [s]
 
 
 NEVER = Instant(0, math.inf)
 
 
-class Sampling(NamedTuple):
-    """Where the next sample lies, and the distance between samples."""
+def instant_of_ticks(ticks: int) -> Instant:
+    """The instant after so many TICKS."""
+    seconds, rest = divmod(ticks, TICKS)
+    return Instant(seconds, rest / TICKS)
 
-    seconds: int  # whole ones
-    ticks: int  # since then
-    period: int  # ticks
+
+class Sampling(NamedTuple):
+    """Instant of the next sample and sampling period."""
+
+    seconds: int  # whole seconds
+    ticks: int  # remainder
+    period: int  # [ticks]
     ticks_per_second: int
 
 
 def instant(time: float | Fraction) -> Instant:
-    """The instant `time` [s]; a fraction is exact however late it is."""
+    """The instant `time` [s]; a `Fraction` is exact at any age of the run."""
     if isinstance(time, Fraction):  # as below, without a fraction for the difference
         seconds, rest = divmod(time.numerator, time.denominator)
         return Instant(seconds, rest / time.denominator)
@@ -44,25 +51,25 @@ def instant(time: float | Fraction) -> Instant:
 
 
 def sampling(number: int, rate: float) -> Sampling:
-    """Sample `number` of those that lie at whole multiples of exactly 1/rate [s]."""
+    """Sample `number` of the samples at exact integer multiples of 1/rate [s]."""
     period, ticks_per_second = _ticks(rate)
     return Sampling(*divmod(number * period, ticks_per_second), period, ticks_per_second)
 
 
 @lru_cache
 def _ticks(rate: float) -> tuple[int, int]:
-    """Ticks of a sample and of a second."""
+    """Ticks per sample and per second."""
     ratio = Fraction(rate).limit_denominator(LONGEST_CYCLE)
     return ratio.denominator, ratio.numerator
 
 
 def delay(state: State, until: Instant) -> float:
-    """From a state to an instant [s]."""
+    """Time from a state to an instant [s]."""
     return (until.seconds - state.seconds) + (until.time - state.time)
 
 
 def run_on(begin: State, end: State, h: float) -> None:
-    """Let the clock of `end` stand h seconds after that of `begin`."""
+    """Set the clock of `end` to h [s] after the clock of `begin`."""
     time = begin.time + h
     whole = math.floor(time)
     end.seconds = begin.seconds + whole

@@ -15,9 +15,14 @@ from planetary_twin_py._core import (
     tooth_contact,
 )
 from planetary_twin_py.dynamics.oil import build_oil
-from planetary_twin_py.scene import load_scene
+from planetary_twin_py.scene import friction_table, load_scene
 
-PAPER = load_scene("paper")
+TABLE = friction_table(
+    lambda lambda_ratio, sliding_speed: (0.03 + 0.01 * sliding_speed) / (1.0 + lambda_ratio),
+    lambda_ratio=(0.1, 1.0, 5.0),
+    sliding_speed=(0.01, 0.1, 1.0),
+)
+PAPER = load_scene("paper").replace(**{"lubrication.friction_table": TABLE})
 INPUTS = ("rho1", "rho2", "external", "speed1", "speed2", "load")
 RESULTS = (
     "friction",
@@ -31,7 +36,7 @@ RESULTS = (
 )
 LAWS = list(
     itertools.product(
-        ("eyring", "evans_johnson", "printed", "schlenk"),
+        ("eyring", "evans_johnson", "printed", "schlenk", "table"),
         ("greenwood_tripp", "load_sharing"),
         ("exact", "printed"),
         ("prescribed", "computed"),

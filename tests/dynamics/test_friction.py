@@ -115,6 +115,10 @@ LAWS = {
         "lubrication.traction": "eyring",
     },
     "schlenk": {"lubrication.traction": "schlenk"},
+    "table": {
+        "lubrication.traction": "table",
+        "lubrication.friction_table": {"lambda_ratio": [0.5, 2.0], "coefficient": [0.08, 0.05]},
+    },
     "rolling": {"lubrication.rolling": "goksem_hargreaves"},
     "torque": {"lubrication.friction_torque": "printed"},
     "worn": {"faults": [{"kind": "wear", "gear": "sun", "tooth": 1, "depth": "2 um"}]},

@@ -119,7 +119,7 @@ def test_working_angles_decide_hertz_pressure_film_and_sliding():
 
 @pytest.mark.parametrize("flow", FLOWS[:2], ids=str)
 @pytest.mark.parametrize("dynamics", ["quasi_static", "torsional"])
-def test_the_mirrored_set_runs_alike_on_its_coast_flanks(flow, dynamics):
+def test_the_mirrored_set_runs_equally_on_its_coast_flanks(flow, dynamics):
     """Mirroring swaps drive and coast flanks: their phases must follow from the thickness."""
     scene = rig(*flow, dynamics=dynamics, **{"lubrication.friction": False})
     mirrored = scene.replace(

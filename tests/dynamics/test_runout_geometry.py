@@ -111,7 +111,7 @@ def closed_form(ring, flank, gear, size, direction):
     """e [m] of a flank: how much less the gears approach than at their nominal centres.
 
     cos a = (r_1 + r_2)/A of an external mesh, (r_2 - r_1)/A of an internal one. A turn of the line
-    of centres shifts both flanks alike, and inv a is what each is off the middle.
+    of centres shifts both flanks by the same amount; inv a is the distance of each from the middle.
     """
     first, second = PAIRS[ring]
     off = {gear: size * np.exp(1j * direction)}
@@ -157,7 +157,7 @@ def test_the_sun_is_off_by_the_same_towards_every_planet(place):
 
 
 def test_the_play_breathes_by_the_radial_part():
-    """Two flanks leave B + 2 e_R between them: the tangential part shifts both alike."""
+    """Two flanks leave B + 2 e_R between them: the tangential part shifts both equally."""
     train = build_train(SCENE.replace(**{"mesh.runout.sun": SIZE}))
     play = [modelled(train, 0, 1, turn) - modelled(train, 0, -1, turn) for turn in (0.0, 0.25, 0.5)]
     widest = 2.0 * SIZE * math.sin(ANGLE)

@@ -47,7 +47,7 @@ def test_a_pair_alone_is_as_stiff_as_its_teeth_and_two_share_their_gear_bodies(k
 
 
 @KINDS
-def test_given_stiffness_is_single_and_double_as_told(kind):
+def test_given_stiffness_is_that_of_one_and_two_pairs(kind):
     cycles = np.linspace(0.0, 1.0, 200, endpoint=False)
     found = over_the_cycle(PAPER, kind, cycles)
     assert (found.min(), found.max()) == pytest.approx((2e8, 3.5e8))

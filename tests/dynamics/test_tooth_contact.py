@@ -9,16 +9,23 @@ from hypothesis import strategies as st
 
 from planetary_twin_py._core import lambda_ratio_of, tooth_contact
 from planetary_twin_py.dynamics.oil import build_oil
-from planetary_twin_py.scene import load_scene
+from planetary_twin_py.scene import friction_table, load_scene
 
-PAPER = load_scene("paper")
+TABLE = friction_table(
+    lambda pressure, sliding_speed: 0.02 + 1e-12 * pressure + 0.01 * sliding_speed,
+    pressure=(1e6, 1e8, 1e10),
+    sliding_speed=(0.01, 0.1, 1.0),
+)
+PAPER = load_scene("paper").replace(**{"lubrication.friction_table": TABLE})
 LAWS = st.fixed_dictionaries(
     {
         "lubrication.film": st.sampled_from(["dowson_higginson", "dowson_toyoda", "salagianni"]),
         "lubrication.lambda_ratio": st.sampled_from(["prescribed", "computed"]),
         "lubrication.asperities": st.sampled_from(["exact", "printed"]),
         "lubrication.boundary": st.sampled_from(["greenwood_tripp", "load_sharing"]),
-        "lubrication.traction": st.sampled_from(["eyring", "evans_johnson", "printed", "schlenk"]),
+        "lubrication.traction": st.sampled_from(
+            ["eyring", "evans_johnson", "printed", "schlenk", "table"]
+        ),
         "lubrication.rolling": st.sampled_from(["none", "goksem_hargreaves"]),
         "oil_temperature": st.floats(233.15, 433.15),
         "lambda_ratio": st.floats(0.0, 10.0),

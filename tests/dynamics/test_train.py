@@ -37,7 +37,7 @@ def stiffness_matrix(model, state, bodies):
     return np.array(columns).T
 
 
-APART = {"mesh.runout.sun": 1e-16}  # nothing to see, but no two planets are alike
+APART = {"mesh.runout.sun": 1e-16}  # too small for any result, but every planet moves differently
 
 
 def natural_frequencies(flow, **changes):
@@ -75,17 +75,17 @@ def test_natural_frequencies_of_the_bare_gearset(flow, expected):
 @pytest.mark.parametrize("flow", [FLOWS[0], FLOWS[3], DIFFERENTIALS[0]], ids=str)
 @pytest.mark.parametrize("planets, groups", [(2, 1), (4, 2), (5, 1)])
 def test_planet_modes_depend_on_nothing_but_planet_and_meshes(flow, planets, groups):
-    """Planets that move alike have the modes of the train but those of one against the other."""
+    """With planets in phase, the train has all modes but those of planets against one another."""
     changes = {
         "gearset.planet_angles": tuple(2 * math.pi * k / planets for k in range(planets)),
         "mesh.planet_ring_stiffness": 3e8,
     }
-    alike, every = (
+    grouped, every = (
         natural_frequencies(flow, **changes),
         natural_frequencies(flow, **changes, **APART),
     )
     mass = 0.1 / math.cos(math.radians(21.34)) ** 2
     mode = math.sqrt((2e8 + 3e8) / mass) / (2 * math.pi)
     assert np.isclose(every, mode, rtol=1e-7).sum() == planets - 1
-    kept = np.sort([*alike, *[mode] * (planets - groups)])
+    kept = np.sort([*grouped, *[mode] * (planets - groups)])
     assert kept == pytest.approx(every, rel=1e-7, abs=0.5)

@@ -20,7 +20,7 @@ def march(steps):
     work, h = Workspace(), SPAN / steps
     run.control.changed = True
     begin_step(model, run)
-    state, new, moment = run.begin.copy(), run.begin.copy(), run.moment
+    state, new, moment = run.begin.copy(), run.begin.copy(), run.constants
     start = moment.start.copy()
     for i in range(steps):
         moment.start[:] = start + moment.cycle_rate * i * h

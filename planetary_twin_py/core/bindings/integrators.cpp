@@ -3,6 +3,7 @@
 #include <nanobind/stl/pair.h>
 
 #include "bindings/arrays.hpp"
+#include "bindings/raise.hpp"
 #include "bindings/unlocked.hpp"
 #include "integrators/collocated_step.hpp"
 #include "integrators/collocation.hpp"
@@ -24,24 +25,6 @@ namespace {
 
 using namespace nb::literals;
 
-// Run without the interpreter's lock; what cannot go on is an ArithmeticError.
-template <class Function>
-void run_unlocked(Function&& function) {
-    bool finite = true;
-    {
-        Unlocked release;
-        try {
-            function();
-        } catch (const NoFiniteState&) {
-            finite = false;
-        }
-    }
-    if (finite) return;
-    PyErr_SetString(PyExc_ArithmeticError,
-                    "no finite state can be reached, however short the step");
-    throw nb::python_error();
-}
-
 void py_one_step(const Model& model, March& march, double longest) {
     run_unlocked([&] { one_step(model, march, longest); });
 }
@@ -50,8 +33,10 @@ void py_advance(const Model& model, March& march, const InstantTuple& until,
                 const InstantTuple& bound, const SamplingTuple& samples, const SamplesTuple& out) {
     Samples room = samples_of(out);
     if (room.rows < 1) throw std::invalid_argument("samples: no room for the one at the end");
+    --room.rows;
     run_unlocked([&] {
-        advance(model, march, instant_of(until), instant_of(bound), sampling_of(samples), room);
+        advance(model, march, instant_of(until), instant_of(bound), sampling_of(samples), room,
+                room.only(room.rows));
     });
 }
 
@@ -101,8 +86,6 @@ void bind_march(nb::module_& m) {
 
 // Parts of a step, for tests of their order.
 void bind_parts_of_steps(nb::module_& m) {
-    m.def("hold_friction", &hold_friction, "model"_a, "march"_a,
-          "Forces at the start of a step, with the friction of the end of the last.");
     m.def(
         "enter",
         [](const Model& model, March& march) {
@@ -112,7 +95,7 @@ void bind_parts_of_steps(nb::module_& m) {
     m.def(
         "set_step",
         [](const Model& model, March& march, double h) {
-            with_lanes(model.train, [&](auto lanes) { set_step<lanes>(march.run, h, false); });
+            with_lanes(model.train, [&](auto lanes) { set_step<lanes>(march.run, h); });
         },
         "model"_a, "march"_a, "h"_a, "Free motions at the nodes of a step of `h` seconds.");
     m.def(

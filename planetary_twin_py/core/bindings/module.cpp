@@ -18,5 +18,6 @@ NB_MODULE(CORE_MODULE, m) {
     gearbox::bind_initial_state(m);
     gearbox::bind_quasi_static(m);
     gearbox::bind_integrators(m);
+    gearbox::bind_run(m);
     gearbox::bind_peers(m);
 }

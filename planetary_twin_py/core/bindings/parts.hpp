@@ -11,6 +11,7 @@ void bind_tribology(nanobind::module_& m);
 void bind_initial_state(nanobind::module_& m);
 void bind_quasi_static(nanobind::module_& m);
 void bind_integrators(nanobind::module_& m);
+void bind_run(nanobind::module_& m);
 void bind_peers(nanobind::module_& m);
 
 }  // namespace gearbox

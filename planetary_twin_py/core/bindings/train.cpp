@@ -213,7 +213,7 @@ void bind_equations(nb::module_& m) {
     m.def(
         "apply_drag",
         [](const Model& model, const State& state, const Vector& v, Evaluation& out) {
-            apply_drag(model, state, bodies(v), out);
+            apply_drag(model, state, bodies(v), out.now.push, out.rubbing, out.power);
         },
         "model"_a, "state"_a, "v"_a, "out"_a,
         "Add the drag of joints and discs to out.rubbing; book it in out.power.");

@@ -27,6 +27,7 @@ void bind_math(nb::module_& m) {
             return std::tuple(first, second, third);
         },
         "x"_a, "y"_a, "z"_a);
+    m.def("power", &power, "x"_a, "y"_a, "x**y for x >= 0.");
     m.def(
         "sin_cos",
         [](double x) {

@@ -20,9 +20,9 @@ inline void note_both_flanks(const Model& model, March& march) {
     for (std::int64_t i = 0; i < train.meshes; ++i) {
         std::int64_t kind = train.kind[i];
         if (begin.side[i] == OPEN || train.lines[kind] == train.harmonics[kind]) continue;
-        double gap = half + radial_error(train, i, march.moment.line_angle, 0.0, 0.0).length;
+        double gap = half + radial_error(train, i, march.constants.line_angle, 0.0, 0.0).length;
         if (gap >= 0.0) continue;
-        double d = deflection(train, march.moment, i, begin.x, begin.v, 0.0, 0.0).d;
+        double d = deflection(train, march.constants, i, begin.x, begin.v, 0.0, 0.0).d;
         if (static_cast<double>(begin.side[i]) * d - half < -2.0 * gap) {
             ++march.control.both_flanks;
             return;

@@ -19,14 +19,15 @@ namespace {
 constexpr double ON_EDGE = 1e-13;  // [s] to which a step ends on the edge of a tooth pair
 constexpr double WITHIN = 0.1;     // of the step, by which its end is moved for that at most
 constexpr double STRETCH = 1.2;    // by which a planned step is stretched to end on an event
-constexpr double OUTDONE = 0.2;    // of the other method's step, below which it is taken
 constexpr int LANDINGS = 3;
 
-// Whether Rosenbrock's method is to be taken rather than collocation over h seconds.
+// Whether Rosenbrock's method is to be taken rather than collocation over h seconds: where the
+// sweeps do not settle, or where friction reverses so fast that its steps are longer. Elsewhere
+// short steps are what the accuracy asks for.
 bool outdone(const Control& control, double h, bool settled, int restless) {
     if (control.method == COLLOCATION) return false;
     if (!settled && (restless > 1 || h < control.next_stiff)) return true;
-    return h < (control.slow ? 1.0 : OUTDONE) * control.next_stiff;
+    return control.slow && h < control.next_stiff;
 }
 
 // Free waves h seconds after the start, most often just beside the last node.
@@ -34,9 +35,9 @@ template <int L>
 void find_end_waves(Propagation& run, double h) {
     const std::int64_t last = run.nodes.count - 1;
     const double later = h - run.motion.step;
-    if (phase_within<L>(run, later) <= FEW_SHIFTED)
-        shift_waves<L, FEW_TERMS>(run.motion, later, run.cosine[last], run.sine[last],
-                                  run.end_cosine, run.end_sine);
+    if (run.motion.pace * std::fabs(later) <= FEW_SHIFTED)
+        shift_waves<L, FEW_TERMS>(run.motion, later, Row<L>(run.cosine[last]),
+                                  Row<L>(run.sine[last]), run.end_cosine, run.end_sine);
     else
         waves<L>(run.motion, h, run.end_cosine, run.end_sine);
 }
@@ -50,15 +51,16 @@ void place_end(March& march, double h) {
     if (h == run.motion.step) {
         copy<L>(run.cosine[last], run.end_cosine);
         copy<L>(run.sine[last], run.end_sine);
-        copy<L>(run.node_x[last], march.end.x);
-        copy<L>(run.node_v[last], march.end.v);
+        copy<L>(run.node[last].x, march.end.x);
+        copy<L>(run.node[last].v, march.end.v);
         return;
     }
     find_end_waves<L>(run, h);
-    modal_states<L>(run.motion, h / run.motion.step, run.end_cosine, run.end_sine, run.now_q,
-                    run.now_p);
-    const ContactState& contacts = contacts_of(run);
-    sum_rows_twice<L>(contacts.form, run.now_q, run.now_p, march.end.x, march.end.v);
+    RowPair<L> modes = modal_states<L>(run.motion, h * run.motion.per_step, Row<L>(run.end_cosine),
+                                       Row<L>(run.end_sine));
+    auto [x, v] = sum_rows<L>(contacts_of(run).form, modes);
+    x.store(march.end.x);
+    v.store(march.end.v);
 }
 
 // What else the end of the step has, once it stands.
@@ -66,7 +68,7 @@ template <int L>
 void finish_end(const Model& model, March& march) {
     const double h = march.control.step;
     trim_at(model, march, h, march.end.x, march.end.trim);
-    integrate_powers<L>(march, h);
+    integrate_powers<L>(model.train, march, h);
     pass_time(model, march, h);
 }
 
@@ -78,8 +80,8 @@ double time_by_pace(const Model& model, const March& march, std::int64_t mesh) {
     const std::int64_t last = run.nodes.count - 1;
     double gap = time_to_edge(model, march, mesh);
     if (last == 0) return gap;
-    double pace = march.moment.cycle_rate + cycle_shift(train, march.end.v);
-    double faster = cycle_shift(train, run.node_v[last]) - cycle_shift(train, run.node_v[last - 1]);
+    double pace = march.constants.cycle_rate + cycle_shift(train, march.end.v);
+    double faster = cycle_shift(train, run.node[last].v) - cycle_shift(train, run.node[last - 1].v);
     double between = (run.nodes.abscissa[last] - run.nodes.abscissa[last - 1]) * run.motion.step;
     return gap - 0.5 * gap * gap * faster / (between * pace);
 }
@@ -131,7 +133,7 @@ Accepted accepted_step(const Model& model, March& march, double h, bool fresh) {
         if (tried.error <= 1.0 || (h <= SHORTEST_STEP && tried.error < ASTRAY))
             return {h, tried.error};
         restless += tried.settled ? 0 : 1;
-        double shorter = h * std::max(SHRINK, SAFETY * std::pow(tried.error, -1.0 / order));
+        double shorter = h * std::max(SHRINK, growth_of_step(tried.error, order));
         if (h <= SHORTEST_STEP || outdone(control, shorter, tried.settled, restless))
             return {0.0, 0.0};
         ++control.rejected;
@@ -139,19 +141,29 @@ Accepted accepted_step(const Model& model, March& march, double h, bool fresh) {
     }
 }
 
+// Powers and friction at the last node, with which the next step begins.
+void keep_last_forces(const Model& model, const March& march, Node& node, Evaluation& last) {
+    for (double& force : last.rubbing) force = 0.0;
+    rub_bodies_at(model, march, node, last.rubbing);
+    std::memcpy(last.power, node.power, sizeof last.power);
+    last.power[STIFFNESS_WORK] = 0.0;
+    book_mesh_power(model.train, node.meshes, last.power);
+    last.power[FRICTION] =
+        model.train.friction ? friction_power(model.train, node.friction.drag) : 0.0;
+}
+
 template <int L>
 std::int64_t make_step(const Model& model, March& march, double longest, const NextEvent& event) {
     Control& control = march.control;
     Propagation& run = march.run;
     const std::int64_t last = run.nodes.count - 1;
-    hold_friction(model, march);
     enter<L>(model, march);
     const bool fresh = control.changed;
+    run.place = fresh ? 0 : run.place + 1;
     double first = first_trial(march, longest, event.time);
     auto [h, error] = accepted_step<L>(model, march, first, fresh);
     if (h == 0.0) return FAILED;
-    double exponent = -1.0 / static_cast<double>(run.nodes.count);
-    double factor = error > 0.0 ? SAFETY * std::pow(error, exponent) : GROW;
+    double factor = growth_of_step(error, static_cast<double>(run.nodes.count));
     control.next_step = h * std::min(GROW, std::max(SHRINK, factor));
     if (fresh) {
         contacts_of(run).step = control.next_step;
@@ -163,24 +175,13 @@ std::int64_t make_step(const Model& model, March& march, double longest, const N
     march.end = march.begin;
     place_end<L>(march, h);
     if (event.mesh != NO_MESH && h == event.time) meet_edge<L>(model, march, event.mesh, h);
-    std::memcpy(march.last.power, run.evaluation[last].power, sizeof march.last.power);
-    std::memcpy(march.last.rubbing, run.evaluation[last].rubbing, sizeof march.last.rubbing);
+    keep_last_forces(model, march, run.node[last], march.last);
     std::int64_t changing = end_on_flank_event<L>(model, march, h);
     finish_end<L>(model, march);
     return changing;
 }
 
 }  // namespace
-
-void hold_friction(const Model& model, March& march) {
-    const State& begin = march.begin;
-    const StepConstants& constants = march.moment;
-    Evaluation& first = march.first;
-    move_meshes(model.train, begin.x, begin.v, first.now);
-    mesh_forces(model, begin, constants, begin.x, begin.v, 0.0, first);
-    std::memcpy(first.rubbing, march.last.rubbing, sizeof first.rubbing);
-    assemble_forces(model, begin, constants, begin.x, begin.v, 0.0, begin.trim, first);
-}
 
 void end_within(const Model& model, March& march, double h) {
     march.end = march.begin;

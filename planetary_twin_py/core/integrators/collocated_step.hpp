@@ -9,9 +9,6 @@
 
 namespace gearbox {
 
-// Forces at the start of a step, but with the friction of the end of the last.
-void hold_friction(const Model& model, March& march);
-
 // Let the step of collocation end after h seconds, on its own motion.
 void end_within(const Model& model, March& march, double h);
 

@@ -10,10 +10,9 @@
 #include <cmath>
 #include <limits>
 
+#include "integrators/node_forces.hpp"
 #include "integrators/predictor.hpp"
 #include "integrators/propagation.hpp"
-#include "mesh/mesh_forces.hpp"
-#include "train/equations.hpp"
 
 namespace gearbox {
 
@@ -32,55 +31,71 @@ struct Outcome {
     bool settled;  // whether the sweeps came to rest
 };
 
-// The rest at node n from what the meshes, friction and machines do there.
+// Express the start of a step in the modes of its contacts, and what acts there: friction is still
+// that of the end of the last step.
+template <int L>
+void enter(const Model& model, March& march) {
+    using V = Row<L>;
+    Propagation& run = march.run;
+    ModalMotion& motion = run.motion;
+    Node& start = run.start;
+    motion.modes = find_modes(model.train, march.begin, run.known);
+    ContactState& contacts = contacts_of(run);
+    damp_modes<L>(contacts, march.constants.tau);
+    copy<L>(contacts.square, motion.square);
+    copy<L>(contacts.damping, motion.damping);
+    copy<L>(contacts.rate, motion.rate);
+    copy<L>(contacts.slow, motion.slow);
+    copy<L>(contacts.fast, motion.fast);
+    copy<L>(march.begin.x, start.x);
+    copy<L>(march.begin.v, start.v);
+    for (int a = 0; a < AXES; ++a) start.trim[a] = march.begin.trim[a];
+    V mass(model.train.mass);
+    RowPair<L> modes =
+        sum_rows<L>(contacts.share, RowPair<L>{mass * V(start.x), mass * V(start.v)});
+    RowPair<L> meshes = sum_rows<L>(contacts.motion, modes);
+    modes.first.store(start.q);
+    modes.second.store(start.p);
+    meshes.first.store(start.d);
+    meshes.second.store(start.rate);
+    sum_rows<L>(contacts.share, V(march.last.rubbing)).store(start.rubbing);
+    push_node<L>(model, march, start, 0.0);
+    node_force<L>(model, march, contacts, 0.0, start).store(run.force);
+}
+
+// Take the rest anew at node n.
 template <int L>
 LAW void find_rest(const Model& model, March& march, const ContactState& contacts, std::int64_t n) {
     using V = Row<L>;
     Propagation& run = march.run;
-    Evaluation& out = run.evaluation[n];
-    const double *x = run.node_x[n], *v = run.node_v[n];
+    Node& node = run.node[n];
     const double delay = run.nodes.abscissa[n] * run.motion.step;
-    alignas(64) double push[L];
-    (V(march.moment.side) * V(out.now.push)).store(push);
-    copy<L>(out.rubbing, out.force);
-    apply_couplings(model.train, x, v, out);
-    apply_machines(model, march.begin, march.moment, x, v, delay, run.node_trim[n], out);
-    out.force[model.train.bodies] = 0.0;  // the ground
-    V rest = sum_rows<L>(contacts.share, out.force) + sum_rows<L>(contacts.press, push);
-    rest += V(run.damper) * V(run.node_p[n]) + V(run.spring) * V(run.node_q[n]);
+    V rest = node_force<L>(model, march, contacts, delay, node);
+    rest += V(run.damper) * V(node.p) + V(run.spring) * V(node.q);
     rest.store(run.rest[n]);
 }
 
 // Take the rest anew at all nodes, with friction as it was unless `with_friction`.
 template <int L>
 void sweep(const Model& model, March& march, bool with_friction) {
-    const State& begin = march.begin;
-    const StepConstants& constants = march.moment;
     Propagation& run = march.run;
     const ContactState& contacts = contacts_of(run);
-    for (std::int64_t n = 0; n < run.nodes.count; ++n) {
-        Evaluation& out = run.evaluation[n];
-        const double *x = run.node_x[n], *v = run.node_v[n];
-        copy<L>(run.node_d[n], out.now.d);
-        copy<L>(run.node_rate[n], out.now.rate);
-        mesh_forces<L>(model, begin, constants, x, v, run.nodes.abscissa[n] * run.motion.step, out);
-        if (with_friction) apply_friction(model, begin, constants, v, out);
-        find_rest<L>(model, march, contacts, n);
-    }
+    for (std::int64_t n = 0; n < run.nodes.count; ++n)
+        push_node<L>(model, march, run.node[n], run.nodes.abscissa[n] * run.motion.step);
+    if (with_friction) rub_nodes<L>(model, march);
+    for (std::int64_t n = 0; n < run.nodes.count; ++n) find_rest<L>(model, march, contacts, n);
 }
 
 // Largest motion of a mesh, or change of the speed of a body, between the last sweep and the one
 // before, over its tolerance.
 template <int L>
-double difference(const Model& model, const March& march) {
+double difference(const March& march) {
     using V = Row<L>;
     const Propagation& run = march.run;
-    const std::int64_t last = run.nodes.count - 1;
-    alignas(64) double tau[L];  // lanes beyond the meshes stand still
-    for (int i = 0; i < L; ++i) tau[i] = march.moment.tau[model.train.kind[i]];
-    V d = V(run.node_d[last]) - V(run.before_d), rate = V(run.node_rate[last]) - V(run.before_rate);
-    V speed = absolute(V(run.node_v[last]) - V(run.before_v));
-    double of_meshes = largest(larger(absolute(d), V(tau) * absolute(rate)));
+    const Node& node = run.node[run.nodes.count - 1];
+    V d = V(node.d) - V(run.before_d), rate = V(node.rate) - V(run.before_rate);
+    V speed = absolute(V(node.v) - V(run.before_v));
+    double of_meshes = largest(larger(absolute(d), V(march.constants.damping) * absolute(rate)));
     double change =
         std::max(of_meshes / march.control.tolerance_x, largest(speed) / march.control.tolerance_v);
     return std::isfinite(total(d + rate)) ? change : ASTRAY;  // a maximum loses what is no number
@@ -111,9 +126,8 @@ double tail_error(March& march) {
     V lasting = square_root(1.0 + 2.0 / (damper * h + LEAST_DAMPED));
     lasting = select(V(run.spring) == 0.0, 1.0, lasting);
     V missed = tail * tail / (tail + below + SMALLEST) * share * lasting;
-    alignas(64) double moved[L];
-    (missed / stiff).store(moved);
-    double error = largest(sum_rows<L>(contacts_of(run).reach, moved)) / march.control.tolerance_x;
+    double error =
+        largest(sum_rows<L>(contacts_of(run).reach, missed / stiff)) / march.control.tolerance_x;
     if (!march.control.slow) return error;
     return std::max(error, tail_of_speeds<L>(march, missed / larger(square_root(stiff), damper)));
 }
@@ -127,8 +141,9 @@ void settle_meshes(const Model& model, March& march) {
     for (int round = 0; round < MOST_SWEEPS; ++round) {
         double before = change;
         sweep<L>(model, march, false);
-        visit_nodes<L>(model, march);
-        change = difference<L>(model, march);
+        visit_last_node<L>(model, march);
+        visit_other_nodes<L>(model, march);
+        change = difference<L>(march);
         if (round > 0 && before > 0.0) {
             pull = change / before;
             known_pull = pull / run.motion.step;
@@ -148,7 +163,7 @@ Outcome settle_friction(const Model& model, March& march, double& known_pull) {
         sweep<L>(model, march, true);
         march.control.evaluations += run.nodes.count;
         visit_last_node<L>(model, march);
-        change = difference<L>(model, march);
+        change = difference<L>(march);
         if (round == 0) {
             tail = tail_error<L>(march);
         } else if (before > 0.0) {
@@ -168,9 +183,7 @@ Outcome settle_friction(const Model& model, March& march, double& known_pull) {
 template <int L>
 Outcome collocate(const Model& model, March& march, double h, bool fresh) {
     Propagation& run = march.run;
-    set_step<L>(run, h, fresh);
-    for (int n = 0; n < run.nodes.count; ++n)
-        copy<L>(march.first.rubbing, run.evaluation[n].rubbing);
+    set_step<L>(run, h);
     const bool recalled = fresh && recall<L>(march);
     visit_nodes<L>(model, march);
     ContactState& contacts = contacts_of(run);

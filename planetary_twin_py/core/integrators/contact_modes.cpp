@@ -58,6 +58,12 @@ void spread_mode(const Train& train, ContactState& modes, std::int64_t m) {
         modes.motion[m][i] = motion;
         modes.reach[m][i] = std::fabs(motion);
         modes.press[i][m] = -train.copies[i] * motion;
+        double frame = modes.form[m][train.body[i][2]] * train.lever[2][i];
+        for (int g = 0; g < GEARS - 1; ++g) {
+            double spin = modes.form[m][train.body[i][g]] * train.lever[g][i] - frame;
+            modes.spin[g][m][i] = spin;
+            modes.twist[g][i][m] = train.copies[i] * spin;
+        }
         modes.mesh_damping[train.kind[i]][m] += modes.stiffness[i] * motion * motion;
     }
     for (std::int64_t c = 0; c < train.machines; ++c) {

@@ -10,6 +10,7 @@
 namespace gearbox {
 
 inline constexpr int MOST_NODES = 5;  // points of collocation in a step
+inline constexpr int KEPT_STEPS = 3;  // in a contact state, whose free waves are kept
 
 // Numbers for the stiffnesses of sun and ring meshes: their segments, 0 where they are open.
 struct ContactKey {
@@ -29,9 +30,25 @@ struct HashOfContacts {
     }
 };
 
+// Free waves at the nodes of a step, and what they were computed for.
+struct alignas(64) KeptWaves {
+    double step;         // its length, 0: none yet [s]
+    std::int64_t nodes;  // and their number
+    alignas(64) double cosine[MOST_NODES][BODIES];
+    alignas(64) double sine[MOST_NODES][BODIES];
+};
+
+// Bounds on a free wave and tau times its rate, together, per motion and per rate at its start.
+struct alignas(64) WaveBounds {
+    alignas(64) double displaced[BODIES];
+    alignas(64) double moving[BODIES];  // [s]
+};
+
 // Modes of one contact state, of unit modal mass. `form[m]` is what mode m does to the bodies,
 // `share[j]` what body j does to the modes, `motion[m]` what mode m does to the meshes, `reach` its
 // magnitude, and `press[i]` what a force of mesh i and its copies does to the modes [1/sqrt(kg)].
+// `spin` is how mode m turns both gears of the meshes against the carrier [1/(m sqrt(kg))], and
+// `twist` what torques on the gears of mesh i and its copies do to the modes.
 struct alignas(64) ContactState {
     ContactKey key;
     std::int64_t follower;  // the state that came next last time
@@ -46,19 +63,18 @@ struct alignas(64) ContactState {
     alignas(64) double motion[BODIES][MESHES];
     alignas(64) double reach[BODIES][MESHES];
     alignas(64) double press[MESHES][BODIES];
+    alignas(64) double spin[GEARS - 1][BODIES][MESHES];
+    alignas(64) double twist[GEARS - 1][MESHES][BODIES];
     alignas(64) double square[BODIES];           // w^2 [1/s^2]
     alignas(64) double shaft_damping[BODIES];    // c of the couplings [1/s]
     alignas(64) double mesh_damping[2][BODIES];  // c/tau of each kind of mesh [1/s^2]
-    // Free waves at the nodes of the first step in such a state, and what they were computed for.
     double tau[2] = {-1.0, -1.0};  // damping times of both kinds of mesh, below 0: none yet [s]
-    double waves_step;             // length of the step, 0: none yet [s]
-    std::int64_t waves_nodes;      // and its nodes
     alignas(64) double damping[BODIES];  // c [1/s], and the decay rates of these
     alignas(64) double rate[BODIES];
     alignas(64) double slow[BODIES];
     alignas(64) double fast[BODIES];
-    alignas(64) double cosine[MOST_NODES][BODIES];
-    alignas(64) double sine[MOST_NODES][BODIES];
+    WaveBounds bounds;            // with the damping time of either kind of mesh
+    KeptWaves waves[KEPT_STEPS];  // of the first steps in such a state
     alignas(64) double past_rest[MOST_NODES + 1][BODIES];
     alignas(64) double past_rubbing[MOST_NODES + 1][BODIES];  // [N]
 };

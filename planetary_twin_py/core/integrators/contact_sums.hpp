@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "integrators/node.hpp"
 #include "mesh/mesh_forces.hpp"
 #include "train/model.hpp"
 #include "train/step_constants.hpp"
@@ -68,16 +69,40 @@ LAW void add_friction(const Train& train, const Evaluation& work, double weight,
     sums.clipped += select(pushes & (viscous == 0.0), V(weight), 0.0);
 }
 
+// Add shares and films at a node, times `weight` [s].
+template <int L>
+LAW void add_films(const Train& train, const Node& node, double weight, ContactSums<L>& sums) {
+    for (std::int64_t p = 0; p < train.slots; ++p)
+        sums.share += weight * Row<L>(node.meshes.share[p]);
+    sums.film += weight * Row<L>(node.friction.film);
+}
+
+// Add what friction finds at a node, times `weight` [s].
+template <int L>
+LAW void add_node(const Train& train, const Node& node, double weight, ContactSums<L>& sums) {
+    using V = Row<L>;
+    const MeshFriction& friction = node.friction;
+    const double rolling = weight * train.base_pitch * std::fabs(node.meshes.pace);
+    V push(node.meshes.push);
+    Mask<L> pushes = push > 0.0;
+    sums.touching += select(push == 0.0, 0.0, V(weight));
+    sums.rolled += rolling * select(pushes, push, 0.0);
+    if (!train.friction) return;
+    add_films(train, node, weight, sums);
+    sums.boundary += weight * V(friction.boundary);
+    sums.viscous += weight * V(friction.viscous);
+    sums.lost += weight * V(friction.lost);
+    sums.clipped += select(pushes & (V(friction.viscous) == 0.0), V(weight), 0.0);
+}
+
 // Write the sums into `out`, the integrals of a MeshSums.
 template <int L>
 LAW void put_contacts(const Train& train, const Oil& oil, const ContactSums<L>& sums,
                       double (*out)[MESHES]) {
     const double given = oil.prescribed ? oil.lambda_ratio : 0.0;
     const double per_film = oil.prescribed ? 0.0 : exp(-oil.log_roughness);
-    alignas(64) double number[L];
-    for (int i = 0; i < L; ++i) number[i] = i;
     // Beyond the meshes stands what whole registers have read of the next pairs.
-    Mask<L> used = Row<L>(number) < static_cast<double>(train.meshes);
+    const Mask<L> used = first_of_row<L>(train.meshes);
     auto put = [&](int row, const Row<L>& sum) { select(used, sum, 0.0).store(out[row]); };
     put(FILMED, sums.share);
     put(FILM, sums.film);

@@ -22,7 +22,7 @@ struct alignas(64) Control {
     double next_stiff;    // next step of that [s]
     bool changed;         // contacts or loads are no longer those of the last evaluation
     std::int64_t steps;
-    std::int64_t repeated;     // steps of steady running that were not made again, see `repetition`
+    std::int64_t repeated;     // steps of steady running that were not made again, see `periodic`
     std::int64_t stiff_steps;  // of them by Rosenbrock's method
     std::int64_t rejected;
     std::int64_t evaluations;

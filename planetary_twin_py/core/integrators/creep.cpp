@@ -16,12 +16,12 @@ constexpr double STICKING = 0.5;
 void hold_or_slide(const Model& model, March& march) {
     Control& control = march.control;
     State& begin = march.begin;
-    bool creeping = creeps(model.train, march.moment.cycle_rate);
+    bool creeping = creeps(model.train, march.constants.cycle_rate);
     if (creeping == control.creeping) return;
     control.creeping = creeping;
     control.changed = true;
     if (creeping) {
-        forces(model, begin, march.moment, begin.x, begin.v, 0.0, begin.trim, march.first);
+        forces(model, begin, march.constants, begin.x, begin.v, 0.0, begin.trim, march.first);
         steady_bristles(march.first.pairs, begin.bristle);
     }
     march.first.pairs.held = march.last.pairs.held = creeping;
@@ -32,7 +32,7 @@ void avoid_reversals(const Model& model, March& march) {
     const Train& train = model.train;
     Control& control = march.control;
     if (control.creeping || !control.slow) return;
-    const double *rigid = march.moment.rigid, *v = march.begin.v;
+    const double *rigid = march.constants.rigid, *v = march.begin.v;
     for (std::int64_t i = 0; i < train.meshes; ++i) {
         std::int64_t carrier = train.body[i][2];
         double turning = v[carrier] * train.inverse_radius[carrier];

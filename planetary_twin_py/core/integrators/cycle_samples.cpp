@@ -89,10 +89,11 @@ void compute_rows(const Model& model, March& march, Piece piece, Rows& rows) {
     }
 }
 
-// Values of all columns at s.
-void evaluate_columns(const double* coefficient, std::int64_t columns, double s, double* out) {
+// Values at s of the first `wanted` columns.
+void evaluate_columns(const double* coefficient, std::int64_t columns, std::int64_t wanted,
+                      double s, double* out) {
     const double* top = coefficient + (TERMS_OF_TIME - 1) * columns;
-    for (std::int64_t c = 0; c < columns; ++c) {
+    for (std::int64_t c = 0; c < wanted; ++c) {
         double value = top[c];
         for (int k = 1; k < TERMS_OF_TIME; ++k) value = value * s + top[c - k * columns];
         out[c] = value;
@@ -130,7 +131,7 @@ bool is_accurate(const Model& model, const March& march, const Rows& rows, const
     set_allowed(model, march, rows, allowed);
     for (int n = 0; n < TRIALS; ++n) {
         const double* exact = rows.value[TERMS_OF_TIME + n];
-        evaluate_columns(table, rows.columns, TRIAL[n], found);
+        evaluate_columns(table, rows.columns, rows.columns, TRIAL[n], found);
         for (std::int64_t c = 0; c < rows.columns; ++c) {
             bool unknown = std::isnan(exact[c]) && std::isnan(found[c]);
             if (!unknown && !(std::fabs(found[c] - exact[c]) <= allowed[c])) return false;
@@ -184,7 +185,7 @@ void need_table(const Model& model, March& march, CycleStep& step) {
     table.known = true;
     if (!step.collocated) return;
     State begin = march.begin;
-    StepConstants constants = march.moment;
+    StepConstants constants = march.constants;
     ModalMotion motion = march.run.motion;
     double length = march.control.step;
     bool collocated = march.control.collocated;
@@ -192,10 +193,10 @@ void need_table(const Model& model, March& march, CycleStep& step) {
     march.run.motion = step.motion;
     march.control.step = step.end.after - step.begin.after;
     march.control.collocated = true;
-    set_step_constants(model, march.begin, march.moment);
+    set_step_constants(model, march.begin, march.constants);
     fit_step(model, march, table);
     march.begin = begin;
-    march.moment = constants;
+    march.constants = constants;
     march.run.motion = motion;
     march.control.step = length;
     march.control.collocated = collocated;
@@ -214,61 +215,89 @@ PieceAt piece_at(const CycleStep& step, double passed) {
     return {static_cast<std::int64_t>(number), 2.0 * (place - number) - 1.0};
 }
 
-// Write a sample from the table of a step.
-void read_table(const Model& model, const Repetition& repetition, const CycleStep& step, PieceAt at,
-                const Samples& out, std::int64_t row) {
-    const Train& train = model.train;
-    std::int64_t shown = QUANTITIES * train.meshes, n = train.bodies;
-    std::int64_t columns = columns_of(train);
-    double values[MOST_COLUMNS];
-    const double* table = step.samples.coefficient.data() + at.number * TERMS_OF_TIME * columns;
-    evaluate_columns(table, columns, at.s, values);
-    const double *angle = values + shown, *speed = angle + n, *drag = speed + n;
-    std::copy_n(values, shown, out.mesh_row(row));
+// Write turns, angles, speeds and drag of a sample; those of bodies start at `values`.
+void put_bodies(const Train& train, Turns turns, const double* values, const Samples& out,
+                std::int64_t row) {
+    const std::int64_t n = train.bodies;
+    const double *speed = values + n, *drag = speed + n;
     std::copy(speed, drag, out.speed + row * n);
     std::copy(drag, drag + SAMPLE_DRAGS, out.drag + row * SAMPLE_DRAGS);
-    Turns turns = turns_at(repetition, step.begin);
     double* whole = out.turns + row * out.axes;
     std::fill(whole, whole + out.axes, 0.0);
     whole[0] = turns.whole;
     for (std::int64_t j = 0; j < n; ++j)
-        out.angle[row * n + j] = angle[j] + train.ratio[j][0] * (TURN * turns.fraction);
+        out.angle[row * n + j] = values[j] + train.ratio[j][0] * (TURN * turns.fraction);
+}
+
+// Write a sample from the table of a step.
+void read_table(const Model& model, const Periodic& periodic, const CycleStep& step, PieceAt at,
+                const Samples& out, std::int64_t row) {
+    const Train& train = model.train;
+    std::int64_t shown = out.quantities * train.meshes, columns = columns_of(train);
+    const double* table = step.samples.coefficient.data() + at.number * TERMS_OF_TIME * columns;
+    if (!out.turns) {
+        evaluate_columns(table, columns, shown, at.s, out.mesh_row(row));
+        return;
+    }
+    double values[MOST_COLUMNS];
+    evaluate_columns(table, columns, columns, at.s, values);
+    std::copy_n(values, shown, out.mesh_row(row));
+    Turns turns = turns_at(periodic, step.begin);
+    put_bodies(train, turns, values + QUANTITIES * train.meshes, out, row);
 }
 
 // From the start of the step to an instant [s], by the clock of the cycle.
-double since_begin(const Repetition& repetition, const CycleStep& step, const Instant& at) {
-    return delay(repetition.start, at) - step.begin.after;
+double since_begin(const Periodic& periodic, const CycleStep& step, const Instant& at) {
+    return delay(periodic.start, at) - step.begin.after;
+}
+
+// Write the sample so long after the start of a step from its table, if there it fits.
+bool show_from_table(const Model& model, const Periodic& periodic, const CycleStep& step,
+                     double passed, const Samples& out, std::int64_t row) {
+    PieceAt piece = piece_at(step, passed);
+    if (step.samples.pieces == 0 || !step.samples.fits[piece.number]) return false;
+    read_table(model, periodic, step, piece, out, row);
+    return true;
+}
+
+// Write the samples that are due within a step of the cycle; the march stands on it if need be.
+void sample_step(const Model& model, March& march, CycleStep& step, Sampling& samples,
+                 const Samples& out, std::int64_t& taken) {
+    const Periodic& periodic = march.periodic;
+    bool stands = false;
+    need_table(model, march, step);
+    for (; taken < out.rows; ++taken) {
+        Instant at = due(samples);
+        if (delay(periodic.start, at) > step.end.after) return;
+        double passed = since_begin(periodic, step, at);
+        if (!show_from_table(model, periodic, step, passed, out, taken)) {
+            if (!stands) stand_on(model, march, step);
+            stands = true;
+            sample(model, march, passed, out, taken);
+        }
+        samples = after(samples);
+    }
 }
 
 }  // namespace
 
 void sample_cycle(const Model& model, March& march, const Instant& at, const Samples& out,
                   std::int64_t row) {
-    Repetition& repetition = march.repetition;
-    CycleStep& step = played_step(repetition);
+    Periodic& periodic = march.periodic;
+    CycleStep& step = played_step(periodic);
     need_table(model, march, step);
-    double passed = since_begin(repetition, step, at);
-    PieceAt piece = piece_at(step, passed);
-    if (step.samples.pieces > 0 && step.samples.fits[piece.number])
-        read_table(model, repetition, step, piece, out, row);
-    else
+    double passed = since_begin(periodic, step, at);
+    if (!show_from_table(model, periodic, step, passed, out, row))
         sample(model, march, passed, out, row);
 }
 
 void play_window(const Model& model, March& march, const Instant& until, Sampling& samples,
                  const Samples& out, std::int64_t& taken) {
-    Repetition& repetition = march.repetition;
-    const std::int64_t room = out.rows - 1;
+    Periodic& periodic = march.periodic;
     while (true) {
-        CycleStep& step = next_step(model, march, taken < room ? due(samples) : until);
-        if (taken < room) need_table(model, march, step);
-        if (!step.samples.all_fit || taken == room) stand_on(model, march, step);
-        while (taken < room && delay(repetition.start, due(samples)) <= step.end.after) {
-            sample_cycle(model, march, due(samples), out, taken);
-            samples = after(samples);
-            ++taken;
-        }
-        if (taken == room && delay(repetition.start, until) <= step.end.after) {
+        CycleStep& step = next_step(model, march, taken < out.rows ? due(samples) : until);
+        if (taken < out.rows) sample_step(model, march, step, samples, out, taken);
+        if (taken == out.rows && delay(periodic.start, until) <= step.end.after) {
             stand_on(model, march, step);
             return;
         }

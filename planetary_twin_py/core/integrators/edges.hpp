@@ -38,7 +38,7 @@ LAW void times_to_edges(const StepConstants& constants, double pace, double* tim
 inline NextEvent next_event(const Model& model, const March& march) {
     const Train& train = model.train;
     const State& state = march.begin;
-    const StepConstants& constants = march.moment;
+    const StepConstants& constants = march.constants;
     double pace = constants.cycle_rate + cycle_shift(train, state.v), times[MESHES];
     NextEvent nearest{std::numeric_limits<double>::infinity(), NO_MESH};
     with_lanes(train, [&](auto lanes) { times_to_edges<lanes>(constants, pace, times); });
@@ -61,7 +61,7 @@ inline double planned(double event, double h, double stretch) {
 
 // Mesh cycles that the train has advanced over the step.
 inline double cycles_of_step(const Train& train, const March& march) {
-    double advance = march.moment.cycle_rate * march.control.step;
+    double advance = march.constants.cycle_rate * march.control.step;
     return advance + (cycle_shift(train, march.end.x) - cycle_shift(train, march.begin.x));
 }
 
@@ -70,9 +70,9 @@ inline double time_to_edge(const Model& model, const March& march, std::int64_t 
     const Train& train = model.train;
     const State& begin = march.begin;
     double side = static_cast<double>(begin.side[i]);
-    double rate = side * (march.moment.cycle_rate + cycle_shift(train, march.end.v));
+    double rate = side * (march.constants.cycle_rate + cycle_shift(train, march.end.v));
     std::int64_t edge = begin.segment[i] + (rate > 0.0 ? 1 : 0);
-    double left = train.edge[train.kind[i]][edge] - march.moment.start[i];
+    double left = train.edge[train.kind[i]][edge] - march.constants.start[i];
     return (left - side * cycles_of_step(train, march)) / rate;
 }
 
@@ -90,7 +90,7 @@ inline void pass_edge(const Model& model, March& march, std::int64_t i, int dire
     const Train& train = model.train;
     for (std::int64_t k = 0; k < train.segments[train.kind[i]]; ++k) {
         if (march.end.side[i] == OPEN || !at_edge(train, march.end, i, direction)) return;
-        change_segment(model, march.end, march.aside, i, direction);
+        change_segment(model, march.end, march.scratch, i, direction);
         march.control.pair_events += static_cast<std::int64_t>(train.copies[i]);
         march.control.changed = true;
     }
@@ -99,7 +99,7 @@ inline void pass_edge(const Model& model, March& march, std::int64_t i, int dire
 // Change the segment of every mesh that has come to the edge of its own.
 inline void pass_edges(const Model& model, March& march) {
     const Train& train = model.train;
-    const StepConstants& constants = march.moment;
+    const StepConstants& constants = march.constants;
     double advance = cycles_of_step(train, march);
     double pace = constants.cycle_rate + cycle_shift(train, march.end.v);
     for (std::int64_t i = 0; i < train.meshes; ++i) {

@@ -44,67 +44,44 @@ LAW Mask<L> has_waves(const ModalMotion& motion) {
     return Row<L>(motion.square) * (h * h) + Row<L>(motion.damping) * h > TAME;
 }
 
-// Bound on the free motion of all modes and tau times its rate, together.
-//
-// From (1, 0): C - tau w^2 S; from (0, 1): S + tau (C - c S); S never exceeds 1/w, nor C 1.
-template <int L>
-LAW Row<L> amplitudes(const ModalMotion& motion, double tau) {
-    using V = Row<L>;
-    V square(motion.square);
-    Mask<L> swings = V(motion.slow) == V(motion.fast);
-    V longest = 1.0 / square_root(larger(square, V(SMALLEST)));
-    V inverse = 1.0 / larger(V(motion.rate), V(SMALLEST));
-    longest = select(swings, smaller(longest, inverse), longest);
-    V lean = 0.5 * V(motion.damping) - tau * square;
-    V ratio = lean * inverse, first = 1.0 + absolute(lean) * longest;
-    first = select(swings, smaller(first, square_root(1.0 + ratio * ratio)), first);
-    V bound = first * absolute(V(motion.free[0])) + (longest + tau) * absolute(V(motion.free[1]));
-    return select(has_waves<L>(motion), bound, 0.0);
-}
-
 // Play that mesh i has left at node n, less what its free waves, `d` and `rate`, take or add.
 double left_without_waves(const Model& model, const March& march, std::int64_t i, int n, double tau,
                           double d, double rate) {
     const Train& train = model.train;
     const Propagation& run = march.run;
     const std::int64_t side = march.begin.side[i];
-    LengthAndReach own{run.node_d[n][i], tau * run.node_rate[n][i]}, wider{0.0, 0.0};
+    LengthAndReach own{run.node[n].d[i], tau * run.node[n].rate[i]}, wider{0.0, 0.0};
     if (train.lines[train.kind[i]] > 0) {
-        const MeshesNow& now = run.evaluation[n].now;
+        const MeshesNow& now = run.node[n].meshes;
         LengthAndRate error = form_error(train, i, static_cast<double>(side),
-                                         march.moment.line_angle, now.advance, now.pace);
-        own = {own.length - error.length, tau * (run.node_rate[n][i] - error.rate)};
-        LengthAndRate wide = widening(train, march.moment, i, side, now.advance, now.pace);
+                                         march.constants.line_angle, now.advance, now.pace);
+        own = {own.length - error.length, tau * (run.node[n].rate[i] - error.rate)};
+        LengthAndRate wide = widening(train, march.constants, i, side, now.advance, now.pace);
         wider = {wide.length, tau * wide.rate};
     }
     double waves_add = d + tau * rate, left = play_left(model.load, side, own, wider, 0.0);
     return left - (side != OPEN ? static_cast<double>(side) * waves_add : std::fabs(waves_add));
 }
 
-// Free waves of all modes that have any, at node n, in `now_q` and `now_p`.
+// Free waves of all modes that have any, at node n, and their rates.
 template <int L>
-void free_waves(Propagation& run, int n) {
+LAW RowPair<L> free_waves(const Propagation& run, int n) {
     using V = Row<L>;
     const ModalMotion& motion = run.motion;
     V u(motion.free[0]), w(motion.free[1]), c(run.cosine[n]), s(run.sine[n]);
     V rate = (c - V(motion.damping) * s) * w - V(motion.square) * s * u;
     Mask<L> waves = has_waves<L>(motion);
-    select(waves, c * u + s * w, 0.0).store(run.now_q);
-    select(waves, rate, 0.0).store(run.now_p);
+    return {select(waves, c * u + s * w, 0.0), select(waves, rate, 0.0)};
 }
 
 // Bounds on what free waves can take from the play of the meshes [m].
 template <int L>
-Row<L> wave_bounds(const Model& model, March& march) {
-    Propagation& run = march.run;
-    const double *tau = march.moment.tau, release = model.load.release;
-    alignas(64) double first[L], second[L], bound[KINDS][L];
-    amplitudes<L>(run.motion, release * tau[0]).store(first);
-    amplitudes<L>(run.motion, release * tau[1]).store(second);
-    sum_rows_twice<L>(contacts_of(run).reach, first, second, bound[0], bound[1]);
-    for (std::int64_t i = 0; i < model.train.meshes; ++i)
-        if (model.train.kind[i] != 0) bound[0][i] = bound[1][i];
-    return Row<L>(bound[0]);
+LAW Row<L> wave_bounds(const Propagation& run) {
+    using V = Row<L>;
+    const ContactState& contacts = contacts_of(run);
+    V bound = V(contacts.bounds.displaced) * absolute(V(run.motion.free[0])) +
+              V(contacts.bounds.moving) * absolute(V(run.motion.free[1]));
+    return sum_rows<L>(contacts.reach, select(has_waves<L>(run.motion), bound, 0.0));
 }
 
 // Whether all meshes are closed, have no errors of form, and keep so much play at every node that
@@ -118,44 +95,41 @@ bool loaded_throughout(const Model& model, const March& march, const Row<L>& bou
     if (train.lines[0] + train.lines[1] > 0) return false;
     for (std::int64_t i = 0; i < train.meshes; ++i)
         if (march.begin.side[i] == OPEN) return false;
-    alignas(64) double tau[L];
-    for (int i = 0; i < L; ++i) tau[i] = model.load.release * march.moment.tau[train.kind[i]];
-    V side(march.moment.side), reach(tau), least(std::numeric_limits<double>::infinity());
+    V side(march.constants.side), reach = model.load.release * V(march.constants.damping),
+                                  least(std::numeric_limits<double>::infinity());
     for (int n = 0; n < run.nodes.count; ++n)
-        least = smaller(least, side * (V(run.node_d[n]) + reach * V(run.node_rate[n])));
-    alignas(64) double left[L];
-    (least - model.load.half_backlash - 2.0 * bound).store(left);
-    for (std::int64_t i = 0; i < train.meshes; ++i)
-        if (!(left[i] >= 0.0)) return false;
-    return true;
+        least = smaller(least, side * (V(run.node[n].d) + reach * V(run.node[n].rate)));
+    V left = least - model.load.half_backlash - 2.0 * bound - march.control.tolerance_x;
+    return none(first_of_row<L>(train.meshes) & !(left > 0.0));
 }
 
 // Mark the meshes that may change their contact within the step; whether there are any.
 //
 // What a mesh has left before it changes is a polynomial, known at the nodes, and free waves, which
-// are bounded by their amplitudes.
+// are bounded by their amplitudes. The rates at the nodes are those of the last sweep, so what is
+// left is known to the tolerance.
 template <int L>
 bool suspect_flanks(const Model& model, March& march) {
     const Train& train = model.train;
     Propagation& run = march.run;
     const ContactState& contacts = contacts_of(run);
-    const Row<L> bound = wave_bounds<L>(model, march);
+    const Row<L> bound = wave_bounds<L>(run);
     if (loaded_throughout<L>(model, march, bound)) return false;
     double least[L];
     for (int i = 0; i < L; ++i) least[i] = std::numeric_limits<double>::infinity();
     for (int n = 0; n < run.nodes.count; ++n) {
-        alignas(64) double d[L], rate[L];
-        free_waves<L>(run, n);
-        sum_rows_twice<L>(contacts.motion, run.now_q, run.now_p, d, rate);
+        auto [d, rate] = sum_rows<L>(contacts.motion, free_waves<L>(run, n));
         for (std::int64_t i = 0; i < train.meshes; ++i) {
-            double tau = model.load.release * march.moment.tau[train.kind[i]];
-            double left = left_without_waves(model, march, i, n, tau, d[i], rate[i]);
+            double tau = model.load.release * march.constants.tau[train.kind[i]];
+            double left = left_without_waves(model, march, i, n, tau, d[static_cast<int>(i)],
+                                             rate[static_cast<int>(i)]);
             least[i] = std::min(least[i], left);
         }
     }
     bool found = false;
     for (std::int64_t i = 0; i < train.meshes; ++i) {
-        run.suspect[i] = least[i] - bound[static_cast<int>(i)] < 0.0;
+        const double sure = least[i] - bound[static_cast<int>(i)] - march.control.tolerance_x;
+        run.suspect[i] = !(sure >= 0.0);
         found |= run.suspect[i] != 0;
     }
     return found;
@@ -166,9 +140,16 @@ template <int L>
 void scan(March& march, double end) {
     Propagation& run = march.run;
     const ContactState& contacts = contacts_of(run);
+    const ModalMotion& motion = run.motion;
+    const Waves<L> gap = waves_at<L>(motion, end / SCANNED);
+    Waves<L> now = gap;
     for (int k = 0; k < SCANNED; ++k) {
-        modes_at<L>(run, (k + 1) * end / SCANNED);
-        sum_rows_twice<L>(contacts.motion, run.now_q, run.now_p, run.scan_d[k], run.scan_rate[k]);
+        const double t = (k + 1) * end / SCANNED * motion.per_step;
+        auto [d, rate] =
+            sum_rows<L>(contacts.motion, modal_states<L>(motion, t, now.cosine, now.sine));
+        now = waves_after(motion, now, gap);
+        d.store(run.scan_d[k]);
+        rate.store(run.scan_rate[k]);
     }
 }
 
@@ -176,7 +157,7 @@ void scan(March& march, double end) {
 int first_scanned(const Model& model, March& march, std::int64_t i, double end) {
     const Train& train = model.train;
     const Propagation& run = march.run;
-    double tau = march.moment.tau[train.kind[i]];
+    double tau = march.constants.tau[train.kind[i]];
     for (int k = 0; k < SCANNED; ++k) {
         double play;
         if (train.lines[train.kind[i]] > 0)

@@ -32,15 +32,15 @@ inline double slack_of(const March& march) {
 // `departure` of mesh i within the step, where no error of form moves its flanks.
 template <int L>
 double smooth_departure(const Model& model, March& march, std::int64_t i, double delay) {
-    Propagation& run = march.run;
+    const Propagation& run = march.run;
     const double (*motion)[MESHES] = contacts_of(run).motion;
-    modes_at<L>(run, delay);
+    auto [q, p] = modes_at<L>(run.motion, delay);
     double d = 0.0, rate = 0.0;
     for (int m = 0; m < L; ++m) {
-        d += motion[m][i] * run.now_q[m];
-        rate += motion[m][i] * run.now_p[m];
+        d += motion[m][i] * q[m];
+        rate += motion[m][i] * p[m];
     }
-    double tau = march.moment.tau[model.train.kind[i]];
+    double tau = march.constants.tau[model.train.kind[i]];
     return play_left(model.load, march.begin.side[i], {d, tau * rate}, {0.0, 0.0}, slack_of(march));
 }
 
@@ -52,10 +52,11 @@ inline double departure_at(const Model& model, March& march, std::int64_t i, dou
             train, [&](auto lanes) { return smooth_departure<lanes>(model, march, i, delay); });
     interpolate(model, march, delay);
     const double *x = march.dense.x, *v = march.dense.v;
-    double advance = march.moment.cycle_rate * delay;
+    double advance = march.constants.cycle_rate * delay;
     advance += cycle_shift(train, x) - cycle_shift(train, march.begin.x);
-    double pace = march.moment.cycle_rate + cycle_shift(train, v);
-    return departure(model, march.begin, march.moment, i, x, v, {advance, pace, slack_of(march)});
+    double pace = march.constants.cycle_rate + cycle_shift(train, v);
+    return departure(model, march.begin, march.constants, i, x, v,
+                     {advance, pace, slack_of(march)});
 }
 
 // Whether the step ends where the contact of mesh i changes, to within its slack.

@@ -43,7 +43,7 @@ inline void pass_time(const Model& model, March& march, double h) {
     State& end = march.end;
     run_on(begin, end, h);
     for (std::int64_t a = 0; a < model.train.axes; ++a) {
-        end.set_speed[a] = begin.set_speed[a] + march.moment.slew[a] * h;
+        end.set_speed[a] = begin.set_speed[a] + march.constants.slew[a] * h;
         turn_frame(end, a, begin.speed[a] * h / TURN);
     }
     march.control.step = h;

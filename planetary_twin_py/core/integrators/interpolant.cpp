@@ -1,8 +1,10 @@
 #include "integrators/interpolant.hpp"
 
 #include <cmath>
+#include <limits>
 
 #include "integrators/frame.hpp"
+#include "integrators/node_forces.hpp"
 #include "train/body_speed.hpp"
 #include "train/drag.hpp"
 #include "train/observe.hpp"
@@ -12,40 +14,113 @@ namespace gearbox {
 
 namespace {
 
-void sample_drag(const Model& model, March& march, const double (*shown)[MESHES], double* out) {
+void sample_drag(const Model& model, March& march, const double* v, const double (*shown)[MESHES],
+                 double* out) {
     Evaluation& work = march.work.evaluation;
     for (std::int64_t i = 0; i < model.train.meshes; ++i)
         work.now.push[i] = std::fabs(shown[MESH_FORCE][i]);
     for (double& power : work.power) power = 0.0;
-    apply_drag(model, march.begin, march.dense.v, work);
+    apply_drag(model, march.begin, v, work.now.push, work.rubbing, work.power);
     out[0] = work.power[BEARING];
     out[1] = work.power[CHURNING];
 }
 
-}  // namespace
+// The largest magnitudes so far; a NaN stays.
+void note_peak(double value, double& peak) {
+    if (std::fabs(value) > peak || std::isnan(value)) peak = std::fabs(value);
+}
 
-void sample(const Model& model, March& march, double delay, const Samples& out, std::int64_t row) {
+void note_peaks(const Train& train, const State& begin, const double (*shown)[MESHES],
+                const double* v, Peaks& peaks) {
+    for (std::int64_t i = 0; i < train.meshes; ++i) note_peak(shown[DTE][i], peaks.dte[i]);
+    for (std::int64_t j = 0; j < train.bodies; ++j)
+        note_peak(body_speed(train, begin, v, j), peaks.speed[j]);
+}
+
+void sample_bodies(const Train& train, const State& begin, const double* x, const double* v,
+                   double delay, const Samples& out, std::int64_t row) {
+    for (int a = 0; a < AXES; ++a) out.turns[row * out.axes + a] = begin.turns[a];
+    for (std::int64_t j = 0; j < train.bodies; ++j) {
+        double angle = x[j] / train.radius[j];
+        for (std::int64_t a = 0; a < train.axes; ++a)
+            angle += train.ratio[j][a] * (TURN * begin.fraction[a] + begin.speed[a] * delay);
+        out.angle[row * out.bodies + j] = angle;
+        out.speed[row * out.bodies + j] = body_speed(train, begin, v, j);
+    }
+}
+
+// Write a sample from what the meshes show and the motion of the bodies.
+void write_sample(const Model& model, March& march, const double (*shown)[MESHES], const double* x,
+                  const double* v, double delay, const Samples& out, std::int64_t row) {
     const Train& train = model.train;
-    const State& begin = march.begin;
+    double* mesh = out.mesh_row(row);
+    for (std::int64_t q = 0; q < out.quantities; ++q)
+        for (std::int64_t i = 0; i < train.meshes; ++i) mesh[q * out.meshes + i] = shown[q][i];
+    if (out.peaks) note_peaks(train, march.begin, shown, v, *out.peaks);
+    if (out.drag && train.joints + train.discs > 0)
+        sample_drag(model, march, v, shown, out.drag + row * SAMPLE_DRAGS);
+    if (out.turns) sample_bodies(train, march.begin, x, v, delay, out, row);
+}
+
+// What `observe` fills, from a node and its friction.
+template <int L>
+void show_node(const Model& model, const March& march, const Node& node, double (*shown)[MESHES]) {
+    using V = Row<L>;
+    const Oil& oil = model.oil;
+    const MeshFriction& friction = node.friction;
+    V side(march.constants.side), force = larger(V(node.meshes.push), V(0.0)), share(0.0);
+    const Mask<L> open = side == 0.0;
+    for (std::int64_t p = 0; p < model.train.slots; ++p) share += V(node.meshes.share[p]);
+    V film(friction.film), lambda = film * exp(-oil.log_roughness);
+    if (oil.prescribed) lambda = share * oil.lambda_ratio;
+    constexpr double NONE = std::numeric_limits<double>::quiet_NaN();
+    copy<L>(node.d, shown[DTE]);
+    (side * force).store(shown[MESH_FORCE]);
+    (force * (model.train.base_pitch * std::fabs(node.meshes.pace))).store(shown[MESH_POWER]);
+    select(open, NONE, film).store(shown[FILM]);
+    select(open, NONE, lambda).store(shown[LAMBDA]);
+    const double friction_acts = model.train.friction ? 1.0 : 0.0;
+    (friction_acts * V(friction.boundary)).store(shown[BOUNDARY]);
+    (friction_acts * V(friction.viscous)).store(shown[VISCOUS]);
+    (friction_acts * V(friction.lost)).store(shown[POWER_LOSS]);
+}
+
+// Samples of a step by collocation, at most MOST_INSTANTS.
+template <int L>
+void sample_collocated(const Model& model, March& march, const double* delays, int count,
+                       const Samples& out, std::int64_t row) {
+    show_friction<L>(model, march, delays, count);
+    for (int n = 0; n < count; ++n) {
+        const Node& node = march.run.shown[n];
+        alignas(64) double shown[QUANTITIES][MESHES];
+        show_node<L>(model, march, node, shown);
+        write_sample(model, march, shown, node.x, node.v, delays[n], out, row + n);
+    }
+}
+
+void sample_stiff(const Model& model, March& march, double delay, const Samples& out,
+                  std::int64_t row) {
     const State& dense = march.dense;
     interpolate(model, march, delay);
     Evaluation& work = march.work.evaluation;
     place_bristles(work.pairs, dense.bristle);
     alignas(64) double shown[QUANTITIES][MESHES];
-    observe(model, begin, march.moment, dense.x, dense.v, delay, work, shown);
-    double* mesh = out.mesh_row(row);
-    for (int q = 0; q < QUANTITIES; ++q)
-        for (std::int64_t i = 0; i < train.meshes; ++i) mesh[q * out.meshes + i] = shown[q][i];
-    if (train.joints + train.discs > 0)
-        sample_drag(model, march, shown, out.drag + row * SAMPLE_DRAGS);
-    for (int a = 0; a < AXES; ++a) out.turns[row * out.axes + a] = begin.turns[a];
-    for (std::int64_t j = 0; j < train.bodies; ++j) {
-        double angle = dense.x[j] / train.radius[j];
-        for (std::int64_t a = 0; a < train.axes; ++a)
-            angle += train.ratio[j][a] * (TURN * begin.fraction[a] + begin.speed[a] * delay);
-        out.angle[row * out.bodies + j] = angle;
-        out.speed[row * out.bodies + j] = body_speed(train, begin, dense.v, j);
+    observe(model, march.begin, march.constants, dense.x, dense.v, delay, work, shown,
+            out.quantities > FILM);
+    write_sample(model, march, shown, dense.x, dense.v, delay, out, row);
+}
+
+}  // namespace
+
+void sample(const Model& model, March& march, const double* delays, int count, const Samples& out,
+            std::int64_t row) {
+    if (!march.control.collocated) {
+        for (int n = 0; n < count; ++n) sample_stiff(model, march, delays[n], out, row + n);
+        return;
     }
+    with_lanes(model.train, [&](auto lanes) {
+        sample_collocated<lanes>(model, march, delays, count, out, row);
+    });
 }
 
 }  // namespace gearbox

@@ -38,12 +38,12 @@ void set_tolerances(const Model& model, March& march) {
     Control& control = march.control;
     double deflection = control.deflection;
     for (std::int64_t a = 0; a < train.axes; ++a)
-        deflection += control.yielding[a] * std::fabs(march.moment.slew[a]);
+        deflection += control.yielding[a] * std::fabs(march.constants.slew[a]);
     control.tolerance_x = control.tolerance * deflection;
     control.tolerance_v = control.tolerance_x * control.quickness;
     if (!train.friction) return;
     double share = control.creeping ? CREEPING_SHARE : SLIDING_SHARE;
-    double layer = friction_layer(train, model.oil, march.moment.cycle_rate);
+    double layer = friction_layer(train, model.oil, march.constants.cycle_rate);
     double allowed = share * control.tolerance * layer;
     control.slow = allowed < control.tolerance_v;
     control.tolerance_v = std::min(control.tolerance_v, allowed);
@@ -53,11 +53,33 @@ void set_tolerances(const Model& model, March& march) {
 void end_slews(const Model& model, March& march) {
     for (std::int64_t a = 0; a < model.train.axes; ++a) {
         double gap = model.load.target_speed[a] - march.end.set_speed[a];
-        double slew = march.moment.slew[a];
+        double slew = march.constants.slew[a];
         if (gap * slew <= 0.0 || std::fabs(gap) < AT_TARGET * model.load.slew_rate) {
             march.end.set_speed[a] = model.load.target_speed[a];
             march.control.changed |= slew != 0.0;
         }
+    }
+}
+
+// Write the samples that are due up to the end of the last step.
+void take_samples(const Model& model, March& march, Sampling& samples, const Samples& out,
+                  std::int64_t& taken) {
+    const std::int64_t room = out.rows;
+    double delays[MOST_INSTANTS];
+    while (taken < room && delay(march.end, due(samples)) <= 0.0) {
+        if (march.periodic.playing) {
+            sample_cycle(model, march, due(samples), out, taken++);
+            samples = after(samples);
+            continue;
+        }
+        int count = 0;
+        while (count < MOST_INSTANTS && taken + count < room &&
+               delay(march.end, due(samples)) <= 0.0) {
+            delays[count++] = delay(march.begin, due(samples));
+            samples = after(samples);
+        }
+        sample(model, march, delays, count, out, taken);
+        taken += count;
     }
 }
 
@@ -66,7 +88,7 @@ void end_slews(const Model& model, March& march) {
 void begin_step(const Model& model, March& march) {
     march.begin = march.end;
     rebase(model.train, march.begin);
-    set_step_constants(model, march.begin, march.moment);
+    set_step_constants(model, march.begin, march.constants);
     hold_or_slide(model, march);
     set_tolerances(model, march);
     avoid_reversals(model, march);
@@ -95,7 +117,7 @@ void one_step(const Model& model, March& march, double longest) {
 void accept(const Model& model, March& march, std::int64_t mesh) {
     sum_step(model, march);
     if (mesh != NO_MESH) {
-        change_contact(model, march.end, march.aside, mesh);
+        change_contact(model, march.end, march.scratch, mesh);
         march.control.flank_events += static_cast<std::int64_t>(model.train.copies[mesh]);
         march.control.changed = true;
     }
@@ -105,27 +127,19 @@ void accept(const Model& model, March& march, std::int64_t mesh) {
 }
 
 void advance(const Model& model, March& march, const Instant& until, const Instant& bound,
-             Sampling samples, const Samples& out) {
+             Sampling samples, const Samples& out, const Samples& last) {
     std::int64_t taken = 0;
-    const std::int64_t room = out.rows - 1;
-    auto show = [&](const Instant& at, std::int64_t row) {
-        if (march.repetition.playing)
-            sample_cycle(model, march, at, out, row);
-        else
-            sample(model, march, delay(march.begin, at), out, row);
-    };
     while (true) {
-        while (taken < room && delay(march.end, due(samples)) <= 0.0) {
-            show(due(samples), taken);
-            samples = after(samples);
-            ++taken;
-        }
-        if (taken == room && delay(march.end, until) <= 0.0) {
-            show(until, room);
+        take_samples(model, march, samples, out, taken);
+        if (taken == out.rows && delay(march.end, until) <= 0.0) {
+            if (march.periodic.playing)
+                sample_cycle(model, march, until, last, 0);
+            else
+                sample(model, march, delay(march.begin, until), last, 0);
             return;
         }
         count_step(model, march);
-        if (march.repetition.playing) {
+        if (march.periodic.playing) {
             play_window(model, march, until, samples, out, taken);
         } else {
             begin_step(model, march);

@@ -16,15 +16,15 @@ namespace gearbox {
 struct alignas(64) March {
     State begin;
     State end;
-    StepConstants moment;
-    StepConstants aside;  // room for where a mesh stands at an event
-    Evaluation first;     // forces at `begin`
-    Evaluation last;      // forces at `end`, with the contacts of `begin`
-    State dense;          // x and v within the step
+    StepConstants constants;
+    StepConstants scratch;  // room for where a mesh stands at an event
+    Evaluation first;       // forces at `begin`
+    Evaluation last;        // forces at `end`, with the contacts of `begin`
+    State dense;            // x and v within the step
     Control control;
     Workspace work;
     Propagation run;
-    Repetition repetition;
+    Periodic periodic;
     StepSums sums;  // of what the meshes show, over the last step and those before
 };
 

@@ -90,95 +90,95 @@ void keep(const State& start, const State& state, Place& place) {
 
 // Put the step just made on the tape, unless there is no room or its modes were lost.
 void record_step(March& march) {
-    Repetition& repetition = march.repetition;
-    const std::int64_t known = march.run.known.count(), place = repetition.steps;
-    if (place == TAPE) repetition.cycles = 0;
-    if (place == TAPE || known < repetition.known) {
-        repetition.recording = false;
+    Periodic& periodic = march.periodic;
+    const std::int64_t known = march.run.known.count(), place = periodic.steps;
+    if (place == TAPE) periodic.cycles = 0;
+    if (place == TAPE || known < periodic.known) {
+        periodic.recording = false;
         return;
     }
-    if (place == 0) repetition.start = march.begin;
-    if (place == static_cast<std::int64_t>(repetition.tape.size())) repetition.tape.emplace_back();
-    CycleStep& step = repetition.tape[place];
-    keep(repetition.start, march.begin, step.begin);
-    keep(repetition.start, march.end, step.end);
+    if (place == 0) periodic.start = march.begin;
+    if (place == static_cast<std::int64_t>(periodic.tape.size())) periodic.tape.emplace_back();
+    CycleStep& step = periodic.tape[place];
+    keep(periodic.start, march.begin, step.begin);
+    keep(periodic.start, march.end, step.end);
     step.collocated = march.control.collocated;
     std::memcpy(step.power, march.last.power, sizeof step.power);
     std::memcpy(step.rubbing, march.last.rubbing, sizeof step.rubbing);
     step.motion = march.run.motion;
     step.sums = march.sums.step;
     step.samples = {};
-    repetition.steps = place + 1;
-    repetition.known = known;
+    periodic.steps = place + 1;
+    periodic.known = known;
 }
 
 // Let the cycle end as exactly as set-point and teeth say; whether it does.
 bool close_cycle(const Model& model, March& march) {
-    Repetition& repetition = march.repetition;
+    Periodic& periodic = march.periodic;
     const Train& train = model.train;
     const State& end = march.end;
-    Place& whole = repetition.whole;
+    Place& whole = periodic.whole;
     const std::int64_t motor = train.coupling[0][0];
-    keep(repetition.start, end, whole);
+    keep(periodic.start, end, whole);
     double took = whole.after;
     double turned = whole.turned + end.x[motor] / train.radius[motor] / TURN;
     double turns =
-        static_cast<double>(repetition.numerator) / static_cast<double>(repetition.denominator);
+        static_cast<double>(periodic.numerator) / static_cast<double>(periodic.denominator);
     whole.turned = std::copysign(turns, turned);
     whole.after = whole.turned * TURN / model.load.target_speed[0];
-    repetition.place = repetition.steps;
-    repetition.part = 0;
+    periodic.place = periodic.steps;
+    periodic.part = 0;
     double late =
         std::max(std::fabs(took / whole.after - 1.0), std::fabs(turned / whole.turned - 1.0));
-    return late * static_cast<double>(repetition.cycles) * PHASE <=
+    return late * static_cast<double>(periodic.cycles) * PHASE <=
            MISSED_SHARE * march.control.tolerance;
 }
 
 // Whether the train has stayed near its anchor for long enough to repeat.
-bool has_settled(const Repetition& repetition, const State& end) {
-    auto since = static_cast<double>(repetition.age - repetition.anchor_age);
-    double stayed = delay(repetition.anchor, now_of(end));
-    return !(since < SETTLED * static_cast<double>(repetition.age) || stayed < repetition.pause);
+bool has_settled(const Periodic& periodic, const State& end) {
+    auto since = static_cast<double>(periodic.age - periodic.anchor_age);
+    double stayed = delay(periodic.anchor, now_of(end));
+    return !(since < SETTLED * static_cast<double>(periodic.age) || stayed < periodic.pause);
 }
 
 void look(const Model& model, March& march) {
-    Repetition& repetition = march.repetition;
+    Periodic& periodic = march.periodic;
     const State& end = march.end;
-    ++repetition.age;
+    ++periodic.age;
     bool near =
-        distance(model, march, end, repetition.anchor) <= MISSED_SHARE * march.control.tolerance;
-    if (repetition.recording) {
-        repetition.recording = false;
-        repetition.playing = near && close_cycle(model, march);
+        distance(model, march, end, periodic.anchor) <= MISSED_SHARE * march.control.tolerance;
+    if (periodic.recording) {
+        periodic.recording = false;
+        periodic.playing = near && close_cycle(model, march);
     } else if (near) {
-        if (!has_settled(repetition, end)) return;
-        repetition.recording = true;
-        repetition.steps = repetition.known = 0;
+        if (!has_settled(periodic, end)) return;
+        periodic.recording = true;
+        periodic.steps = periodic.known = 0;
     }
-    repetition.anchor_age = repetition.age;
-    repetition.anchor = end;
+    periodic.anchor_age = periodic.age;
+    periodic.anchor = end;
 }
 
 // Move the start on by a cycle; the motor's turns are counted in whole parts.
-void begin_cycle(Repetition& repetition) {
-    State& start = repetition.start;
-    const Place& whole = repetition.whole;
+void begin_cycle(Periodic& periodic) {
+    State& start = periodic.start;
+    const Place& whole = periodic.whole;
     run_on(start, start, whole.after);
     for (int e = 0; e < LEDGER; ++e) start.energy[e] += whole.energy[e];
-    repetition.part += whole.turned > 0.0 ? repetition.numerator : -repetition.numerator;
-    std::int64_t turns = repetition.part / repetition.denominator;
-    if (repetition.part % repetition.denominator < 0) --turns;  // towards minus infinity
-    repetition.part -= turns * repetition.denominator;
+    periodic.part += whole.turned > 0.0 ? periodic.numerator : -periodic.numerator;
+    std::int64_t turns = periodic.part / periodic.denominator;
+    if (periodic.part % periodic.denominator < 0) --turns;  // towards minus infinity
+    periodic.part -= turns * periodic.denominator;
     start.turns[0] += static_cast<double>(turns);
-    repetition.place = 0;
+    periodic.place = 0;
 }
 
 // Let `state` be at a place in the present cycle.
-void stand(const Repetition& repetition, const Place& place, State& state) {
-    const State& start = repetition.start;
+void stand(const Periodic& periodic, const Place& place, State& state) {
+    const State& start = periodic.start;
     state = place.state;
     run_on(start, state, place.after);
-    Turns turns = turns_at(repetition, place);
+    Turns turns = turns_at(periodic, place);
     state.turns[0] = turns.whole;
     state.fraction[0] = turns.fraction;
     for (int e = 0; e < LEDGER; ++e) state.energy[e] = start.energy[e] + place.energy[e];
@@ -186,49 +186,48 @@ void stand(const Repetition& repetition, const Place& place, State& state) {
 
 }  // namespace
 
-CycleStep& played_step(Repetition& repetition) {
-    return repetition.tape[repetition.place - 1];
+CycleStep& played_step(Periodic& periodic) {
+    return periodic.tape[periodic.place - 1];
 }
 
-Turns turns_at(const Repetition& repetition, const Place& place) {
-    const State& start = repetition.start;
-    double part =
-        static_cast<double>(repetition.part) / static_cast<double>(repetition.denominator);
+Turns turns_at(const Periodic& periodic, const Place& place) {
+    const State& start = periodic.start;
+    double part = static_cast<double>(periodic.part) / static_cast<double>(periodic.denominator);
     double turns = start.fraction[0] + place.turned + part, whole = std::floor(turns);
     return {start.turns[0] + whole, turns - whole};
 }
 
 CycleStep& next_step(const Model& model, March& march, const Instant& until) {
-    Repetition& repetition = march.repetition;
+    Periodic& periodic = march.periodic;
     while (true) {
-        if (repetition.place == repetition.steps) begin_cycle(repetition);
-        CycleStep& step = repetition.tape[repetition.place++];
+        if (periodic.place == periodic.steps) begin_cycle(periodic);
+        CycleStep& step = periodic.tape[periodic.place++];
         ++march.control.repeated;
-        if (delay(repetition.start, until) <= step.end.after) return step;
+        if (delay(periodic.start, until) <= step.end.after) return step;
         add_sums(step.sums, march.sums.total, model.train.lanes);
     }
 }
 
 void watch(const Model& model, March& march) {
-    Repetition& repetition = march.repetition;
-    if (repetition.cycles == 0) return;
-    if (repetition.recording) record_step(march);
+    Periodic& periodic = march.periodic;
+    if (periodic.cycles == 0) return;
+    if (periodic.recording) record_step(march);
     if (!comes_round(march)) return;
-    if (++repetition.passed < repetition.cycles) return;
-    repetition.passed = 0;
+    if (++periodic.passed < periodic.cycles) return;
+    periodic.passed = 0;
     look(model, march);
 }
 
 void forget(March& march) {
-    Repetition& repetition = march.repetition;
-    repetition.age = repetition.anchor_age = repetition.passed = 0;
-    repetition.recording = repetition.playing = false;
+    Periodic& periodic = march.periodic;
+    periodic.age = periodic.anchor_age = periodic.passed = 0;
+    periodic.recording = periodic.playing = false;
 }
 
 void stand_on(const Model& model, March& march, const CycleStep& step) {
-    const Repetition& repetition = march.repetition;
-    stand(repetition, step.begin, march.begin);
-    stand(repetition, step.end, march.end);
+    const Periodic& periodic = march.periodic;
+    stand(periodic, step.begin, march.begin);
+    stand(periodic, step.end, march.end);
     march.control.collocated = step.collocated;
     march.control.step = step.end.after - step.begin.after;
     std::memcpy(march.last.power, step.power, sizeof step.power);
@@ -236,10 +235,10 @@ void stand_on(const Model& model, March& march, const CycleStep& step) {
     march.run.motion = step.motion;
     march.sums.step = step.sums;
     const State& begin = march.begin;
-    set_step_constants(model, begin, march.moment);
+    set_step_constants(model, begin, march.constants);
     if (step.collocated) return;  // else dense output makes the step anew
     place_bristles(march.first.pairs, begin.bristle);
-    forces(model, begin, march.moment, begin.x, begin.v, 0.0, begin.trim, march.first);
+    forces(model, begin, march.constants, begin.x, begin.v, 0.0, begin.trim, march.first);
 }
 
 }  // namespace gearbox

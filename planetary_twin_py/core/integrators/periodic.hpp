@@ -23,7 +23,7 @@ void watch(const Model& model, March& march);
 void forget(March& march);
 
 // The step that was played last, or that closed the cycle.
-CycleStep& played_step(Repetition& repetition);
+CycleStep& played_step(Periodic& periodic);
 
 // Go on to the step of the cycle that ends at or after `until`; those before it are summed up.
 CycleStep& next_step(const Model& model, March& march, const Instant& until);
@@ -38,6 +38,6 @@ struct Turns {
 };
 
 // Those at a place in the present cycle.
-Turns turns_at(const Repetition& repetition, const Place& place);
+Turns turns_at(const Periodic& periodic, const Place& place);
 
 }  // namespace gearbox

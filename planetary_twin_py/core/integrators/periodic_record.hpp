@@ -28,7 +28,7 @@ struct alignas(64) CycleStep {
     SampleTable samples;
 };
 
-struct alignas(64) Repetition {
+struct alignas(64) Periodic {
     std::int64_t cycles;     // mesh cycles until all is as before, 0: never
     std::int64_t numerator;  // turns of the motor meanwhile, as a fraction
     std::int64_t denominator;

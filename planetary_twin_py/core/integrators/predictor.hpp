@@ -26,7 +26,7 @@ bool recall(March& march) {
     V rest(past.past_rest[START]), rubbing(past.past_rubbing[START]);
     for (int n = 0; n < run.nodes.count; ++n) {
         (V(run.rest[n]) + (V(past.past_rest[n]) - rest)).store(run.rest[n]);
-        double* friction = run.evaluation[n].rubbing;
+        double* friction = run.node[n].rubbing;
         (V(friction) + (V(past.past_rubbing[n]) - rubbing)).store(friction);
     }
     return true;
@@ -38,14 +38,13 @@ void remember(March& march) {
     Propagation& run = march.run;
     ContactState& past = contacts_of(run);
     past.past_step = run.motion.step;
-    for (int m = 0; m < L; ++m) {
-        double damped = run.damper[m] * run.p[m];
-        past.past_rest[START][m] = run.force[m] + damped + run.spring[m] * run.q[m];
-        past.past_rubbing[START][m] = march.first.rubbing[m];
-    }
+    using V = Row<L>;
+    V rest = V(run.force) + V(run.damper) * V(run.start.p) + V(run.spring) * V(run.start.q);
+    rest.store(past.past_rest[START]);
+    copy<L>(run.start.rubbing, past.past_rubbing[START]);
     for (int n = 0; n < run.nodes.count; ++n) {
         copy<L>(run.rest[n], past.past_rest[n]);
-        copy<L>(run.evaluation[n].rubbing, past.past_rubbing[n]);
+        copy<L>(run.node[n].rubbing, past.past_rubbing[n]);
     }
 }
 

@@ -36,15 +36,26 @@ inline const ContactState& contacts_of(const Propagation& run) {
     return run.known.states[run.motion.modes];
 }
 
-// `wave` of all modes.
+// Bounds for damping times up to tau, which may change by DAMPING_KEPT while they are kept.
+//
+// From (1, 0): C - tau w^2 S; from (0, 1): S + tau (C - c S); S never exceeds 1/w, nor C 1.
 template <int L>
-inline void waves(const ModalMotion& motion, double t, double* cosine, double* sine) {
-#pragma GCC ivdep
-    for (int m = 0; m < L; ++m) {
-        Wave at = wave(motion.damping[m], motion.rate[m], motion.slow[m], motion.fast[m], t);
-        cosine[m] = at.cosine;
-        sine[m] = at.sine;
-    }
+WaveBounds bound_waves(const ContactState& contacts, double tau) {
+    using V = Row<L>;
+    V square(contacts.square), damping(contacts.damping);
+    Mask<L> swings = V(contacts.slow) == V(contacts.fast);
+    V longest = 1.0 / square_root(larger(square, V(SMALLEST)));
+    V inverse = 1.0 / larger(V(contacts.rate), V(SMALLEST));
+    longest = select(swings, smaller(longest, inverse), longest);
+    // The lean is a straight line in tau: largest at an end.
+    V lean = larger(absolute(0.5 * damping - tau * square), 0.5 * damping);
+    lean += DAMPING_KEPT * tau * square;
+    V ratio = lean * inverse, first = 1.0 + lean * longest;
+    first = select(swings, smaller(first, square_root(1.0 + ratio * ratio)), first);
+    WaveBounds bounds;
+    first.store(bounds.displaced);
+    (longest + tau * (1.0 + DAMPING_KEPT)).store(bounds.moving);
+    return bounds;
 }
 
 // Damp the modes of a contact state as its meshes are damped now. What the damping is off by later
@@ -56,7 +67,7 @@ void damp_modes(ContactState& contacts, const double* tau) {
     if (near) return;
     contacts.tau[0] = tau[0];
     contacts.tau[1] = tau[1];
-    contacts.waves_step = 0.0;
+    for (KeptWaves& waves : contacts.waves) waves.step = 0.0;
     for (int m = 0; m < L; ++m) {
         double damping = contacts.shaft_damping[m] + tau[0] * contacts.mesh_damping[0][m];
         damping += tau[1] * contacts.mesh_damping[1][m];
@@ -66,44 +77,15 @@ void damp_modes(ContactState& contacts, const double* tau) {
         contacts.slow[m] = rates.slow;
         contacts.fast[m] = rates.fast;
     }
-}
-
-// Express the start of a step in the modes of its contacts.
-template <int L>
-void enter(const Model& model, March& march) {
-    using V = Row<L>;
-    const Train& train = model.train;
-    Propagation& run = march.run;
-    ModalMotion& motion = run.motion;
-    motion.modes = find_modes(train, march.begin, run.known);
-    ContactState& contacts = contacts_of(run);
-    damp_modes<L>(contacts, march.moment.tau);
-    copy<L>(contacts.square, motion.square);
-    copy<L>(contacts.damping, motion.damping);
-    copy<L>(contacts.rate, motion.rate);
-    copy<L>(contacts.slow, motion.slow);
-    copy<L>(contacts.fast, motion.fast);
-    V mass(train.mass);
-    (mass * V(march.begin.x)).store(run.now_q);
-    (mass * V(march.begin.v)).store(run.now_p);
-    sum_rows_twice<L>(contacts.share, run.now_q, run.now_p, run.q, run.p);
-    sum_rows<L>(contacts.share, march.first.force, run.force);
-}
-
-// Largest part of a period or a decay of any mode within a time, where modes are not free masses.
-template <int L>
-double phase_within(const Propagation& run, double time) {
-    using V = Row<L>;
-    V square(run.spring), pace = square_root(square) + V(run.damper);
-    return largest(pace) * std::fabs(time);
+    contacts.bounds = bound_waves<L>(contacts, std::max(tau[0], tau[1]));
 }
 
 // Free waves a little later (Taylor): C' = -w^2 S, S' = C - c S.
 template <int L, int TERMS>
-LAW void shift_waves(const ModalMotion& motion, double delay, const double* from_cosine,
-                     const double* from_sine, double* cosine, double* sine) {
+LAW void shift_waves(const ModalMotion& motion, double delay, Row<L> c, Row<L> s, double* cosine,
+                     double* sine) {
     using V = Row<L>;
-    V square(motion.square), damping(motion.damping), c(from_cosine), s(from_sine);
+    V square(motion.square), damping(motion.damping);
     V sum_c = c, sum_s = s;
     for (int k = 1; k <= TERMS; ++k) {
         const double part = delay / k;
@@ -117,49 +99,88 @@ LAW void shift_waves(const ModalMotion& motion, double delay, const double* from
     sum_s.store(sine);
 }
 
-// Free waves at the nodes of a step that is longer than the one they are kept of.
-template <int L, int TERMS>
-void shift_all_waves(Propagation& run, const ContactState& kept, double longer) {
-    for (int n = 0; n < run.nodes.count; ++n)
-        shift_waves<L, TERMS>(run.motion, run.nodes.abscissa[n] * longer, kept.cosine[n],
-                              kept.sine[n], run.cosine[n], run.sine[n]);
+// `wave` of all modes; within a small part of all periods and decays by its series.
+template <int L>
+SHARED void waves(const ModalMotion& motion, double t, double* cosine, double* sine) {
+    const double phase = motion.pace * std::fabs(t);
+    if (phase <= FEW_SHIFTED) return shift_waves<L, FEW_TERMS>(motion, t, 1.0, 0.0, cosine, sine);
+    if (phase <= MANY_SHIFTED) return shift_waves<L, MANY_TERMS>(motion, t, 1.0, 0.0, cosine, sine);
+#pragma GCC ivdep
+    for (int m = 0; m < L; ++m) {
+        Wave at = wave(motion.damping[m], motion.rate[m], motion.slow[m], motion.fast[m], t);
+        cosine[m] = at.cosine;
+        sine[m] = at.sine;
+    }
 }
 
-// Free motions at the nodes; `fresh`: of the first step in a contact state, which are kept for the
-// next such step.
+// Free waves of all modes at a time, and after two stretches of time, from those after each.
 template <int L>
-void find_waves(Propagation& run, double h, bool fresh) {
-    ContactState& contacts = contacts_of(run);
-    const double longer = h - contacts.waves_step;
-    if (fresh && contacts.waves_step > 0.0 && contacts.waves_nodes == run.nodes.count) {
-        const double phase = phase_within<L>(run, longer);
-        if (phase <= FEW_SHIFTED) return shift_all_waves<L, FEW_TERMS>(run, contacts, longer);
-        if (phase <= MANY_SHIFTED) return shift_all_waves<L, MANY_TERMS>(run, contacts, longer);
+struct Waves {
+    Row<L> cosine, sine;
+};
+
+template <int L>
+LAW Waves<L> waves_at(const ModalMotion& motion, double t) {
+    alignas(64) double cosine[L], sine[L];
+    waves<L>(motion, t, cosine, sine);
+    return {Row<L>(cosine), Row<L>(sine)};
+}
+
+template <int L>
+LAW Waves<L> waves_after(const ModalMotion& motion, const Waves<L>& a, const Waves<L>& b) {
+    using V = Row<L>;
+    V rate = a.cosine - V(motion.damping) * a.sine;
+    return {a.cosine * b.cosine - V(motion.square) * a.sine * b.sine,
+            a.sine * b.cosine + rate * b.sine};
+}
+
+// Free waves at the nodes of a step that is longer than the one they are kept of.
+template <int L, int TERMS>
+void shift_all_waves(Propagation& run, const KeptWaves& kept, double longer) {
+    for (int n = 0; n < run.nodes.count; ++n)
+        shift_waves<L, TERMS>(run.motion, run.nodes.abscissa[n] * longer, Row<L>(kept.cosine[n]),
+                              Row<L>(kept.sine[n]), run.cosine[n], run.sine[n]);
+}
+
+// Free motions at the nodes of a step of h, from those of a step as long if such are kept.
+template <int L>
+void find_waves(Propagation& run, double h) {
+    const std::int64_t place = run.place;
+    KeptWaves* kept = place < KEPT_STEPS ? &contacts_of(run).waves[place] : nullptr;
+    if (kept && kept->step > 0.0 && kept->nodes == run.nodes.count) {
+        const double longer = h - kept->step, phase = run.motion.pace * std::fabs(longer);
+        if (phase <= FEW_SHIFTED) return shift_all_waves<L, FEW_TERMS>(run, *kept, longer);
+        if (phase <= MANY_SHIFTED) return shift_all_waves<L, MANY_TERMS>(run, *kept, longer);
     }
     for (int n = 0; n < run.nodes.count; ++n) {
         waves<L>(run.motion, run.nodes.abscissa[n] * h, run.cosine[n], run.sine[n]);
-        if (!fresh) continue;
-        copy<L>(run.cosine[n], contacts.cosine[n]);
-        copy<L>(run.sine[n], contacts.sine[n]);
+        if (!kept) continue;
+        copy<L>(run.cosine[n], kept->cosine[n]);
+        copy<L>(run.sine[n], kept->sine[n]);
     }
-    if (!fresh) return;
-    contacts.waves_step = h;
-    contacts.waves_nodes = run.nodes.count;
+    if (!kept) return;
+    kept->step = h;
+    kept->nodes = run.nodes.count;
 }
 
 // Free motions of all modes at the nodes of a step of h, and the rest as it is at the start.
 template <int L>
-void set_step(Propagation& run, double h, bool fresh) {
+void set_step(Propagation& run, double h) {
     using V = Row<L>;
     run.motion.step = h;
+    run.motion.per_step = 1.0 / h;
     V square(run.motion.square), damping(run.motion.damping);
     Mask<L> free = square * h * h + damping * h < FREE_MASS;
     V spring = select(free, 0.0, square), damper = select(free, 0.0, damping);
-    V rest = V(run.force) + damper * V(run.p) + spring * V(run.q);
+    V rest = V(run.force) + damper * V(run.start.p) + spring * V(run.start.q);
     spring.store(run.spring);
     damper.store(run.damper);
-    find_waves<L>(run, h, fresh);
-    for (int n = 0; n < run.nodes.count; ++n) rest.store(run.rest[n]);
+    run.motion.pace = largest(square_root(spring) + damper);
+    find_waves<L>(run, h);
+    for (int n = 0; n < run.nodes.count; ++n) {
+        rest.store(run.rest[n]);
+        copy<L>(run.start.rubbing, run.node[n].rubbing);
+    }
 }
 
 // Whether a step of h keeps its digits. A mode that creeps for much longer than the step is a small
@@ -177,8 +198,10 @@ template <int L>
 LAW Row<L> power(const Propagation& run, std::int64_t k) {
     using V = Row<L>;
     const double* c = run.nodes.coefficient[k];
-    V low = c[0] * V(run.rest[0]) + c[1] * V(run.rest[1]) + c[2] * V(run.rest[2]);
-    return low + c[3] * V(run.rest[3]) + c[4] * V(run.rest[4]);
+    V sum = c[0] * V(run.rest[0]) + c[1] * V(run.rest[1]) + c[2] * V(run.rest[2]);
+    if (run.nodes.count > 3) sum += c[3] * V(run.rest[3]);
+    if (run.nodes.count > 4) sum += c[4] * V(run.rest[4]);
+    return sum;
 }
 
 // The motion of all modes under the polynomial through `rest`.
@@ -186,19 +209,22 @@ template <int L>
 void respond(Propagation& run) {
     using V = Row<L>;
     ModalMotion& motion = run.motion;
-    const double h = motion.step, square = h * h, inertia = 1.0 / (h * h), per_step = 1.0 / h;
+    const double h = motion.step, square = h * h, per_step = motion.per_step;
+    const double inertia = per_step * per_step;
     V spring(run.spring), loss = V(run.damper) * per_step;
     Mask<L> free = spring + loss == 0.0;
     V inverse = 1.0 / select(free, 1.0, spring);
     V a = power<L>(run, 0), b = power<L>(run, 1), c = power<L>(run, 2);
-    V d = power<L>(run, 3), e = power<L>(run, 4);
+    V d(0.0), e(0.0);
+    if (run.nodes.count > 3) d = power<L>(run, 3);
+    if (run.nodes.count > 4) e = power<L>(run, 4);
     // w^2 y_k + (k + 1) c/h y_(k+1) + (k + 1) (k + 2)/h^2 y_(k+2) is the rest's coefficient.
     V four = e * inverse;
     V three = (d - 4.0 * loss * four) * inverse;
     V two = (c - 3.0 * loss * three - 12.0 * inertia * four) * inverse;
     V one = (b - 2.0 * loss * two - 6.0 * inertia * three) * inverse;
     V zero = (a - loss * one - 2.0 * inertia * two) * inverse;
-    V q(run.q), p(run.p);
+    V q(run.start.q), p(run.start.p);
     select(free, q, zero).store(motion.particular[0]);
     select(free, h * p, one).store(motion.particular[1]);
     select(free, square / 2.0 * a, two).store(motion.particular[2]);
@@ -212,34 +238,34 @@ void respond(Propagation& run) {
 
 // q and q' of all modes at t/h, from `waves` at that time.
 template <int L>
-LAW void modal_states(const ModalMotion& motion, double t, const double* cosine, const double* sine,
-                      double* q, double* p) {
+LAW RowPair<L> modal_states(const ModalMotion& motion, double t, const Row<L>& cosine,
+                            const Row<L>& sine) {
     using V = Row<L>;
-    const double per_step = 1.0 / motion.step;
     const double (*y)[BODIES] = motion.particular;
     V a(y[0]), b(y[1]), c(y[2]), d(y[3]), e(y[4]), f(y[5]), g(y[6]);
-    V u(motion.free[0]), w(motion.free[1]), first(cosine), second(sine);
-    V value = a + t * (b + t * (c + t * (d + t * (e + t * (f + t * g)))));
-    V slope = b + t * (2.0 * c + t * (3.0 * d + t * (4.0 * e + t * (5.0 * f + t * 6.0 * g))));
-    V rate = (first - V(motion.damping) * second) * w - V(motion.square) * second * u;
-    (value + first * u + second * w).store(q);
-    (slope * per_step + rate).store(p);
+    V u(motion.free[0]), w(motion.free[1]);
+    // By even and odd powers, half as long to wait for.
+    const double s = t * t;
+    V value = (a + s * (c + s * (e + s * g))) + t * (b + s * (d + s * f));
+    V slope = (b + s * (3.0 * d + s * (5.0 * f))) + t * (2.0 * c + s * (4.0 * e + s * (6.0 * g)));
+    V rate = (cosine - V(motion.damping) * sine) * w - V(motion.square) * sine * u;
+    return {value + (cosine * u + sine * w), slope * motion.per_step + rate};
 }
 
-// q and q' of all modes at any time within the step, in `now_q` and `now_p`.
+// q and q' of all modes at any time within the step.
 template <int L>
-void modes_at(Propagation& run, double delay) {
-    double cosine[L], sine[L];
-    waves<L>(run.motion, delay, cosine, sine);
-    modal_states<L>(run.motion, delay / run.motion.step, cosine, sine, run.now_q, run.now_p);
+LAW RowPair<L> modes_at(const ModalMotion& motion, double delay) {
+    Waves<L> at = waves_at<L>(motion, delay);
+    return modal_states<L>(motion, delay * motion.per_step, at.cosine, at.sine);
 }
 
 // x and v at any time within the step.
 template <int L>
 void propagate(March& march, double delay, double* x, double* v) {
     Propagation& run = march.run;
-    modes_at<L>(run, delay);
-    sum_rows_twice<L>(contacts_of(run).form, run.now_q, run.now_p, x, v);
+    auto [at, rate] = sum_rows<L>(contacts_of(run).form, modes_at<L>(run.motion, delay));
+    at.store(x);
+    rate.store(v);
 }
 
 // Trim of the speed loops, the integral of set-point minus speed.
@@ -249,57 +275,81 @@ inline void trim_at(const Model& model, const March& march, double delay, const 
     const State& begin = march.begin;
     for (std::int64_t a = 0; a < train.axes; ++a) {
         std::int64_t motor = train.coupling[2 * a][0];
-        double lag = begin.set_speed[a] - begin.speed[a] + 0.5 * march.moment.slew[a] * delay;
+        double lag = begin.set_speed[a] - begin.speed[a] + 0.5 * march.constants.slew[a] * delay;
         double turned = (x[motor] - begin.x[motor]) * train.inverse_radius[motor];
         trim[a] = begin.trim[a] + lag * delay - turned;
     }
 }
 
-// Modes and meshes at node n.
+// Bodies, meshes and gears of a node in the motion of the modes, and the trim of the speed loops.
 template <int L>
-LAW void move_node(Propagation& run, const ContactState& contacts, std::int64_t n) {
-    double *q = run.node_q[n], *p = run.node_p[n];
-    modal_states<L>(run.motion, run.nodes.abscissa[n], run.cosine[n], run.sine[n], q, p);
-    sum_rows_twice<L>(contacts.motion, q, p, run.node_d[n], run.node_rate[n]);
+SHARED void move_node(const Model& model, const March& march, double delay, const Row<L>& cosine,
+                      const Row<L>& sine, Node& node) {
+    using V = Row<L>;
+    const Propagation& run = march.run;
+    const ContactState& contacts = contacts_of(run);
+    RowPair<L> modes = modal_states<L>(run.motion, delay * run.motion.per_step, cosine, sine);
+    RowPair<L> meshes = sum_rows<L>(contacts.motion, modes);
+    RowPair<L> bodies = sum_rows<L>(contacts.form, modes);
+    modes.first.store(node.q);
+    modes.second.store(node.p);
+    meshes.first.store(node.d);
+    meshes.second.store(node.rate);
+    bodies.first.store(node.x);
+    bodies.second.store(node.v);
+    for (int g = 0; g < GEARS - 1; ++g)
+        (V(march.constants.spin[g]) + sum_rows<L>(contacts.spin[g], modes.second))
+            .store(node.spin[g]);
+    trim_at(model, march, delay, node.x, node.trim);
 }
 
-// Bodies at node n, and the trim of the speed loops.
 template <int L>
-LAW void move_bodies(const Model& model, March& march, const ContactState& contacts,
-                     std::int64_t n) {
+LAW void move_to(const Model& model, March& march, std::int64_t n) {
     Propagation& run = march.run;
-    sum_rows_twice<L>(contacts.form, run.node_q[n], run.node_p[n], run.node_x[n], run.node_v[n]);
-    double delay = run.nodes.abscissa[n] * run.motion.step;
-    trim_at(model, march, delay, run.node_x[n], run.node_trim[n]);
+    move_node<L>(model, march, run.nodes.abscissa[n] * run.motion.step, Row<L>(run.cosine[n]),
+                 Row<L>(run.sine[n]), run.node[n]);
 }
 
-// Answer the rest as it is now, and move on to where that takes the nodes: their modes and meshes,
-// and the bodies at the last.
+// Answer the rest as it is now, and move on to where that takes the nodes.
+template <int L>
+void visit_nodes(const Model& model, March& march) {
+    respond<L>(march.run);
+    for (std::int64_t n = 0; n < march.run.nodes.count; ++n) move_to<L>(model, march, n);
+}
+
+// q of all modes at node n.
+template <int L>
+LAW Row<L> modal_places(const Propagation& run, std::int64_t n) {
+    using V = Row<L>;
+    const double (*y)[BODIES] = run.motion.particular;
+    const double t = run.nodes.abscissa[n], s = t * t;
+    V even = V(y[0]) + s * (V(y[2]) + s * (V(y[4]) + s * V(y[6])));
+    V odd = V(y[1]) + s * (V(y[3]) + s * V(y[5]));
+    return even + t * odd +
+           (V(run.cosine[n]) * V(run.motion.free[0]) + V(run.sine[n]) * V(run.motion.free[1]));
+}
+
+// Answer the rest once more, and move the last node; of the others only the transmission errors,
+// which is all that is read of them where the step stands.
 template <int L>
 void visit_last_node(const Model& model, March& march) {
     Propagation& run = march.run;
     respond<L>(run);
     const ContactState& contacts = contacts_of(run);
     const std::int64_t last = run.nodes.count - 1;
-    copy<L>(run.node_d[last], run.before_d);
-    copy<L>(run.node_rate[last], run.before_rate);
-    copy<L>(run.node_v[last], run.before_v);
-    for (std::int64_t n = 0; n <= last; ++n) move_node<L>(run, contacts, n);
-    move_bodies<L>(model, march, contacts, last);
+    for (std::int64_t n = 0; n < last; ++n)
+        sum_rows<L>(contacts.motion, modal_places<L>(run, n)).store(run.node[n].d);
+    const Node& node = run.node[last];
+    copy<L>(node.d, run.before_d);
+    copy<L>(node.rate, run.before_rate);
+    copy<L>(node.v, run.before_v);
+    move_to<L>(model, march, last);
 }
 
-// The bodies at the other nodes, which another sweep asks for.
+// The other nodes, which another sweep asks for.
 template <int L>
 void visit_other_nodes(const Model& model, March& march) {
-    const ContactState& contacts = contacts_of(march.run);
-    for (std::int64_t n = 0; n < march.run.nodes.count - 1; ++n)
-        move_bodies<L>(model, march, contacts, n);
-}
-
-template <int L>
-void visit_nodes(const Model& model, March& march) {
-    visit_last_node<L>(model, march);
-    visit_other_nodes<L>(model, march);
+    for (std::int64_t n = 0; n < march.run.nodes.count - 1; ++n) move_to<L>(model, march, n);
 }
 
 }  // namespace gearbox

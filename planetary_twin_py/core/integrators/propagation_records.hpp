@@ -3,14 +3,16 @@
 #include <cstdint>
 
 #include "integrators/contact_modes_record.hpp"
+#include "integrators/node.hpp"
 #include "integrators/nodes.hpp"
-#include "train/evaluation.hpp"
 
 namespace gearbox {
 
 struct alignas(64) ModalMotion {
     std::int64_t modes;              // place in `known`
     double step;                     // [s]
+    double per_step;                 // its inverse
+    double pace;                     // of the fastest mode, w + c, but for free masses [1/s]
     alignas(64) double square[16];   // w^2 [1/s^2]
     alignas(64) double damping[16];  // c [1/s]
     alignas(64) double rate[16];     // see `oscillator.decay_rates`
@@ -24,32 +26,22 @@ struct alignas(64) Propagation {
     Nodes nodes;
     ContactModes known;
     ModalMotion motion;
+    std::int64_t place;             // of the step since the contacts changed, 0: the first
     alignas(64) double spring[16];  // w^2 and c, but 0 for what counts as a free mass
     alignas(64) double damper[16];
-    alignas(64) double q[16];          // at the start
-    alignas(64) double p[16];          // q' at the start
+    Node start;
     alignas(64) double force[16];      // at the start, friction being as it was before
     alignas(64) double rest[5][16];    // at the nodes
     alignas(64) double cosine[5][16];  // `wave` at the nodes
     alignas(64) double sine[5][16];
     alignas(64) double end_cosine[16];  // at the end of the step
     alignas(64) double end_sine[16];
-    alignas(64) double node_q[5][16];
-    alignas(64) double node_p[5][16];
-    alignas(64) double node_x[5][16];
-    alignas(64) double node_v[5][16];
-    alignas(64) double node_trim[5][2];
-    alignas(64) double node_d[5][16];
-    alignas(64) double node_rate[5][16];
+    Node node[MOST_NODES];
+    Node shown[MOST_INSTANTS];        // where samples lie
     alignas(64) double before_d[16];  // at the last node, one sweep earlier
     alignas(64) double before_rate[16];
     alignas(64) double before_v[16];
-    double weight[5];  // of the nodes in the integral over the step that stands [s]
-    Evaluation evaluation[5];
-    alignas(64) double now_q[16];  // room to work in
-    alignas(64) double now_p[16];
-    alignas(64) double now_d[16];
-    alignas(64) double now_rate[16];
+    double weight[5];                  // of the nodes in the integral over the step that stands [s]
     std::int8_t suspect[16];           // may change its contact within the step
     alignas(64) double scan_d[8][16];  // at even times
     alignas(64) double scan_rate[8][16];

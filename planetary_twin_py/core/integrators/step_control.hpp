@@ -4,6 +4,8 @@
 
 #include <cstdint>
 
+#include "vector/math.hpp"
+
 namespace gearbox {
 
 enum Method : std::int64_t { AUTO, COLLOCATION, ROSENBROCK };
@@ -26,6 +28,14 @@ inline constexpr double SHORTEST_STEP = 1e-13;  // [s] below it two events count
 // Steps of Rosenbrock's method before collocation is tried again.
 inline constexpr std::int64_t DETOUR = 20;
 inline constexpr double SAFETY = 0.8, SHRINK = 0.25, GROW = 2.0;  // of steps
+inline constexpr double LARGEST_ERROR = 1e100;                    // in tolerances
+
+// By what a step whose error is in tolerances may be longer; the error is of this order.
+inline double growth_of_step(double error, double order) {
+    if (error == 0.0) return GROW;
+    if (!(error < LARGEST_ERROR)) return SHRINK;  // be it not a number
+    return SAFETY * power(error, -1.0 / order);
+}
 
 // Thrown where no finite state can be reached, however short the step.
 struct NoFiniteState {};

@@ -9,14 +9,18 @@ namespace gearbox {
 inline constexpr double SLOWEST_SWING =
     30.0;  // (1 + c h)/(w h)^2, to whose 4th power digits are lost
 
-// Weight of node n in the integral over the part t of the step [s].
-inline double node_weight(const Propagation& run, std::int64_t n, double t) {
-    double weight = 0.0, u = run.motion.step;
+// Fill the weights of the nodes in the integral over the part t of the step [s].
+inline void weigh_nodes(Propagation& run, double t) {
+    double integral[MOST_NODES], power = run.motion.step;  // of powers of the time
     for (std::int64_t k = 0; k < run.nodes.count; ++k) {
-        u *= t;
-        weight += run.nodes.coefficient[k][n] * u / static_cast<double>(k + 1);
+        power *= t;
+        integral[k] = power / static_cast<double>(k + 1);
     }
-    return weight;
+    for (std::int64_t n = 0; n < run.nodes.count; ++n) {
+        run.weight[n] = 0.0;
+        for (std::int64_t k = 0; k < run.nodes.count; ++k)
+            run.weight[n] += run.nodes.coefficient[k][n] * integral[k];
+    }
 }
 
 // Which modes have free waves, of which quadrature might miss what is damped. Not those that hardly
@@ -62,23 +66,41 @@ LAW Row<L> damped(const Propagation& run, double h, const double* cosine, const 
     return lost + c * (2.0 * cross + own * part) * per_step;
 }
 
+// Sum of a row over all meshes and their copies.
+template <int L>
+LAW double sum_of_meshes(const Train& train, const Row<L>& row) {
+    alignas(64) double value[L];
+    row.store(value);
+    double sum = 0.0;
+    for (std::int64_t i = 0; i < train.meshes; ++i) sum += train.copies[i] * value[i];
+    return sum;
+}
+
 // Fill the ledger at h seconds into the step: by quadrature at the nodes; what damping takes from
 // modes that swing is known exactly.
 template <int L>
-void integrate_powers(March& march, double h) {
+void integrate_powers(const Train& train, March& march, double h) {
     using V = Row<L>;
     Propagation& run = march.run;
     State& end = march.end;
     const std::int64_t last = run.nodes.count - 1;
     const double t = h / run.motion.step;
     for (int e = 0; e < LEDGER; ++e) end.energy[e] = march.begin.energy[e];
-    V quadrature(0.0);
+    weigh_nodes(run, t);
+    V quadrature(0.0), lost(0.0), work(0.0), friction(0.0);
     for (std::int64_t n = 0; n <= last; ++n) {
-        double weight = run.weight[n] = node_weight(run, n, t);
-        for (int e = 0; e < LEDGER; ++e) end.energy[e] += weight * run.evaluation[n].power[e];
-        V rate(run.node_p[n]);
+        const double weight = run.weight[n];
+        const Node& node = run.node[n];
+        for (int e = 0; e < LEDGER; ++e) end.energy[e] += weight * node.power[e];
+        V rate(node.p);
         quadrature += weight * rate * rate;
+        lost += weight * V(node.meshes.lost);
+        work += weight * V(node.meshes.work);
+        friction += weight * V(node.friction.drag.power);
     }
+    end.energy[DAMPING] += sum_of_meshes(train, lost);
+    end.energy[STIFFNESS_WORK] += sum_of_meshes(train, work);
+    if (train.friction) end.energy[FRICTION] += sum_of_meshes(train, friction);
     V exact = damped<L>(run, h, run.end_cosine, run.end_sine) - V(run.motion.damping) * quadrature;
     end.energy[DAMPING] += total(select(swings<L>(run), exact, 0.0));
 }

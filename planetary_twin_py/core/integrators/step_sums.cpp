@@ -5,6 +5,7 @@
 #include <cstring>
 
 #include "integrators/contact_sums.hpp"
+#include "integrators/node_forces.hpp"
 #include "integrators/propagation.hpp"
 #include "integrators/step_ledger.hpp"
 #include "mesh/deflection.hpp"
@@ -17,23 +18,19 @@ namespace {
 constexpr std::int64_t MOST_LOOKS = 129;  // room
 constexpr double NEAR = 0.02;             // of a step, by which it may end beside its last node
 
-// Films at the nodes; at two of them without friction, as nothing else asks for them.
+// Films at two nodes of a step without friction, as nothing else asks for them.
 template <int L>
 void add_films_of_nodes(const Model& model, March& march, ContactSums<L>& contacts) {
-    Propagation& run = march.run;
+    const Propagation& run = march.run;
     const double h = march.control.step;
-    if (model.train.friction) {
-        for (std::int64_t n = 0; n < run.nodes.count; ++n)
-            add_films(model.train, run.evaluation[n].pairs, run.weight[n], contacts);
-        return;
-    }
+    Evaluation& work = march.work.evaluation;
     std::int64_t early = std::max<std::int64_t>(run.nodes.count - 4, 0), late = run.nodes.count - 2;
     double t = run.nodes.abscissa[early] * run.motion.step;
     double u = run.nodes.abscissa[late] * run.motion.step;
     double weight = h * (u - 0.5 * h) / (u - t);  // of the early one, exact for straight lines
     for (std::int64_t n : {early, late}) {
-        Evaluation& work = run.evaluation[n];
-        find_contacts(model, march.moment, run.node_v[n], work);
+        work.now = run.node[n].meshes;
+        find_contacts(model, march.constants, run.node[n].v, work);
         add_films(model.train, work.pairs, n == early ? weight : h - weight, contacts);
     }
 }
@@ -44,18 +41,11 @@ template <int L>
 void add_films_of_cut_step(const Model& model, March& march, ContactSums<L>& contacts) {
     constexpr double FROM_MIDDLE[] = {-0.3872983346207417, 0.0, 0.3872983346207417};
     constexpr double SHARE[] = {5.0 / 18.0, 4.0 / 9.0, 5.0 / 18.0};
-    const Train& train = model.train;
     const double h = march.control.step;
-    Evaluation& work = march.work.evaluation;
-    double *x = march.dense.x, *v = march.dense.v;
-    for (int k = 0; k < 3; ++k) {
-        const double at = (0.5 + FROM_MIDDLE[k]) * h;
-        propagate<L>(march, at, x, v);
-        move_meshes(train, x, v, work.now);
-        mesh_forces(model, march.begin, march.moment, x, v, at, work);
-        find_contacts(model, march.moment, v, work);
-        add_films(train, work.pairs, SHARE[k] * h, contacts);
-    }
+    double delays[3];
+    for (int k = 0; k < 3; ++k) delays[k] = (0.5 + FROM_MIDDLE[k]) * h;
+    show_friction<L>(model, march, delays, 3);
+    for (int k = 0; k < 3; ++k) add_films(model.train, march.run.shown[k], SHARE[k] * h, contacts);
 }
 
 // Fill the look at the start and the nodes of a step by collocation.
@@ -65,32 +55,31 @@ void look_at_nodes(March& march) {
     Look& look = march.sums.look;
     look.count = run.nodes.count + 1;
     look.at[0] = look.weight[0] = 0.0;
-    sum_rows<L>(run.known.states[run.motion.modes].motion, run.q, look.d[0]);
-    copy<L>(march.first.now.push, look.push[0]);
+    copy<L>(run.start.d, look.d[0]);
+    copy<L>(run.start.meshes.push, look.push[0]);
     for (std::int64_t n = 0; n < run.nodes.count; ++n) {
         look.at[n + 1] = run.nodes.abscissa[n] * run.motion.step;
         look.weight[n + 1] = run.weight[n];
-        copy<L>(run.node_d[n], look.d[n + 1]);
-        copy<L>(run.evaluation[n].now.push, look.push[n + 1]);
+        copy<L>(run.node[n].d, look.d[n + 1]);
+        copy<L>(run.node[n].meshes.push, look.push[n + 1]);
     }
 }
 
 // Fill the look at `intervals` + 1 even times of a step by collocation.
 template <int L>
 void look_at_even_times(const Model& model, March& march, std::int64_t intervals) {
-    Propagation& run = march.run;
     Look& look = march.sums.look;
-    Evaluation& work = march.work.evaluation;
-    State& dense = march.dense;
-    const ContactState& contacts = contacts_of(run);
+    Node& node = march.run.shown[0];
     set_even_times(look, 0.0, march.control.step, intervals);
+    const ModalMotion& motion = march.run.motion;
+    const Waves<L> gap = waves_at<L>(motion, look.at[1]);
+    Waves<L> now{1.0, 0.0};
     for (std::int64_t k = 0; k < look.count; ++k) {
-        modes_at<L>(run, look.at[k]);
-        sum_rows_twice<L>(contacts.form, run.now_q, run.now_p, dense.x, dense.v);
-        sum_rows_twice<L>(contacts.motion, run.now_q, run.now_p, look.d[k], work.now.rate);
-        copy<L>(look.d[k], work.now.d);
-        mesh_forces(model, march.begin, march.moment, dense.x, dense.v, look.at[k], work);
-        copy<L>(work.now.push, look.push[k]);
+        move_node<L>(model, march, look.at[k], now.cosine, now.sine, node);
+        push_node<L>(model, march, node, look.at[k]);
+        copy<L>(node.d, look.d[k]);
+        copy<L>(node.meshes.push, look.push[k]);
+        now = waves_after(motion, now, gap);
     }
 }
 
@@ -102,17 +91,18 @@ void add_collocated(const Model& model, March& march) {
     const double h = march.control.step;
     ContactSums<L> contacts;
     for (std::int64_t n = 0; n < run.nodes.count; ++n)
-        add_friction(train, run.evaluation[n], run.weight[n], contacts);
+        add_node(train, run.node[n], run.weight[n], contacts);
     std::int64_t intervals = even_intervals(march, train, h);
     if (std::fabs(h - run.motion.step) > NEAR * run.motion.step) {
         look_at_even_times<L>(model, march, std::max(intervals, FEWEST));
+        contacts.share = contacts.film = 0.0;
         add_films_of_cut_step(model, march, contacts);
     } else {
         if (intervals == 0)
             look_at_nodes<L>(march);
         else
             look_at_even_times<L>(model, march, intervals);
-        add_films_of_nodes(model, march, contacts);
+        if (!train.friction) add_films_of_nodes(model, march, contacts);
     }
     put_contacts(train, model.oil, contacts, march.sums.step.integral);
 }
@@ -148,15 +138,15 @@ void add_ends(const Model& model, March& march) {
     std::memcpy(look.push[0], sums.push, sizeof look.push[0]);
     if (sums.stale) {
         Evaluation& work = march.work.evaluation;
-        forces(model, begin, march.moment, begin.x, begin.v, 0.0, begin.trim, work);
+        forces(model, begin, march.constants, begin.x, begin.v, 0.0, begin.trim, work);
         std::memcpy(look.push[0], work.now.push, sizeof look.push[0]);
-        put_rates(model, march.moment, begin.v, work, sums);
+        put_rates(model, march.constants, begin.v, work, sums);
     }
     std::memset(sums.step.integral, 0, sizeof sums.step.integral);
     add_rates(train, sums, half, sums.step.integral);
     std::memcpy(look.push[1], march.last.now.push, sizeof look.push[1]);
     std::memcpy(sums.push, march.last.now.push, sizeof sums.push);
-    put_rates(model, march.moment, march.end.v, march.last, sums);
+    put_rates(model, march.constants, march.end.v, march.last, sums);
     add_rates(train, sums, half, sums.step.integral);
     for (std::int64_t i = 0; i < train.meshes; ++i) {
         look.d[0][i] = mesh_motion(train, i, begin.x);
@@ -218,7 +208,7 @@ void sum_step(const Model& model, March& march) {
         with_lanes(model.train, [&](auto lanes) { add_collocated<lanes>(model, march); });
     else
         add_ends(model, march);
-    add_look(model.train, march.moment, march.sums.look, march.sums.step);
+    add_look(model.train, march.constants, march.sums.look, march.sums.step);
 }
 
 // Nodes resolve as many radians of a free wave as they are; even times one each. Waves below the

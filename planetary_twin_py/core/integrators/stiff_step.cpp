@@ -36,7 +36,7 @@ void try_step(const Model& model, March& march, double h) {
     pass_time(model, march, h);
     for (int e = 0; e < LEDGER; ++e) end.energy[e] = begin.energy[e] + march.work.energy[e];
     place_bristles(march.last.pairs, end.bristle);
-    forces(model, begin, march.moment, end.x, end.v, h, end.trim, march.last);
+    forces(model, begin, march.constants, end.x, end.v, h, end.trim, march.last);
     march.control.evaluations += EVALUATIONS;
 }
 
@@ -48,7 +48,7 @@ double error_norm(const Model& model, const March& march) {
     const Control& control = march.control;
     double largest = 0.0, total = 0.0;
     for (std::int64_t i = 0; i < train.meshes; ++i) {
-        double tau = march.moment.tau[train.kind[i]];
+        double tau = march.constants.tau[train.kind[i]];
         double error = std::fabs(mesh_motion(train, i, work.error_x));
         // Damping turns an error of the rate into one of the force, k tau times as large.
         double slip = std::max(std::fabs(mesh_motion(train, i, work.error_v)) - ROUNDING, 0.0);
@@ -76,7 +76,7 @@ Controlled controlled_step(const Model& model, March& march, double h) {
     while (true) {
         try_step(model, march, h);
         double error = STIFF * error_norm(model, march);
-        double factor = error > 0.0 ? SAFETY * std::pow(error, -1.0 / ROSENBROCK_ORDER) : GROW;
+        double factor = growth_of_step(error, ROSENBROCK_ORDER);
         if (error <= 1.0 || (h <= SHORTEST_STEP && error < ASTRAY)) return {h, factor};
         if (h <= SHORTEST_STEP) throw NoFiniteState{};
         ++march.control.rejected;
@@ -91,7 +91,7 @@ void find_first_forces(const Model& model, March& march) {
     Evaluation &first = march.first, &last = march.last;
     if (control.changed || control.collocated) {
         place_bristles(first.pairs, begin.bristle);
-        forces(model, begin, march.moment, begin.x, begin.v, 0.0, begin.trim, first);
+        forces(model, begin, march.constants, begin.x, begin.v, 0.0, begin.trim, first);
         ++control.evaluations;
         control.changed = false;
     } else {  // forces do not depend on the frame in which x is measured

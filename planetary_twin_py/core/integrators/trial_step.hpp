@@ -13,7 +13,7 @@ namespace gearbox {
 inline void trial_step(const Model& model, March& march, double h, State& out) {
     switch (march.control.method) {
         default:
-            rosenbrock_step(model, march.begin, march.moment, h, march.first, out, march.work);
+            rosenbrock_step(model, march.begin, march.constants, h, march.first, out, march.work);
     }
 }
 

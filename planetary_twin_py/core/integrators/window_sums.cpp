@@ -30,15 +30,15 @@ void count_part(const Model& model, March& march, double begin, double end) {
         interpolate(model, march, look.at[k]);
         move_meshes(train, x, v, work.now);
         copy<L>(work.now.d, look.d[k]);
-        mesh_forces(model, march.begin, march.moment, x, v, look.at[k], work);
+        mesh_forces(model, march.begin, march.constants, x, v, look.at[k], work);
         copy<L>(work.now.push, look.push[k]);
-        find_contacts(model, march.moment, v, work);
+        find_contacts(model, march.constants, v, work);
         add_films(train, work.pairs, look.weight[k], contacts);
         add_friction(train, work, look.weight[k], contacts);
     }
     sums.part.time = end - begin;
     put_contacts(train, model.oil, contacts, sums.part.integral);
-    add_look(train, march.moment, look, sums.part);
+    add_look(train, march.constants, look, sums.part);
     add_sums(sums.part, sums.total, train.lanes);
 }
 

@@ -21,7 +21,7 @@ constexpr double SLOW_BEARING = 2000.0;  // [mm^2/s rpm] below it M0 follows nei
 inline double bearing_torque(double idle, double rubbing, double kinematic_viscosity, double speed,
                              double load) {
     double product = 1e6 * kinematic_viscosity * std::abs(speed) * 30.0 / std::numbers::pi;
-    return 0.1 * idle * std::pow(at_least(product, SLOW_BEARING), 2.0 / 3.0) + rubbing * load;
+    return 0.1 * idle * power(at_least(product, SLOW_BEARING), 2.0 / 3.0) + rubbing * load;
 }
 
 }  // namespace gearbox

@@ -20,11 +20,11 @@ inline double disc_torque(double radius, double gap_ratio, double density,
     double w = std::abs(speed), nu = kinematic_viscosity, g = gap_ratio;
     // Each is written out, so that nothing is divided by a speed that may vanish.
     double laminar_merged = std::numbers::pi * nu * w / g;
-    double laminar = 1.85 * std::pow(g, 0.1) * std::pow(w, 1.5) * std::sqrt(nu) * radius;
-    double turbulent_merged = 0.04 * std::pow(g, -1.0 / 6.0) * std::pow(w, 1.75) *
-                              std::pow(nu, 0.25) * std::pow(radius, 1.5);
-    double turbulent =
-        0.051 * std::pow(g, 0.1) * std::pow(w, 1.8) * std::pow(nu, 0.2) * std::pow(radius, 1.6);
+    double narrow = power(g, 0.1), root = w * std::sqrt(w);  // w^1.5, exactly 0 at rest
+    double laminar = 1.85 * narrow * root * std::sqrt(nu) * radius;
+    double turbulent_merged = 0.04 * power(g, -1.0 / 6.0) * root * std::sqrt(std::sqrt(w * nu)) *
+                              radius * std::sqrt(radius);
+    double turbulent = 0.051 * narrow * w * power(w, 0.8) * power(nu, 0.2) * power(radius, 1.6);
     double largest =
         at_least(at_least(laminar_merged, laminar), at_least(turbulent_merged, turbulent));
     return density * radius * radius * radius * largest;

@@ -10,14 +10,15 @@
 
 namespace gearbox {
 
-// Elastic energy [J] of mesh i and its copies; `step` is room for where it stands.
-inline double stored_energy(const Model& model, const State& state, StepConstants& step,
-                            std::int64_t i) {
+// Elastic energy [J] of mesh i and its copies at so many `cycles` of the train; `step` is room for
+// where it stands.
+inline double energy_at(const Model& model, const State& state, StepConstants& step, std::int64_t i,
+                        double cycles) {
     if (state.side[i] == OPEN) return 0.0;
     const Train& train = model.train;
     double side = static_cast<double>(state.side[i]);
     std::int64_t kind = train.kind[i], segment = state.segment[i];
-    place_mesh(train, state, step, i, frame_cycle(train, state, 1) + cycle_shift(train, state.x));
+    place_mesh(train, state, step, i, cycles);
     double u = step.start[i] - step.low[i];
     double d = deflection(train, step, i, state.x, state.v, 0.0, 0.0).d;
     double energy = 0.0;
@@ -27,6 +28,14 @@ inline double stored_energy(const Model& model, const State& state, StepConstant
         if (gap == 0.0 || q > 0.0) energy += 0.5 * k * (q * q - model.load.inner_squared);
     }
     return train.copies[i] * energy;
+}
+
+// The same at the cycles of the state.
+inline double stored_energy(const Model& model, const State& state, StepConstants& step,
+                            std::int64_t i) {
+    const Train& train = model.train;
+    double cycles = frame_cycle(train, state, 1) + cycle_shift(train, state.x);
+    return energy_at(model, state, step, i, cycles);
 }
 
 // Close an open mesh on the side it has reached, or open a closed one.
@@ -51,14 +60,31 @@ inline void change_contact(const Model& model, State& state, StepConstants& step
     state.energy[DAMPING] += before - stored_energy(model, state, step, i);
 }
 
+// Whether the stiffness of a kind of mesh without faults jumps from a segment to the next.
+inline bool stiffness_jumps(const Train& train, std::int64_t kind, std::int64_t segment,
+                            std::int64_t after, bool forwards) {
+    constexpr double ROUNDING = 1e-12;
+    const double* edge = train.edge[kind];
+    double before = mesh_stiffness(train, kind, segment, edge[forwards ? segment + 1 : segment]);
+    double then = mesh_stiffness(train, kind, after, edge[forwards ? after : after + 1]);
+    return std::abs(then - before) > ROUNDING * before;
+}
+
 // Move mesh i to the next segment; a jump of the stiffness does work on the train.
 inline void change_segment(const Model& model, State& state, StepConstants& step, std::int64_t i,
                            std::int64_t direction) {
-    std::int64_t count = model.train.segments[model.train.kind[i]];
-    double before = stored_energy(model, state, step, i);
-    pass_bristles(model.train, state.bristle, i, state.segment[i], direction);
-    state.segment[i] = (state.segment[i] + direction + count) % count;
-    state.energy[STIFFNESS_WORK] += stored_energy(model, state, step, i) - before;
+    const Train& train = model.train;
+    const std::int64_t kind = train.kind[i], segment = state.segment[i];
+    const std::int64_t count = train.segments[kind], after = (segment + direction + count) % count;
+    pass_bristles(train, state.bristle, i, segment, direction);
+    if (train.faults == 0 && !stiffness_jumps(train, kind, segment, after, direction > 0)) {
+        state.segment[i] = after;
+        return;
+    }
+    double cycles = frame_cycle(train, state, 1) + cycle_shift(train, state.x);
+    double before = energy_at(model, state, step, i, cycles);
+    state.segment[i] = after;
+    state.energy[STIFFNESS_WORK] += energy_at(model, state, step, i, cycles) - before;
 }
 
 }  // namespace gearbox

@@ -12,6 +12,7 @@
 #include <numbers>
 
 #include "mesh/cycle.hpp"
+#include "vector/math.hpp"
 
 namespace gearbox {
 
@@ -34,7 +35,7 @@ inline void place_lines(const Train& train, const State& state, std::int64_t i,
         std::int64_t period = train.line_period[kind][n];
         double cycle = counted_cycle(train, state, counter, DRIVE_SIDE, period);
         double turn = cycle * train.line_harmonic[kind][n] / static_cast<double>(period);
-        angle[i][n] = 2.0 * std::numbers::pi * turn + train.line_phase[kind][n];
+        angle[i][n] = 2.0 * std::numbers::pi * turn + train.line_phase[i][n];
     }
 }
 
@@ -47,8 +48,9 @@ inline LengthAndRate radial_error(const Train& train, std::int64_t i, const doub
     for (std::int64_t n = train.harmonics[kind]; n < train.lines[kind]; ++n) {
         double order = line_order(train, kind, n);
         double turned = angle[i][n] + order * advance;
-        error += train.line_radial[kind][n] * std::cos(turned);
-        rate -= train.line_radial[kind][n] * order * pace * std::sin(turned);
+        auto [sine, cosine] = sin_cos(turned);
+        error += train.line_radial[i][n] * cosine;
+        rate -= train.line_radial[i][n] * order * pace * sine;
     }
     return {error, rate};
 }
@@ -62,8 +64,9 @@ inline LengthAndRate form_error(const Train& train, std::int64_t i, double side,
     for (std::int64_t n = 0; n < train.lines[kind]; ++n) {
         double order = line_order(train, kind, n);
         double turned = angle[i][n] + order * advance;
-        error += train.line_tangential[kind][n] * std::sin(turned);
-        rate += train.line_tangential[kind][n] * order * pace * std::cos(turned);
+        auto [sine, cosine] = sin_cos(turned);
+        error += train.line_tangential[i][n] * sine;
+        rate += train.line_tangential[i][n] * order * pace * cosine;
     }
     LengthAndRate radial = radial_error(train, i, angle, advance, pace);
     return {error + side * radial.length, rate + side * radial.rate};
@@ -76,11 +79,11 @@ inline double form_error_bend(const Train& train, std::int64_t i, double side,
     double bend = 0.0;
     for (std::int64_t n = 0; n < train.lines[kind]; ++n) {
         double rate = line_order(train, kind, n) * pace;
-        bend -= train.line_tangential[kind][n] * (rate * rate) * std::sin(angle[i][n]);
+        bend -= train.line_tangential[i][n] * (rate * rate) * sin_cos(angle[i][n]).sine;
     }
     for (std::int64_t n = train.harmonics[kind]; n < train.lines[kind]; ++n) {
         double rate = line_order(train, kind, n) * pace;
-        bend -= side * train.line_radial[kind][n] * (rate * rate) * std::cos(angle[i][n]);
+        bend -= side * train.line_radial[i][n] * (rate * rate) * sin_cos(angle[i][n]).cosine;
     }
     return bend;
 }

@@ -15,17 +15,12 @@
 #include "mesh/stiffness.hpp"
 #include "train/evaluation.hpp"
 #include "train/model.hpp"
+#include "vector/rows.hpp"
 
 namespace gearbox {
 
-// Where the meshes stand `delay` seconds after the start of a step, errors of form counted.
-inline void place_meshes(const Train& train, const State& state, const StepConstants& step,
-                         const double* x, const double* v, double delay, MeshesNow& now) {
-    now.advance = step.cycle_rate * delay + cycle_shift(train, x) - cycle_shift(train, state.x);
-    now.pace = step.cycle_rate + cycle_shift(train, v);
-    now.following =
-        train.damping_cycles / at_least(passing_rate(train, step, v), train.lowest_frequency);
-    if (train.lines[0] + train.lines[1] == 0) return;
+// Count the errors of form.
+RARE inline void place_errors(const Train& train, const StepConstants& step, MeshesNow& now) {
     for (std::int64_t i = 0; i < train.meshes; ++i) {
         LengthAndRate e =
             form_error(train, i, step.side[i], step.line_angle, now.advance, now.pace);
@@ -35,31 +30,41 @@ inline void place_meshes(const Train& train, const State& state, const StepConst
     }
 }
 
-// Weights of one tooth pair of all meshes (of all pairs for TOTAL), and their growth.
+// Where the meshes stand `delay` seconds after the start of a step, errors of form counted.
+inline void place_meshes(const Train& train, const State& state, const StepConstants& step,
+                         const double* x, const double* v, double delay, MeshesNow& now) {
+    now.advance = step.cycle_rate * delay + cycle_shift(train, x) - cycle_shift(train, state.x);
+    now.pace = step.cycle_rate + cycle_shift(train, v);
+    now.following =
+        train.damping_cycles / at_least(passing_rate(train, step, v), train.lowest_frequency);
+    if (train.lines[0] + train.lines[1] > 0) place_errors(train, step, now);
+}
+
+// How far each mesh has come into its segment [cycles].
 template <int L>
-inline void weigh(std::int64_t terms, const StepConstants& step, MeshesNow& now, int pair) {
-    const double advance = now.advance;
-    const auto& coefficient = step.weight[pair];
-    double *weight = now.weight[pair], *growth = now.growth[pair];
-    if (terms == 2) {  // what a given stiffness needs
-        for (int i = 0; i < L; ++i) {
-            double u = step.start[i] - step.low[i] + step.side[i] * advance;
-            weight[i] = coefficient[0][i] + coefficient[1][i] * u;
-            growth[i] = coefficient[1][i];
-        }
-        return;
-    }
-    for (int i = 0; i < L; ++i) {
-        weight[i] = coefficient[terms - 1][i];
-        growth[i] = 0.0;
-    }
+LAW Row<L> place_in_segment(const StepConstants& step, double advance) {
+    using V = Row<L>;
+    return V(step.start) - V(step.low) + V(step.side) * advance;
+}
+
+// Weights of a tooth pair of each mesh, and their growth per cycle.
+template <int L>
+struct Weights {
+    Row<L> value, growth;
+};
+
+// Weights from their polynomials, `u` cycles into the segments.
+template <int L>
+LAW Weights<L> weigh(std::int64_t terms, const double (*coefficient)[MESHES], const Row<L>& u) {
+    using V = Row<L>;
+    if (terms == 2)  // what a given stiffness needs
+        return {V(coefficient[0]) + V(coefficient[1]) * u, V(coefficient[1])};
+    V value(coefficient[terms - 1]), growth(0.0);
     for (std::int64_t t = terms - 2; t >= 0; --t) {
-        for (int i = 0; i < L; ++i) {
-            double u = step.start[i] - step.low[i] + step.side[i] * advance;
-            growth[i] = growth[i] * u + weight[i];
-            weight[i] = weight[i] * u + coefficient[t][i];
-        }
+        growth = growth * u + value;
+        value = value * u + V(coefficient[t]);
     }
+    return {value, growth};
 }
 
 // Book what the meshes lose to damping, and what their changing shape puts in.
@@ -69,74 +74,97 @@ inline void book_mesh_power(const Train& train, const MeshesNow& now, double* po
         lost += train.copies[i] * now.lost[i];
         work += train.copies[i] * now.work[i];
     }
-    power[DAMPING] = lost;
-    power[STIFFNESS_WORK] = work;
+    power[DAMPING] += lost;
+    power[STIFFNESS_WORK] += work;
 }
 
 // Pushes of all meshes without faults from where they stand, and their powers.
 template <int L>
-inline void healthy_mesh_forces(const Model& model, const StepConstants& step, MeshesNow& now,
-                                double* power) {
-    const double pace = now.pace, following = now.following;
+LAW void healthy_mesh_forces(const Model& model, const StepConstants& step, MeshesNow& now) {
+    using V = Row<L>;
     const double offset = model.load.offset, inner_squared = model.load.inner_squared;
-    weigh<L>(model.train.terms, step, now, TOTAL);
-    for (int i = 0; i < L; ++i) {
-        double side = step.side[i], closed = std::abs(side);
-        double k = closed * (step.base[i] + step.gain[i] * now.weight[TOTAL][i]);
-        double squeeze = side * now.d[i] - offset, closing = side * now.rate[i];
-        double damped = k * (step.fixed[i] + following) * closing;
-        double push = k * squeeze + damped;
-        double work = 0.5 * closed * step.gain[i] * now.growth[TOTAL][i];
-        work *= (squeeze * squeeze - inner_squared) * pace;
-        now.push[i] = push;
-        now.lost[i] = damped * closing;
-        now.work[i] = side * (work - push * now.error_rate[i]);
-    }
-    book_mesh_power(model.train, now, power);
+    V u = place_in_segment<L>(step, now.advance);
+    auto [weight, growth] = weigh<L>(model.train.terms, step.weight[TOTAL], u);
+    V side(step.side), closed = absolute(side), gain(step.gain);
+    V k = closed * (V(step.base) + gain * weight);
+    V squeeze = side * V(now.d) - offset, closing = side * V(now.rate);
+    V damped = k * (V(step.fixed) + now.following) * closing;
+    V push = k * squeeze + damped;
+    V work = 0.5 * closed * gain * growth;
+    work *= (squeeze * squeeze - inner_squared) * now.pace;
+    push.store(now.push);
+    (damped * closing).store(now.lost);
+    (side * (work - push * V(now.error_rate))).store(now.work);
 }
 
-// Loads and radii of the tooth pairs of all meshes.
+// Share the pushes among the tooth pairs by their stiffnesses.
 template <int L>
-inline void spread_loads(const Train& train, const StepConstants& step, MeshesNow& now,
-                         ToothPairs& pairs) {
-    const double pitch = train.base_pitch, passed = now.advance * pitch;
-    for (int i = 0; i < L; ++i) now.inverse[i] = 1.0 / now.weight[TOTAL][i];
-    for (int p = 0; p < train.slots; ++p) {
-        weigh<L>(train.terms, step, now, p);
+LAW void spread_loads(const Train& train, const StepConstants& step, MeshesNow& now) {
+    using V = Row<L>;
+    V u = place_in_segment<L>(step, now.advance), push(now.push);
+    V inverse = 1.0 / weigh<L>(train.terms, step.weight[TOTAL], u).value;
+    for (std::int64_t p = 0; p < train.slots; ++p) {
+        V share = weigh<L>(train.terms, step.weight[p], u).value * inverse;
+        share.store(now.share[p]);
+        larger(share * push, V(0.0)).store(now.load[p]);
+    }
+}
+
+// Radii of both flanks of a tooth pair of each mesh [m].
+template <int L>
+struct Radii {
+    Row<L> first, second;
+};
+
+// Radii of pair p, `moved` metres along the path of contact from where the cycle is 0.
+template <int L>
+LAW Radii<L> flank_radii(const StepConstants& step, std::int64_t p, const Row<L>& moved) {
+    return {Row<L>(step.rho1[p]) + moved, Row<L>(step.rho2[p]) - Row<L>(step.external) * moved};
+}
+
+// Way of the contacts along their path from where the cycle is 0 [m].
+template <int L>
+LAW Row<L> way_on_path(const Train& train, const StepConstants& step, double advance) {
+    const double pitch = train.base_pitch;
+    return Row<L>(step.side) * (advance * pitch) + Row<L>(step.start) * pitch;
+}
+
+// Put loads and radii of all meshes' tooth pairs into columns.
+template <int L>
+inline void fill_pairs(const Train& train, const StepConstants& step, const MeshesNow& now,
+                       ToothPairs& pairs) {
+    Row<L> moved = way_on_path<L>(train, step, now.advance);
+    for (std::int64_t p = 0; p < train.slots; ++p) {
         std::int64_t first = p * train.meshes;  // the next pair overwrites what is beyond meshes
-        for (int i = 0; i < L; ++i) {
-            double share = now.weight[p][i] * now.inverse[i];
-            pairs.share[first + i] = share;
-            pairs.load[first + i] = at_least(share * now.push[i], 0.0);
-        }
-        for (int i = 0; i < L; ++i) {
-            double s = step.side[i] * passed + step.start[i] * pitch;
-            pairs.rho1[first + i] = step.rho1[p][i] + s;
-            pairs.rho2[first + i] = step.rho2[p][i] - step.external[i] * s;
-            pairs.external[first + i] = step.external[i];
-        }
+        auto [rho1, rho2] = flank_radii<L>(step, p, moved);
+        rho1.store(pairs.rho1 + first);
+        rho2.store(pairs.rho2 + first);
+        copy<L>(now.share[p], pairs.share + first);
+        copy<L>(now.load[p], pairs.load + first);
+        copy<L>(step.external, pairs.external + first);
     }
     pairs.count = train.slots * train.meshes;
 }
 
 // Push of mesh i from its tooth pairs, each of which may have its faults.
 inline void faulty_mesh_force(const Model& model, const State& state, const StepConstants& step,
-                              std::int64_t i, MeshesNow& now, ToothPairs& pairs) {
+                              std::int64_t i, MeshesNow& now) {
     const Train& train = model.train;
+    const std::int64_t kind = train.kind[i], segment = state.segment[i];
     now.push[i] = now.lost[i] = now.work[i] = 0.0;
+    for (std::int64_t p = 0; p < train.slots; ++p) now.load[p][i] = 0.0;
     if (state.side[i] == OPEN) return;
     double side = static_cast<double>(state.side[i]);
     double u = step.start[i] - step.low[i] + side * now.advance;
     double squeeze = side * now.d[i] - model.load.offset, closing = side * now.rate[i];
-    double tau = step.fixed[i] + now.following, total = now.weight[TOTAL][i];
-    double per_weight = step.base[i] / total + step.gain[i];
-    double falling = -step.base[i] * now.growth[TOTAL][i] / (total * total);
-    double work = 0.0;
+    auto [total, fading] = total_weight(train, kind, segment, u);
+    double tau = step.fixed[i] + now.following, per_weight = step.base[i] / total + step.gain[i];
+    double falling = -step.base[i] * fading / (total * total), work = 0.0;
     for (std::int64_t p = 0; p < train.slots; ++p) {
-        FaultEffect effect = fault_effect(train, step, i, state.segment[i], p, u);
-        double weight = now.weight[p][i];
+        FaultEffect effect = fault_effect(train, step, i, segment, p, u);
+        auto [weight, growth] = polynomial(train.weight[kind][segment][p], u, train.terms);
         double k = per_weight * weight * effect.factor;
-        double dk = (per_weight * now.growth[p][i] + falling * weight) * effect.factor +
+        double dk = (per_weight * growth + falling * weight) * effect.factor +
                     per_weight * weight * effect.growth;
         double q = squeeze - effect.gap;
         if (effect.gap > 0.0 && q < 0.0) k = dk = 0.0;
@@ -145,59 +173,51 @@ inline void faulty_mesh_force(const Model& model, const State& state, const Step
         now.push[i] += force;
         now.lost[i] += (force - k * q) * closing;
         work += 0.5 * dk * (q * q - model.load.inner_squared);
-        pairs.load[p * train.meshes + i] = at_least(force, 0.0);
+        now.load[p][i] = at_least(force, 0.0);
     }
     now.work[i] = side * (work * now.pace - now.push[i] * now.error_rate[i]);
 }
 
 // The same as `healthy_mesh_forces` and `spread_loads`, pair by pair.
 template <int L>
-inline void faulty_mesh_forces(const Model& model, const State& state, const StepConstants& step,
-                               MeshesNow& now, ToothPairs& pairs, double* power) {
-    weigh<L>(model.train.terms, step, now, TOTAL);
-    spread_loads<L>(model.train, step, now, pairs);
+RARE void faulty_mesh_forces(const Model& model, const State& state, const StepConstants& step,
+                             MeshesNow& now) {
+    spread_loads<L>(model.train, step, now);
     for (std::int64_t i = 0; i < model.train.meshes; ++i)
-        faulty_mesh_force(model, state, step, i, now, pairs);
-    book_mesh_power(model.train, now, power);
+        faulty_mesh_force(model, state, step, i, now);
 }
 
-// Pushes of the meshes, whose transmission errors are in out.now; begins out.power.
+// Pushes of the meshes, whose transmission errors are in `now`.
 template <int L>
-inline void mesh_forces(const Model& model, const State& state, const StepConstants& step,
-                        const double* x, const double* v, double delay, Evaluation& out) {
-    for (double& power : out.power) power = 0.0;
-    place_meshes(model.train, state, step, x, v, delay, out.now);
+LAW void push_meshes(const Model& model, const State& state, const StepConstants& step,
+                     MeshesNow& now) {
     if (model.train.faults > 0)
-        faulty_mesh_forces<L>(model, state, step, out.now, out.pairs, out.power);
+        faulty_mesh_forces<L>(model, state, step, now);
     else
-        healthy_mesh_forces<L>(model, step, out.now, out.power);
+        healthy_mesh_forces<L>(model, step, now);
 }
 
 // Share the pushes among the tooth pairs, where that is not done yet.
 template <int L>
-inline void share_loads(const Model& model, const StepConstants& step, Evaluation& out) {
-    if (model.train.faults == 0) spread_loads<L>(model.train, step, out.now, out.pairs);
+SHARED void share_pushes(const Train& train, const StepConstants& step, MeshesNow& now) {
+    if (train.faults == 0) spread_loads<L>(train, step, now);
 }
 
-// Whether all bodies and meshes fit into the fewer lanes.
-constexpr int FEW_LANES = MESHES / 2;
-inline bool few(const Train& train) {
-    return train.lanes <= FEW_LANES;
-}
-
+// Pushes of the meshes, whose transmission errors are in out.now; begins out.power.
 inline void mesh_forces(const Model& model, const State& state, const StepConstants& step,
                         const double* x, const double* v, double delay, Evaluation& out) {
-    if (few(model.train))
-        mesh_forces<FEW_LANES>(model, state, step, x, v, delay, out);
-    else
-        mesh_forces<MESHES>(model, state, step, x, v, delay, out);
+    for (double& power : out.power) power = 0.0;
+    place_meshes(model.train, state, step, x, v, delay, out.now);
+    with_lanes(model.train, [&](auto lanes) { push_meshes<lanes>(model, state, step, out.now); });
+    book_mesh_power(model.train, out.now, out.power);
 }
 
+// Share the pushes among the tooth pairs, in columns.
 inline void share_loads(const Model& model, const StepConstants& step, Evaluation& out) {
-    if (few(model.train))
-        share_loads<FEW_LANES>(model, step, out);
-    else
-        share_loads<MESHES>(model, step, out);
+    with_lanes(model.train, [&](auto lanes) {
+        share_pushes<lanes>(model.train, step, out.now);
+        fill_pairs<lanes>(model.train, step, out.now, out.pairs);
+    });
 }
 
 // Growth [N/s] of the push of closed mesh i with its cycle, were its bodies to rest in x.

@@ -12,13 +12,12 @@ struct alignas(64) MeshesNow {
     double following;                 // damping time that follows the rate at which teeth pass [s]
     alignas(64) double d[MESHES];     // transmission error, less the error of form [m]
     alignas(64) double rate[MESHES];  // of it [m/s]
-    alignas(64) double error_rate[MESHES];         // of the error of form [m/s]
-    alignas(64) double weight[PAIRS + 1][MESHES];  // of the tooth pairs, and their sum
-    alignas(64) double growth[PAIRS + 1][MESHES];  // per cycle
-    alignas(64) double inverse[MESHES];            // of the sum of the weights
-    alignas(64) double push[MESHES];               // force, 0 if open [N]
-    alignas(64) double lost[MESHES];               // to damping [W]
-    alignas(64) double work[MESHES];               // what the changing shape puts in [W]
+    alignas(64) double error_rate[MESHES];    // of the error of form [m/s]
+    alignas(64) double push[MESHES];          // force, 0 if open [N]
+    alignas(64) double lost[MESHES];          // to damping [W]
+    alignas(64) double work[MESHES];          // what the changing shape puts in [W]
+    alignas(64) double share[PAIRS][MESHES];  // of the tooth pairs in the force [-]
+    alignas(64) double load[PAIRS][MESHES];   // of the tooth pairs [N]
 };
 
 }  // namespace gearbox

@@ -7,6 +7,7 @@
 #include "quasi_static/planet_load.hpp"
 #include "rooms.hpp"
 #include "train/set_step_constants.hpp"
+#include "vector/math.hpp"
 
 namespace gearbox {
 
@@ -87,8 +88,8 @@ void balance_torques(const Model& model, Equilibrium& run) {
             run.balance[a] += train.ratio[j][a] * train.radius[j] * run.external[j];
     }
     double torque = load.torque[MOTOR];
-    torque +=
-        load.ripple * std::sin(load.ripple_order * 2.0 * std::numbers::pi * run.state.fraction[0]);
+    torque += load.ripple *
+              sin_cos(load.ripple_order * 2.0 * std::numbers::pi * run.state.fraction[0]).sine;
     for (std::int64_t a = 0; a < axes; ++a) torque += load.inertia[0][a] * run.step.slew[a];
     run.torque[MOTOR] = torque;
     std::int64_t loaded = train.coupling[LOAD_MACHINE][0];

@@ -2,25 +2,43 @@
 
 #include <cstdint>
 
+#include "run/limits.hpp"
+
 namespace gearbox {
 
 constexpr std::int64_t SAMPLE_DRAGS = 2;  // power that bearings and churning take
 
 // Samples of one window, in arrays that their owner keeps. Body j stands at turns @ ratio[j] turns
-// + angle[j].
+// + angle[j]. All pointers but the first may be null: not asked for.
 struct Samples {
     std::int64_t rows;
-    std::int64_t quantities;  // see `observe`
+    std::int64_t quantities;  // the first of those of `observe`
     std::int64_t meshes;
     std::int64_t bodies;
     std::int64_t axes;
-    double* mesh;   // (rows, quantities, meshes)
-    double* turns;  // (rows, axes) whole turns of the motors
-    double* angle;  // (rows, bodies) [rad]
-    double* speed;  // (rows, bodies) [rad/s]
-    double* drag;   // (rows, SAMPLE_DRAGS) [W]
+    double* mesh;            // (rows, quantities, meshes)
+    double* turns;           // (rows, axes) whole turns of the motors
+    double* angle;           // (rows, bodies) [rad]
+    double* speed;           // (rows, bodies) [rad/s]
+    double* drag;            // (rows, SAMPLE_DRAGS) [W]
+    Peaks* peaks = nullptr;  // of the samples that are computed, not of those that repeat
 
     double* mesh_row(std::int64_t row) const { return mesh + row * quantities * meshes; }
+
+    // Row `row` of samples with all quantities, as the only one.
+    Samples only(std::int64_t row) const {
+        return {1,
+                quantities,
+                meshes,
+                bodies,
+                axes,
+                mesh_row(row),
+                turns + row * axes,
+                angle + row * bodies,
+                speed + row * bodies,
+                drag + row * SAMPLE_DRAGS,
+                peaks};
+    }
 };
 
 }  // namespace gearbox

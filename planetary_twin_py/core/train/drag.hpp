@@ -20,31 +20,30 @@ inline double drag_sense(double speed) {
 }
 
 // Load [N] on the pin of a planet, whose two meshes add up or oppose each other.
-inline double pin_load(const Train& train, const State& state, const MeshesNow& now,
+inline double pin_load(const Train& train, const State& state, const double* push,
                        std::int64_t planet) {
     if (planet == NO_PLANET) return 0.0;
     std::int64_t ring = train.meshes / 2 + planet;
-    return train.pin_share * std::abs(static_cast<double>(state.side[planet]) * now.push[planet] +
-                                      static_cast<double>(state.side[ring]) * now.push[ring]);
+    return train.pin_share * std::abs(static_cast<double>(state.side[planet]) * push[planet] +
+                                      static_cast<double>(state.side[ring]) * push[ring]);
 }
 
-// Add the drag of joints and discs to out.rubbing; book it in out.power.
-//
-// Reads the pushes of the meshes from `out.now`.
-inline void apply_drag(const Model& model, const State& state, const double* v, Evaluation& out) {
+// Add the drag of joints and discs under the pushes of the meshes to `rubbing`; book it in `power`.
+inline void apply_drag(const Model& model, const State& state, const double* v, const double* push,
+                       double* rubbing, double* power) {
     const Train& train = model.train;
     const Oil& oil = model.oil;
     for (std::int64_t b = 0; b < train.joints; ++b) {
         std::int64_t inner = train.joint_body[b][0], outer = train.joint_body[b][1];
         double speed = body_speed(train, state, v, inner) - body_speed(train, state, v, outer);
-        double load = pin_load(train, state, out.now, train.joint_planet[b]);
+        double load = pin_load(train, state, push, train.joint_planet[b]);
         double torque = train.joint_coulomb[b] + train.joint_viscous[b] * std::abs(speed);
         torque +=
             bearing_torque(train.joint_idle[b], train.joint_rubbing[b], oil.kinematic, speed, load);
         torque *= drag_sense(speed) * train.body_copies[inner];
-        out.rubbing[inner] -= torque / train.radius[inner];
-        out.rubbing[outer] += torque / train.radius[outer];
-        out.power[BEARING] += torque * speed;
+        rubbing[inner] -= torque / train.radius[inner];
+        rubbing[outer] += torque / train.radius[outer];
+        power[BEARING] += torque * speed;
     }
     for (std::int64_t n = 0; n < train.discs; ++n) {
         std::int64_t body = train.disc_body[n];
@@ -52,8 +51,8 @@ inline void apply_drag(const Model& model, const State& state, const double* v, 
         double density = train.disc_fill * oil.density;
         double torque = disc_torque(radius, train.disc_gap / radius, density, oil.kinematic, speed);
         torque *= drag_sense(speed);
-        out.rubbing[body] -= torque / train.radius[body];
-        out.power[CHURNING] += torque * speed;
+        rubbing[body] -= torque / train.radius[body];
+        power[CHURNING] += torque * speed;
     }
 }
 

@@ -13,8 +13,25 @@
 #include "train/body_speed.hpp"
 #include "train/drag.hpp"
 #include "tribology/tooth_friction.hpp"
+#include "vector/math.hpp"
 
 namespace gearbox {
+
+// Add the friction torques of all meshes as forces on the bodies.
+inline void rub_bodies(const Train& train, const DragOfMeshes& drag, double* rubbing) {
+    for (std::int64_t i = 0; i < train.meshes; ++i)
+        for (int j = 0; j < GEARS; ++j) {
+            double force = drag.torque[j][i] * train.lever[j][i];
+            rubbing[train.body[i][j]] += train.copies[i] * force;
+        }
+}
+
+// Power that the friction of all meshes takes [W].
+inline double friction_power(const Train& train, const DragOfMeshes& drag) {
+    double power = 0.0;
+    for (std::int64_t i = 0; i < train.meshes; ++i) power += train.copies[i] * drag.power[i];
+    return power;
+}
 
 // Friction of the tooth pairs and drag, in out.rubbing; the meshes have their forces.
 inline void apply_friction(const Model& model, const State& state, const StepConstants& step,
@@ -25,39 +42,39 @@ inline void apply_friction(const Model& model, const State& state, const StepCon
         share_loads(model, step, out);
         turn_pairs(train, step, v, out.pairs);
         evaluate(model, out.pairs);
-        if (train.printed_torque)
-            collect_printed(train, step, v, out.pairs, out.dragging);
-        else
-            collect(train, out.pairs, out.dragging);
-        for (std::int64_t i = 0; i < train.meshes; ++i) {
-            double copies = train.copies[i];
-            out.power[FRICTION] += copies * out.dragging.power[i];
-            for (int j = 0; j < GEARS; ++j) {
-                double force = out.dragging.torque[j][i] * train.lever[j][i];
-                out.rubbing[train.body[i][j]] += copies * force;
-            }
-        }
+        collect(train, out.pairs, out.dragging);
+        if (train.printed_torque) print_torques(train, step, v, out.dragging);
+        rub_bodies(train, out.dragging, out.rubbing);
+        out.power[FRICTION] += friction_power(train, out.dragging);
     }
-    if (train.joints + train.discs > 0) apply_drag(model, state, v, out);
+    if (train.joints + train.discs > 0)
+        apply_drag(model, state, v, out.now.push, out.rubbing, out.power);
 }
 
+// Forces on the machines and the members that they are coupled to [N].
+struct MachineForces {
+    double machine[MACHINES];
+    double member[MACHINES];
+};
+
 // Shafts between the machines and their members.
-inline void apply_couplings(const Train& train, const double* x, const double* v, Evaluation& out) {
+LAW void apply_couplings(const Train& train, const double* x, const double* v,
+                         MachineForces& forces, double* power) {
     for (std::int64_t c = 0; c < train.machines; ++c) {
         std::int64_t machine = train.coupling[c][0], member = train.coupling[c][1];
         double rate = v[machine] - v[member];
         double damping = train.coupling_damping[c] * rate;
         double total = train.coupling_stiffness[c] * (x[machine] - x[member]) + damping;
-        out.force[machine] -= total;
-        out.force[member] += total;
-        out.power[DAMPING] += damping * rate;
+        forces.machine[c] = -total;
+        forces.member[c] = total;
+        power[DAMPING] += damping * rate;
     }
 }
 
-// Torques of the motors, which keep their speeds, and of the load.
-inline void apply_machines(const Model& model, const State& state, const StepConstants& step,
-                           const double* x, const double* v, double delay, const double* trim,
-                           Evaluation& out) {
+// Add the torques of the motors, which keep their speeds, and of the load.
+LAW void apply_machines(const Model& model, const State& state, const StepConstants& step,
+                        const double* x, const double* v, double delay, const double* trim,
+                        MachineForces& forces, double* power) {
     const Train& train = model.train;
     const Load& load = model.load;
     for (std::int64_t c = 0; c < train.machines; ++c) {
@@ -74,11 +91,11 @@ inline void apply_machines(const Model& model, const State& state, const StepCon
         if (c == MOTOR && load.ripple != 0.0) {
             double angle = 2.0 * std::numbers::pi * state.fraction[0] + state.speed[0] * delay;
             angle += x[body] / train.radius[body];
-            torque += load.ripple * std::sin(load.ripple_order * angle);
+            torque += load.ripple * sin_cos(load.ripple_order * angle).sine;
         }
-        out.force[body] += torque / train.radius[body];
-        out.power[WORK + c] = torque * speed;
-        out.power[IMPULSE + c] = torque;
+        forces.machine[c] += torque * train.inverse_radius[body];
+        power[WORK + c] = torque * speed;
+        power[IMPULSE + c] = torque;
     }
 }
 
@@ -92,8 +109,13 @@ inline void assemble_forces(const Model& model, const State& state, const StepCo
         double push = train.copies[i] * static_cast<double>(state.side[i]) * out.now.push[i];
         for (int j = 0; j < GEARS; ++j) out.force[train.body[i][j]] -= push * train.sign[i][j];
     }
-    apply_couplings(train, x, v, out);
-    apply_machines(model, state, step, x, v, delay, trim, out);
+    MachineForces forces;
+    apply_couplings(train, x, v, forces, out.power);
+    apply_machines(model, state, step, x, v, delay, trim, forces, out.power);
+    for (std::int64_t c = 0; c < train.machines; ++c) {
+        out.force[train.coupling[c][0]] += forces.machine[c];
+        out.force[train.coupling[c][1]] += forces.member[c];
+    }
     out.force[train.bodies] = 0.0;  // the ground
 }
 

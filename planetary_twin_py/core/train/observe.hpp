@@ -7,16 +7,18 @@
 
 #include "mesh/mesh_forces.hpp"
 #include "tribology/tooth_friction.hpp"
+#include "vector/math.hpp"
 
 namespace gearbox {
 
 // Fill out[:, i] for every mesh i; film and lambda ratio are NaN without contact.
 //
 // Both are means over the tooth pairs, weighted by load. Friction forces are magnitudes. `work` is
-// room to work in; out (QUANTITIES, meshes) has rows of `room` entries.
+// room to work in; out (QUANTITIES, meshes) has rows of `room` entries. Without `films`, what is
+// shown of them is zero.
 inline void observe(const Model& model, const State& state, const StepConstants& step,
                     const double* x, const double* v, double delay, Evaluation& work, double* out,
-                    std::int64_t room) {
+                    std::int64_t room, bool films = true) {
     const Train& train = model.train;
     const Oil& oil = model.oil;
     const MeshesNow& now = work.now;
@@ -40,8 +42,10 @@ inline void observe(const Model& model, const State& state, const StepConstants&
     for (std::int64_t p = 0; p < train.slots; ++p) {
         for (std::int64_t i = 0; i < train.meshes; ++i) {
             std::int64_t k = p * train.meshes + i;
-            at(FILM, i) += pairs.share[k] * std::exp(pairs.log_film[k]);
-            at(LAMBDA, i) += pairs.share[k] * lambda_ratio_of(oil, pairs.log_film[k]);
+            if (films) {
+                at(FILM, i) += pairs.share[k] * at_least(exp(pairs.log_film[k]), THINNEST_FILM);
+                at(LAMBDA, i) += pairs.share[k] * lambda_ratio_of(oil, pairs.log_film[k]);
+            }
             if (!train.friction) continue;
             at(BOUNDARY, i) += pairs.boundary[k];
             at(VISCOUS, i) += pairs.viscous[k];
@@ -53,8 +57,8 @@ inline void observe(const Model& model, const State& state, const StepConstants&
 
 inline void observe(const Model& model, const State& state, const StepConstants& step,
                     const double* x, const double* v, double delay, Evaluation& work,
-                    double (*out)[MESHES]) {
-    observe(model, state, step, x, v, delay, work, &out[0][0], MESHES);
+                    double (*out)[MESHES], bool films = true) {
+    observe(model, state, step, x, v, delay, work, &out[0][0], MESHES, films);
 }
 
 }  // namespace gearbox

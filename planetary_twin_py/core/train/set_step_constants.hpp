@@ -72,8 +72,12 @@ inline void set_step_constants(const Model& model, const State& state, StepConst
     }
     for (int j = 0; j < BODIES; ++j)
         step.rigid[j] = train.ratio[j][0] * state.speed[0] + train.ratio[j][1] * state.speed[1];
+    for (std::int64_t i = 0; i < train.meshes; ++i)
+        for (int g = 0; g < GEARS - 1; ++g)
+            step.spin[g][i] = step.rigid[train.body[i][g]] - step.rigid[train.body[i][2]];
     double rate = passing_rate(train, step, state.v);
     for (int kind = 0; kind < KINDS; ++kind) step.tau[kind] = damping_time(train, kind, rate);
+    for (std::int64_t i = 0; i < train.meshes; ++i) step.damping[i] = step.tau[train.kind[i]];
     double cycles = frame_cycle(train, state, 1) + cycle_shift(train, state.x);
     for (std::int64_t i = 0; i < train.meshes; ++i) place_mesh(train, state, step, i, cycles);
 }

@@ -55,11 +55,11 @@ struct alignas(64) Train {
     alignas(64) double weight[KINDS][SEGMENTS][PAIRS + 1][TERMS];
     std::int64_t lines[KINDS];
     std::int64_t harmonics[KINDS];  // so many of them, the first, have no radial part
-    alignas(64) double line_tangential[KINDS][LINES];    // amplitude of the sine in e_T [m]
-    alignas(64) double line_radial[KINDS][LINES];        // amplitude of the cosine in e_R [m]
+    alignas(64) double line_tangential[MESHES][LINES];   // amplitude of the sine in e_T [m]
+    alignas(64) double line_radial[MESHES][LINES];       // amplitude of the cosine in e_R [m]
     alignas(64) double line_harmonic[KINDS][LINES];      // sines ...
     alignas(64) std::int64_t line_period[KINDS][LINES];  // ... in so many mesh cycles
-    alignas(64) double line_phase[KINDS][LINES];         // [rad]
+    alignas(64) double line_phase[MESHES][LINES];        // [rad]
     alignas(64) std::int64_t
         line_of_planet[KINDS][LINES];  // 1: of a planet, whose turns its sun mesh counts
     std::int64_t faults;

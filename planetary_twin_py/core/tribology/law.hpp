@@ -7,7 +7,13 @@
 
 namespace gearbox {
 
-enum class TractionLaw { PLATEAU, EYRING, SCHLENK };  // the values of Oil.traction_law
+enum class TractionLaw { PLATEAU, EYRING, SCHLENK, TABLE };  // the values of Oil.traction_law
+
+// Whether a law has a form in single precision: the exponents of Eyring's are beyond its range, and
+// tables are read in double precision.
+constexpr bool has_single_precision(TractionLaw law) {
+    return law == TractionLaw::PLATEAU || law == TractionLaw::SCHLENK;
+}
 
 struct NamedLaw {
     const char* name;  // in a scene
@@ -15,14 +21,14 @@ struct NamedLaw {
 };
 
 constexpr NamedLaw TRACTION_LAWS[] = {
-    {"eyring", TractionLaw::EYRING},
-    {"evans_johnson", TractionLaw::PLATEAU},
+    {"eyring", TractionLaw::EYRING},   {"evans_johnson", TractionLaw::PLATEAU},
     {"printed", TractionLaw::PLATEAU},  // with other constants
-    {"schlenk", TractionLaw::SCHLENK},
+    {"schlenk", TractionLaw::SCHLENK},  // with boundary friction
+    {"table", TractionLaw::TABLE},      // the same
 };
 
 enum class BoundaryLaw {
-    NONE,                 // Schlenk's regression has it in it
+    NONE,                 // Schlenk's regression and tables have it in them
     SHARING,              // by load sharing, see `load_sharing.hpp`
     SHARING_AT_RATIO,     // the same at the prescribed lambda ratio
     ASPERITIES,           // of Greenwood and Tripp's asperities, see `boundary.hpp`
@@ -37,8 +43,8 @@ struct Laws {
 };
 
 inline BoundaryLaw boundary_law(const Oil& oil) {
-    if (static_cast<TractionLaw>(oil.traction_law) == TractionLaw::SCHLENK)
-        return BoundaryLaw::NONE;
+    auto law = static_cast<TractionLaw>(oil.traction_law);
+    if (law == TractionLaw::SCHLENK || law == TractionLaw::TABLE) return BoundaryLaw::NONE;
     if (oil.sharing) return oil.prescribed ? BoundaryLaw::SHARING_AT_RATIO : BoundaryLaw::SHARING;
     if (oil.prescribed) return BoundaryLaw::ASPERITIES_AT_RATIO;
     return oil.printed_asperities ? BoundaryLaw::PRINTED_ASPERITIES : BoundaryLaw::ASPERITIES;
@@ -74,6 +80,8 @@ inline void with_laws(const Oil& oil, Function&& function) {
     switch (static_cast<TractionLaw>(oil.traction_law)) {
         case TractionLaw::SCHLENK:
             return with_boundary<TractionLaw::SCHLENK, BoundaryLaw::NONE>(oil, function);
+        case TractionLaw::TABLE:
+            return with_boundary<TractionLaw::TABLE, BoundaryLaw::NONE>(oil, function);
         case TractionLaw::EYRING:
             return with_traction<TractionLaw::EYRING>(oil, function);
         default:

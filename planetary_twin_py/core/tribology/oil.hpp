@@ -3,13 +3,14 @@
 #include <cstdint>
 
 #include "tribology/constants.hpp"
+#include "tribology/friction_table.hpp"
 
 namespace gearbox {
 
 struct alignas(64) Oil {
     Film film;
     Asperities asperities;
-    std::int64_t traction_law;  // PLATEAU, EYRING or SCHLENK
+    std::int64_t traction_law;  // a TractionLaw
     Traction traction;
     ShearThinning shear_thinning;
     double log_schlenk;      // see `log_schlenk_factor`
@@ -32,6 +33,7 @@ struct alignas(64) Oil {
     bool rolling;                 // whether rolling resists
     double sliding_threshold;     // [-]
     double presliding;            // displacement by which flanks yield before they slide [m]
+    FrictionTable table;
 };
 
 }  // namespace gearbox

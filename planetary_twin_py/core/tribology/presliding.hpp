@@ -39,7 +39,8 @@ inline Yielding yielding(double share, double steady) {
     if (share >= steady) return {1.0, 0.0};
     double phase = std::numbers::pi / (steady - elastic);
     double angle = phase * (share - 0.5 * (steady + elastic));
-    return {0.5 + 0.5 * std::sin(angle), 0.5 * phase * std::cos(angle)};
+    auto [sine, cosine] = sin_cos(angle);
+    return {0.5 + 0.5 * sine, 0.5 * phase * cosine};
 }
 
 struct BristleRate {

@@ -5,6 +5,7 @@
 #include "tribology/boundary.hpp"
 #include "tribology/bristles.hpp"
 #include "tribology/film.hpp"
+#include "tribology/friction_table.hpp"
 #include "tribology/hertz.hpp"
 #include "tribology/law.hpp"
 #include "tribology/load_sharing.hpp"
@@ -53,6 +54,15 @@ LAW Friction<Real> film_friction(const Oil& oil, const Contact<Real>& contact) {
             schlenk_coefficient(oil.log_schlenk, contact.log_load, log_moving, contact.log_radius);
         return {Real{}, mu * contact.load, Real{}};
     }
+    if constexpr (laws.traction == TractionLaw::TABLE) {
+        Real log_lambda = oil.prescribed
+                              ? Real{} + oil.log_lambda
+                              : at_least(contact.log_film, LOG_THINNEST) - oil.log_roughness;
+        Real log_pressure = 0.5 * (contact.log_load - contact.log_radius) - oil.log_area;  // of F/A
+        auto [mu, growth] = tabulated_friction(oil.table, log_lambda, log_pressure,
+                                               contact.log_speed, log(contact.speed));
+        return {Real{}, mu * contact.load, growth * contact.load / contact.speed};
+    }
     // sqrt(R F/(A V)) of (13), A being proportional to sqrt(R F)
     Real log_heat =
         0.25 * (contact.log_radius + contact.log_load) - 0.5 * (log_moving + oil.log_area);
@@ -84,7 +94,7 @@ LAW Friction<Real> mixed_friction(const Oil& oil, const Contact<Real>& contact) 
     }
     constexpr bool AT_RATIO = laws.boundary == BoundaryLaw::SHARING_AT_RATIO;
     Real log_lambda = log_film - oil.log_roughness;
-    if constexpr (AT_RATIO) log_lambda = Real{} + oil.log_lambda;
+    if constexpr (AT_RATIO) log_lambda = Real(oil.log_lambda - Real{});
     Real share = film_share(log_lambda);
     return {(1.0 - share) * oil.boundary_coefficient * contact.load, share * film.viscous,
             share * film.growth};
@@ -122,20 +132,40 @@ struct Flanks {
     Real fade;       // share of friction: it vanishes with the load
 };
 
+// Sliding speed of the first flank on the second, and sum of both surface speeds [m/s].
+template <class Real>
+struct SurfaceSpeeds {
+    Real sliding, sum;
+};
+
+template <class Real>
+LAW SurfaceSpeeds<Real> surface_speeds(const Real& rho1, const Real& rho2, const Real& external,
+                                       const Real& spin1, const Real& spin2) {
+    Real u1 = rho1 * spin1, u2 = external * rho2 * spin2;
+    return {u1 + u2, u1 - u2};
+}
+
 // `slowest_rolling` [m/s] sets the least width of the layer in which friction reverses.
+template <class Real>
+LAW Flanks<Real> flanks_of(Real rho1, Real rho2, Real external, const SurfaceSpeeds<Real>& speeds,
+                           Real load, double sliding_threshold, double slowest_rolling) {
+    // Three divisions in one, as they take longest of all in a loop over pairs.
+    Real distance = rho2 + external * rho1, loaded = load + LIGHTEST_LOAD;
+    Real threshold = sliding_threshold * at_least(magnitude(0.5 * speeds.sum), slowest_rolling);
+    Real inverse = 1.0 / (distance * loaded * threshold);
+    return {speeds.sliding, speeds.sum, rho1 * rho2 * (loaded * threshold * inverse),
+            at_least(load, LIGHTEST_LOAD), distance * loaded * inverse,
+            // A jump where flanks meet would have them chatter.
+            load * (distance * threshold * inverse)};
+}
+
 template <class Real>
 LAW Flanks<Real> flanks_of(const PairMotion<Real>& pair, double sliding_threshold,
                            double slowest_rolling) {
-    Real u1 = pair.rho1 * pair.speed1, u2 = -pair.external * pair.rho2 * pair.speed2;
-    Real sum = u1 + u2;
-    // Three divisions in one, as they take longest of all in a loop over pairs.
-    Real distance = pair.rho2 + pair.external * pair.rho1, loaded = pair.load + LIGHTEST_LOAD;
-    Real threshold = sliding_threshold * at_least(magnitude(0.5 * sum), slowest_rolling);
-    Real inverse = 1.0 / (distance * loaded * threshold);
-    return {u1 - u2, sum, pair.rho1 * pair.rho2 * (loaded * threshold * inverse),
-            at_least(pair.load, LIGHTEST_LOAD), distance * loaded * inverse,
-            // A jump where flanks meet would have them chatter.
-            pair.load * (distance * threshold * inverse)};
+    SurfaceSpeeds<Real> speeds =
+        surface_speeds(pair.rho1, pair.rho2, pair.external, pair.speed1, pair.speed2);
+    return flanks_of(pair.rho1, pair.rho2, pair.external, speeds, pair.load, sliding_threshold,
+                     slowest_rolling);
 }
 
 // Logarithms of a pair: of the reduced radius in m, of the mean surface speed in m/s, of the load
@@ -163,8 +193,8 @@ LAW Contact<Real> contact_of(const Oil& oil, double area_factor, const Flanks<Re
     Real log_speed_group = logarithms.speed - logarithms.radius + oil.log_speed_group;  // of U
     Real log_load_group = logarithms.load - logarithms.radius + oil.log_load_group;     // of W
     // Where gears creep, bristles decide how much of the friction of a sliding contact acts.
-    Real slowest =
-        magnitude(0.5 * flanks.sum) < CREEPING ? oil.sliding_threshold * CREEPING : STANDSTILL;
+    Real slowest = where_less(magnitude(0.5 * flanks.sum), CREEPING,
+                              oil.sliding_threshold * CREEPING, STANDSTILL);
     return {flanks.load,
             area_factor * square_root(flanks.load * flanks.radius),
             at_least(magnitude(flanks.sliding), slowest),

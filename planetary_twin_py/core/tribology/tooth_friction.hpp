@@ -24,12 +24,17 @@ constexpr double SLOWEST = 0.1;
 constexpr double NARROWEST = 5e-3;  // slide-to-roll ratio: friction reversing within less is a step
 constexpr double SLOWEST_TURN = 1e-3;  // [rad/s] below which the printed torque fades out
 
+// Rolling speed that sets the least width of the layer in which friction reverses [m/s].
+inline double slowest_rolling(const Train& train, const StepConstants& step) {
+    double rolling = SLOWEST * train.rolling_advance * std::abs(step.cycle_rate);
+    return at_least(rolling, SLOWEST_ROLLING);
+}
+
 // Speeds of the gears of all pairs.
 inline void turn_pairs(const Train& train, const StepConstants& step, const double* v,
                        ToothPairs& pairs) {
     std::int64_t meshes = train.meshes;
-    double rolling = SLOWEST * train.rolling_advance * std::abs(step.cycle_rate);
-    pairs.slowest_rolling = at_least(rolling, SLOWEST_ROLLING);
+    pairs.slowest_rolling = slowest_rolling(train, step);
     double turn[BODIES];  // speeds of the bodies [rad/s]
     for (int j = 0; j < BODIES; ++j) turn[j] = step.rigid[j] + v[j] * train.inverse_radius[j];
     for (std::int64_t i = 0; i < meshes; ++i) {
@@ -74,9 +79,9 @@ inline void collect(const Train& train, const ToothPairs& pairs, DragOfMeshes& o
 //
 // T = P/w (17) on both gears, with the sign of (18)-(20): it drives every gear the way it turns,
 // and so puts in twice what is lost. Divided by (w^2 + w0^2)/w, as 0/0 would stand at rest.
-inline void collect_printed(const Train& train, const StepConstants& step, const double* v,
-                            const ToothPairs& pairs, DragOfMeshes& out) {
-    collect(train, pairs, out);
+// Replaces what `collect` found.
+inline void print_torques(const Train& train, const StepConstants& step, const double* v,
+                          DragOfMeshes& out) {
     for (std::int64_t i = 0; i < train.meshes; ++i) {
         double lost = out.power[i], power = 0.0;
         for (int gear = 0; gear < 2; ++gear) {

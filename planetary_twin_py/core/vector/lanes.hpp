@@ -100,6 +100,17 @@ LAW Real with_sign(Real x, Real y) {
                                    (vector::to_bits(y) & vector::SIGN));
 }
 
+// `then` where x is less than the bound.
+LAW double where_less(double x, double bound, double then, double otherwise) {
+    return x < bound ? then : otherwise;
+}
+LAW Lanes where_less(Lanes x, double bound, Lanes then, Lanes otherwise) {
+    return x < bound ? then : otherwise;
+}
+LAW Lanes where_less(Lanes x, double bound, double then, double otherwise) {
+    return where_less(x, bound, then - Lanes{}, otherwise - Lanes{});
+}
+
 LAW double square_root(double x) {
     return std::sqrt(x);
 }

@@ -113,7 +113,7 @@ struct SinCos {
     double sine, cosine;
 };
 
-// Sine and cosine of 0 <= x <= 1e5.
+// Sine and cosine of -1e5 <= x <= 1e5.
 LAW SinCos sin_cos(double x) {
     using namespace vector;
     double shifted = x * INVERSE_RIGHT_ANGLE + ROUNDING;
@@ -184,6 +184,11 @@ template <class Real>
 LAW Real log(Real x) {
     auto [mantissa, exponent] = vector::split(x);
     return vector::log_of((mantissa - 1.0) / (mantissa + 1.0), exponent);
+}
+
+// x**y for x >= 0 to a relative error of 1e-11; for x = 0 and y > 0 not quite 0.
+LAW double power(double x, double y) {
+    return exp(y * log(x));
 }
 
 template <class Real>

@@ -99,6 +99,31 @@ LAW Mask<L> operator&(const Mask<L>& a, const Mask<L>& b) {
     return out;
 }
 
+template <int L>
+LAW Mask<L> operator!(const Mask<L>& a) {
+    Mask<L> out;
+    for (int k = 0; k < L / WIDTH; ++k) out.part[k] = ~a.part[k];
+    return out;
+}
+
+// Whether a condition holds for no number.
+template <int L>
+LAW bool none(const Mask<L>& a) {
+    MaskRegister any = a.part[0];
+    for (int k = 1; k < L / WIDTH; ++k) any |= a.part[k];
+    std::int64_t found = 0;
+    for (int i = 0; i < WIDTH; ++i) found |= any[i];
+    return found == 0;
+}
+
+// The first numbers of a row.
+template <int L>
+LAW Mask<L> first_of_row(std::int64_t count) {
+    alignas(64) static constexpr double PLACE[16] = {0, 1, 2,  3,  4,  5,  6,  7,
+                                                     8, 9, 10, 11, 12, 13, 14, 15};
+    return Row<L>(PLACE) < static_cast<double>(count);
+}
+
 // `a` where the mask holds, else `b`.
 template <int L>
 LAW Row<L> select(const Mask<L>& mask, const Row<L>& a, const Row<L>& b) {
@@ -146,19 +171,28 @@ LAW Row<L> square_root(const Row<L>& a) {
     return out;
 }
 
-// Sum in the order of the row.
-template <int L>
-LAW double total(const Row<L>& a) {
-    double sum = a[0];
-    for (int i = 1; i < L; ++i) sum += a[i];
-    return sum;
+// Join all numbers of a row by halves, in an order that does not depend on the registers.
+template <int L, class Join>
+LAW double fold(const Row<L>& a, Join&& join) {
+    double part[L];
+#pragma GCC unroll 16
+    for (int i = 0; i < L; ++i) part[i] = a[i];
+#pragma GCC unroll 4
+    for (int half = L / 2; half > 0; half /= 2)
+#pragma GCC unroll 8
+        for (int i = 0; i < half; ++i) part[i] = join(part[i], part[i + half]);
+    return part[0];
 }
 
 template <int L>
+LAW double total(const Row<L>& a) {
+    return fold(a, [](double x, double y) { return x + y; });
+}
+
+// The largest number; what is no number may be lost.
+template <int L>
 LAW double largest(const Row<L>& a) {
-    double found = a[0];
-    for (int i = 1; i < L; ++i) found = a[i] > found ? a[i] : found;
-    return found;
+    return fold(a, [](double x, double y) { return y > x ? y : x; });
 }
 
 // Numbers that are room for all bodies or meshes.
@@ -177,30 +211,27 @@ LAW void copy(const double* source, double* target) {
 }
 
 // Sum over m of rows[m] weights[m]; rows and weights beyond those in use are zero.
-template <int L>
-LAW Row<L> sum_rows(const double (*rows)[BODIES], const double* weights) {
+//
+// Weights that have just been computed are best given as a Row: read back from memory, each would
+// wait until all of the row is written.
+template <int L, class Weights>
+LAW Row<L> sum_rows(const double (*rows)[BODIES], const Weights& weights) {
     Row<L> sum = Row<L>(rows[0]) * weights[0];
+#pragma GCC unroll 16
     for (int m = 1; m < L; ++m) sum += Row<L>(rows[m]) * weights[m];
     return sum;
 }
 
+// Two rows that belong together, as values and their rates.
 template <int L>
-LAW void sum_rows(const double (*rows)[BODIES], const double* weights, double* out) {
-    sum_rows<L>(rows, weights).store(out);
-}
+struct RowPair {
+    Row<L> first, second;
+};
 
-// The same for two vectors at once, which takes hardly longer than for one.
+// The same sums for two rows of weights.
 template <int L>
-LAW void sum_rows_twice(const double (*rows)[BODIES], const double* first, const double* second,
-                        double* out_first, double* out_second) {
-    Row<L> row(rows[0]), one = row * first[0], two = row * second[0];
-    for (int m = 1; m < L; ++m) {
-        row = Row<L>(rows[m]);
-        one += row * first[m];
-        two += row * second[m];
-    }
-    one.store(out_first);
-    two.store(out_second);
+LAW RowPair<L> sum_rows(const double (*rows)[BODIES], const RowPair<L>& weights) {
+    return {sum_rows<L>(rows, weights.first), sum_rows<L>(rows, weights.second)};
 }
 
 }  // namespace gearbox

@@ -70,14 +70,19 @@ int split_at(const double* d, const double* e, int l, int n) {
     return m;
 }
 
+// Without the C library's, whose last digit depends on the processor.
+double length_of(double a, double b) {
+    return std::sqrt(a * a + b * b);
+}
+
 // One implicit QL sweep over rows l to m.
 void sweep(double (*a)[BODIES], int n, double* d, double* e, int l, int m) {
-    double g = (d[l + 1] - d[l]) / (2.0 * e[l]), r = std::hypot(g, 1.0);
+    double g = (d[l + 1] - d[l]) / (2.0 * e[l]), r = length_of(g, 1.0);
     g = d[m] - d[l] + e[l] / (g + std::copysign(r, g));
     double s = 1.0, c = 1.0, p = 0.0;
     for (int i = m - 1; i >= l; --i) {
         double f = s * e[i], b = c * e[i];
-        e[i + 1] = r = std::hypot(f, g);
+        e[i + 1] = r = length_of(f, g);
         if (r == 0.0) {
             d[i + 1] -= p;
             e[m] = 0.0;

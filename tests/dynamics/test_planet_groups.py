@@ -1,4 +1,4 @@
-"""Planets that move alike: which they are, and that one integrated for all gives what all give."""
+"""Planets with the same motion: their groups, and equal results if one of each is integrated."""
 
 import math
 
@@ -6,12 +6,12 @@ import numpy as np
 import pytest
 
 import planetary_twin_py as pt
-from planetary_twin_py.dynamics.alike import planet_groups
+from planetary_twin_py.dynamics.planet_groups import planet_groups
 from planetary_twin_py.engine import Engine
 
 PAPER = pt.load_scene("paper")
 TOLERANCE = 1e-6
-# Runout of the sun that no number of a result shows, but with it no two planets are alike.
+# Runout of the sun, too small for any result, that makes the motion of every planet different.
 APART = {"mesh.runout.sun": 1e-16}
 LOSSES = {
     "losses.planet_bearing": {"mean_diameter": "10 mm", "f0": 8.0, "f1": 1e-3},
@@ -19,7 +19,7 @@ LOSSES = {
     "losses.churning": {"fill": 0.3, "gap": "5 mm", "ring": "32 mm"},
     "lubrication.rolling": "goksem_hargreaves",
 }
-SHOWN = (
+QUANTITIES = (
     "angle", "speed", "dte", "mesh_force", "film_thickness", "lambda_ratio", "boundary_friction",
     "viscous_friction", "power_loss", "mesh_power",
 )  # fmt: skip
@@ -51,7 +51,7 @@ def returning(planets):
     ],
     ids=lambda value: None if isinstance(value, tuple) else value.name,
 )
-def test_planets_are_alike_whose_meshes_are_in_phase(scene, group):
+def test_planets_in_phase_form_a_group(scene, group):
     assert planet_groups(scene).group == group
     assert sum(planet_groups(scene).sizes) == len(group)
 
@@ -75,7 +75,7 @@ def fault(gear, **changes):
     ],
     ids=str,
 )
-def test_teeth_that_differ_keep_planets_apart_unless_they_come_back_alike(scene, changes, group):
+def test_different_teeth_split_groups_unless_the_same_teeth_return(scene, changes, group):
     assert planet_groups(scene.replace(**changes)).group == group
 
 
@@ -85,10 +85,10 @@ def test_one_planet_of_each_group_is_integrated():
         assert train.meshes == 2 * groups and train.bodies == groups + 4
 
 
-def assert_alike(one, every):
-    """All that results show, by the tolerance of one run and of the other."""
+def assert_equal_results(one, every):
+    """Compare all quantities of two results, to within the tolerances of both runs."""
     assert one.bodies == every.bodies and one.meshes == every.meshes
-    for name in SHOWN:
+    for name in QUANTITIES:
         mine, full = getattr(one, name), getattr(every, name)
         assert mine.shape == full.shape
         rms = np.sqrt(np.nanmean((mine - full) ** 2) / np.nanmean(full**2))
@@ -126,10 +126,10 @@ def assert_alike(one, every):
     ],
     ids=["one", "two", "losses", "fault", "ring", "sun", "printed"],
 )
-def test_one_planet_for_all_gives_what_all_give(scene, method):
+def test_one_planet_of_each_group_gives_the_results_of_all(scene, method):
     options = {"method": method, "tolerance": TOLERANCE}
     one = pt.simulate(scene, 0.01, **options)
-    assert_alike(one, pt.simulate(scene.replace(**APART), 0.01, **options))
+    assert_equal_results(one, pt.simulate(scene.replace(**APART), 0.01, **options))
     group = planet_groups(scene).group
     for i, first in enumerate(group):
         leader = group.index(first)
@@ -143,15 +143,15 @@ def test_one_planet_for_all_gives_what_all_give(scene, method):
     ids=["losses", "errors", "fault"],
 )
 @pytest.mark.parametrize("planets", [4, 5])
-def test_one_planet_for_all_gives_what_all_give_without_dynamics(planets, changes):
+def test_one_planet_of_each_group_gives_the_results_of_all_without_dynamics(planets, changes):
     scene = evenly(planets, dynamics="quasi_static", **changes)
     one = pt.simulate(scene, 0.01, tolerance=TOLERANCE)
-    assert_alike(one, pt.simulate(scene.replace(**APART), 0.01, tolerance=TOLERANCE))
+    assert_equal_results(one, pt.simulate(scene.replace(**APART), 0.01, tolerance=TOLERANCE))
 
 
 @pytest.mark.parametrize("planets", [4, 5])
-def test_one_planet_for_all_rattles_as_all_do(planets):
-    """Impacts carry a difference on tenfold, as they do towards the reference."""
+def test_one_planet_of_each_group_rattles_as_all_do(planets):
+    """Impacts amplify a difference tenfold, as in the comparison with the reference."""
     ripple = {"torque_ripple": 5.0, "drive.speed_control.ripple_order": 6}
     scene = evenly(planets, input_torque=0.5, **ripple)
     one, every = (

@@ -1,0 +1,161 @@
+// Windows of a run, for `planetary_twin_py.engine` and `planetary_twin_py.twin`.
+
+#include <nanobind/stl/tuple.h>
+#include <nanobind/stl/vector.h>
+
+#include "bindings/arrays.hpp"
+#include "bindings/parts.hpp"
+#include "bindings/raise.hpp"
+#include "bindings/unlocked.hpp"
+#include "bindings/vectors.hpp"
+#include "run/figures.hpp"
+#include "run/statistics.hpp"
+#include "run/window.hpp"
+#include "run/windows.hpp"
+
+namespace gearbox {
+
+using namespace nb::literals;
+
+namespace {
+
+// Arrays of a waveform: time, dte, mesh force, friction.
+using WaveformTuple = std::tuple<Values, Rows, Rows, Rows>;
+
+Waveform waveform_of(const WaveformTuple& arrays, const Report& report, std::int64_t first,
+                     double rate) {
+    auto& [time, dte, mesh_force, friction] = arrays;
+    std::size_t rows = time.size(), meshes = static_cast<std::size_t>(report.meshes);
+    for (const Rows* values : {&dte, &mesh_force, &friction})
+        if (values->shape(0) != rows || values->shape(1) != meshes)
+            throw nb::value_error("waveform: arrays of a wrong shape");
+    return {static_cast<std::int64_t>(rows),
+            first,
+            rate,
+            time.data(),
+            dte.data(),
+            mesh_force.data(),
+            friction.data()};
+}
+
+// Arguments of `run_window` in Python, in this order.
+using JobTuple = std::tuple<const Model*, March*, InstantTuple, SamplingTuple, const Limits*,
+                            const Report*, std::int64_t, double, WaveformTuple, WindowEnd*, bool>;
+
+WindowJob job_of(const JobTuple& values) {
+    auto& [model, march, until, samples, limits, report, first, rate, waveform, end, closes] =
+        values;
+    return {*model,
+            *march,
+            instant_of(until),
+            sampling_of(samples),
+            *limits,
+            *report,
+            waveform_of(waveform, *report, first, rate),
+            *end,
+            closes};
+}
+
+int py_run_window(const Model& model, March& march, const InstantTuple& until,
+                  const SamplingTuple& samples, const Limits& limits, const Report& report,
+                  std::int64_t first, double rate, const WaveformTuple& out, WindowEnd& end,
+                  bool closes) {
+    WindowJob job{model,
+                  march,
+                  instant_of(until),
+                  sampling_of(samples),
+                  limits,
+                  report,
+                  waveform_of(out, report, first, rate),
+                  end,
+                  closes};
+    Unlocked unlocked;
+    return static_cast<int>(run_window(job));
+}
+
+std::vector<int> py_run_windows(const std::vector<JobTuple>& tuples, int workers) {
+    std::vector<WindowJob> jobs;
+    jobs.reserve(tuples.size());
+    for (const JobTuple& values : tuples) jobs.push_back(job_of(values));
+    std::vector<Outcome> outcomes;
+    {
+        Unlocked unlocked;
+        outcomes = run_windows(jobs, workers);
+    }
+    std::vector<int> codes;
+    for (Outcome outcome : outcomes) codes.push_back(static_cast<int>(outcome));
+    return codes;
+}
+
+void py_mesh_statistics(double time, const Table& integral, const Vector& dte_peak,
+                        const Vector& force_peak, const Rows& out) {
+    std::size_t meshes = integral.shape(1);
+    if (integral.shape(0) != SUMS || out.shape(0) != STATISTICS || out.shape(1) != meshes ||
+        meshes > MESHES)
+        throw nb::value_error("mesh_statistics: arrays of a wrong shape");
+    const double *dte = entries(dte_peak, meshes), *force = entries(force_peak, meshes);
+    MeshSums sums{};
+    sums.time = time;
+    for (std::size_t i = 0; i < meshes; ++i) {
+        for (std::size_t row = 0; row < SUMS; ++row)
+            sums.integral[row][i] = integral.data()[row * meshes + i];
+        sums.dte_peak[i] = dte[i];
+        sums.force_peak[i] = force[i];
+        mesh_statistics(sums, static_cast<std::int64_t>(i), out.data() + i,
+                        static_cast<std::int64_t>(meshes));
+    }
+}
+
+void bind_statistics(nb::module_& m) {
+    m.attr("MEAN_DTE") = MEAN_DTE;
+    m.attr("RMS_DTE") = RMS_DTE;
+    m.attr("LARGEST_DTE") = LARGEST_DTE;
+    m.attr("MEAN_FORCE") = MEAN_FORCE;
+    m.attr("LARGEST_FORCE") = LARGEST_FORCE;
+    m.attr("IN_CONTACT") = IN_CONTACT;
+    m.attr("WITHOUT_VISCOUS") = WITHOUT_VISCOUS;
+    m.attr("MEAN_FILM") = MEAN_FILM;
+    m.attr("MEAN_LAMBDA") = MEAN_LAMBDA;
+    m.attr("MEAN_BOUNDARY") = MEAN_BOUNDARY;
+    m.attr("MEAN_VISCOUS") = MEAN_VISCOUS;
+    m.attr("MEAN_LOSS") = MEAN_LOSS;
+    m.attr("STATISTICS") = STATISTICS;
+    m.def("mesh_statistics", &py_mesh_statistics, "time"_a, "integral"_a, "dte_peak"_a,
+          "force_peak"_a, "out"_a,
+          "Mean, rms and peak values of the meshes, from their sums over `time` seconds.");
+}
+
+}  // namespace
+
+void bind_run(nb::module_& m) {
+    m.attr("WITHIN_LIMITS") = static_cast<int>(Outcome::WITHIN_LIMITS);
+    m.attr("EXCEEDED") = static_cast<int>(Outcome::EXCEEDED);
+    m.attr("NOT_FINITE") = static_cast<int>(Outcome::NOT_FINITE);
+    m.attr("NO_FINITE_STATE") = NO_FINITE_STATE;
+    m.def(
+        "run_window", &py_run_window, "model"_a, "march"_a, "until"_a, "samples"_a, "limits"_a,
+        "report"_a, "first"_a, "rate"_a, "out"_a, "end"_a, "closes"_a,
+        "Integrate to `until`; fill the waveform, and turns, angles, peaks and power of `end`.\n\n"
+        "If the window closes there, `end` takes ledger and mesh sums. Returns the outcome.");
+    m.def("run_windows", &py_run_windows, "jobs"_a, "workers"_a,
+          "`run_window` of every job, in so many threads; the outcomes in order.");
+    m.def("take_books", &take_books, "model"_a, "march"_a, "end"_a,
+          "Take the ledger, and what stands beside it.");
+    m.def(
+        "take_ledger",
+        [](March& march, const Values& ledger) { take_ledger(march, entries(ledger, LEDGER)); },
+        "march"_a, "ledger"_a, "Integrals of the ledger since they were last taken.");
+    m.def(
+        "take_mesh_sums",
+        [](const Model& model, March& march, const InstantTuple& until, MeshSums& sums) {
+            Unlocked unlocked;
+            take_mesh_sums(model, march, instant_of(until), sums);
+        },
+        "model"_a, "march"_a, "until"_a, "sums"_a,
+        "Integrals and extremes of the meshes up to `until`, the end of the last window.");
+    m.def("window_figures", &window_figures, "train"_a, "report"_a, "begin"_a, "end"_a,
+          "duration"_a, "out"_a, "Figures of a window of so many seconds.");
+    bind_statistics(m);
+}
+
+}  // namespace gearbox

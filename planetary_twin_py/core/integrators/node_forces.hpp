@@ -1,0 +1,115 @@
+#pragma once
+
+// What acts on the train at a node of a step by collocation.
+
+#include "integrators/propagation.hpp"
+#include "mesh/mesh_forces.hpp"
+#include "train/equations.hpp"
+#include "tribology/mesh_friction.hpp"
+
+namespace gearbox {
+
+// Tolerance from which friction in single precision errs by less than all else.
+inline constexpr double SINGLE_PRECISION = 1e-5;
+
+// Forces of the meshes at a node.
+template <int L>
+SHARED void push_node(const Model& model, const March& march, Node& node, double delay) {
+    copy<L>(node.d, node.meshes.d);
+    copy<L>(node.rate, node.meshes.rate);
+    const StepConstants& constants = march.constants;
+    place_meshes(model.train, march.begin, constants, node.x, node.v, delay, node.meshes);
+    push_meshes<L>(model, march.begin, constants, node.meshes);
+}
+
+// Friction and drag at a node as forces on the bodies, but for what `find_friction` has found.
+SHARED inline void rub_bodies_at(const Model& model, const March& march, Node& node,
+                                 double* rubbing) {
+    const Train& train = model.train;
+    if (train.friction) rub_bodies(train, node.friction.drag, rubbing);
+    if (train.joints + train.discs == 0) return;
+    for (int e : {BEARING, CHURNING}) node.power[e] = 0.0;
+    apply_drag(model, march.begin, node.v, node.meshes.push, rubbing, node.power);
+}
+
+// Friction and drag at a node in the modes.
+template <int L>
+LAW void rub_node(const Model& model, const March& march, const ContactState& contacts,
+                  Node& node) {
+    using V = Row<L>;
+    const Train& train = model.train;
+    if (train.printed_torque) print_torques(train, march.constants, node.v, node.friction.drag);
+    V rubbing(0.0);
+    if (train.printed_torque || train.joints + train.discs > 0) {
+        alignas(64) double on_bodies[BODIES] = {};
+        rub_bodies_at(model, march, node, on_bodies);
+        rubbing = sum_rows<L>(contacts.share, V(on_bodies));
+    } else if (train.friction) {
+        for (int g = 0; g < GEARS - 1; ++g)
+            rubbing += sum_rows<L>(contacts.twist[g], V(node.friction.drag.torque[g]));
+    }
+    rubbing.store(node.rubbing);
+}
+
+// Friction and drag at all nodes, under the forces of the meshes there.
+template <int L>
+void rub_nodes(const Model& model, March& march) {
+    const Train& train = model.train;
+    Propagation& run = march.run;
+    const int count = static_cast<int>(run.nodes.count);
+    if (train.friction) {
+        FrictionInstant instants[MOST_NODES] = {};
+        for (int n = 0; n < count; ++n) {
+            Node& node = run.node[n];
+            share_pushes<L>(train, march.constants, node.meshes);
+            instants[n] = {&node.meshes, node.spin, &node.friction};
+        }
+        find_friction(model, march.constants, instants, count,
+                      march.control.tolerance >= SINGLE_PRECISION);
+    }
+    const ContactState& contacts = contacts_of(run);
+    for (int n = 0; n < count; ++n) rub_node<L>(model, march, contacts, run.node[n]);
+}
+
+// Forces of meshes, friction and machines at a node, in the modes.
+template <int L>
+SHARED Row<L> node_force(const Model& model, const March& march, const ContactState& contacts,
+                         double delay, Node& node) {
+    using V = Row<L>;
+    const Train& train = model.train;
+    MachineForces forces;
+    node.power[DAMPING] = 0.0;
+    apply_couplings(train, node.x, node.v, forces, node.power);
+    apply_machines(model, march.begin, march.constants, node.x, node.v, delay, node.trim, forces,
+                   node.power);
+    V push = V(march.constants.side) * V(node.meshes.push);
+    V force = V(node.rubbing) + sum_rows<L>(contacts.press, push);
+    for (std::int64_t c = 0; c < train.machines; ++c) {
+        force += V(contacts.share[train.coupling[c][0]]) * forces.machine[c];
+        force += V(contacts.share[train.coupling[c][1]]) * forces.member[c];
+    }
+    return force;
+}
+
+// Motion and mesh forces at a time within the step.
+template <int L>
+void show_meshes(const Model& model, const March& march, double delay, Node& node) {
+    Waves<L> at = waves_at<L>(march.run.motion, delay);
+    move_node<L>(model, march, delay, at.cosine, at.sine, node);
+    push_node<L>(model, march, node, delay);
+}
+
+// The same at so many times, at most MOST_INSTANTS, in `run.shown`, and friction with it.
+template <int L>
+void show_friction(const Model& model, March& march, const double* delays, int count) {
+    FrictionInstant instants[MOST_INSTANTS] = {};
+    for (int n = 0; n < count; ++n) {
+        Node& node = march.run.shown[n];
+        show_meshes<L>(model, march, delays[n], node);
+        share_pushes<L>(model.train, march.constants, node.meshes);
+        instants[n] = {&node.meshes, node.spin, &node.friction};
+    }
+    find_friction(model, march.constants, instants, count, false);
+}
+
+}  // namespace gearbox

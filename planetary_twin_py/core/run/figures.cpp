@@ -1,0 +1,94 @@
+#include "run/figures.hpp"
+
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+namespace gearbox {
+
+namespace {
+
+constexpr double FULL_TURN = 2.0 * std::numbers::pi;  // [rad]
+
+// From one end of the ledger to another [s]: an exact difference, rounded once.
+double between(const WindowEnd& begin, const WindowEnd& end) {
+    using Exact = __float128;
+    Exact passed = static_cast<Exact>(end.seconds - begin.seconds);
+    passed += static_cast<Exact>(end.time) - begin.time;
+    passed += static_cast<Exact>(end.time_rest) - begin.time_rest;
+    return static_cast<double>(passed);
+}
+
+// Remainder in [0, divisor).
+std::int64_t wrapped(std::int64_t value, std::int64_t divisor) {
+    std::int64_t rest = value % divisor;
+    return rest < 0 ? rest + divisor : rest;
+}
+
+// Fraction of a turn, in [0, 1), from whole turns of the motors.
+double part_of_turn(const Report& report, std::int64_t body, const double* turns) {
+    std::int64_t denominator = report.denominator[body], parts = 0;
+    for (int a = 0; a < AXES; ++a) {
+        auto whole = static_cast<std::int64_t>(turns[a]);
+        parts += wrapped(whole, denominator) * report.numerator[body][a];  // which cannot overflow
+    }
+    return static_cast<double>(wrapped(parts, denominator)) / static_cast<double>(denominator);
+}
+
+// Angle [rad] in [0, 2 pi).
+double wrapped_angle(double angle) {
+    double rest = std::fmod(angle, FULL_TURN);
+    return rest < 0.0 ? rest + FULL_TURN : std::fabs(rest);
+}
+
+// Mean speed of body j of the train [rad/s].
+double mean_speed(const Train& train, const WindowEnd& begin, const WindowEnd& end, std::int64_t j,
+                  double duration) {
+    double turned = 0.0;
+    for (int a = 0; a < AXES; ++a)
+        turned += FULL_TURN * (end.turns[a] - begin.turns[a]) * train.ratio[j][a];
+    return (turned + end.angle[j] - begin.angle[j]) / duration;
+}
+
+void put_bodies(const Train& train, const Report& report, const WindowEnd& begin,
+                const WindowEnd& end, double duration, Figures& out) {
+    for (std::int64_t n = 0; n < report.bodies; ++n) {
+        std::int64_t j = report.body[n];
+        bool turns = j < train.bodies;
+        double beside = turns ? end.angle[j] : 0.0;
+        out.angle[n] = wrapped_angle(FULL_TURN * part_of_turn(report, n, end.turns) + beside);
+        out.mean_speed[n] = turns ? mean_speed(train, begin, end, j, duration) : 0.0;
+    }
+    for (std::int64_t m = 0; m < train.machines; ++m)
+        out.machine_speed[m] = mean_speed(train, begin, end, train.coupling[m][0], duration);
+}
+
+void put_powers(const Train& train, const WindowEnd& begin, const WindowEnd& end, Figures& out) {
+    double elapsed = between(begin, end), rate[LEDGER], gained = 0.0;
+    double before = begin.kinetic + begin.elastic;
+    out.stored_energy = end.kinetic + end.elastic;
+    bool within_step = !(elapsed > 0.0);
+    for (int e = 0; e < LEDGER; ++e) rate[e] = within_step ? end.power[e] : end.ledger[e] / elapsed;
+    out.stored_power = within_step ? std::numeric_limits<double>::quiet_NaN()
+                                   : (out.stored_energy - before) / elapsed;
+    for (std::int64_t m = 0; m < train.machines; ++m) {
+        out.machine_torque[m] = rate[IMPULSE + m];
+        out.machine_power[m] = rate[WORK + m];
+        gained += rate[WORK + m];
+    }
+    out.power_loss = rate[FRICTION] + rate[BEARING] + rate[CHURNING];
+    double lost = rate[FRICTION] + rate[DAMPING] + rate[BEARING] + rate[CHURNING];
+    out.residual_power = gained + rate[STIFFNESS_WORK] - lost - out.stored_power;
+}
+
+}  // namespace
+
+void window_figures(const Train& train, const Report& report, const WindowEnd& begin,
+                    const WindowEnd& end, double duration, Figures& out) {
+    put_bodies(train, report, begin, end, duration, out);
+    put_powers(train, begin, end, out);
+    for (std::int64_t i = 0; i < report.meshes; ++i)
+        mesh_statistics(end.sums, report.mesh[i], &out.statistics[0][i], MESHES);
+}
+
+}  // namespace gearbox

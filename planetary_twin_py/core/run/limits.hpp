@@ -1,0 +1,43 @@
+#pragma once
+
+// What no gearbox can show: a run that does is stopped, see planetary_twin_py/runaway.py.
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+
+#include "rooms.hpp"
+#include "train/load.hpp"
+#include "train/train.hpp"
+
+namespace gearbox {
+
+// Largest magnitudes of samples; NaN where there was one.
+struct Peaks {
+    double dte[MESHES];    // [m]
+    double speed[BODIES];  // [rad/s]
+};
+
+// Largest magnitudes that are allowed.
+struct Limits {
+    double squeeze[MESHES];   // [m]
+    double error[MESHES];     // largest errors of form, by which a squeeze may be smaller [m]
+    double speed[BODIES];     // [rad/s]
+    double torque[MACHINES];  // [N m]
+};
+
+// Whether a run has passed one of them; a NaN has. `power` is that of the ledger.
+inline bool exceeds(const Limits& limits, const Train& train, const Load& load, const Peaks& peaks,
+                    const double* power) {
+    bool within = true;
+    for (std::int64_t i = 0; i < train.meshes; ++i) {
+        double least = peaks.dte[i] - load.half_backlash - limits.error[i];
+        within &= least <= limits.squeeze[i];
+    }
+    for (std::int64_t j = 0; j < train.bodies; ++j) within &= peaks.speed[j] <= limits.speed[j];
+    for (std::int64_t m = 0; m < train.machines; ++m)
+        within &= std::fabs(power[IMPULSE + m]) <= limits.torque[m];
+    return !within;
+}
+
+}  // namespace gearbox

@@ -1,0 +1,74 @@
+#pragma once
+
+// A window of a run: its waveform, and what the train shows at its end.
+
+#include <cstdint>
+
+#include "integrators/march_record.hpp"
+#include "mesh/mesh_sums.hpp"
+#include "run/clock.hpp"
+#include "run/limits.hpp"
+#include "run/report.hpp"
+#include "train/model.hpp"
+
+namespace gearbox {
+
+// Every sample of every mesh that is reported, in arrays that their owner keeps.
+struct Waveform {
+    std::int64_t rows;
+    std::int64_t first;  // number of the first sample
+    double rate;         // [Hz]
+    double* time;        // (rows,) [s]
+    double* dte;         // (rows, meshes) [m]
+    double* mesh_force;  // (rows, meshes) [N]
+    double* friction;    // (rows, meshes), magnitude [N]
+};
+
+// Where the train is at the end of a window, and what has been added up until then.
+//
+// The ledger covers whole steps: up to `reached`, at or after the end of the window. Its clock has
+// two parts, of which the second is what rounding leaves of the first.
+struct alignas(64) WindowEnd {
+    std::int64_t seconds;     // whole ones
+    double time;              // since then [s]
+    double time_rest;         // [s]
+    double ledger[LEDGER];    // since it was last taken
+    double power[LEDGER];     // by which it grows
+    double kinetic, elastic;  // energies [J]
+    double turns[AXES];       // whole turns of the motors
+    double angle[BODIES];     // beside these [rad]
+    MeshSums sums;            // of the window
+    Peaks peaks;              // of its samples
+};
+
+// What is to be computed: a window, or the first part of one.
+struct WindowJob {
+    const Model& model;
+    March& march;
+    Instant until;
+    Sampling samples;
+    const Limits& limits;
+    const Report& report;
+    Waveform out;
+    WindowEnd& end;
+    bool closes;  // whether the window ends there
+};
+
+enum class Outcome { WITHIN_LIMITS, EXCEEDED, NOT_FINITE };
+
+// Integrate to `until`; fill the waveform, and turns, angles, peaks and power of `end`.
+//
+// Where the window closes within the limits, `end` takes all that has been added up.
+Outcome run_window(const WindowJob& job);
+
+// Take integrals of the ledger since they were last taken, so that they begin anew: what a window
+// adds is not lost beside what a long run has added.
+void take_ledger(March& march, double* ledger);
+
+// Take integrals and extremes of the meshes up to `until`, the end of the last window.
+void take_mesh_sums(const Model& model, March& march, const Instant& until, MeshSums& sums);
+
+// Take the ledger, and what stands beside it.
+void take_books(const Model& model, March& march, WindowEnd& end);
+
+}  // namespace gearbox

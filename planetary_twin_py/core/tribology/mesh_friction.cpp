@@ -1,0 +1,206 @@
+#include "tribology/mesh_friction.hpp"
+
+#include <cstring>
+
+#include "mesh/mesh_forces.hpp"
+#include "tribology/tooth_friction.hpp"
+#include "vector/floats.hpp"
+#include "vector/rows.hpp"
+
+namespace gearbox {
+
+namespace {
+
+// Tooth pairs of all instants as columns of doubles or floats: entry (n * slots + p) * L + i is of
+// pair p of mesh i at instant n. What beyond the meshes fills whole registers is meaningless.
+template <class Number>
+struct alignas(64) Columns {
+    static constexpr int MOST = MOST_INSTANTS * PAIRS * MESHES;
+    alignas(64) Number rho1[MOST];
+    alignas(64) Number rho2[MOST];
+    alignas(64) Number external[MOST];
+    alignas(64) Number sliding[MOST];
+    alignas(64) Number sum[MOST];  // of the surface speeds
+    alignas(64) Number load[MOST];
+    alignas(64) Number friction[MOST];
+    alignas(64) Number rolling[MOST];
+    alignas(64) Number rolling_power[MOST];
+    alignas(64) Number boundary[MOST];
+    alignas(64) Number viscous[MOST];
+    alignas(64) Number film[MOST];
+};
+
+template <int L>
+LAW void put(const Row<L>& row, double* column) {
+    row.store(column);
+}
+template <int L>
+LAW void put(const Row<L>& row, float* column) {
+    using Half [[gnu::vector_size(4 * WIDTH)]] = float;
+    for (int k = 0; k < Row<L>::PARTS; ++k) {
+        Half part = __builtin_convertvector(row.part[k], Half);
+        std::memcpy(column + k * WIDTH, &part, sizeof part);
+    }
+}
+
+template <int L>
+LAW Row<L> get(const double* column) {
+    return Row<L>(column);
+}
+template <int L>
+LAW Row<L> get(const float* column) {
+    using Half [[gnu::vector_size(4 * WIDTH)]] = float;
+    Row<L> row;
+    for (int k = 0; k < Row<L>::PARTS; ++k) {
+        Half part;
+        std::memcpy(&part, column + k * WIDTH, sizeof part);
+        row.part[k] = __builtin_convertvector(part, Lanes);
+    }
+    return row;
+}
+
+template <class Number>
+struct RegisterOf;
+template <>
+struct RegisterOf<double> {
+    using type = Lanes;
+};
+template <>
+struct RegisterOf<float> {
+    using type = Floats;
+};
+
+template <class Real, class Number>
+LAW Real load_register(const Number* column) {
+    Real lanes;
+    std::memcpy(&lanes, column, sizeof lanes);
+    return lanes;
+}
+
+template <class Real, class Number>
+LAW void store_register(Number* column, const Real& lanes) {
+    std::memcpy(column, &lanes, sizeof lanes);
+}
+
+template <int L, class Number>
+LAW void place_pairs(const Train& train, const StepConstants& step, const FrictionInstant& instant,
+                     Columns<Number>& pairs, std::int64_t first) {
+    Row<L> moved = way_on_path<L>(train, step, instant.meshes->advance), external(step.external);
+    Row<L> spin1(instant.spin[0]), spin2(instant.spin[1]);
+    for (std::int64_t p = 0, k = first; p < train.slots; ++p, k += L) {
+        auto [rho1, rho2] = flank_radii<L>(step, p, moved);
+        auto [sliding, sum] = surface_speeds(rho1, rho2, external, spin1, spin2);
+        put(rho1, pairs.rho1 + k);
+        put(rho2, pairs.rho2 + k);
+        put(external, pairs.external + k);
+        put(sliding, pairs.sliding + k);
+        put(sum, pairs.sum + k);
+        put(Row<L>(instant.meshes->load[p]), pairs.load + k);
+    }
+}
+
+// The same as `tooth_contact`, part by part for all registers.
+template <Laws laws, class Number>
+void rub_pairs(const Oil& oil, double slowest, Columns<Number>& pairs, int count) {
+    using Real = typename RegisterOf<Number>::type;
+    constexpr int IN_ONE = sizeof(Real) / sizeof(Number);
+    constexpr int MOST = Columns<Number>::MOST / IN_ONE + 1;
+    const double factor = area_factor(oil);
+    const int registers = (count + IN_ONE - 1) / IN_ONE;
+    Flanks<Real> flanks[MOST];
+    Contact<Real> contact[MOST];
+    Friction<Real> full[MOST];
+    for (int r = 0, k = 0; r < registers; ++r, k += IN_ONE) {
+        auto column = [k](const Number* from) { return load_register<Real>(from + k); };
+        flanks[r] = flanks_of(column(pairs.rho1), column(pairs.rho2), column(pairs.external),
+                              {column(pairs.sliding), column(pairs.sum)}, column(pairs.load),
+                              oil.sliding_threshold, slowest);
+    }
+    for (int r = 0; r < registers; ++r)
+        contact[r] = contact_of(oil, factor, flanks[r], logarithms_of(flanks[r]));
+    for (int r = 0; r < registers; ++r) full[r] = mixed_friction<laws>(oil, contact[r]);
+    for (int r = 0, k = 0; r < registers; ++r, k += IN_ONE) {
+        PairFriction<Real> found = sliding_friction<laws>(oil, flanks[r], contact[r], full[r]);
+        if constexpr (laws.rolling) {
+            add_rolling(oil, flanks[r], contact[r], found);
+            store_register(pairs.rolling + k, found.rolling);
+            store_register(pairs.rolling_power + k, found.rolling_power);
+        }
+        store_register(pairs.friction + k, found.friction);
+        store_register(pairs.boundary + k, found.boundary);
+        store_register(pairs.viscous + k, found.viscous);
+        // The exponential may be off by a rounding.
+        store_register(pairs.film + k, at_least(exp(found.log_film), Real{} + THINNEST_FILM));
+    }
+}
+
+// Add up what the pairs of each mesh do: -f dVs/dw and -F_R d(u1 + u2)/dw of both gears.
+template <int L, class Number>
+LAW void add_up(const Train& train, const StepConstants& step, const Columns<Number>& pairs,
+                std::int64_t first, bool rolling, const FrictionInstant& instant) {
+    using V = Row<L>;
+    MeshFriction& out = *instant.found;
+    V moved = way_on_path<L>(train, step, instant.meshes->advance), external(step.external);
+    V torque1(0.0), torque2(0.0), lost(0.0), boundary(0.0), viscous(0.0), film(0.0);
+    V spin1(instant.spin[0]), spin2(instant.spin[1]);
+    for (std::int64_t p = 0, k = first; p < train.slots; ++p, k += L) {
+        auto [rho1, rho2] = flank_radii<L>(step, p, moved);
+        auto [sliding, sum] = surface_speeds(rho1, rho2, external, spin1, spin2);
+        V friction = get<L>(pairs.friction + k), resistance(0.0);
+        lost += friction * sliding;
+        if (rolling) {
+            resistance = get<L>(pairs.rolling + k);
+            lost += get<L>(pairs.rolling_power + k);
+        }
+        torque1 -= (friction + resistance) * rho1;
+        torque2 -= (friction - resistance) * external * rho2;
+        boundary += get<L>(pairs.boundary + k);
+        viscous += get<L>(pairs.viscous + k);
+        film += V(instant.meshes->share[p]) * get<L>(pairs.film + k);
+    }
+    const Mask<L> used = first_of_row<L>(train.meshes);
+    torque1 = select(used, torque1, 0.0);
+    torque2 = select(used, torque2, 0.0);
+    lost = select(used, lost, 0.0);
+    torque1.store(out.drag.torque[0]);
+    torque2.store(out.drag.torque[1]);
+    (V(0.0) - (torque1 + torque2)).store(out.drag.torque[2]);
+    lost.store(out.drag.power);
+    lost.store(out.lost);
+    select(used, boundary, 0.0).store(out.boundary);
+    select(used, viscous, 0.0).store(out.viscous);
+    select(used, film, 0.0).store(out.film);
+}
+
+template <int L, class Number>
+void find(const Model& model, const StepConstants& step, const FrictionInstant* instants,
+          int count) {
+    const Train& train = model.train;
+    const Oil& oil = model.oil;
+    const std::int64_t of_instant = train.slots * L;
+    Columns<Number> pairs;
+    for (int n = 0; n < count; ++n) place_pairs<L>(train, step, instants[n], pairs, n * of_instant);
+    with_laws(oil, [&]<Laws laws>() {
+        constexpr bool SINGLE = std::is_same_v<Number, float>;
+        if constexpr (!SINGLE || has_single_precision(laws.traction))
+            rub_pairs<laws>(oil, slowest_rolling(train, step), pairs,
+                            static_cast<int>(count * of_instant));
+    });
+    for (int n = 0; n < count; ++n)
+        add_up<L>(train, step, pairs, n * of_instant, oil.rolling, instants[n]);
+}
+
+}  // namespace
+
+void find_friction(const Model& model, const StepConstants& step, const FrictionInstant* instants,
+                   int count, bool single_precision) {
+    single_precision &= has_single_precision(static_cast<TractionLaw>(model.oil.traction_law));
+    with_lanes(model.train, [&]<int L>(std::integral_constant<int, L>) {
+        if (single_precision)
+            find<L, float>(model, step, instants, count);
+        else
+            find<L, double>(model, step, instants, count);
+    });
+}
+
+}  // namespace gearbox

@@ -1,0 +1,183 @@
+#pragma once
+
+// Floats in one vector register, twice as many as doubles: for formulas that are templates over
+// `Real`, where six digits are enough. exp and log err by some units of the last digit.
+
+#include <cstdint>
+
+#include <immintrin.h>
+
+#include "vector/lanes.hpp"
+#include "vector/law.hpp"
+#include "vector/math.hpp"
+
+namespace gearbox {
+
+inline constexpr int FLOATS = 2 * WIDTH;
+
+using FloatRegister [[gnu::vector_size(4 * FLOATS)]] = float;
+using FloatBits [[gnu::vector_size(4 * FLOATS)]] = std::uint32_t;
+
+struct Floats {
+    FloatRegister value;
+
+    Floats() = default;
+    LAW Floats(FloatRegister lanes) : value(lanes) {}
+    LAW Floats(double each) : value(static_cast<float>(each) - FloatRegister{}) {}
+
+    LAW Floats& operator+=(Floats other) {
+        value += other.value;
+        return *this;
+    }
+    LAW Floats& operator*=(Floats other) {
+        value *= other.value;
+        return *this;
+    }
+    LAW Floats& operator/=(Floats other) {
+        value /= other.value;
+        return *this;
+    }
+};
+
+LAW Floats operator+(Floats a, Floats b) {
+    return a.value + b.value;
+}
+LAW Floats operator-(Floats a, Floats b) {
+    return a.value - b.value;
+}
+LAW Floats operator*(Floats a, Floats b) {
+    return a.value * b.value;
+}
+LAW Floats operator/(Floats a, Floats b) {
+    return a.value / b.value;
+}
+LAW Floats operator-(Floats a) {
+    return -a.value;
+}
+
+#if defined(__AVX512F__)
+LAW Floats at_least(Floats x, Floats bound) {
+    return FloatRegister(_mm512_maskz_max_ps(0xFFFF, bound.value, x.value));
+}
+LAW Floats at_most(Floats x, Floats bound) {
+    return FloatRegister(_mm512_maskz_min_ps(0xFFFF, bound.value, x.value));
+}
+LAW Floats square_root(Floats x) {
+    return FloatRegister(_mm512_maskz_sqrt_ps(0xFFFF, x.value));
+}
+#elif defined(__AVX__)
+LAW Floats at_least(Floats x, Floats bound) {
+    return FloatRegister(_mm256_max_ps(bound.value, x.value));
+}
+LAW Floats at_most(Floats x, Floats bound) {
+    return FloatRegister(_mm256_min_ps(bound.value, x.value));
+}
+LAW Floats square_root(Floats x) {
+    return FloatRegister(_mm256_sqrt_ps(x.value));
+}
+#else
+LAW Floats at_least(Floats x, Floats bound) {
+    return FloatRegister(_mm_max_ps(bound.value, x.value));
+}
+LAW Floats at_most(Floats x, Floats bound) {
+    return FloatRegister(_mm_min_ps(bound.value, x.value));
+}
+LAW Floats square_root(Floats x) {
+    return FloatRegister(_mm_sqrt_ps(x.value));
+}
+#endif
+
+namespace vector {
+
+LAW FloatBits to_bits(Floats x) {
+    return std::bit_cast<FloatBits>(x.value);
+}
+LAW Floats to_floats(FloatBits bits) {
+    return std::bit_cast<FloatRegister>(bits);
+}
+
+constexpr std::uint32_t FLOAT_SIGN = std::uint32_t{1} << 31;
+constexpr int FLOAT_MANTISSA = 23;              // bits
+constexpr std::uint32_t FLOAT_BIAS = 127;       // of the exponent
+constexpr double FLOAT_ROUNDING = 0x1.8p23;     // adding it rounds to a whole number
+constexpr double FLOAT_LARGEST = 87.0;          // e**87 is near the end of the range
+constexpr double FLOAT_LN2_HIGH = 0.693359375;  // exact multiples (Cody and Waite 1980)
+constexpr double FLOAT_LN2_LOW = -2.12194440054690582e-4;
+
+// (e**r - 1)/r, |r| <= log(2)/2, interpolated at Chebyshev points: relative error of e**r 5e-9.
+constexpr double FLOAT_REST_OF_EXP[] = {1.000000010771571,   0.5000000013457768,
+                                        0.16666505260407374, 0.04166646500593614,
+                                        0.00836914849097491, 0.0013933641038483312};
+
+// 2 artanh(t)/t as a polynomial in t^2 as in `math.hpp`: error of the logarithm 4e-8.
+constexpr double FLOAT_ARTANH[] = {2.0000002357976343, 0.6665226672423552, 0.41294909225285686};
+
+struct SplitFloats {
+    Floats mantissa, exponent;
+};
+
+LAW SplitFloats split(Floats x) {
+    constexpr std::uint32_t ROOT_HALF = 0x3f3504f3, ONE = FLOAT_BIAS << FLOAT_MANTISSA;
+    constexpr std::uint32_t FRACTION = (std::uint32_t{1} << FLOAT_MANTISSA) - 1;
+    constexpr std::uint32_t WHOLE = 0x4b000000;  // bits of 2^23, whose last counts 1
+    FloatBits bits = to_bits(x) + (ONE - ROOT_HALF);
+    return {
+        to_floats((bits & FRACTION) + ROOT_HALF),
+        to_floats((bits >> FLOAT_MANTISSA) | WHOLE) - (0x1p23 + static_cast<double>(FLOAT_BIAS))};
+}
+
+LAW Floats log_of(Floats t, Floats exponent) {
+    Floats s = t * t;
+    Floats series = FLOAT_ARTANH[0] + s * (FLOAT_ARTANH[1] + s * FLOAT_ARTANH[2]);
+    return exponent * (LN2_HIGH + LN2_LOW) + t * series;
+}
+
+}  // namespace vector
+
+LAW Floats magnitude(Floats x) {
+    return vector::to_floats(vector::to_bits(x) & ~vector::FLOAT_SIGN);
+}
+
+LAW Floats with_sign(Floats x, Floats y) {
+    return vector::to_floats((vector::to_bits(x) & ~vector::FLOAT_SIGN) |
+                             (vector::to_bits(y) & vector::FLOAT_SIGN));
+}
+
+LAW Floats where_less(Floats x, double bound, Floats then, Floats otherwise) {
+    return FloatRegister(x.value < Floats(bound).value ? then.value : otherwise.value);
+}
+
+// e**x, saturating at the ends of the range.
+LAW Floats exp(Floats x) {
+    using namespace vector;
+    x = at_most(at_least(x, -FLOAT_LARGEST), FLOAT_LARGEST);
+    Floats shifted = x * INVERSE_LN2 + FLOAT_ROUNDING, n = shifted - FLOAT_ROUNDING;
+    Floats r = (x - n * FLOAT_LN2_HIGH) - n * FLOAT_LN2_LOW, s = r * r;
+    const double* c = FLOAT_REST_OF_EXP;
+    Floats even = c[0] + s * (c[2] + s * c[4]), odd = c[1] + s * (c[3] + s * c[5]);
+    return (1.0 + r * (even + r * odd)) *
+           to_floats((to_bits(shifted) + FLOAT_BIAS) << FLOAT_MANTISSA);
+}
+
+LAW Floats falling_exp(Floats x) {
+    return exp(x);
+}
+
+// Natural logarithm of a positive normal number.
+LAW Floats log(Floats x) {
+    auto [mantissa, exponent] = vector::split(x);
+    return vector::log_of((mantissa - 1.0) / (mantissa + 1.0), exponent);
+}
+
+// Natural logarithms of three, with one division for all.
+LAW Three<Floats> logs(Floats x, Floats y, Floats z) {
+    auto [a, i] = vector::split(x);
+    auto [b, j] = vector::split(y);
+    auto [c, k] = vector::split(z);
+    Floats p = a + 1.0, q = b + 1.0, r = c + 1.0;
+    Floats pq = p * q, inverse = 1.0 / (pq * r), rest = r * inverse;
+    return {vector::log_of((a - 1.0) * (q * rest), i), vector::log_of((b - 1.0) * (p * rest), j),
+            vector::log_of((c - 1.0) * (pq * inverse), k)};
+}
+
+}  // namespace gearbox
