@@ -155,8 +155,8 @@ def test_the_logger_records_all_that_is_published(
     # The simulation reports how it is while it still waits for its logger.
     early = dict(zip(twin.status[-1].topics, twin.status[-1].before, strict=True))
     assert {name for name, number in early.items() if number} <= {"/diagnostics"}
-    begun = {name: number - early[name] for name, number in sent.items()}
-    assert counts(tmp_path / "recordings/bag") == begun
+    recorded = {name: number - early[name] for name, number in sent.items()}
+    assert counts(tmp_path / "recordings/bag") == recorded
 
 
 @pytest.mark.exhaustive

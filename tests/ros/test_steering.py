@@ -38,7 +38,10 @@ def test_values_may_have_units_and_the_result_is_printed(
     user: Peer, points: list[OperatingPoint]
 ) -> None:
     answer = command("param", "set", "backlash", "0.3 um")
-    assert (answer.returncode, answer.stdout.strip()) == (0, "backlash = 3e-07"), answer.stderr
+    assert (answer.returncode, answer.stdout.strip()) == (
+        0,
+        "backlash = 3e-07 m (0.3 um)",
+    ), answer.stderr
     user.until(lambda: points[-1].backlash == pytest.approx(3e-7))
     assert command("param", "get", "backlash").stdout.strip() == "3e-07"
     answer = command("op", "input_speed=2000 rpm", "lambda_ratio=1.5")
@@ -69,7 +72,7 @@ def test_values_may_be_negative(points: list[OperatingPoint]) -> None:
     for typed in ("-104 rad/s", "-104", "-1e2"):
         answer = command("param", "set", "input_speed", typed)
         assert answer.returncode == 0, answer.stderr
-    assert answer.stdout == "input_speed = -100\n"
+    assert answer.stdout == "input_speed = -100 rad/s (-954.9 rpm)\n"
 
 
 def test_every_parameter_is_listed_with_its_range(points: list[OperatingPoint]) -> None:
@@ -77,6 +80,10 @@ def test_every_parameter_is_listed_with_its_range(points: list[OperatingPoint]) 
     for words in ("backlash", "0 to 0.001", "compute_share", "fixed", "publish_rate"):
         assert words in listed
     assert "qos_overrides" not in listed
+    names = [line.split()[0] for line in listed.splitlines()[1:] if line[0] != " "]
+    # Those that may change now are first.
+    assert names.index("torque_ripple") < names.index("autostart")
+    assert names.index("backlash") < names.index("torque_ripple")
     (line,) = [line for line in listed.splitlines() if line.startswith("backlash ")]
     assert "0 to 0.001" in line and line.rstrip().endswith("[m]")
 

@@ -60,8 +60,9 @@ class Remote(Client):
         super().__init__("remote", namespace)
 
     def settings(self) -> list[Setting]:
-        """Return all parameters of the twin, sorted by name."""
-        return self._described([n for n in self._names() if not n.startswith(_OF_ROS)])
+        """Return all parameters of the twin, first those that may change now, sorted by name."""
+        found = self._described([n for n in self._names() if not n.startswith(_OF_ROS)])
+        return sorted(found, key=lambda setting: (setting.fixed, setting.name))
 
     def setting(self, name: str) -> Setting:
         """Return the parameter `name`."""

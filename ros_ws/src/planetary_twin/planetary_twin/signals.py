@@ -8,9 +8,9 @@ that have no data to save.
 from __future__ import annotations
 
 import signal
-import threading
 from collections.abc import Iterator
 from contextlib import contextmanager
+from queue import SimpleQueue
 from types import FrameType
 
 from planetary_twin_py.terminal.interrupts import interrupt, repeat_lost, repeat_no_more
@@ -18,11 +18,37 @@ from planetary_twin_py.terminal.interrupts import interrupt, repeat_lost, repeat
 _NUMBERS = (signal.SIGINT, signal.SIGTERM)
 
 
+class Stop:
+    """
+    A request to stop that a signal handler may make while it interrupts another one.
+
+    An `Event` would deadlock there, because its lock is not reentrant; `SimpleQueue.put` is.
+    """
+
+    def __init__(self) -> None:
+        self._requests: SimpleQueue[None] = SimpleQueue()
+        self._made = False
+
+    def set(self) -> None:
+        """Make the request."""
+        self._made = True
+        self._requests.put(None)
+
+    def is_set(self) -> bool:
+        """Whether the request has been made."""
+        return self._made
+
+    def wait(self) -> None:
+        """Wait until the request has been made."""
+        self._requests.get()
+        self._requests.put(None)  # for other threads that wait
+
+
 class Signals:
     """The request to end the process, however many signals repeat it."""
 
     def __init__(self) -> None:
-        self.stop = threading.Event()
+        self.stop = Stop()
         """Set at the first signal, or when the process ends by itself."""
         self._interrupting = False
 

@@ -89,8 +89,7 @@ def set_(
     """
     with _twin(namespace) as twin:
         twin.set(name, value)
-        _say_units({name: value})
-        print(f"{name} = {_shown(twin.setting(name).value)}")
+        print(_in_words(name, twin.setting(name).value))
 
 
 def op(
@@ -122,6 +121,14 @@ def _say_units(typed: Mapping[str, str]) -> None:
     for name, value in typed.items():
         if name in TUNABLES and TUNABLES[name].unit and is_number(value):
             note(in_words(name, float(value), TUNABLES[name].unit))
+
+
+def _in_words(name: str, value: Any) -> str:
+    """Return name and value, with both units of a quantity that has one."""
+    from planetary_twin_py.scene import TUNABLES
+
+    unit = TUNABLES[name].unit if name in TUNABLES else ""
+    return in_words(name, value, unit) if unit else f"{name} = {_shown(value)}"
 
 
 def _pair(change: str) -> tuple[str, str]:
