@@ -33,6 +33,7 @@ if TYPE_CHECKING:
     from .ledger_check import LedgerWarning
     from .modal.modes import NaturalModes
     from .modal.natural import natural_modes
+    from .planar.load_sharing import LoadSharing, load_sharing
     from .plots.study import plot_study
     from .result import Energy, Result, Stats
     from .runaway import RunawayError
@@ -42,12 +43,14 @@ if TYPE_CHECKING:
         Scene,
         SceneError,
         Tunable,
+        friction_table,
         load_scene,
         packaged_scenes,
         parse_scene,
     )
     from .simulation import simulate
     from .twin import Change, Twin
+    from .twins import Twins
     from .units import rpm
     from .window import Waveform, Window
 
@@ -65,15 +68,18 @@ _EXPORTS = {
     "ledger_check": ("LedgerWarning",),
     "modal.modes": ("NaturalModes",),
     "modal.natural": ("natural_modes",),
+    "planar.load_sharing": ("LoadSharing", "load_sharing"),
     "plots.study": ("plot_study",),
     "result": ("Energy", "Result", "Stats"),
     "runaway": ("RunawayError",),
     "scene": (
-        "TUNABLES", "OperatingPoint", "Scene", "SceneError", "Tunable", "load_scene",
+        "TUNABLES", "OperatingPoint", "Scene", "SceneError", "Tunable", "friction_table",
+        "load_scene",
         "packaged_scenes", "parse_scene",
     ),
     "simulation": ("simulate",),
     "twin": ("Change", "Twin"),
+    "twins": ("Twins",),
     "units": ("rpm",),
     "window": ("Waveform", "Window"),
 }  # fmt: skip
@@ -87,6 +93,7 @@ __all__ = [
     "Energy",
     "LedgerWarning",
     "Line",
+    "LoadSharing",
     "NaturalModes",
     "OperatingPoint",
     "OrderMap",
@@ -101,10 +108,13 @@ __all__ = [
     "Stats",
     "Tunable",
     "Twin",
+    "Twins",
     "Waveform",
     "Window",
     "amplitude_spectrum",
+    "friction_table",
     "load_scene",
+    "load_sharing",
     "mesh_order",
     "natural_modes",
     "order_map",

@@ -1,7 +1,7 @@
-"""A run in progress: the model of a scene, its state, and the marching integrator.
+"""A run in progress: the model of a scene, its state, and the integrator.
 
-What `Twin` steps and `simulate` runs through. It knows bodies and meshes by their place in
-arrays only; names and messages are for those above it.
+`Twin` and `simulate` are built on it. It knows bodies and meshes only by their index in arrays;
+names and messages belong to the layers above.
 """
 
 from __future__ import annotations
@@ -9,24 +9,34 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 from fractions import Fraction
+from typing import NoReturn
 
 import numpy as np
 
 from ._core import (
+    EXCEEDED,
     IMPULSE,
+    LEDGER,
     METHODS,
+    NO_FINITE_STATE,
+    NOT_FINITE,
     Control,
     Load,
     March,
     Model,
+    Report,
     Train,
+    WindowEnd,
     advance,
     begin_step,
-    count_until,
     cut,
     radau,
     stored,
+    take_books,
+    take_ledger,
+    take_mesh_sums,
 )
+from ._core import MeshSums as MeshSumsRecord
 from .dynamics.cycle import common_cycles, turns_per_cycle
 from .dynamics.mesh_sums import MeshSums, clear, mesh_sums
 from .dynamics.oil import build_oil
@@ -34,23 +44,34 @@ from .dynamics.speed_loop import SpeedLoopCheck, bandwidth
 from .dynamics.start import LoadBuilder, start_state
 from .dynamics.static_load import mesh_force, static_torques
 from .dynamics.train import build_train, lightest_body
-from .integrators.clock import NEVER, Sampling, delay, instant, sampling
-from .integrators.interpolant import Samples, new_samples
+from .integrators.clock import (
+    NEVER,
+    TICKS,
+    Instant,
+    Sampling,
+    delay,
+    instant,
+    instant_of_ticks,
+    sampling,
+)
+from .integrators.interpolant import Samples, Waves, new_samples
 from .runaway import Limits, RunawayError
 from .scene import OperatingPoint, Scene
 from .tolerance import check_tolerance
+from .window_jobs import WindowJob, WindowJobs
 
-# Tolerances down to which so many points of a step are worth their cost, see docs.
+# Lowest tolerance for each number of collocation points, with which it is fastest.
 POINTS = ((3e-3, 3), (3e-4, 4), (0.0, 5))
 LONGEST_STEP = 1e-3  # [s]
 FIRST_STEP = 1e-6  # [s]
 SETTLING = 1.0  # of the period of the speed loop, for which steady running must last to count
 WATCHED = Fraction(1, 10)  # [s] from one check of a run against its limits to the next
+LONGEST_UNWATCHED = float(WATCHED)
 LIGHTEST_MESH_LOAD = 1.0  # [N] smaller mesh forces do not tighten the tolerance further
 
 
 class _Scale:
-    """What tolerances are relative to."""
+    """Deflections to which tolerances are relative."""
 
     def __init__(self, scene: Scene, train: Train) -> None:
         self._per_torque = abs(mesh_force(scene, 1.0))
@@ -98,11 +119,9 @@ class Engine:
         self.train = build_train(scene)
         self.model = Model(train=self.train)
         self.march = March()
-        # Parts of the march that every window looks at: finding them takes longer than the look.
-        self._end, self._aside = self.march.end, self.march.aside
-        self._repetition, self._last = self.march.repetition, self.march.last
-        standing = (self.march.begin, self.march.end, self.march.repetition.start)
-        self._ledgers = tuple(state.energy for state in standing)
+        # Parts of the march that every window reads, because each look-up costs time.
+        self._end, self._scratch = self.march.end, self.march.scratch
+        self._periodic, self._last = self.march.periodic, self.march.last
         self._shown: tuple[float | Fraction, Samples] | None = None
         self._limits = Limits(scene, self.train)
         self._failure: RunawayError | None = None
@@ -124,9 +143,9 @@ class Engine:
         self._prepare()
 
     def _prepare(self) -> None:
-        """Go through all that a window calls; at time zero it changes nothing."""
+        """Call all functions of a window once; at time zero this changes nothing."""
         begin_step(self.model, self.march)
-        self.march.end = self.march.begin  # tooth pairs may have begun to hold
+        self.march.end = self.march.begin  # tooth pairs may have started to stick
         self.advance(0.0, 1, 1.0, 0)
         self.stored()
         self.take_mesh_sums(0.0)
@@ -147,11 +166,11 @@ class Engine:
         if self.march.run.nodes.count != points:
             self.march.run.nodes = radau(points)
         control.changed = True
-        self._allow_repetition()
+        self._allow_periodic()
 
-    def _allow_repetition(self) -> None:
-        """Say in how many mesh cycles all is as before."""
-        repetition = self.march.repetition
+    def _allow_periodic(self) -> None:
+        """Set the number of mesh cycles after which everything repeats."""
+        periodic = self.march.periodic
         rippled = self.model.load.ripple != 0.0
         if rippled not in self._cycles:
             cycles = common_cycles(self.train, self.model.load) if self._may_repeat else 0
@@ -159,9 +178,9 @@ class Engine:
         cycles = self._cycles[rippled]
         if cycles > 0:
             turns = abs(cycles * turns_per_cycle(self.train))
-            repetition.numerator, repetition.denominator = turns.numerator, turns.denominator
-        repetition.cycles = cycles
-        repetition.pause = self._pause
+            periodic.numerator, periodic.denominator = turns.numerator, turns.denominator
+        periodic.cycles = cycles
+        periodic.pause = self._pause
 
     def advance(
         self, until: float | Fraction, first_sample: int, sample_rate: float, room: int
@@ -169,46 +188,92 @@ class Engine:
         """Integrate to `until` [s]; samples lie at whole multiples of 1/sample_rate.
 
         Returns `room` samples from number `first_sample` on. A time given as a fraction is exact
-        however late it is.
+        at any age of the run.
 
         Raises:
-            RunawayError: no step leads on, or to what no gearbox can show, see `runaway`.
+            RunawayError: no step is possible, or a limit is exceeded, see `runaway`.
         """
         samples, done = new_samples(self.train, room + 1), 0
-        for stop in self._stops(until):
+        for stop in (*self._stops(until, instant(until)), until):
             # All that are due by then, and one at the stop, which the next of them overwrites.
             part = room
             if stop != until:
-                due = math.floor(Fraction(stop) * Fraction(sample_rate)) + 1 - first_sample
-                part = min(max(due, done), room)
+                part = min(max(_due(stop, sample_rate, first_sample), done), room)
             at = sampling(first_sample + done, sample_rate)
             self._run(stop, at, _rows(samples, done, part + 1))
             done = part
         return _rows(samples, 0, room)
 
-    def _stops(self, until: float | Fraction) -> Iterator[float | Fraction]:
-        """Instants [s] up to `until` at which the run is checked against its limits."""
-        if delay(self._end, instant(until)) > WATCHED:
+    def window(
+        self, until: int, first: int, rate: float, report: Report, out: Waves, end: WindowEnd
+    ) -> WindowJobs:
+        """Integrate to `until` [ticks]; fill the waveform, and all that is known at its end.
+
+        Yields the parts of the window; each is to be sent its outcome.
+
+        Raises:
+            RunawayError: no step leads on, or to what no gearbox can show, see `runaway`.
+        """
+        if self._failure is not None:
+            raise self._failure
+        goal, done, room = instant_of_ticks(until), 0, len(out.time)
+        self._shown = None
+
+        def part_to(at: Instant, rows: Waves, closes: bool) -> WindowJob:
+            return WindowJob(
+                self.model, self.march, at, sampling(first + done, rate), self._limits.record,
+                report, first + done, rate, rows, end, closes,
+            )  # fmt: skip
+
+        if delay(self._end, goal) > LONGEST_UNWATCHED:
+            for stop in self._stops(Fraction(until, TICKS), goal):
+                due = min(max(_due(stop, rate, first), done), room)
+                self._watch((yield part_to(instant(stop), _wave_rows(out, done, due), False)), end)
+                done = due
+            out = _wave_rows(out, done, room)
+        self._watch((yield part_to(goal, out, True)), end)
+
+    def _watch(self, outcome: int, end: WindowEnd) -> None:
+        """Stop the run where the core has found no step, or what no gearbox can show."""
+        try:
+            if outcome == NOT_FINITE:
+                raise ArithmeticError(NO_FINITE_STATE)
+            if outcome == EXCEEDED:
+                self._limits.check_window(end, self.model.load)
+        except ArithmeticError as reason:
+            self._fail(reason)
+
+    def _fail(self, reason: ArithmeticError) -> NoReturn:
+        self._failure = RunawayError(f"the run stops near {float(self.reached):g} s: {reason}")
+        raise self._failure from None
+
+    def stand(self, time: int, end: WindowEnd) -> None:
+        """Begin a window at `time` [ticks], the end of the last one."""
+        take_books(self.model, self.march, end)
+        sample = self.sample(Fraction(time, TICKS))
+        end.turns, end.angle = sample.turns[0], sample.angle[0]
+
+    def _stops(self, until: float | Fraction, goal: Instant) -> Iterator[Fraction]:
+        """Instants [s] before `until` at which the run is checked against its limits."""
+        if delay(self._end, goal) > LONGEST_UNWATCHED:
             stop = self.reached + WATCHED
             while stop < until:
                 yield stop
                 stop += WATCHED
-        yield until
 
     def _run(self, until: float | Fraction, at: Sampling, samples: Samples) -> None:
-        """Fill all `samples` but the last, which is at `until`."""
+        """Fill all `samples`; the last one is at `until`."""
         if self._failure is not None:
             raise self._failure
         try:
             advance(self.model, self.march, instant(until), NEVER, at, samples)
             self._check(samples)
         except ArithmeticError as reason:
-            self._failure = RunawayError(f"the run stops near {float(self.reached):g} s: {reason}")
-            raise self._failure from None
+            self._fail(reason)
         self._shown = until, _rows(samples, len(samples.turns) - 1, None)
 
     def _check(self, samples: Samples) -> None:
-        """Raise an `ArithmeticError` where the train shows what no gearbox can."""
+        """Raise an `ArithmeticError` if the train exceeds a limit."""
         limits = self._limits
         limits.check_squeeze(samples, self.model.load)
         limits.speed.check(samples.speed)
@@ -223,10 +288,10 @@ class Engine:
         return samples
 
     def change(self, point: OperatingPoint, tolerance: float, time: float | Fraction) -> None:
-        """Run on with these from `time` [s], the end of the last window.
+        """Continue with this point and tolerance from `time` [s], the end of the last window.
 
         Raises:
-            ValueError: the speed loop would not be stable there; nothing has changed.
+            ValueError: the speed loop would not be stable; nothing has changed.
             RunawayError: the run has been stopped.
         """
         if self._failure is not None:
@@ -252,42 +317,48 @@ class Engine:
 
     @property
     def repeats(self) -> bool:
-        """Whether steady running repeats itself, see core/integrators/periodic.hpp."""
-        return bool(self._repetition.playing)
+        """Whether mesh cycles are repeated, see core/integrators/periodic.hpp."""
+        return bool(self._periodic.playing)
 
     @property
     def powers(self) -> np.ndarray:
-        """By which the ledger grows at `reached`."""
+        """Time derivative of the ledger [W] at `reached`."""
         return np.array(self._last.power)
 
     def take_ledger(self) -> np.ndarray:
-        """Integrals of the ledger up to `reached` since they were last taken, see `dynamics.state`.
+        """Integrals of the ledger from the previous call to `reached`, see core/train/energy.hpp.
 
-        They begin anew, so that what a window adds is not lost beside what a long run has added.
+        They restart at zero, so that rounding does not grow with the length of the run.
         """
-        _, end, _ = self._ledgers
-        ledger = end.copy()
-        for energy in self._ledgers:
-            energy -= ledger
+        ledger = np.empty(LEDGER)
+        take_ledger(self.march, ledger)
         return ledger
 
     def take_mesh_sums(self, time: float | Fraction) -> MeshSums:
-        """Integrals and extremes of the meshes since they were last taken.
+        """Integrals and extremes of the meshes from the previous call to `time` [s].
 
-        Up to `time` [s], the end of the last window.
+        `time` is the end of the last window.
         """
-        march = self.march
-        count_until(self.model, march, delay(march.begin, instant(time)))
-        taken = mesh_sums(march.sums.total, int(self.train.meshes))
-        clear(march.sums.total)
-        return taken
+        taken = MeshSumsRecord()
+        take_mesh_sums(self.model, self.march, instant(time), taken)
+        return mesh_sums(taken, int(self.train.meshes))
 
     def stored(self) -> tuple[float, float]:
         """Kinetic and elastic energy at `reached` [J]."""
-        moving, strained = stored(self.model, self._end, self._aside)
+        moving, strained = stored(self.model, self._end, self._scratch)
         return float(moving), float(strained)
 
 
-def _rows(samples: Samples, begin: int, end: int | None) -> Samples:
+def _due(time: Fraction | float, rate: float, first: int) -> int:
+    """Number of samples from number `first` on that lie before `time` [s] or at it."""
+    return math.floor(Fraction(time) * Fraction(rate)) + 1 - first
+
+
+def _wave_rows(waves: Waves, begin: int, end: int) -> Waves:
     """Some of the samples; what is written there is written into them."""
+    return Waves(*(each[begin:end] for each in waves))
+
+
+def _rows(samples: Samples, begin: int, end: int | None) -> Samples:
+    """Views of some of the samples, which share their memory."""
     return Samples(*(each[begin:end] for each in samples))

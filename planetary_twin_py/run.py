@@ -7,14 +7,15 @@ from typing import Protocol
 
 import numpy as np
 
-from ._core import Control, Train
+from ._core import Control, Report, Train, WindowEnd
 from .dynamics.mesh_sums import MeshSums
 from .dynamics.speed_loop import check_speed_loop
 from .dynamics.train import build_train
 from .engine import Engine
-from .integrators.interpolant import Samples
+from .integrators.interpolant import Samples, Waves
 from .quasi_static.engine import QuasiStaticEngine
 from .scene import OperatingPoint, Scene
+from .window_jobs import WindowJobs
 
 
 class Run(Protocol):
@@ -42,6 +43,18 @@ class Run(Protocol):
         self, until: float | Fraction, first_sample: int, sample_rate: float, room: int
     ) -> Samples:
         """Simulate until `until` [s]; sample times are integer multiples of 1/sample_rate."""
+
+    def window(
+        self, until: int, first: int, rate: float, report: Report, out: Waves, end: WindowEnd
+    ) -> WindowJobs:
+        """Simulate until `until` [ticks of the clock]; fill the waveform, and the window's end.
+
+        Sample `first` and all others are integer multiples of 1/rate. Energy ledger and mesh sums
+        of `end` are those since the last window. The work is done as the jobs are.
+        """
+
+    def stand(self, time: int, end: WindowEnd) -> None:
+        """Begin a window at `time` [ticks of the clock], the end of the last one."""
 
     def sample(self, time: float | Fraction) -> Samples:
         """One sample at `time` [s], the end of the last window."""

@@ -11,7 +11,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ._core import DTE, Load, Train
+from . import _core
+from ._core import DTE, IMPULSE, Load, Train, WindowEnd
 from .dynamics.bodies import MACHINE_NAMES, build_bodies, mesh_names
 from .dynamics.static_load import static_torques
 from .integrators.interpolant import Samples
@@ -68,7 +69,7 @@ class Limits:
     def __init__(self, scene: Scene, train: Train) -> None:
         drive, meshes = scene.drive, mesh_names(scene)
         size = np.hypot(train.line_tangential, train.line_radial)
-        self._errors = size.sum(axis=1)[train.kind[: train.meshes]]
+        self._errors = size.sum(axis=1)[: train.meshes]
         self.squeeze = Limit(
             "squeeze",
             "m",
@@ -97,6 +98,13 @@ class Limits:
             f"drive.speed_control.slew_rate = {drive.speed_control.slew_rate:g} rad/s^2",
         )
         """Of the torques of the machines."""
+        self.record = _core.Limits(
+            squeeze=self.squeeze.largest,
+            error=self._errors,
+            speed=self.speed.largest,
+            torque=self.torque.largest,
+        )
+        """All of them for the core, which finds whether a window exceeds one."""
 
     def check_squeeze(self, samples: Samples, load: Load) -> None:
         """Check the mesh deflection along the line of action.
@@ -110,7 +118,25 @@ class Limits:
         Raises:
             ArithmeticError: a deflection exceeds its limit, or is NaN.
         """
-        largest = np.abs(samples.mesh[:, DTE]).max(axis=0, initial=0.0)  # NaN if there is one
+        self._check_dte(np.abs(samples.mesh[:, DTE]).max(axis=0, initial=0.0), load)
+
+    def check_window(self, end: WindowEnd, load: Load) -> None:
+        """Check deflections and speeds of the samples of a window, and the torques at its end.
+
+        Args:
+            end: of the window.
+            load: gives the backlash.
+
+        Raises:
+            ArithmeticError: one of them exceeds its limit, or is NaN.
+        """
+        machines = len(self.torque.largest)
+        self._check_dte(end.peaks.dte[: len(self._errors)], load)
+        self.speed.check(end.peaks.speed[None, : len(self.speed.largest)])
+        self.torque.check(end.power[None, IMPULSE : IMPULSE + machines])
+
+    def _check_dte(self, largest: np.ndarray, load: Load) -> None:
+        """Check deflections by the largest |DTE|, (meshes,); NaN if there is one."""
         self.squeeze.check(np.maximum(largest - load.half_backlash - self._errors, 0.0)[None])
 
 

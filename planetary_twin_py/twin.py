@@ -2,39 +2,22 @@
 
 from __future__ import annotations
 
-import math
-from collections.abc import Sequence
 from fractions import Fraction
 from typing import NamedTuple
 
-import numpy as np
-
-from ._core import (
-    BEARING,
-    BOUNDARY,
-    CHURNING,
-    DAMPING,
-    DTE,
-    FRICTION,
-    IMPULSE,
-    MESH_FORCE,
-    STIFFNESS_WORK,
-    VISCOUS,
-    WORK,
-)
+from ._core import Figures, WindowEnd, window_figures
 from .accuracy import Course, Settling, course_so_far, unsettled
-from .dynamics.bodies import Ratios, body_names, mesh_names
-from .dynamics.mesh_sums import in_order
+from .dynamics.bodies import body_names, build_report, mesh_names
 from .gearset.kinematics import mesh_frequency
-from .integrators.interpolant import Samples
+from .integrators.clock import TICKS
+from .integrators.interpolant import Waves, new_waves
 from .run import start
-from .runaway import RunawayError
 from .scene import TUNABLES, OperatingPoint, Scene, SceneError
 from .tolerance import LIVE_TOLERANCE, check_tolerance
-from .window import Waveform, Window, mesh_statistics
+from .window import Waveform, Window, by_name
+from .window_jobs import WindowJobs, run_alone
 
-TICKS = 10**12  # of the clock per second
-LEEWAY = Fraction(1, 10**6)  # sample periods by which a sample may exceed the window
+LEEWAY = 10**6  # of these parts of a sample period a sample may exceed the window by one
 LONGEST_WINDOW = 60.0  # [s], because samples are kept in memory; or
 MOST_SAMPLES = 4096  # samples, if that is longer
 LOWEST_SAMPLE_RATE = 1.0  # [Hz]
@@ -73,17 +56,17 @@ class Twin:
         _check_sample_rate(sample_rate)
         self.scene = scene
         self._names, self._mesh_names = body_names(scene), mesh_names(scene)
+        self._teeth, self._sun = scene.gearset.tooth_numbers, self._names.names.index("sun")
+        self._report = build_report(self._names, self._mesh_names)
         self._engine = start(scene, tolerance)
-        train = self._engine.train
-        self._ratio = train.ratio[: train.bodies].T
-        self._shafts = train.coupling[: train.machines, 0]
-        self._machines = int(train.machines)
-        self._whole_turns = _WholeTurns(self._names.ratio)
-        self._clock = Fraction(0)
+        self._figures = _FiguresOf(
+            len(self.bodies), len(self.meshes), int(self._engine.train.machines)
+        )
+        self._ticks = 0
         self.log = [Change(0.0, scene.operating_point, tolerance, float(sample_rate))]
         """All changes. Applied at the same times, they reproduce the run and its samples."""
-        self._books = self._account()
-        self._end = self._engine.sample(self._clock)
+        self._ends = WindowEnd(), WindowEnd()  # of the last window, and of the next one
+        self._stand()
         self._forgetting, self._settled = Settling(scene), 0.0
         self._settling = self._forgetting.rate(scene.operating_point)
         self._course = course_so_far(self._engine.control, 0.0)
@@ -101,7 +84,7 @@ class Twin:
     @property
     def time(self) -> float:
         """Simulated time [s]: the end of the last window."""
-        return float(self._clock)
+        return self._ticks / TICKS
 
     @property
     def operating_point(self) -> OperatingPoint:
@@ -183,89 +166,79 @@ class Twin:
             ValueError: the duration is out of range.
             RunawayError: the run exceeds physical limits; the twin cannot be advanced further.
         """
-        longest = max(LONGEST_WINDOW, MOST_SAMPLES / self.sample_rate)
-        if not 0.0 < duration <= longest:
-            raise ValueError(f"duration = {duration!r} s: must be above 0 and at most {longest:g}")
-        # Exact, so that rounding errors do not accumulate and windows of 10 ms end on samples.
-        step = Fraction(round(duration * TICKS), TICKS)
-        if not step:
-            raise ValueError(f"duration = {duration!r} s: must be at least 1e-12, the clock's step")
-        first = self._samples() + 1
-        self._clock += step
-        room = self._samples() - first + 1
-        repeated = self._engine.repeats
-        try:
-            samples = self._engine.advance(self._clock, first, self.sample_rate, room)
-        except RunawayError:
-            self._clock -= step  # the last completed window remains valid
-            raise
-        return self._window(step, first, samples, repeated)
+        plan = self._plan(duration)
+        run_alone(self._jobs(plan))
+        return self._close(plan)
+
+    def _jobs(self, plan: _Plan) -> WindowJobs:
+        """What the core is to compute for a window."""
+        return self._engine.window(
+            plan.end, plan.first, self.sample_rate, self._report, plan.waves, self._ends[1]
+        )
 
     def _change(self, point: OperatingPoint, tolerance: float) -> float:
         change = Change(self.time, point, tolerance, self.sample_rate)
         if change[1:] != self.log[-1][1:]:
-            self._engine.change(point, tolerance, self._clock)
-            self._books = self._account()  # a change of backlash is not work of this window
-            self._end = self._engine.sample(self._clock)  # with the new operating point
+            self._engine.change(point, tolerance, Fraction(self._ticks, TICKS))
+            self._stand()  # a change of backlash is not work of this window
             self._settling = self._forgetting.rate(point)
             self.log.append(change)
         return self.time
 
-    def _samples(self) -> int:
-        """Number of samples up to the current time."""
+    def _stand(self) -> None:
+        """Begin a window at the present time."""
+        self._engine.stand(self._ticks, self._ends[0])
+
+    def _plan(self, duration: float) -> _Plan:
+        """Plan a window of `duration` seconds from the present time on."""
+        longest = max(LONGEST_WINDOW, MOST_SAMPLES / self.sample_rate)
+        if not 0.0 < duration <= longest:
+            raise ValueError(f"duration = {duration!r} s: must be above 0 and at most {longest:g}")
+        # Exact, so that rounding errors do not accumulate and windows of 10 ms end on samples.
+        ticks = round(duration * TICKS)
+        if not ticks:
+            raise ValueError(f"duration = {duration!r} s: must be at least 1e-12, the clock's step")
+        end = self._ticks + ticks
+        first = self._samples(self._ticks) + 1
+        waves = new_waves(self._samples(end) - first + 1, len(self.meshes))
+        return _Plan(end, first, waves, self._engine.repeats)
+
+    def _samples(self, ticks: int) -> int:
+        """Number of samples up to a time."""
         over, under = self.sample_rate.as_integer_ratio()
-        clock, leeway = self._clock, LEEWAY
-        ticks = clock.numerator * over * leeway.denominator
-        whole = clock.denominator * under  # in integers: fractions would be reduced at every step
-        return (ticks + leeway.numerator * whole) // (whole * leeway.denominator)
+        whole = TICKS * under  # in integers: fractions would be reduced at every step
+        return (ticks * over * LEEWAY + whole) // (whole * LEEWAY)
 
-    def _account(self) -> tuple[Fraction, np.ndarray, float]:
-        """Time reached by the integrator, ledger since the last call, and stored energy."""
-        return self._engine.reached, self._engine.take_ledger(), sum(self._engine.stored())
-
-    def _window(self, step: Fraction, first: int, samples: Samples, repeated: bool) -> Window:
-        before, begin = self._books, self._end
-        self._books, self._end = self._account(), self._engine.sample(self._clock)
-        names = self._names
-        elapsed = float(self._books[0] - before[0])
-        if elapsed > 0.0:
-            rate = self._books[1] / elapsed
-            stored = (self._books[2] - before[2]) / elapsed
-        else:  # a window within one step
-            rate, stored = self._engine.powers, float("nan")
-        turned = 2.0 * math.pi * (self._end.turns - begin.turns) @ self._ratio
-        speed = ((turned + self._end.angle - begin.angle) / float(step))[0]
-        mean_speed = np.append(speed, 0.0)[names.place]
-        sun, carrier = mean_speed[names.names.index("sun")], mean_speed[-1]
-        place, mesh = self._mesh_names.place, samples.mesh
-        sums = in_order(self._engine.take_mesh_sums(self._clock), place)
+    def _close(self, plan: _Plan) -> Window:
+        """Results of the window that the engine has run through."""
+        begin, end = self._ends
+        figures, names, rate = self._figures, self._names, self.sample_rate
+        start_time, duration = self.time, (plan.end - self._ticks) / TICKS
+        window_figures(self._engine.train, self._report, begin, end, duration, figures.record)
+        self._ticks, self._ends = plan.end, (end, begin)
+        mean_speed, record = figures.mean_speed.copy(), figures.record
+        sun, carrier = mean_speed[self._sun], mean_speed[-1]
         return Window(
-            start=float(self._clock - step),
+            start=start_time,
             end=self.time,
             tolerance=self.tolerance,
-            sample_rate=self.sample_rate,
-            repeated=repeated,
+            sample_rate=rate,
+            repeated=plan.repeated,
             bodies=names.names,
             meshes=self.meshes,
-            waveform=Waveform(
-                period=1.0 / self.sample_rate,
-                time=(first + np.arange(len(mesh))) / self.sample_rate,
-                dte=mesh[:, DTE][:, place],
-                mesh_force=mesh[:, MESH_FORCE][:, place],
-                friction=(mesh[:, BOUNDARY] + mesh[:, VISCOUS])[:, place],
-            ),
-            mesh=mesh_statistics(sums),
-            angle=self._angles(),
+            waveform=Waveform(1.0 / rate, *plan.waves),
+            mesh=by_name(figures.statistics.copy()),
+            angle=figures.angle.copy(),
             mean_speed=mean_speed,
-            mesh_frequency=mesh_frequency(self.scene.gearset.tooth_numbers, sun, carrier),
-            machine_speed=speed[self._shafts],
-            machine_torque=rate[IMPULSE : IMPULSE + self._machines],
-            machine_power=rate[WORK : WORK + self._machines],
-            power_loss=float(rate[FRICTION] + rate[BEARING] + rate[CHURNING]),
-            stored_power=stored,
-            stored_energy=self._books[2],
-            residual_power=_residual(rate, self._machines) - stored,
-            course=self._follow(float(step)),
+            mesh_frequency=mesh_frequency(self._teeth, sun, carrier),
+            machine_speed=figures.machine_speed.copy(),
+            machine_torque=figures.machine_torque.copy(),
+            machine_power=figures.machine_power.copy(),
+            power_loss=record.power_loss,
+            stored_power=record.stored_power,
+            stored_energy=record.stored_energy,
+            residual_power=record.residual_power,
+            course=self._follow(duration),
         )
 
     def _follow(self, duration: float) -> Course:
@@ -275,39 +248,26 @@ class Twin:
         self._course = course_so_far(self._engine.control, missing)
         return self._course.since(before)
 
-    def _angles(self) -> np.ndarray:
-        """Angles modulo a turn [rad], computed from exact whole turns of the motors."""
-        relative = np.append(self._end.angle[0], 0.0)[self._names.place]
-        whole = self._whole_turns.parts(self._end.turns[0])
-        return np.mod(2.0 * math.pi * whole + relative, 2.0 * math.pi)
+
+class _Plan(NamedTuple):
+    """A window to come."""
+
+    end: int  # [ticks]
+    first: int  # number of its first sample
+    waves: Waves  # room for its samples
+    repeated: bool
 
 
-def _residual(rate: np.ndarray, machines: int) -> float:
-    """Input power minus dissipated power [W], from the rate of the ledger."""
-    lost = rate[FRICTION] + rate[DAMPING] + rate[BEARING] + rate[CHURNING]
-    return float(rate[WORK : WORK + machines].sum() + rate[STIFFNESS_WORK] - lost)
+class _FiguresOf:
+    """Figures of a window in the core, and views of them."""
 
-
-class _WholeTurns:
-    """Turns of the bodies per whole turns of the motors, as integers.
-
-    Args:
-        bodies: ratios of the speed of each body to that of each motor.
-    """
-
-    def __init__(self, bodies: Sequence[Ratios]) -> None:
-        common = [math.lcm(*(ratio.denominator for ratio in ratios)) for ratios in bodies]
-        self._denominators = np.array(common, dtype=np.int64)
-        self._numerators = np.array(
-            [[int(r * n) for r in ratios] for ratios, n in zip(bodies, common, strict=True)],
-            dtype=np.int64,
-        )
-
-    def parts(self, turns: np.ndarray) -> np.ndarray:
-        """Fractions of a turn of the bodies, in [0, 1), from whole turns of the motors."""
-        whole = turns[: self._numerators.shape[1]].astype(np.int64)
-        parts = whole % self._denominators[:, None] * self._numerators  # no product overflows
-        return np.asarray(parts.sum(axis=1) % self._denominators / self._denominators)
+    def __init__(self, bodies: int, meshes: int, machines: int) -> None:
+        record = self.record = Figures()
+        self.angle, self.mean_speed = record.angle[:bodies], record.mean_speed[:bodies]
+        self.machine_speed = record.machine_speed[:machines]
+        self.machine_torque = record.machine_torque[:machines]
+        self.machine_power = record.machine_power[:machines]
+        self.statistics = record.statistics[:, :meshes]
 
 
 def _check_sample_rate(sample_rate: float) -> None:

@@ -96,20 +96,22 @@ def to_si(value: object, unit: str) -> object:
     return float(column_to_si(np.array(float(parts[1])), parts[2], unit))
 
 
-def customary(value: float, unit: str) -> str:
+def customary(value: float, unit: str, digits: int = 4) -> str:
     """Format a quantity in its customary unit: 1000 rad/s is "9549 rpm".
 
     Args:
         value: in SI.
         unit: SI unit of `value`.
+        digits: significant digits.
 
     Returns:
-        Number with four digits, and unit; empty if there is no customary unit.
+        Number and unit; empty if there is no customary unit.
     """
     if unit == "m":
-        return f"{1e6 * value:.4g} um" if abs(value) < 1e-4 else f"{1e3 * value:.4g} mm"
+        name, factor = ("um", 1e6) if abs(value) < 1e-4 else ("mm", 1e3)
+        return f"{factor * value:.{digits}g} {name}"
     name, factor, zero = _CUSTOMARY.get(unit, ("", 1.0, 0.0))
-    return f"{factor * value - zero:.4g} {name}" if name else ""
+    return f"{factor * value - zero:.{digits}g} {name}" if name else ""
 
 
 def is_number(text: str) -> bool:

@@ -7,24 +7,27 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ._core import (
-    BOUNDARY,
-    CLIPPED,
-    CONTACT,
-    DTE,
-    FILM,
-    FILMED,
-    LAMBDA,
-    MESH_FORCE,
-    POWER_LOSS,
-    SQUARE,
-    VISCOUS,
-)
+from . import _core
+from ._core import STATISTICS
 from .accuracy import Course
 from .dynamics.bodies import LOAD_MACHINE, MOTOR, SECOND_MOTOR
 from .dynamics.mesh_sums import MeshSums
 
-ROUNDING = 1e-12  # of the sum of the steps of a window
+# Rows of what the core computes of every mesh, by names of `quantities.MESH`.
+ROWS = {
+    "dte_mean": _core.MEAN_DTE,
+    "dte_rms": _core.RMS_DTE,
+    "dte_peak": _core.LARGEST_DTE,
+    "mesh_force_mean": _core.MEAN_FORCE,
+    "mesh_force_peak": _core.LARGEST_FORCE,
+    "contact_fraction": _core.IN_CONTACT,
+    "without_viscous": _core.WITHOUT_VISCOUS,
+    "film_thickness": _core.MEAN_FILM,
+    "lambda_ratio": _core.MEAN_LAMBDA,
+    "boundary_friction": _core.MEAN_BOUNDARY,
+    "viscous_friction": _core.MEAN_VISCOUS,
+    "power_loss": _core.MEAN_LOSS,
+}
 
 
 @dataclass(frozen=True)
@@ -144,12 +147,6 @@ class Window:
         return 1.0 - self.power_loss / put_in if put_in > 0.0 else math.nan
 
 
-def _fraction(mean: np.ndarray) -> np.ndarray:
-    """Fractions of time, without what rounding leaves of none and of all of it."""
-    exact = np.where(np.abs(mean - 1.0) < ROUNDING, 1.0, mean)
-    return np.minimum(np.where(np.abs(exact) < ROUNDING, 0.0, np.maximum(exact, 0.0)), 1.0)
-
-
 def mesh_statistics(sums: MeshSums) -> dict[str, np.ndarray]:
     """Mean, rms and peak values over an interval.
 
@@ -164,20 +161,12 @@ def mesh_statistics(sums: MeshSums) -> dict[str, np.ndarray]:
     Returns:
         Statistics in SI by name, (meshes,) each.
     """
-    mean = sums.integral / sums.time
-    with np.errstate(invalid="ignore"):
-        film, lambda_ratio = mean[[FILM, LAMBDA]] / mean[FILMED]
-    return {
-        "dte_mean": mean[DTE],
-        "dte_rms": np.sqrt(np.maximum(mean[SQUARE] - mean[DTE] ** 2, 0.0)),
-        "dte_peak": sums.dte_peak,
-        "mesh_force_mean": mean[MESH_FORCE],
-        "mesh_force_peak": sums.force_peak,
-        "contact_fraction": _fraction(mean[CONTACT]),
-        "without_viscous": _fraction(mean[CLIPPED]),
-        "film_thickness": film,
-        "lambda_ratio": lambda_ratio,
-        "boundary_friction": mean[BOUNDARY],
-        "viscous_friction": mean[VISCOUS],
-        "power_loss": mean[POWER_LOSS],
-    }
+    rows = np.empty((STATISTICS, sums.integral.shape[1]))
+    integral, dte, force = map(np.ascontiguousarray, sums[1:])
+    _core.mesh_statistics(sums.time, integral, dte, force, rows)
+    return by_name(rows)
+
+
+def by_name(rows: np.ndarray) -> dict[str, np.ndarray]:
+    """Statistics by name, from the rows that the core fills, (STATISTICS, meshes)."""
+    return {name: rows[row] for name, row in ROWS.items()}

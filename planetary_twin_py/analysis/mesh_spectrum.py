@@ -89,13 +89,13 @@ class MeshSpectrum:
     def alias(self, line: Line) -> int | None:
         """Number of the mesh harmonic above half the sample rate that `line` may be an alias of.
 
-        None if there is no such harmonic, or if the line is a harmonic higher than aliases.
+        None if there is no such harmonic, if the sample rate is sufficient, or if the line is a
+        harmonic higher than aliases.
         """
-        if self.mesh is None:
+        if self.mesh is None or self.alias_share <= NEGLIGIBLE:
             return None
         own = self.harmonic(line.place)
-        higher = self.alias_share <= NEGLIGIBLE or line.amplitude > HIGHEST_ALIAS * self.edge
-        if own is not None and higher:
+        if own is not None and line.amplitude > HIGHEST_ALIAS * self.edge:
             return None
         near = NEAR * float(self.axis[1])
         found = aliased_harmonic(line.place, self.mesh, self.sample_rate, near)

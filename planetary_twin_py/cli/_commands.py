@@ -17,6 +17,9 @@ from ._help import PLAIN, Command
 
 GROUP = "planetary_twin.commands"
 _SENTENCE = 300  # characters at most
+# Commands of the other packages, which a wheel of this package does not contain.
+OF_NODES = ("bench-live", "bench-recorder", "monitor", "op", "param", "replay", "run")
+OF_BENCHMARKS = ("bench", "paper")
 
 
 class Group(TyperGroup):
@@ -29,6 +32,17 @@ class Group(TyperGroup):
     def list_commands(self, ctx: Any) -> list[str]:
         """Return the names only; Typer's method would load every command."""
         return list(self.commands)
+
+    def resolve_command(self, ctx: Any, args: list[str]) -> Any:
+        """Find the command; of one that is not installed, say which package has it."""
+        name = args[0]
+        if name not in self.commands and name in (*OF_NODES, *OF_BENCHMARKS):
+            part = "ROS nodes" if name in OF_NODES else "benchmarks"
+            fail(
+                f"{name}: needs the {part}, which are not installed; set up a clone of the "
+                "repository (make setup), see docs/installing.md"
+            )
+        return super().resolve_command(ctx, args)
 
     def format_commands(self, ctx: Any, formatter: Any) -> None:
         """Write each command with the first sentence of its help."""
@@ -45,7 +59,7 @@ class Commands(Mapping[str, Any]):
     def __init__(self) -> None:
         package = importlib.import_module(__package__)
         own = {
-            module.name.rstrip("_"): partial(_own, module.name)
+            module.name.rstrip("_").replace("_", "-"): partial(_own, module.name)
             for module in pkgutil.iter_modules(package.__path__)
             if not module.name.startswith("_")
         }

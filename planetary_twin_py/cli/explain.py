@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
+from ..engineering_units import figure
 from ..terminal.arguments import JsonOption, SceneArgument
 from ..terminal.console import print_list
 from ..terminal.durations import SECONDS
@@ -77,7 +78,7 @@ def _mesh_table(scene: Scene, meshes: Meshes) -> Table:
     figures = (  # one line each, because a caption may be folded between a value and its unit
         f"mesh frequency f_m {meshes.mesh_frequency:.4g} Hz",
         f"input speed {speed}",
-        f"input torque {point.input_torque:.4g} N m",
+        f"input torque {figure(point.input_torque, 'N m')}",
     )
     table = Table(
         "",
@@ -86,41 +87,43 @@ def _mesh_table(scene: Scene, meshes: Meshes) -> Table:
     )
     for side in ("sun-planet", "planet-ring"):
         table.add_column(side, justify="right")
-    for label, *values in zip(_MESH_ROWS, meshes.sun_planet, meshes.planet_ring, strict=True):
-        table.add_row(label.replace("[", r"\["), *map(_shown, values))
+    for (label, unit), *values in zip(
+        _MESH_ROWS, meshes.sun_planet, meshes.planet_ring, strict=True
+    ):
+        table.add_row(label, *(_shown(value, unit) for value in values))
     return table
 
 
-# Labels of the fields of `MeshFigures`, in their order.
+# Labels and SI units of the fields of `MeshFigures`, in their order.
 _MESH_ROWS = (
-    "teeth [-]",
-    "working pressure angle [rad]",
-    "contact ratio [-]",
-    "length of approach [base pitches]",
-    "length of recess [base pitches]",
-    "play of the teeth by profile shift and centre distance [m]",
-    "clearance of both tips from the mating root [m]",
-    "stiffness of one pair [N/m]",
-    "stiffness, mean over the mesh cycle [N/m]",
-    "natural frequency of the two gears alone, one pair in contact [Hz]",
-    "damping ratio of that mode [-]",
-    "static mesh force [N]",
-    "Hertz pressure at the pitch point, that force on one pair [Pa]",
-    "tooth loss factor H_v [-]",
-    "backlash on the line of action [m]",
-    "friction coefficient, that force on one pair at a slide-to-roll ratio of 0.1 [-]",
-    "the same with eyring [-]",
-    "the same with evans_johnson [-]",
-    "the same with schlenk [-]",
-    "shear number of the film, above 1 shear-thinning [-]",
-    "film laws within their range [-]",
+    ("teeth", ""),
+    ("working pressure angle", "rad"),
+    ("contact ratio", ""),
+    ("length of approach in base pitches", ""),
+    ("length of recess in base pitches", ""),
+    ("play of the teeth by profile shift and centre distance", "m"),
+    ("clearance of both tips from the mating root", "m"),
+    ("stiffness of one pair", "N/m"),
+    ("stiffness, mean over the mesh cycle", "N/m"),
+    ("natural frequency of the two gears alone, one pair in contact", "Hz"),
+    ("damping ratio of this mode", ""),
+    ("static mesh force", "N"),
+    ("Hertz pressure at the pitch point, one pair carries the static force", "Pa"),
+    ("tooth loss factor H_v", ""),
+    ("backlash on the line of action", "m"),
+    ("friction coefficient, same load, slide-to-roll ratio 0.1", ""),
+    ("friction coefficient with eyring", ""),
+    ("friction coefficient with evans_johnson", ""),
+    ("friction coefficient with schlenk", ""),
+    ("shear number of the film, above 1 shear-thinning", ""),
+    ("film laws within their range", ""),
 )
 
 
-def _shown(value: Any) -> str:
+def _shown(value: Any, unit: str) -> str:
     if isinstance(value, tuple):
-        return "/".join(f"{part:.4g}" if isinstance(part, float) else str(part) for part in value)
-    return f"{value:.4g}"
+        return "/".join(_shown(part, unit) for part in value)
+    return figure(value, unit) if isinstance(value, float) else str(value)
 
 
 def _mesh_figures(meshes: Meshes) -> dict[str, Any]:
@@ -138,15 +141,14 @@ def _table(scene: Scene, found: Explanation) -> Table:
 
     figures = found.figures
     values = (
-        f"{name} {factor * getattr(figures, field):.4g} {unit}"
-        for field, (name, unit, factor) in _JUDGED.items()
+        f"{name} {figure(getattr(figures, field), unit)}" for field, (name, unit) in _JUDGED.items()
     )
     table = Table(
         title="Modelled terms, and the change of results without each [%]",
         caption="\n".join(("results of the complete scene", *values)),
     )
     table.add_column("term: law")
-    for heading in (*(name for name, _, _ in _JUDGED.values()), "run time"):
+    for heading in (*(name for name, _ in _JUDGED.values()), "run time"):
         table.add_column(heading.replace(" ", "\n"), justify="right", no_wrap=True)
     for effect in found.effects:
         table.add_row(
@@ -157,14 +159,14 @@ def _table(scene: Scene, found: Explanation) -> Table:
     return table
 
 
-# Fields of a glance: name, unit, and factor from SI. Means and rms are over all meshes, peaks are
-# the largest of any mesh.
+# Fields of a glance: name and SI unit. Means and rms are over all meshes, peaks are the largest of
+# any mesh.
 _JUDGED = {
-    "dte_mean": ("DTE mean", "um", 1e6),
-    "dte_rms": ("DTE rms", "um", 1e6),
-    "dte_peak": ("DTE peak", "um", 1e6),
-    "mesh_force_peak": ("force peak", "N", 1.0),
-    "power_loss": ("power loss", "W", 1.0),
+    "dte_mean": ("DTE mean", "m"),
+    "dte_rms": ("DTE rms", "m"),
+    "dte_peak": ("DTE peak", "m"),
+    "mesh_force_peak": ("force peak", "N"),
+    "power_loss": ("power loss", "W"),
 }
 
 

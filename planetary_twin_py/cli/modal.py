@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
@@ -29,6 +30,14 @@ def modal(
         str, typer.Option(help="One of torsional, machines, printed, planar, spatial.")
     ] = "torsional",
     set_: SetOption = None,
+    input_speed: Annotated[
+        str,
+        typer.Option(
+            metavar="SPEED",
+            help="Speed of the first motor for planar and spatial modes, in the frame of the "
+            "carrier, e.g. 1000rpm.",
+        ),
+    ] = "0 rpm",
     campbell: Annotated[
         Path | None,
         typer.Option(metavar="FILE.png", help="Draw the Campbell diagram.", callback=output_file),
@@ -45,19 +54,23 @@ def modal(
     if campbell is not None:
         need("plots", "matplotlib")
     from ..modal.campbell import resonances
-    from ..modal.modes import modes_of
     from ..modal.natural import natural_modes, spring_model
+    from ..units import rpm
 
     try:
+        speed = _speed(input_speed, model)
         loaded = changed_scene(scene, settings(set_ or []))
-        single = natural_modes(loaded, model)
+        single, mean = (natural_modes(loaded, model, k, speed) for k in ("single", "mean"))
         springs = spring_model(loaded, model, "mean")
     except ValueError as error:
         fail(error)
-    mean, limit = modes_of(springs), loaded.drive.speed_limit
+    limit = loaded.drive.speed_limit
     found = resonances(loaded, mean, limit)
     console = console_beside(json_)
-    console.print(_mode_table(f"{loaded.name}, {model} model", single, mean, springs))
+    title = f"{loaded.name}, {model} model"
+    if speed:
+        title += f", input at {speed / rpm(1.0):g} rpm, frame of the carrier"
+    console.print(_mode_table(title, single, mean, None if speed else springs))
     console.print(_heading(limit), highlight=False)
     for resonance in found:
         console.print(_line(resonance))
@@ -79,38 +92,61 @@ def modal(
                 "frequencies_hz": mean.frequencies.tolist(),
                 "kinds": list(mean.kinds),
             },
+            "input_speed": speed,
             "speed_limit": limit,
             "resonances": [resonance._asdict() for resonance in found],
         }
         put_figures(figures, json_)
 
 
+def _speed(text: str, model: str) -> float:
+    """Speed of the first motor [rad/s] from an option."""
+    from ..modal.natural import MOVING_AXES
+    from ..units import to_si
+
+    try:
+        speed = float(to_si(text, "rad/s"))  # type: ignore[arg-type]
+    except ValueError as error:
+        raise ValueError(f"--input-speed = {text!r}: {error}") from None
+    if not math.isfinite(speed):
+        raise ValueError(f"--input-speed = {text!r}: must be finite")
+    if speed and model not in MOVING_AXES:
+        raise ValueError(
+            f"--input-speed = {text!r}: has an effect with --model planar and spatial only"
+        )
+    return speed
+
+
 def _mode_table(
-    title: str, single: NaturalModes, mean: NaturalModes, springs: SpringModel
+    title: str, single: NaturalModes, mean: NaturalModes, springs: SpringModel | None
 ) -> Table:
-    """Modes in ascending order of frequency; `springs` is the model of `mean`."""
+    """Modes in ascending order of frequency; with the sensitivity to `springs` if given."""
     from rich.table import Table
 
     from ..modal.sensitivity import frequency_sensitivities
 
-    slopes = frequency_sensitivities(springs)
-    stiffness = {spring.kind: spring.stiffness for spring in springs.springs}
     table = Table(
         title=title,
-        caption="Frequency f with one tooth pair in every mesh, with the mean mesh stiffness, and "
-        "its change if the stiffness of one kind of spring rises by 1 %; changes below "
-        f"{LEAST_CHANGE:g} Hz are omitted",
+        caption="Frequency f with one tooth pair in every mesh, and with the mean mesh stiffness",
     )
     for heading in ("mode", r"f, one pair \[Hz]", r"f, mean \[Hz]", "kind"):
         table.add_column(heading, justify="right")
-    table.add_column(r"change per 1 % of stiffness \[Hz]")
-    for m, kinds in enumerate(zip(single.kinds, mean.kinds, strict=True)):
-        changes = {name: slopes[name][m] * 0.01 * stiffness[name] for name in slopes}
-        frequencies = (f"{modes.frequencies[m]:.2f}" for modes in (single, mean))
-        # The order of two modes may differ between the two stiffnesses.
-        table.add_row(
-            str(m + 1), *frequencies, ", then ".join(dict.fromkeys(kinds)), _shown(changes)
+    # The order of two modes may differ between the two stiffnesses.
+    kinds = (", then ".join(dict.fromkeys(k)) for k in zip(single.kinds, mean.kinds, strict=True))
+    figures = zip(single.frequencies, mean.frequencies, kinds, strict=True)
+    rows = [[f"{m}", f"{one:.2f}", f"{f:.2f}", kind] for m, (one, f, kind) in enumerate(figures, 1)]
+    if springs is not None:
+        table.add_column(r"change per 1 % of stiffness \[Hz]")
+        table.caption = (
+            f"{table.caption}, and its change if the stiffness of one kind of spring rises by 1 %; "
+            f"changes below {LEAST_CHANGE:g} Hz are omitted"
         )
+        slopes = frequency_sensitivities(springs)
+        stiffness = {spring.kind: spring.stiffness for spring in springs.springs}
+        for m, row in enumerate(rows):
+            row.append(_shown({kind: slopes[kind][m] * 0.01 * stiffness[kind] for kind in slopes}))
+    for row in rows:
+        table.add_row(*row)
     return table
 
 

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
+from ..engineering_units import figure
 from ..terminal.arguments import (
     DurationOption,
     JsonOption,
@@ -84,7 +85,10 @@ def simulate(
     print_list(console, "gears", gears(loaded))
     print_list(console, "operating point", operating_point(loaded))
     for name, value in train.items():
-        console.print(f"{_TRAIN[name]:42} {value:.6g}", markup=False)
+        label, unit = _TRAIN[name]
+        console.print(f"{label:38} {figure(value, unit, digits=6)}", markup=False)
+    if train["mean_mesh_force_N"] < 0.0:
+        console.print("Forces and DTE are negative where the coast flanks carry the load.")
     console.print(_table(meshes))
     warned = [*without_effect(loaded, changes), *remarks(loaded, result, tolerance)]
     for line in warned:
@@ -114,19 +118,19 @@ def _record(console: Console, out: Path, scene: Scene, *how: float) -> None:
         record(plan, out, lambda time: progress.update(task, completed=time))
 
 
-# Labels of the results of the whole train, by JSON name.
+# Label and SI unit of the results of the whole train, by JSON name.
 _TRAIN = {
-    "settling_s": "excluded at the start [s]",
-    "efficiency": "efficiency [-]",
-    "mean_power_loss_W": "power loss, mean [W]",
-    "mean_dte_m": "DTE of all meshes, mean [m]",
-    "dte_vibration_rms_m": "DTE of all meshes, rms about the mean [m]",
-    "dte_peak_m": "DTE of any mesh, peak [m]",
-    "mean_mesh_force_N": "force of all meshes, mean [N]",
-    "mesh_force_peak_N": "force of any mesh, peak [N]",
-    "mesh_frequency_Hz": "mesh frequency, mean [Hz]",
-    "energy_residual": "energy residual/input energy [-]",
-    "real_time_factor": "real-time factor [-]",
+    "settling_s": ("excluded at the start", "s"),
+    "efficiency": ("efficiency", "-"),
+    "mean_power_loss_W": ("power loss, mean", "W"),
+    "mean_dte_m": ("DTE of all meshes, mean", "m"),
+    "dte_vibration_rms_m": ("DTE of all meshes, rms about the mean", "m"),
+    "dte_peak_m": ("DTE of any mesh, peak", "m"),
+    "mean_mesh_force_N": ("force of all meshes, mean", "N"),
+    "mesh_force_peak_N": ("force of any mesh, peak", "N"),
+    "mesh_frequency_Hz": ("mesh frequency, mean", "Hz"),
+    "energy_residual": ("energy residual/input energy", "-"),
+    "real_time_factor": ("real-time factor", "-"),
 }
 
 
@@ -175,8 +179,7 @@ def _table(meshes: dict[str, dict[str, float]]) -> Table:
         table.add_column(side.replace("_", "-"), justify="right")
     rows = (row.values() for row in meshes.values())
     for quantity, *values in zip(MESH.values(), *rows, strict=True):
-        label = rf"{quantity.text} \[{quantity.si or '-'}]"
-        table.add_row(label, *(f"{value:.4g}" for value in values))
+        table.add_row(quantity.text, *(figure(value, quantity.si) for value in values))
     return table
 
 

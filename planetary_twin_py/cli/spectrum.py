@@ -6,16 +6,17 @@ import inspect
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any, NamedTuple
 
 import typer
 
-from ..terminal.arguments import JsonOption, complete_recording
+from ..terminal.arguments import JsonOption, SetOption, complete_recording, complete_scene
 from ..terminal.console import busy
 from ..terminal.durations import SECONDS
 from ..terminal.json_output import console_beside, put_figures
 from ..terminal.messages import fail, need, remark
 from ..terminal.output_files import output_file
+from ..terminal.settings import changed_scene, settings
 
 if TYPE_CHECKING:
     from rich.console import Console
@@ -24,6 +25,7 @@ if TYPE_CHECKING:
     from ..analysis.signals import Signal
 
 LINES = 12
+_TABLES = (".csv", ".parquet")
 
 
 @dataclass(frozen=True)
@@ -34,7 +36,8 @@ class Options:
         Path,
         typer.Argument(
             metavar="FILE",
-            help="Recording, or an .npz file from `simulate --out`.",
+            help="Recording, .npz file from `simulate --out`, or table of a sensor (.csv, "
+            ".parquet).",
             autocompletion=complete_recording,
         ),
     ]
@@ -65,30 +68,53 @@ class Options:
         Path | None,
         typer.Option(help="Write the spectrum to a .png or .csv file.", callback=output_file),
     ] = None
+    column: Annotated[
+        str | None,
+        typer.Option(help="Of a table: the column with the signal, if there are several."),
+    ] = None
+    sample_rate: Annotated[
+        float | None,
+        typer.Option(help="Of a table: samples per second, in place of a column time."),
+    ] = None
+    scene: Annotated[
+        str | None,
+        typer.Option(
+            help="Of a table: scene with the gears and the speed, to identify mesh harmonics.",
+            autocompletion=complete_scene,
+        ),
+    ] = None
+    set_: SetOption = None
     json_: JsonOption = None
+
+    @property
+    def is_table(self) -> bool:
+        """Whether the file is a table of a sensor."""
+        return self.file.suffix in _TABLES
 
 
 def spectrum(**given: Any) -> None:
     """List the largest lines in the spectrum of one mesh, and identify mesh harmonics.
 
+    Also of a vibration in a table with columns such as `time` and `acceleration [m/s^2]`; --scene
+    and --set define the gears and the speed: `spectrum vibration.csv --scene paper --set
+    input_speed=998rpm`.
+
     Example: planetary-twin spectrum recordings/NAME --band 400:600 --out spectrum.png
     """
     asked = Options(**given)
     _check(asked)
-    from ..analysis.signals import QUANTITIES
-
     try:
         with busy("reading and analysing"):
-            signal, found = _analysed(asked)
+            signal, found, subject = _analysed(asked)
         if asked.out is not None:
-            _write(asked.out, found, _title(asked, signal), _labels(asked))
+            _write(asked.out, found, _title(asked, subject, signal), _labels(asked, subject))
     except (ValueError, OSError) as error:
         fail(error)
-    for line in (*signal.remarks, *_aliases(signal, found)):
+    for line in (*signal.remarks, *_aliases(asked, signal, found)):
         remark(line)
-    figures = {"mesh": asked.mesh, "quantity": asked.quantity}
-    figures |= _figures(signal, found, "order" if asked.order else "frequency_hz")
-    _print(console_beside(asked.json_), figures, QUANTITIES[asked.quantity])
+    figures: dict[str, Any] = {"mesh": subject.mesh, "quantity": subject.quantity}
+    figures |= _figures(asked, signal, found)
+    _print(console_beside(asked.json_), figures, subject)
     put_figures(figures, asked.json_)
 
 
@@ -105,44 +131,73 @@ def _check(asked: Options) -> None:
         fail(f"--out = {str(out)!r}: must end in .png or .csv")
     if out is not None and out.suffix == ".png":
         need("plots", "matplotlib")
-    if asked.file.suffix != ".npz":
+    given = (asked.column, asked.sample_rate, asked.scene, asked.set_)
+    if asked.is_table:
+        need("analysis", "pyarrow")
+        if asked.order and asked.scene is None:
+            fail("--order: needs --scene, which defines the speed of the gears")
+        if asked.set_ and asked.scene is None:
+            fail("--set: needs --scene")
+    elif any(each is not None for each in given):
+        fail(f"{asked.file}: --column, --sample-rate, --scene and --set are for tables")
+    elif asked.file.suffix != ".npz":
         need("recording", "mcap", "rosbags")
 
 
-def _analysed(asked: Options) -> tuple[Signal, MeshSpectrum]:
+class _Subject(NamedTuple):
+    """Names of what is analysed."""
+
+    mesh: str | None
+    """None for a sensor."""
+    quantity: str
+    unit: str
+
+
+def _read(asked: Options) -> tuple[Signal, _Subject]:
+    from ..analysis.signals import QUANTITIES, read_signal
+
+    if not asked.is_table:
+        signal = read_signal(asked.file, asked.mesh, asked.quantity)
+        return signal, _Subject(asked.mesh, asked.quantity, QUANTITIES[asked.quantity])
+    from ..analysis.sensor import sensor_signal
+    from ..recording.tables.sensor import read_sensor
+
+    sensor = read_sensor(asked.file, asked.column, asked.sample_rate)
+    scene = None if asked.scene is None else changed_scene(asked.scene, settings(asked.set_ or []))
+    return sensor_signal(sensor, scene), _Subject(None, sensor.name, sensor.unit)
+
+
+def _analysed(asked: Options) -> tuple[Signal, MeshSpectrum, _Subject]:
     from ..analysis.band import read_band
     from ..analysis.mesh_spectrum import frequency_spectrum_of, order_spectrum_of
-    from ..analysis.signals import read_signal
 
     band = None if asked.band is None else read_band(asked.band, "" if asked.order else "Hz")
-    signal = read_signal(asked.file, asked.mesh, asked.quantity)
+    signal, subject = _read(asked)
     if asked.from_ is None and asked.to is None:
         signal = _steady(asked.file, signal)
     else:
         signal = signal.within(asked.from_, asked.to)
     spectrum_of = order_spectrum_of if asked.order else frequency_spectrum_of
     found = spectrum_of(signal, _sun_teeth(signal))
-    return signal, found if band is None else found.within(band)
+    return signal, found if band is None else found.within(band), subject
 
 
-def _title(asked: Options, signal: Signal) -> str:
+def _title(asked: Options, subject: _Subject, signal: Signal) -> str:
     begin, end = signal.time[[0, -1]]
-    return f"{asked.file.name}: {asked.mesh}, {begin:.3f} to {end:.3f} s"
+    return f"{asked.file.name}: {subject.mesh or subject.quantity}, {begin:.3f} to {end:.3f} s"
 
 
-def _labels(asked: Options) -> tuple[str, str]:
+def _labels(asked: Options, subject: _Subject) -> tuple[str, str]:
     """Labels of the two axes."""
-    from ..analysis.signals import QUANTITIES
-
     axis = "order [cycles per turn]" if asked.order else "frequency [Hz]"
-    return axis, f"amplitude of {asked.quantity} [{QUANTITIES[asked.quantity]}]"
+    return axis, f"amplitude of {subject.quantity} [{subject.unit}]"
 
 
 def _steady(file: Path, signal: Signal) -> Signal:
     """The longest settled part at one operating point, or all of it if there is none."""
     from ..recording.runs.steadiness import steady_span
 
-    if file.suffix == ".npz":
+    if file.suffix in (".npz", *_TABLES):
         return signal.within(None, None)
     if span := steady_span(file):
         return signal.within(*span)
@@ -159,8 +214,13 @@ def _sun_teeth(signal: Signal) -> int | None:
     return parse_scene(signal.scene_yaml).gearset.teeth.sun
 
 
-def _aliases(signal: Signal, found: MeshSpectrum) -> Iterator[str]:
-    """A warning if the sample rate is too low for the signal."""
+def _aliases(asked: Options, signal: Signal, found: MeshSpectrum) -> Iterator[str]:
+    """A warning if the sample rate is too low for the signal.
+
+    Not of a table: data loggers have an anti-aliasing filter, the waveform of a twin has none.
+    """
+    if asked.is_table:
+        return
     from ..analysis.aliases import NEGLIGIBLE, alias_remark
     from ..modal.natural import natural_modes
     from ..scene import parse_scene
@@ -175,7 +235,8 @@ def _aliases(signal: Signal, found: MeshSpectrum) -> Iterator[str]:
     yield alias_remark(signal.sample_rate, found.alias_share, highest, mesh)
 
 
-def _figures(signal: Signal, found: MeshSpectrum, axis: str) -> dict[str, Any]:
+def _figures(asked: Options, signal: Signal, found: MeshSpectrum) -> dict[str, Any]:
+    axis = "order" if asked.order else "frequency_hz"
     return {
         "from_s": float(signal.time[0]),
         "to_s": float(signal.time[-1]),
@@ -188,19 +249,19 @@ def _figures(signal: Signal, found: MeshSpectrum, axis: str) -> dict[str, Any]:
                 "amplitude": line.amplitude,
                 "mesh_orders": found.in_mesh_orders(line.place),
                 "harmonic": found.harmonic(line.place),
-                "alias_of_harmonic": found.alias(line),
+                "alias_of_harmonic": None if asked.is_table else found.alias(line),
             }
             for line in found.lines(LINES)
         ],
     }
 
 
-def _print(console: Console, figures: dict[str, Any], unit: str) -> None:
+def _print(console: Console, figures: dict[str, Any], subject: _Subject) -> None:
     from rich.table import Table
 
     table = Table(box=None, pad_edge=False)
     axis = "order" if figures["lines"] and "order" in figures["lines"][0] else "frequency_hz"
-    headings = ("order" if axis == "order" else "frequency [Hz]", rf"amplitude \[{unit}]")
+    headings = ("order" if axis == "order" else "frequency [Hz]", rf"amplitude \[{subject.unit}]")
     for heading in (*headings, "mesh orders"):
         table.add_column(heading, justify="right", no_wrap=True)
     table.add_column("")
@@ -214,10 +275,10 @@ def _print(console: Console, figures: dict[str, Any], unit: str) -> None:
         )
     console.print(table)
     console.print(
-        f"{figures['quantity']} of {figures['mesh']}, "
+        f"{subject.quantity}{f' of {subject.mesh}' if subject.mesh else ''}, "
         f"from {figures['from_s']:.4f} to {figures['to_s']:.4f} s, resolution "
         f"{figures['resolution']:.4g} {'orders' if axis == 'order' else 'Hz'}, "
-        f"mean {figures['mean']:.6g} {unit}",
+        f"mean {figures['mean']:.6g} {subject.unit}",
         highlight=False,
     )
 

@@ -52,7 +52,7 @@ def stribeck(
         fail(error)
     warn(table)
     oil = loaded.lubrication
-    if oil.boundary == "greenwood_tripp" and oil.traction != "schlenk":
+    if oil.boundary == "greenwood_tripp" and oil.traction not in ("schlenk", "table"):
         remark(
             "warning: lubrication.boundary = greenwood_tripp: asperities carry only a few per cent "
             "of the load, so friction hardly rises for thin films; use load_sharing for a "

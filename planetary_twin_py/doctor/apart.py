@@ -22,7 +22,7 @@ def check() -> Iterator[Finding]:
     """Findings of each check, or the reason why a check failed."""
     names = sorted(entry.name for entry in entry_points(group=GROUP))
     if not names:
-        fix = "see 'Where ROS 2 Jazzy is installed' in the README"
+        fix = "make setup in a clone of the repository, see docs/installing.md"
         yield Finding("nodes", "absent", "the package planetary_twin is not installed", fix)
     for name in names:
         yield from _ask(name)

@@ -28,7 +28,7 @@ def check() -> Iterator[Finding]:
     yield Finding("python", "sound", running)
     yield Finding("model", "sound", f"{PACKAGE} {version(PACKAGE)}")
     for extra, purpose in EXTRAS.items():
-        lacking = [str(need) for need in _needs(extra) if not _installed(need)]
+        lacking = [f"{need.name}{need.specifier}" for need in _needs(extra) if not _installed(need)]
         if lacking:
             fix = f"pip install '{PACKAGE}[{extra}]'"
             yield Finding(extra, "absent", f"to {purpose}: missing {', '.join(lacking)}", fix)

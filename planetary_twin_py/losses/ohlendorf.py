@@ -1,6 +1,6 @@
 """Tooth loss factor of a spur gear pair (Ohlendorf 1958): H_v of P_loss = P mu H_v.
 
-Load shared equally by the pairs in contact, a constant friction coefficient mu.
+The pairs in contact share the load equally; the friction coefficient mu is constant.
 """
 
 from __future__ import annotations

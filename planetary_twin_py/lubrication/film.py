@@ -1,6 +1,6 @@
 """Elastohydrodynamic film thickness of a line contact.
 
-Every law here is h = C R U^a G^b W^c with the groups of Dowson and Higginson,
+Every law has the form h = C R U^a G^b W^c with the groups of Dowson and Higginson,
 U = eta0 V/(E' R), G = alpha E', W = F/(E' R L), E' = 2 E*, V the mean surface speed.
 """
 

@@ -16,13 +16,13 @@ COEFFICIENT, LOAD, VISCOSITY, ROUGHNESS = 0.048, 0.2, -0.05, 0.25
 def log_schlenk_factor(
     face_width: float, viscosity: float, roughness: float, oil_factor: float
 ) -> float:
-    """Logarithm of mu where F/(V R) is 1 N s/m^2.
+    """Logarithm of mu at F/(V R) = 1 N s/m^2.
 
     Args:
         face_width: length of the contact b [m].
         viscosity: dynamic viscosity of the oil eta [Pa s].
         roughness: composite root mean square roughness sigma of both flanks [m]. The printed Ra is
-            the arithmetic mean of both flanks'; for Gaussian heights, the same on both, it is
+            the arithmetic mean of both flanks; for equal flanks with Gaussian heights it is
             sigma/sqrt(pi).
         oil_factor: X_L [-], 1 for mineral oil.
     """

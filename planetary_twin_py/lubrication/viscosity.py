@@ -1,7 +1,7 @@
 """Viscosity of oil against temperature (Walther 1931; ASTM D341).
 
 log10 log10(nu + 0.7) = A - B log10 T, nu the kinematic viscosity in mm^2/s and T the temperature
-in K. The slope B is that of the oil, A follows from one known viscosity. The density is taken as
+in K. The slope B is a property of the oil; A follows from one known viscosity. The density is
 constant.
 """
 

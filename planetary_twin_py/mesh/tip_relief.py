@@ -1,12 +1,12 @@
-"""Tip relief: material that is missing near the tips, in the stiffness of a mesh at one load.
+"""Tip relief: material removed near the tips, and its effect on the mesh stiffness at one load.
 
-A relieved pair p carries k_p (d - g_p) once the mesh deflection d exceeds its gap g_p, so under the
-force F of a mesh d follows from F = sum of k_p max(d - g_p, 0) over the pairs in contact (Harris
-1958, Proc. IMechE 172; Munro 1994: relief that just relieves the pair at its change-over). The
-table of tooth pairs gets the secant stiffness F/d and the shares of the pairs at this force, as the
-contact compliance of `tooth.contact` is that of one load. At this load deflection, transmission
-error and load sharing are exact; at others the effect of the relief scales with the load, and the
-frequencies of small vibration are those of the secant, which lies below the tangent.
+A relieved pair p carries k_p (d - g_p) if the mesh deflection d exceeds its gap g_p. At the mesh
+force F, d follows from F = sum of k_p max(d - g_p, 0) over the pairs in contact (Harris 1958, Proc.
+IMechE 172; Munro 1994: relief that just relieves the pair at its change-over). The table of tooth
+pairs gets the secant stiffness F/d and the load shares of the pairs at this force; the contact
+compliance of `tooth.contact` is also computed at one load. At this load deflection, transmission
+error and load sharing are exact. At other loads the effect of the relief scales with the load, and
+frequencies of small vibration are those of the secant stiffness, which is below the tangent.
 """
 
 from __future__ import annotations
@@ -23,9 +23,9 @@ from .stiffness import StiffnessLaw
 from .tooth_pairs import PairTable, pair_table
 
 PATH_CORNERS = 6  # ends of the cycle, of the path, and of its ramps
-SAMPLES = 65  # of a segment, between which a pair comes into contact at most once
+SAMPLES = 65  # per segment; between two of them a pair comes into contact at most once
 BISECTIONS = 50
-SAME = 1e-9  # base pitches within which kinks coincide
+SAME = 1e-9  # base pitches; closer kinks are merged
 CLEAR = 1e-12  # of a mesh cycle: distance from an edge at which a segment is evaluated
 
 Shape = Literal["linear", "parabolic"]
@@ -37,7 +37,7 @@ class Relief(NamedTuple):
     amount: float
     """Missing material at the tip, normal to the flank [m]."""
     length: float
-    """From the tip along the line of action [base pitches]."""
+    """Length from the tip along the line of action [base pitches]."""
     shape: Shape
 
 
@@ -46,9 +46,9 @@ class PairGap(NamedTuple):
 
     path: PathOfContact
     first: Relief | None
-    """Its tip is in contact at the end of the recess."""
+    """Of the gear whose tip is in contact at the end of the recess."""
     second: Relief | None
-    """Its tip is in contact at the start of the approach."""
+    """Of the gear whose tip is in contact at the start of the approach."""
 
     @property
     def kinks(self) -> tuple[float, ...]:
@@ -78,10 +78,10 @@ def relieved_table(
     """Table of tooth pairs with the secant stiffness of relieved teeth.
 
     Args:
-        gap: of the pairs.
+        gap: gap of the pairs.
         ramp: see `pair_table`.
         law: stiffness of pairs without relief; its gain is above 0.
-        force: of the mesh, to which stiffness and shares belong [N].
+        force: mesh force [N] for stiffness and load shares.
         kinks: see `pair_table`.
 
     Returns:

@@ -1,16 +1,16 @@
-"""Which tooth pairs share the load of a mesh, and with what weight.
+"""Tooth pairs that share the load of a mesh, and their weights.
 
-A pair enters and leaves over a short ramp: its weight rises linearly from 0 to its full strength
-as it comes into contact and falls back at the end. Over one mesh cycle the weights are smooth
-between a few breakpoints, so a mesh is a table of segments with a polynomial for every pair.
+A pair enters and leaves contact over a short ramp: its weight rises linearly from 0 to its full
+strength at the start and falls to 0 at the end. Over one mesh cycle the weights are smooth between
+a few breakpoints, so a mesh is a table of segments with a polynomial for every pair.
 The mesh stiffness is base + gain * (sum of the weights), shared in the ratio of the weights:
 
 - given stiffness k of one pair, every further pair adds (r - 1) k: full strength 1, and
   base = (2 - r) k, gain = (r - 1) k (r = 1.75 is the slope of ISO 6336-1, c_gamma over the contact
   ratio; a ramp of zero is the single/double alternation of Salagianni et al. 2017, Fig. 4);
-- stiffness computed for every position of a pair: its strength is in proportion to that,
-  base = 0, gain the stiffness at the pitch point. Two pairs on one gear body are less stiff than
-  the sum of both by the factor `sharing`, which goes into their weights.
+- stiffness computed for every position of a pair: its strength is proportional to this stiffness,
+  base = 0, gain = stiffness at the pitch point. The stiffness of two pairs on one gear body is
+  their sum times the factor `sharing`, which multiplies their weights.
 """
 
 from __future__ import annotations
@@ -30,22 +30,22 @@ Along = Callable[[np.ndarray], np.ndarray]  # function of positions on the path 
 
 
 class PairTable(NamedTuple):
-    """Segments of the cycle of one mesh, as arrays the core reads.
+    """Segments of the cycle of one mesh, as arrays for the core.
 
     The position s of a pair is its distance past the pitch point, in base pitches; the pairs of
-    a mesh at the cycle fraction x stand at x + shift. In segment j, from edge[j] to edge[j + 1],
+    a mesh at the cycle fraction x are at x + shift. In segment j, from edge[j] to edge[j + 1],
     the weight of pair p is a polynomial in x - edge[j].
     """
 
     segments: int
     edge: np.ndarray  # (SEGMENTS + 1,)
     shift: np.ndarray  # (SEGMENTS, PAIRS)
-    present: np.ndarray  # (SEGMENTS, PAIRS) whether there is such a pair
+    present: np.ndarray  # (SEGMENTS, PAIRS) whether the pair exists
     weight: np.ndarray  # (SEGMENTS, PAIRS + 1, TERMS), the sum over the pairs at TOTAL
 
 
 def one(s: np.ndarray) -> np.ndarray:
-    """The full strength of a pair whose stiffness is given."""
+    """Strength of a pair with a given constant stiffness."""
     return np.ones_like(s)
 
 
@@ -59,14 +59,14 @@ def pair_table(
     """Tabulate the tooth pairs of a mesh with a ramp of `ramp` base pitches.
 
     Args:
-        path: where pairs are in contact.
-        ramp: base pitches over which a pair takes up and gives up its load.
-        strength: full weight of a pair at its positions [base pitches].
-        sharing: factor on the weights of two pairs that are there at once.
-        kinks: further positions at which something along the path is not smooth.
+        path: path of contact.
+        ramp: length [base pitches] over which the weight of a pair rises and falls.
+        strength: full weight of a pair over its position [base pitches].
+        sharing: factor on the weights of two pairs in simultaneous contact.
+        kinks: further positions on the path with a discontinuity or a kink.
 
     Raises:
-        ValueError: the contact ratio is below 1 + ramp (a moment without a full pair) or above 3.
+        ValueError: the contact ratio is below 1 + ramp (an instant without a full pair) or above 3.
     """
     if not 1.0 + ramp <= path.contact_ratio <= PAIRS:
         raise ValueError(
@@ -87,7 +87,7 @@ def pair_table(
     for j, (low, high) in enumerate(pairwise(edges)):
         middle = 0.5 * (low + high)
         shifts = [n for n in range(-PAIRS, PAIRS + 1) if -path.approach < middle + n < path.recess]
-        table.shift[j] = shifts[0]  # pairs that are absent have no weight, but a place
+        table.shift[j] = shifts[0]  # absent pairs have a position but no weight
         table.shift[j, : len(shifts)] = shifts
         table.present[j, : len(shifts)] = True
     table.weight[:, :TOTAL] = along(
@@ -99,7 +99,7 @@ def pair_table(
 
 
 def _shared(path: PathOfContact, ramp: float, sharing: float, s: np.ndarray) -> np.ndarray:
-    """Factor on the weight of a pair at `s` for what the others on its gear body do to it."""
+    """Factor on the weight of a pair at `s` by other pairs on the same gear body."""
     others = [n for n in range(-PAIRS, PAIRS + 1) if n != 0]
     count = sum(np.clip(_ramp(path, ramp, s + n), 0.0, 1.0) for n in others)
     return 1.0 + (sharing - 1.0) * count
@@ -128,7 +128,7 @@ def along(table: PairTable, function: Along) -> np.ndarray:
 
 
 def terms_in_use(table: PairTable) -> int:
-    """Coefficients that are more than rounding in some weight."""
+    """Number of coefficients that exceed rounding in any weight."""
     lengths = np.diff(table.edge)[:, None, None]
     sizes = np.abs(table.weight * lengths ** np.arange(TERMS))
     largest = sizes.max(axis=(0, 1))

@@ -1,1 +1,1 @@
-"""A train without dynamics: it turns rigidly, and its loads are in static equilibrium."""
+"""Runs without dynamics: the train turns rigidly with its loads in static equilibrium."""

@@ -1,4 +1,4 @@
-"""A quasi-static run in progress: what `Engine` is to a run with dynamics."""
+"""A quasi-static run in progress, with the interface of `Engine`."""
 
 from __future__ import annotations
 
@@ -7,12 +7,18 @@ from fractions import Fraction
 import numpy as np
 
 from .._core import (
+    BOUNDARY,
     COAST_SIDE,
     DRIVE_SIDE,
+    DTE,
     LEDGER,
+    MESH_FORCE,
+    VISCOUS,
     Control,
     Model,
+    Report,
     State,
+    WindowEnd,
     first_guess,
     kinetic,
     roll,
@@ -21,23 +27,24 @@ from .._core import (
     turn_to,
 )
 from ..dynamics.bodies import MOTOR
-from ..dynamics.mesh_sums import MeshSums
+from ..dynamics.mesh_sums import MeshSums, record_of
 from ..dynamics.oil import build_oil
 from ..dynamics.start import build_load
 from ..dynamics.static_load import mesh_force
 from ..dynamics.train import build_train
-from ..integrators.clock import delay, instant, sampling
-from ..integrators.interpolant import Samples, new_samples
+from ..integrators.clock import TICKS, delay, instant, sampling
+from ..integrators.interpolant import Samples, Waves, new_samples
 from ..runaway import Limits, RunawayError
 from ..scene import OperatingPoint, Scene
 from ..tolerance import check_tolerance
+from ..window_jobs import WindowJobs
 from .ledger import Ledger
 from .second_coupling import check_second_coupling
 from .totals import ENERGY
 
 
 class QuasiStaticEngine:
-    """Follows a scene whose bodies turn rigidly under static loads.
+    """Simulates a scene whose bodies turn rigidly under static loads.
 
     Args:
         scene: what to simulate.
@@ -50,13 +57,13 @@ class QuasiStaticEngine:
     def __init__(self, scene: Scene, tolerance: float) -> None:
         check_tolerance(tolerance)
         self.scene = scene
-        # Nothing vibrates, so damping has nothing to do.
+        # Nothing vibrates, so damping has no effect.
         still = scene.replace(**{"mesh.damping.law": "viscous", "mesh.damping.damping_ratio": 0.0})
         self.train = build_train(still)
         self._limits = Limits(scene, self.train)
         self.control = Control()
         self.reached = Fraction(0)
-        self.repeats = False  # there is nothing to compute again
+        self.repeats = False  # mesh cycles are never repeated
         self._load(scene.operating_point, tolerance, self._start(), np.zeros(LEDGER))
 
     def _start(self) -> State:
@@ -70,9 +77,9 @@ class QuasiStaticEngine:
     def _load(
         self, point: OperatingPoint, tolerance: float, origin: State, energy: np.ndarray
     ) -> None:
-        """Run on from `origin`, with so much in the ledger, at an operating point.
+        """Continue from `origin` at an operating point, with `energy` in the ledger.
 
-        Where that cannot be, nothing changes.
+        If there is no equilibrium, nothing changes.
         """
         load, oil = build_load(self.scene, point, self.train), build_oil(self.scene, point)
         model = Model(train=self.train, oil=oil, load=load)
@@ -90,10 +97,10 @@ class QuasiStaticEngine:
         """Run to `until` [s]; samples lie at whole multiples of 1/sample_rate.
 
         Returns `room` samples from number `first_sample` on. A time given as a fraction is exact
-        however late it is.
+        at any age of the run.
 
         Raises:
-            RunawayError: the teeth yield more than they can, see `runaway`.
+            RunawayError: the deflection of the teeth exceeds its limit, see `runaway`.
         """
         samples = new_samples(self.train, room)
         at = sampling(first_sample, sample_rate)
@@ -106,6 +113,33 @@ class QuasiStaticEngine:
         self.reached = Fraction(until)
         return samples
 
+    def window(
+        self, until: int, first: int, rate: float, report: Report, out: Waves, end: WindowEnd
+    ) -> WindowJobs:
+        """Run to `until` [ticks]; fill the waveform, and all that is known at its end.
+
+        Raises:
+            RunawayError: the teeth yield more than they can, see `runaway`.
+        """
+        time, rows = Fraction(until, TICKS), len(out.time)
+        shown = self.advance(time, first, rate, rows).mesh[:, :, report.mesh[: report.meshes]]
+        out.time[:] = np.arange(first, first + rows) / rate
+        out.dte[:], out.mesh_force[:] = shown[:, DTE], shown[:, MESH_FORCE]
+        out.friction[:] = shown[:, BOUNDARY] + shown[:, VISCOUS]
+        self.stand(until, end)
+        end.sums = record_of(self.take_mesh_sums(time))
+        yield from ()  # all is done here: there are no jobs
+
+    def stand(self, time: int, end: WindowEnd) -> None:
+        """Begin a window at `time` [ticks], the end of the last one."""
+        seconds, rest = divmod(self.reached, 1)
+        end.seconds, end.time = seconds, float(rest)
+        end.time_rest = float(rest - Fraction(end.time))
+        end.ledger, end.power = self.take_ledger(), self.powers
+        end.kinetic, end.elastic = self.stored()
+        sample = self.sample(Fraction(time, TICKS))
+        end.turns, end.angle = sample.turns[0], sample.angle[0]
+
     def sample(self, time: float | Fraction) -> Samples:
         """One sample at `time` [s], the end of the last window."""
         samples, run = new_samples(self.train, 1), first_guess(self._lean)
@@ -114,7 +148,7 @@ class QuasiStaticEngine:
         return samples
 
     def change(self, point: OperatingPoint, tolerance: float, time: float | Fraction) -> None:
-        """Run on with these from `time` [s], the end of the last window.
+        """Continue with this point and tolerance from `time` [s], the end of the last window.
 
         Raises:
             ValueError: there is no equilibrium; nothing has changed.
@@ -128,24 +162,24 @@ class QuasiStaticEngine:
         return state
 
     def take_ledger(self) -> np.ndarray:
-        """Integrals of the ledger up to `reached` since they were last taken, see `dynamics.state`.
+        """Integrals of the ledger from the previous call to `reached`, see core/train/energy.hpp.
 
-        They begin anew, so that what a window adds is not lost beside what a long run has added.
+        They restart at zero, so that rounding does not grow with the length of the run.
         """
         return self._ledger.take(instant(self.reached))
 
     def take_mesh_sums(self, time: float | Fraction) -> MeshSums:
-        """Integrals and extremes of the meshes since they were last taken.
+        """Integrals and extremes of the meshes from the previous call to `time` [s].
 
-        Up to `time` [s], the end of the last window.
+        `time` is the end of the last window.
         """
         return self._ledger.take_mesh_sums(instant(time))
 
     @property
     def powers(self) -> np.ndarray:
-        """By which the ledger grows at `reached`."""
+        """Time derivative of the ledger [W] at `reached`."""
         return self._ledger.power(instant(self.reached))
 
     def stored(self) -> tuple[float, float]:
-        """Kinetic and elastic energy at `reached` [J]; what yields at rest does no work."""
+        """Kinetic and elastic energy at `reached` [J]; the elastic energy is not modelled, so 0."""
         return kinetic(self.model, self._standing(self.reached)), 0.0

@@ -1,7 +1,7 @@
 """The energy ledger and the mesh sums of a quasi-static run, at any time.
 
-In steady running whose powers repeat with the mesh cycle, one cycle is integrated and counted. A
-changing speed, a torque ripple, runout and faulty teeth are followed panel by panel.
+In steady running whose powers repeat with the mesh cycle, one cycle is integrated and multiplied.
+With a changing speed, a torque ripple, runout or faulty teeth, every panel is integrated.
 """
 
 from __future__ import annotations
@@ -36,18 +36,18 @@ from ..dynamics.mesh_sums import MeshSums
 from ..integrators.clock import Instant, delay
 from .totals import ENERGY, MEAN, mesh_sums
 
-ON_EDGE = 1e-11  # mesh cycles within which a panel counts as ended
-SAME = 1e-12  # mesh cycles below which two edges are one
+ON_EDGE = 1e-11  # mesh cycles; a panel that is closer to its end has ended
+SAME = 1e-12  # mesh cycles; closer edges are merged
 
 
 class Ledger:
     """Integrals of the powers since the start, at one operating point.
 
     Args:
-        model: the train at that point.
+        model: the train at this operating point.
         tolerance: relative error of the losses of a mesh cycle.
-        lean: side of the teeth on which the mean torque presses.
-        origin: where the motors are.
+        lean: side of the teeth that carries the mean torque.
+        origin: position of the motors.
         energy: ledger so far (LEDGER,).
 
     Raises:
@@ -69,15 +69,15 @@ class Ledger:
         self._edges = self._panels(origin)
 
     def take(self, time: Instant) -> np.ndarray:
-        """Energy ledger at `time`, which is not before the origin, since it was last taken."""
+        """Energy ledger from the previous call to `time`, which is not before the origin."""
         energy = self.at(time)[0][ENERGY]
         self._totals[ENERGY] -= energy
         return energy
 
     def take_mesh_sums(self, time: Instant) -> MeshSums:
-        """Integrals and extremes of the meshes up to `time` since they were last taken.
+        """Integrals and extremes of the meshes from the previous call to `time`.
 
-        Extremes are those of all panels that lie wholly or partly within.
+        Extremes are those of all panels that overlap this interval.
         """
         totals, peak = self.at(time)
         self._totals[MEAN] -= totals[MEAN]
@@ -85,7 +85,7 @@ class Ledger:
         return mesh_sums(totals[MEAN], peak, self._model.train.meshes)
 
     def at(self, time: Instant) -> tuple[np.ndarray, np.ndarray]:
-        """Totals at `time` (TOTALS,) since each was last taken, and peaks (PEAKS, MESHES)."""
+        """Totals (TOTALS,) and peaks (PEAKS, MESHES) from the previous call to `time`."""
         follow(
             self._model, self._tolerance, self._mark, self._run, self._edges, time, self._repeats,
             self._totals, self._peak,
@@ -101,12 +101,11 @@ class Ledger:
         return self._cycles(time, 1.0 / rate)
 
     def _with(self, gain: np.ndarray, peak: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Totals and peaks with more."""
+        """Totals and peaks, increased by `gain` and `peak`."""
         return self._totals + gain, np.maximum(self._peak, peak)
 
     def _cycles(self, time: Instant, period: float) -> tuple[np.ndarray, np.ndarray]:
-        """Totals and peaks with what is left of a mesh cycle once the mark has moved by whole
-        ones."""
+        """Totals and peaks, after moving the mark by whole mesh cycles and adding the remainder."""
         if self._cycle is None:
             self._cycle = self._divide(self._model, self._mark)
         phase, totals, _ = self._cycle
@@ -121,7 +120,7 @@ class Ledger:
         return self._with(totals[last] + rest, np.maximum(seen, peak))
 
     def _seen(self, until: float, period: float) -> np.ndarray:
-        """Peaks of the panels of the cycle from where peaks were taken to a share of it."""
+        """Peaks of the panels from the last reset to the fraction `until` of the mesh cycle."""
         assert self._cycle is not None
         phase, _, peaks = self._cycle
         since = max(delay(self._mark, self._taken), 0.0) / period
@@ -129,12 +128,12 @@ class Ledger:
         return peaks[within].max(axis=0, initial=0.0)
 
     def _move(self, gain: np.ndarray, peak: np.ndarray, time: float) -> None:
-        """Let the mark stand `time` [s] later, with so much more in the totals."""
+        """Move the mark by `time` [s] and add `gain` and `peak` to the totals."""
         self._totals, self._peak = self._with(gain, peak)
         turn_to(self._model, self._mark, time, self._mark)
 
     def _panels(self, origin: State) -> np.ndarray:
-        """Edges of panels [mesh cycles of the frame], fine enough at the speed to come."""
+        """Edges of panels [mesh cycles of the frame], fine enough for the target speed."""
         for speed in (self._model.load.target_speed, origin.set_speed):
             model, state = self._model.copy(), origin.copy()
             model.load.target_speed = speed
@@ -157,7 +156,7 @@ class Ledger:
         return divide_cycle(model, self._tolerance, origin, run, edges, 1.0 / abs(rate))
 
     def _corners(self, origin: State) -> np.ndarray:
-        """Mesh cycles of the frame at which a tooth pair begins or ends to enter or leave."""
+        """Mesh cycles of the frame at which the ramp of a tooth pair begins or ends."""
         train, load, run = self._model.train, self._model.load, first_guess(self._lean)
         turn_to(self._model, origin, 0.0, run.state)
         settle(self._model, self._tolerance, run)
@@ -177,19 +176,19 @@ class Ledger:
         return bool(np.all(self._mark.set_speed == self._model.load.target_speed))
 
     def _integral(self, begin: float, end: float) -> tuple[np.ndarray, np.ndarray]:
-        """Totals and peaks of times after the mark [s] in one panel.
+        """Totals and peaks between two times after the mark [s] in one panel.
 
-        From a fresh guess: it leaves no trace.
+        It starts from a new guess and changes no state.
         """
         run = first_guess(self._lean)
         return integrate(self._model, self._tolerance, self._mark, run, (begin, end))
 
     def power(self, time: Instant) -> np.ndarray:
-        """By which the ledger grows at `time`, which is not before the mark."""
+        """Time derivative of the ledger [W] at `time`, which is not before the mark."""
         return self._rates(time)[0][ENERGY]
 
     def _rates(self, time: Instant) -> tuple[np.ndarray, np.ndarray]:
-        """By which the totals grow at `time`, and the peaks of that instant."""
+        """Time derivative of the totals at `time`, and the peaks at that instant."""
         run, rates, peak = first_guess(self._lean), np.zeros(TOTALS), np.zeros((PEAKS, MESHES))
         turn_to(self._model, self._mark, delay(self._mark, time), run.state)
         shown = settle(self._model, self._tolerance, run)
@@ -200,7 +199,7 @@ class Ledger:
 
 
 def _repeats(model: Model) -> bool:
-    """Whether the powers of steady running depend on nothing but the place in the mesh cycle."""
+    """Whether the powers of steady running depend only on the position in the mesh cycle."""
     train = model.train
     periods = [train.line_period[kind, : train.lines[kind]] for kind in range(2)]
     return bool(

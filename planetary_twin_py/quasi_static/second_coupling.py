@@ -1,10 +1,10 @@
-"""Whether the coupling of a differential's second motor is stiff enough for one equilibrium.
+"""Check that the coupling of the second motor of a differential allows only one equilibrium.
 
-The second motor gives what friction leaves to be given, so its torque T changes with the place c
-in the mesh cycle and winds up its coupling: the motor stands at c + g T(c), g = z/(2 pi k), with z
-mesh cycles per turn of that motor and k the stiffness. Only where |g dT/dc| < 1 does a position of
-the motors belong to one place of the teeth, and only there does each pass of `settle` come closer
-to it. Beyond, teeth would jump between equilibria, which is no quasi-static motion.
+The torque T of the second motor follows from the torque balance with friction, so it changes with
+the position c in the mesh cycle and twists the coupling: the motor is at c + g T(c), where
+g = z/(2 pi k), with z mesh cycles per turn of that motor and the stiffness k. If |g dT/dc| < 1, a
+position of the motors determines one position of the teeth, and the iteration of `settle`
+converges. Otherwise the teeth would jump between equilibria, which is not a quasi-static motion.
 """
 
 from __future__ import annotations
@@ -18,16 +18,16 @@ MOST_FEEDBACK = 0.5  # |g dT/dc|; the rest is for runout and faults, which chang
 
 
 def check_second_coupling(model: Model, tolerance: float, lean: int, origin: State) -> None:
-    """Refuse a coupling of the second motor, if there is one, that is too soft.
+    """Refuse a coupling of the second motor that is too soft, if there is a second motor.
 
     Args:
         model: the train at an operating point.
         tolerance: see `settle`.
-        lean: side of the teeth on which the mean torque presses.
-        origin: where the motors are.
+        lean: side of the teeth that carries the mean torque.
+        origin: position of the motors.
 
     Raises:
-        ValueError: it is too soft in steady running at the speeds that are wanted, or at those of
+        ValueError: it is too soft in steady running at the target speeds or at the speeds of
             `origin`; or see `settle`.
     """
     if model.train.axes < 2:

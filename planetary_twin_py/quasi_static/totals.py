@@ -1,4 +1,4 @@
-"""What a quasi-static run adds up: the energy ledger, and integrals and extremes of its meshes."""
+"""Totals of a quasi-static run: the energy ledger, integrals and extremes of the meshes."""
 
 from __future__ import annotations
 
@@ -7,12 +7,12 @@ import numpy as np
 from .._core import LEDGER, SUMS, TOTALS
 from ..dynamics.mesh_sums import MeshSums
 
-# Entries of the totals, one after the other: the ledger, integrals of the meshes (SUMS, MESHES),
+# Entries of the totals, in this order: the ledger, integrals of the meshes (SUMS, MESHES),
 # and the time.
 ENERGY, MEAN = slice(0, LEDGER), slice(LEDGER, TOTALS)
 
 
 def mesh_sums(totals: np.ndarray, peak: np.ndarray, meshes: int) -> MeshSums:
-    """Those of `meshes` meshes, from their part MEAN of the totals, and peaks (2, MESHES)."""
+    """Sums of `meshes` meshes, from the part MEAN of the totals and from peaks (2, MESHES)."""
     integral = totals[:-1].reshape(SUMS, -1)[:, :meshes].copy()
     return MeshSums(float(totals[-1]), integral, *peak[:2, :meshes].copy())

@@ -7,8 +7,8 @@ from dataclasses import dataclass
 from itertools import pairwise
 from typing import Any
 
+from ...integrators.clock import TICKS
 from ...scene import TUNABLES, Scene, SceneError
-from ...twin import TICKS
 from .origin import Origin, makers_here
 from .schedule import Change, Interval, RecordedRun, nanoseconds
 

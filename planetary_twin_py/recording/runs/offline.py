@@ -10,8 +10,8 @@ from typing import NamedTuple
 
 import yaml
 
+from ...integrators.clock import TICKS
 from ...scene import Scene
-from ...twin import TICKS
 from ..ros2.bag import BagWriter, write_as
 from ..ros2.definitions import topics_of
 from .compose import Composer

@@ -8,7 +8,8 @@ from collections.abc import Iterator
 from dataclasses import replace
 from typing import Any, NamedTuple
 
-from ...twin import TICKS, Twin
+from ...integrators.clock import TICKS
+from ...twin import Twin
 from ...window import Window
 from ..ros2.topics import WAVEFORM
 from .schedule import Change, Interval, RecordedRun, stamp_of, without_gaps

@@ -10,9 +10,9 @@ from itertools import pairwise
 from pathlib import Path
 from typing import Any, NamedTuple
 
+from ...integrators.clock import TICKS
 from ...printable import one_line
 from ...scene import TUNABLES
-from ...twin import TICKS
 from ..container.records import RecordingError, files_of
 from ..ros2.decode import Decoder, MessageError
 from ..ros2.repeats import Repeats, unrepeated

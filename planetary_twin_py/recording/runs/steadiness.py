@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from pathlib import Path
 
 from ...dynamics.speed_loop import bandwidth
-from ...twin import TICKS
+from ...integrators.clock import TICKS
 from ..container.records import RecordingError
 from ..ros2.namespaces import choose_namespace
 from ..ros2.tape import Tape

@@ -8,8 +8,8 @@ from pathlib import Path
 
 import yaml
 
+from ...integrators.clock import TICKS
 from ...scene import Scene
-from ...twin import TICKS
 from ..ros2.bag import BagWriter
 from ..ros2.tape import Tape
 from ..ros2.topics import STATE

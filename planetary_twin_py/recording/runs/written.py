@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import Any
 
+from ...integrators.clock import TICKS
 from ...scene import OperatingPoint
-from ...twin import TICKS
 from .compose import Composer
 from .resimulation import steps
 from .schedule import Interval, RecordedRun, nanoseconds

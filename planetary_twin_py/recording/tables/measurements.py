@@ -62,7 +62,7 @@ def read_measurements(path: Path, units: Mapping[str, str]) -> Measurements:
         ValueError: a heading, a value or a time stamp is invalid.
         OSError: the file cannot be read.
     """
-    table = _read(path)
+    table = read_table(path)
     found: dict[str, pa.ChunkedArray] = {}
     given: dict[str, str | None] = {}
     for heading, column in zip(table.column_names, table.columns, strict=True):
@@ -74,17 +74,29 @@ def read_measurements(path: Path, units: Mapping[str, str]) -> Measurements:
         raise ValueError(f"{path}: column {TIME[0]!r}: missing")
     labels = found.pop(LABEL).to_pylist() if LABEL in found else None
     columns = {
-        name: _in_si(name, column, given[name], units.get(name, "s"))
+        name: in_si(name, column, given[name], units.get(name, "s"))
         for name, column in found.items()
         if name not in UNREAD
     }
-    step = _step(columns.pop(TIME[0]))
+    step = time_step(columns.pop(TIME[0]))
     if not columns:
         raise ValueError(f"{path}: has no column besides the time")
     return Measurements(step, columns, labels)
 
 
-def _read(path: Path) -> pa.Table:
+def read_table(path: Path) -> pa.Table:
+    """Read a CSV or Parquet file.
+
+    Args:
+        path: of the file. CSV is separated by commas, semicolons or tabs.
+
+    Returns:
+        The table with its headings.
+
+    Raises:
+        ValueError: the file is not such a table.
+        OSError: the file cannot be read.
+    """
     if path.suffix not in _READERS:
         raise ValueError(f"{path}: must end in {' or '.join(_READERS)}")
     if path.exists() and not path.is_file():
@@ -134,8 +146,21 @@ def _named(heading: str, units: Mapping[str, str]) -> tuple[str, str | None]:
     raise ValueError(f"column {heading!r}: no such quantity{near or _NAMES}")
 
 
-def _in_si(name: str, column: pa.ChunkedArray, given: str | None, unit: str) -> Array:
-    """Values (rows,) of a column."""
+def in_si(name: str, column: pa.ChunkedArray, given: str | None, unit: str) -> Array:
+    """Values of a column.
+
+    Args:
+        name: of the column, for messages.
+        column: numbers, or dates if it is the time.
+        given: unit of the column; None means SI.
+        unit: SI unit of the result.
+
+    Returns:
+        Values (rows,) in `unit`, NaN where the column is empty.
+
+    Raises:
+        ValueError: a value is not a number, or `given` does not match `unit`.
+    """
     if name == TIME[0] and pa.types.is_timestamp(column.type):
         return _seconds(column)
     values = _numbers(name, column)
@@ -168,8 +193,18 @@ def _number(name: str, row: int, value: Any) -> float:
         raise ValueError(f"row {row}: {name} = {str(value)!r}: must be a number") from None
 
 
-def _step(time: Array) -> float:
-    """The step of equally spaced time stamps (rows,) [s]."""
+def time_step(time: Array) -> float:
+    """The step of equally spaced time stamps.
+
+    Args:
+        time: time stamps [s], (rows,).
+
+    Returns:
+        The step [s].
+
+    Raises:
+        ValueError: the stamps decrease or are not equally spaced.
+    """
     if len(time) < 2:
         raise ValueError(f"{len(time)} rows: must be at least 2, to determine the time step")
     steps = np.diff(time)

@@ -1,0 +1,144 @@
+"""`planetary-twin load-sharing`: static load of each planet, and what moves to share it."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from ..terminal.arguments import JsonOption, SceneArgument, SetOption
+from ..terminal.json_output import console_beside, put_figures
+from ..terminal.messages import fail, need, remark
+from ..terminal.output_files import output_file
+from ..terminal.settings import changed_scene, settings
+
+if TYPE_CHECKING:
+    from rich.table import Table
+
+    from ..planar.load_sharing import LoadSharing
+    from ..scene import Scene
+
+
+def load_sharing(
+    scene: SceneArgument,
+    set_: SetOption = None,
+    picture: Annotated[
+        Path | None,
+        typer.Option(metavar="FILE.png", help="Draw shares and orbits.", callback=output_file),
+    ] = None,
+    json_: JsonOption = None,
+) -> None:
+    """Compute how the planets of SCENE share the static load.
+
+    Errors of pins, planets and gears (errors, mesh.runout) make planets carry unequal loads;
+    members without a bearing (supports) float and even them out. Friction, inertia and faults are
+    left out.
+
+    Example: planetary-twin load-sharing floating_sun --picture sharing.png
+    """
+    if picture is not None:
+        need("plots", "matplotlib")
+    from ..planar.load_sharing import load_sharing as compute
+
+    try:
+        loaded = changed_scene(scene, settings(set_ or []))
+        found = compute(loaded)
+    except ValueError as error:
+        fail(error)
+    console = console_beside(json_)
+    console.print(_planets(loaded, found))
+    console.print(_members(loaded, found))
+    console.print(f"load sharing factor K_gamma, largest share: {found.factor:.4f}")
+    for line in _remarks(loaded, found):
+        remark(line)
+    if picture is not None:
+        from ..plots.load_sharing import load_sharing_diagram
+        from ..plots.style import save
+
+        try:
+            save(load_sharing_diagram(loaded, found), str(picture))
+        except (OSError, ValueError) as error:
+            fail(f"--picture = {str(picture)!r}: {error}")
+    if json_ is not None:
+        put_figures(_figures(loaded, found), json_)
+
+
+def _planets(scene: Scene, found: LoadSharing) -> Table:
+    """Shares of the torque, largest mesh forces and pin forces of each planet."""
+    import numpy as np
+    from rich.table import Table
+
+    planets = scene.gearset.planets
+    largest = found.mesh_force.max(axis=0)
+    pins = np.linalg.norm(found.planet_bearing, axis=2)
+    table = Table(
+        title=f"{scene.name}: static load sharing, {len(found.turns)} positions",
+        caption="Share: torque of a planet over the mean of all planets",
+    )
+    for heading in (
+        "planet", "share, mean", "smallest", "largest", r"sun mesh, drive \[N]", r"coast \[N]",
+        r"pin, largest \[N]",
+    ):  # fmt: skip
+        table.add_column(heading, justify="right")
+    for i in range(planets):
+        share = found.share[:, i]
+        figures = (f"{value:.4f}" for value in (share.mean(), share.min(), share.max()))
+        forces = (f"{v:.4g}" for v in (largest[0, i], largest[1, i], pins[:, i].max()))
+        table.add_row(str(i + 1), *figures, *forces)
+    return table
+
+
+def _members(scene: Scene, found: LoadSharing) -> Table:
+    """Displacements and bearing forces of sun, ring and carrier."""
+    import numpy as np
+    from rich.table import Table
+
+    from ..planar.rows import CENTRAL
+
+    table = Table(title="Axes", caption="Orbit: largest distance of the axis from its mean place")
+    for heading in ("member", "bearing", r"displacement, largest \[m]", r"orbit \[m]",
+                    r"bearing force, largest \[N]"):  # fmt: skip
+        table.add_column(heading, justify="right")
+    for k, body in enumerate(CENTRAL):
+        moved, force = found.displacement[:, k], np.linalg.norm(found.bearing[:, k], axis=1)
+        support = getattr(scene.supports, body, None)
+        bearing = "held" if support is None else f"{support.bearing:g} N/m"
+        table.add_row(
+            body,
+            bearing if support is None or support.bearing else "none: floats",
+            f"{np.linalg.norm(moved, axis=1).max():.4g}",
+            f"{np.linalg.norm(moved - moved.mean(axis=0), axis=1).max():.4g}",
+            f"{force.max():.4g}",
+        )
+    return table
+
+
+def _remarks(scene: Scene, found: LoadSharing) -> list[str]:
+    lines = []
+    if found.both_flanks:
+        lines.append(
+            "warning: both flanks of a mesh touch at some positions: the play is used up, "
+            "and planets are wedged between sun and ring"
+        )
+    if scene.faults:
+        lines.append("warning: faults: are left out, teeth are healthy here")
+    if scene.mesh.backlash == "regulatory_factor":
+        lines.append("warning: mesh.backlash = regulatory_factor: forces grow from no deflection")
+    return lines
+
+
+def _figures(scene: Scene, found: LoadSharing) -> dict[str, object]:
+    from ..planar.rows import CENTRAL
+
+    return {
+        "scene": scene.name,
+        "factor": found.factor,
+        "both_flanks": found.both_flanks,
+        "turns": found.turns.tolist(),
+        "share": found.share.tolist(),
+        "mesh_force": found.mesh_force.tolist(),
+        "planet_bearing": found.planet_bearing.tolist(),
+        "bearing": {body: found.bearing[:, k].tolist() for k, body in enumerate(CENTRAL)},
+        "displacement": {body: found.displacement[:, k].tolist() for k, body in enumerate(CENTRAL)},
+    }

@@ -1,0 +1,119 @@
+"""`planetary-twin lost-motion`: twist of the output under slow torques, with the input held."""
+
+from __future__ import annotations
+
+import math
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from ..terminal.arguments import JsonOption, SceneArgument, SetOption
+from ..terminal.json_output import console_beside, put_figures
+from ..terminal.messages import fail, need, remark
+from ..terminal.output_files import output_file
+from ..terminal.settings import changed_scene, settings
+from ._study import progress
+
+if TYPE_CHECKING:
+    from rich.console import Console
+
+    from ..scene import Scene
+    from ..studies.lost_motion import LostMotion
+
+
+def lost_motion(
+    scene: SceneArgument,
+    torque: Annotated[
+        str | None,
+        typer.Option(
+            metavar="TORQUE",
+            help="Largest torque on the output, e.g. '20 N m'; default: that of the operating "
+            "point.",
+        ),
+    ] = None,
+    share: Annotated[
+        float, typer.Option(help="Part of the torque at which lost motion is measured.")
+    ] = 0.03,
+    set_: SetOption = None,
+    picture: Annotated[
+        Path | None,
+        typer.Option(metavar="FILE.png", help="Draw the loop.", callback=output_file),
+    ] = None,
+    json_: JsonOption = None,
+) -> None:
+    """Measure lost motion, hysteresis and torsional stiffness of SCENE.
+
+    The input is held, and the output is loaded slowly from 0 to TORQUE, to its opposite and back.
+    Angles are those of the members of the gear set, without the couplings.
+
+    Example: planetary-twin lost-motion paper --torque '100 N m' --picture loop.png
+    """
+    if picture is not None:
+        need("plots", "matplotlib")
+    from ..studies.lost_motion import LEVELS
+    from ..studies.lost_motion import lost_motion as measure
+
+    if not 0.0 < share < 0.5:
+        fail(f"--share = {share!r}: must be a number within 0 and 0.5")
+    try:
+        loaded = changed_scene(scene, settings(set_ or []))
+        largest = _torque(loaded, torque)
+        with progress("torques", 5 * LEVELS + 3) as advance:
+            found = measure(loaded, largest, share, report=advance)
+    except (ValueError, ArithmeticError) as error:
+        fail(error)
+    _show(console_beside(json_), found, largest)
+    if not found.settled:
+        remark(
+            "warning: the twist had not come to rest at some torques: the loop is wider than that "
+            "of a slower test"
+        )
+    if picture is not None:
+        from ..plots.lost_motion import lost_motion_diagram
+        from ..plots.style import save
+
+        try:
+            save(lost_motion_diagram(loaded, found), str(picture))
+        except (OSError, ValueError) as error:
+            fail(f"--picture = {str(picture)!r}: {error}")
+    if json_ is not None:
+        put_figures(_figures(found), json_)
+
+
+def _show(console: Console, found: LostMotion, largest: float) -> None:
+    for name, value in (
+        ("largest torque on the output [N m]", largest),
+        (f"lost motion at {100 * found.share:g} % of it [deg]", math.degrees(found.lost_motion)),
+        ("hysteresis at zero torque [deg]", math.degrees(found.hysteresis)),
+        ("torsional stiffness, half to full torque [N m/rad]", found.stiffness),
+    ):
+        console.print(f"{name:<52}{value:.6g}", highlight=False, markup=False)
+
+
+def _figures(found: LostMotion) -> dict[str, object]:
+    return {
+        "lost_motion": found.lost_motion,
+        "hysteresis": found.hysteresis,
+        "stiffness": found.stiffness,
+        "settled": found.settled,
+        "torque": found.torque.tolist(),
+        "twist": found.twist.tolist(),
+    }
+
+
+def _torque(scene: Scene, text: str | None) -> float:
+    """Largest torque on the output [N m]."""
+    from ..dynamics.bodies import LOAD_MACHINE
+    from ..dynamics.static_load import static_torques
+    from ..units import to_si
+
+    if text is None:
+        torque = abs(scene.operating_point.input_torque * static_torques(scene)[LOAD_MACHINE])
+        if not torque > 0.0:
+            raise ValueError("--torque: required, as input_torque = 0")
+        return float(torque)
+    try:
+        return float(str(to_si(text, "N m")))
+    except ValueError as error:
+        raise ValueError(f"--torque = {text!r}: {error}") from None

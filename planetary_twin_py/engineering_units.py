@@ -1,0 +1,33 @@
+"""Figures for a reader in units of engineering practice: 932.3 kN, 936 MPa, 20 deg."""
+
+from __future__ import annotations
+
+import math
+
+_KILO_FROM = 1e4
+"""Magnitude from which a force, a torque or a power is printed in kilo."""
+_KILO = ("N", "N m", "W")
+
+
+def figure(value: float, unit: str, digits: int = 4) -> str:
+    """Format a quantity in the unit that engineers use for its size.
+
+    Args:
+        value: in SI.
+        unit: SI unit of `value`; "" or "-" for a number without a unit.
+        digits: significant digits.
+
+    Returns:
+        Number and unit, e.g. "-616.3 um"; the number alone if it has no unit, or "-" for NaN.
+    """
+    from .units import customary  # imports NumPy, which the completion of commands does not need
+
+    if math.isnan(value):
+        return "-"
+    if unit in ("", "-"):
+        return f"{value:.{digits}g}"
+    if unit in _KILO and abs(value) >= _KILO_FROM:
+        return f"{1e-3 * value:.{digits}g} k{unit}"
+    if unit == "N/m":
+        return f"{1e-6 * value:.{digits}g} N/um"
+    return customary(value, unit, digits) or f"{value:.{digits}g} {unit}"
