@@ -18,7 +18,7 @@ MEGABYTES = 300.0
 LONGEST_LINE = 1000  # characters
 MOST_LISTED = 31  # errors of a scene, of which there are several at once
 _STATUS = Path("/proc/self/status")
-_FORGET_PEAK = "5"  # proc(5): VmHWM begins anew
+_FORGET_PEAK = "5"  # proc(5): resets VmHWM
 
 # What is tried follows from the code alone, so a failure repeats; FUZZ_EXAMPLES=20000 tries more.
 searching = settings(
@@ -33,7 +33,7 @@ searching = settings(
 def check(read: Callable[[], Any], refusal: type[Exception]) -> Any:
     """What `read` returns, or the line of its `refusal`; any other exception is passed on."""
     Path("/proc/self/clear_refs").write_text(_FORGET_PEAK)
-    resident, begun = _megabytes("VmRSS"), time.process_time()
+    resident, start = _megabytes("VmRSS"), time.process_time()
     try:
         found = read()
     except refusal as reason:
@@ -42,7 +42,7 @@ def check(read: Callable[[], Any], refusal: type[Exception]) -> Any:
         assert heading and all(line.startswith("  ") for line in listed), found
         assert not listed or heading.endswith(" errors:"), found
         assert len(listed) <= MOST_LISTED and len(max(found.split("\n"), key=len)) < LONGEST_LINE
-    assert time.process_time() - begun < SECONDS
+    assert time.process_time() - start < SECONDS
     assert _megabytes("VmHWM") - resident < MEGABYTES
     return found
 

@@ -39,7 +39,7 @@ def number_of(data: bytes) -> int:
 
 
 class Numbered:
-    """A bag with one message of /numbers each millisecond, and /settings when told."""
+    """A bag with one message of /numbers each millisecond, and /settings on request."""
 
     def __init__(self, folder: Path, storage: Storage | None = None, size: int = 0) -> None:
         self.bag = BagWriter(folder, storage)
@@ -62,7 +62,7 @@ class Numbered:
 
 
 def read_numbers(file: Path, topic: str = "/numbers") -> list[int]:
-    """Numbers in a file, also in a torn one, as far as it is sound."""
+    """Numbers in a file, also in a truncated one, up to the damage."""
     found: list[int] = []
     names: dict[int, str] = {}
     with file.open("rb") as stream:
@@ -72,6 +72,6 @@ def read_numbers(file: Path, topic: str = "/numbers") -> list[int]:
                     names[record.id] = record.topic
                 elif isinstance(record, Message) and names[record.channel_id] == topic:
                     found.append(number_of(record.data))
-        except Exception:  # whatever a torn record makes the library raise
+        except Exception:  # whatever the library raises at a truncated record
             return found
     return found

@@ -7,7 +7,7 @@ import pytest
 from typer.testing import CliRunner
 
 import planetary_twin_py as pt
-from planetary_twin_py.accuracy import Course, course_warnings
+from planetary_twin_py.accuracy import Course, accuracy_warnings, course_warnings
 from planetary_twin_py.cli import build_app
 from planetary_twin_py.recording.runs.offline import Plan, record
 from planetary_twin_py.recording.runs.verify import verify
@@ -100,7 +100,7 @@ def test_windows_of_a_twin_add_up_to_the_course_of_the_run():
     assert course == Course(stats.flank_events, stats.reversals, stats.repeated_steps)
 
 
-def test_creeping_of_a_twin_is_told_until_it_has_rolled_far_enough_at_whatever_speed():
+def test_creep_of_a_twin_is_reported_until_it_has_rolled_far_enough_at_any_speed():
     slow, fast = pt.rpm(5), pt.rpm(50)
     twin = pt.Twin(PAPER.replace(input_speed=slow))
     early, late = twin.advance(0.001).course.unsettled, twin.advance(0.001).course.unsettled
@@ -136,3 +136,20 @@ def test_verify_says_which_figures_of_a_recording_the_tolerance_does_not_bound(t
         shown = CliRunner().invoke(build_app(), ["verify", str(file), "--json", "-"])
         assert len(json.loads(shown.stdout)["accuracy"]) == count
         assert shown.stderr.count("flanks engage and separate") == count
+
+
+@pytest.mark.parametrize(
+    ("errors", "warned"),
+    [
+        ({"planet_thickness": [2e-5, 0.0, 0.0]}, True),
+        ({"pin_radial": [0.0, -2e-6, 0.0]}, True),
+        ({"planet_thickness": [-2e-5, 0.0, 0.0]}, False),
+        ({"pin_tangential": [2e-6, 0.0, 0.0]}, False),
+    ],
+)
+def test_a_quasi_static_run_warns_where_errors_wedge_teeth_in_the_static_solution(errors, warned):
+    scene = pt.load_scene("paper").replace(dynamics="quasi_static", errors=errors)
+    lines = list(accuracy_warnings(scene, pt.simulate(scene, 0.005)))
+    assert any("both flanks" in line for line in lines) == warned
+    if pt.load_sharing(scene).both_flanks:  # counts the forces of both
+        assert warned

@@ -11,6 +11,7 @@ import pytest
 from stability.sound import PAPER
 
 import planetary_twin_py as pt
+from planetary_twin_py.integrators.clock import TICKS
 
 HOURS = 1000
 MILLIONTH = Fraction(1, 10**6)  # of a sample period, within which a sample counts as reached
@@ -59,9 +60,8 @@ def aged(scene, hours=HOURS, sample_rate=50_000.0):
     for state in (march.begin, march.end):
         state.seconds += 3600 * hours
         state.turns[: len(turns)] += turns
-    twin._clock += 3600 * hours
-    twin._end = twin._engine.sample(twin._clock)
-    twin._books = twin._account()
+    twin._ticks += 3600 * hours * TICKS
+    twin._stand()
     return twin, turns
 
 

@@ -133,7 +133,7 @@ def test_after_an_overload_it_tightens_again_but_not_soon():
     assert chosen(policy, load, 30.0)[-1] == calm
 
 
-def test_another_operating_point_is_learnt_anew():
+def test_another_operating_point_is_learnt_again():
     policy = automatic()
     for _ in range(4):  # each time a tighter rung proves too dear, the next is tried later
         chosen(policy, lambda t: 2.0 if t < LADDER[0] else 0.01, 64.0)

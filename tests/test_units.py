@@ -62,14 +62,14 @@ def test_no_sign_that_is_not_understood_is_dropped(written):
     ],
 )
 def test_another_unit_is_named_with_that_wanted_and_what_to_write(given, unit, advice):
-    told = f"[{given}] cannot be converted to {unit}{advice}"
+    message = f"[{given}] cannot be converted to {unit}{advice}"
     for read in (
         lambda: to_si(f"70 {given}", unit),
         lambda: column_to_si(np.array([70.0]), given, unit),
     ):
         with pytest.raises(UnitError) as refusal:
             read()
-        assert str(refusal.value) == told
+        assert str(refusal.value) == message
 
 
 @pytest.mark.parametrize(
@@ -85,10 +85,10 @@ def test_another_unit_is_named_with_that_wanted_and_what_to_write(given, unit, a
     ],
 )
 def test_a_unit_whose_powers_have_no_end_is_refused_at_once(unit):
-    begun = time.process_time()
+    start = time.process_time()
     with pytest.raises(UnitError, match="cannot be converted to W"):
         column_to_si(np.ones(1), unit, "W")
-    assert time.process_time() - begun < 2.0
+    assert time.process_time() - start < 2.0
 
 
 @pytest.mark.parametrize("unit", ["kg*m**2/s**3", "kg m^2 s^-3", "kg·m²/s³", "N*m/s", "mW"])

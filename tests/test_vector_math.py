@@ -11,6 +11,7 @@ from planetary_twin_py._core import (
     combine_both,
     exp,
     log,
+    power,
     precise_exp,
     sin_cos,
 )
@@ -46,10 +47,19 @@ def test_sine_and_cosine_keep_their_last_digits():
         np.linspace(0.0, 1e5, 50001), np.linspace(0.0, 10.0, 10001), np.logspace(-20, 5, 5001),
         np.arange(2000) * (np.pi / 4),
     ])  # fmt: skip
+    x = np.concatenate([x, -x])
     mine = np.array([sin_cos(value) for value in x])
     assert np.abs(mine - np.column_stack([np.sin(x), np.cos(x)])).max() < 5e-16
     small = np.logspace(-300, -9, 1001)
     assert [sin_cos(value)[0] for value in small] == pytest.approx(small, rel=1e-15)
+
+
+@pytest.mark.parametrize("exponent", [-1.0 / 3.0, 0.1, 2.0 / 3.0, 0.8, 1.6])
+def test_power_is_accurate_and_vanishes_with_its_base(exponent):
+    x = np.logspace(-100, 100, 20001)
+    mine = np.array([power(value, exponent) for value in x])
+    assert np.abs(mine / x**exponent - 1.0).max() < 1e-11
+    assert exponent < 0.0 or power(0.0, exponent) < 1e-30
 
 
 @pytest.mark.parametrize("count", [1, 7, 8, 9, 13, 16])

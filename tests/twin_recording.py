@@ -31,11 +31,11 @@ class Altering(Composer):
 
     def write(self, topic: str, row: Row, stamp: int, sent: int) -> None:
         """Write the next message of a topic, altered."""
-        told = self._alter(topic, self._counts[topic] + 1, row)
-        if told is None:
+        altered = self._alter(topic, self._counts[topic] + 1, row)
+        if altered is None:
             self._counts[topic] += 1
         else:
-            super().write(topic, told, stamp, sent)
+            super().write(topic, altered, stamp, sent)
 
 
 class TwinRecording:
@@ -62,11 +62,11 @@ class TwinRecording:
         self.point(twin)
 
     def point(self, twin: pt.Twin) -> None:
-        """Tell the operating point in force."""
+        """Write the operating point in force."""
         self._composer.point(twin.operating_point, twin.time, self._stamp(twin.time))
 
     def advance(self, twin: pt.Twin, duration: float) -> None:
-        """Run on, and tell of it."""
+        """Advance the twin and write its messages."""
         if self._windows % 10 == 0:
             self._bag.flush()  # as a timer would
         self._windows += 1

@@ -40,7 +40,7 @@ def test_the_line_of_a_tone_between_bins_is_exact(offset):
     assert line.amplitude == pytest.approx(2e-6, rel=1e-4)
 
 
-def test_two_tones_five_bins_apart_are_told_apart():
+def test_two_tones_five_bins_apart_are_separate_lines():
     signal = tone(1.0, 2003.0, 5000) + tone(0.2, 2053.0, 5000, phase=1.1)
     lines = pt.strongest_lines(*pt.amplitude_spectrum(signal, RATE), count=2)
     assert [line.place for line in lines] == pytest.approx([2003.0, 2053.0], abs=1.0)

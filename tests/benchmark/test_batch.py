@@ -1,4 +1,4 @@
-"""The throughput of a batch is measured on the whole of it, for every number of workers alike."""
+"""The throughput of a batch is measured on the whole batch for every number of workers."""
 
 import re
 

@@ -4,6 +4,8 @@ import json
 
 import pytest
 from planetary_twin_benchmark import batch, cases, costs, steady, table
+from planetary_twin_benchmark.markdown import speed_cell
+from planetary_twin_benchmark.timing import Speed
 from typer.testing import CliRunner
 
 from planetary_twin_py.cli import build_app
@@ -39,8 +41,8 @@ def test_page_figures_and_picture_come_from_one_run(tmp_path):
         (method, tolerance) for method in table.METHODS for tolerance in table.TOLERANCES
     ]
     for row in rows:
-        assert f"| {row['rtf']:.3g} | {row['rtf_low']:.3g}-{row['rtf_high']:.3g} |" in text
-    assert "| short | 1e-02 | never |" in text
+        assert f"| {speed_cell(Speed(row['rtf'], row['rtf_low'], row['rtf_high']))} |" in text
+    assert "| 1e-02 | never |" in text
     assert "(work.png)" in text and picture.read_bytes().startswith(b"\x89PNG")
     assert all(f"| {against} | speed |" in text for against in costs.TABLES)
 

@@ -38,7 +38,7 @@ def checked_phases(count, teeth):
 def test_every_table_has_a_line_for_every_value():
     lines = {name: [value for value, _ in entries()] for name, entries in costs.TABLES.items()}
     assert lines["terms"] == list(costs.TERMS)
-    assert len(lines["planets"]) == 12 and len(lines["speed"]) == len(costs.SPEEDS)
+    assert len(lines["planets"]) == 12 and len(lines["motor speed"]) == len(costs.SPEEDS)
     assert lines["duration"] == ["0.1 s", "1 s", "10 s"]
     assert all(len(set(values)) == len(values) for values in lines.values())
 
@@ -62,7 +62,7 @@ def test_a_run_is_never_longer_than_the_longest():
 def test_the_section_of_the_page_shows_what_was_measured():
     found = [
         costs.Cost("planets", "2", Speed(3.0, 2.0, 4.0)),
-        costs.Cost("speed", "10 rpm", Speed(100.0, 90.0, 110.0)),
+        costs.Cost("motor speed", "10 rpm", Speed(100.0, 90.0, 110.0)),
     ]
     text = costs.cost_markdown(found)
     assert "| planets | speed | spread |\n| --- | --- | --- |\n| 2 | 3 | 2-4 |" in text

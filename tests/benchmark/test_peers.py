@@ -32,7 +32,7 @@ MISSING = [
     *([] if find_spec("CyRK") else cyrk.SOLVERS),
 ]
 INSTALLED = [name for name in SOLVERS if name not in MISSING]
-SLOW = ("scipy_lsoda", "lsoda_compiled", "cvode_bdf_compiled")  # of those that are alike
+SLOW = ("scipy_lsoda", "lsoda_compiled", "cvode_bdf_compiled")  # of similar solvers
 SCENES = {
     "rattle": ("paper", {"input_torque": 0.3, "torque_ripple": 3.0}),
     "backwards with runout": (
@@ -77,7 +77,7 @@ def test_the_right_hand_side_is_the_derivative_of_the_twin(base, changes):
         x[:n] += random.normal(0.0, 1e-9, n)
         v[:n] += random.normal(0.0, 1e-4, n)
         x[motors] = v[motors] = 0.0  # they are the frame, and their speed the damping's
-        forces(engine.model, begin, march.moment, x, v, 0.0, begin.trim, out)
+        forces(engine.model, begin, march.constants, x, v, 0.0, begin.trim, out)
 
         ahead = 2.0 * np.pi * (begin.turns + begin.fraction) - start.speed * begin.time
         faster = begin.speed - start.speed
@@ -151,7 +151,7 @@ def test_cvode_is_given_the_same_right_hand_side_compiled():
 @pytest.mark.skipif("cvode_bdf" in MISSING, reason="needs the extra [bench]")
 @pytest.mark.exhaustive
 def test_cvode_takes_the_same_path_with_a_compiled_callback(references):
-    """Until rounding tips the choice of a step; then it errs alike."""
+    """Until rounding changes a step size; after that it has the same error."""
     names = "cvode_bdf", "cvode_bdf_compiled"
     interpreted, compiled = (solved(name, SHORT, 1e-5).dte[:20] for name in names)
     assert dte_error(compiled, interpreted) < 1e-5
@@ -174,7 +174,7 @@ def test_a_row_says_why_it_has_no_figures(monkeypatch, references):
     beside = work_precision.peer_rows(tolerances=(1e-3, 1e-4), names=["scipy_lsoda"])
     rows = measure([SHORT], (1e-2,), beside=beside, methods=["march"])
     assert [row.note for row in rows] == ["", "over 0 s", "over 0 s"]
-    assert "| short | scipy_lsoda | 1e-04 | - | - | - | over 0 s |" in as_markdown(rows)
+    assert "| scipy_lsoda | 1e-04 | - | - | over 0 s |" in as_markdown(rows)
     assert rows[-1].figures()["rtf"] is None
 
 

@@ -6,8 +6,10 @@ import math
 import pytest
 from planetary_twin_benchmark import table
 from planetary_twin_benchmark.cases import CASES, DOUBLE_SIDED_RATTLE, RESONANCE, Case
+from planetary_twin_benchmark.markdown import speed_cell
 from planetary_twin_benchmark.report import as_markdown, as_table
 from planetary_twin_benchmark.table import METHODS, measure
+from planetary_twin_benchmark.timing import Speed
 
 import planetary_twin_py as pt
 
@@ -97,10 +99,12 @@ def test_at_resonance_flanks_part_and_hit_back():
 @pytest.mark.slow
 def test_the_page_of_the_documentation_shows_what_was_measured():
     (row,) = measure([SHORT], (1e-3,), methods=METHODS[:1])
-    errors = f"{row.error_dte:.1e} | {row.error_ratio:.2g} | {row.error_power_loss:.1e}"
-    cells = f"| short | {row.method} | 1e-03 | {errors} | {row.rtf:.3g} |"
-    assert cells in as_markdown([row]) and math.isfinite(row.rtf)
-    assert f"| {row.rtf_sampled:.3g} | {row.end_to_end_rtf:.3g} |" in as_markdown([row])
+    page = as_markdown([row])
+    errors = f"{row.error_dte:.1e} | {row.error_power_loss:.1e}"
+    speed = speed_cell(Speed(row.rtf, row.rtf_low, row.rtf_high))
+    assert f"| {row.method} | 1e-03 | {errors} | {speed} |" in page and math.isfinite(row.rtf)
+    assert f"| {row.rtf_sampled:.3g} | {row.end_to_end_rtf:.3g} |" in page
+    assert "### short\n" in page
     assert as_table([row]).row_count == 1
 
 

@@ -29,6 +29,16 @@ def test_figures_are_those_of_the_library(scene, model):
         assert resonance["frequency"] == pytest.approx(mean.frequencies[resonance["mode"]])
 
 
+def test_modes_of_a_turning_carrier_are_those_of_the_library():
+    options = ("--model", "planar", "--input-speed", "10rpm")
+    figures = json.loads(invoke("wind_turbine_stage", *options, "--json", "-").stdout)
+    modes = pt.natural_modes(
+        pt.load_scene("wind_turbine_stage"), "planar", input_speed=pt.rpm(10.0)
+    )
+    assert figures["frequencies_hz"] == pytest.approx(modes.frequencies.tolist())
+    assert "input at 10 rpm" in invoke("wind_turbine_stage", *options).output
+
+
 def test_table_lists_modes_and_resonant_speeds():
     shown = invoke("paper").output
     assert "5500.36" in shown and "planet" in shown
@@ -56,6 +66,8 @@ def test_campbell_diagram_is_drawn(tmp_path):
         (("paper", "--campbell", "campbell.doc"), "campbell.doc"),
         (("nowhere",), "nowhere"),
         (("paper", "--model", "flat"), "flat"),
+        (("paper", "--input-speed", "10rpm"), "--model planar"),
+        (("wind_turbine_stage", "--model", "planar", "--input-speed", "10 m"), "--input-speed"),
         (("paper", "--model", "planar"), "supports"),
         (("paper", "--set", "gearset.teeth.planet=21"), "ring = sun + 2 planet"),
     ],

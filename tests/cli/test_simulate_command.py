@@ -1,6 +1,7 @@
 """The command `simulate` against the library it calls."""
 
 import json
+import re
 
 import numpy as np
 import pytest
@@ -9,6 +10,7 @@ from typer.testing import CliRunner
 import planetary_twin_py as pt
 from planetary_twin_py.cli import build_app
 from planetary_twin_py.studies.fit.parameter import read_parameters
+from planetary_twin_py.units import to_si
 
 SHORT = ["--duration", "0.004", "--set", "lambda_ratio=1.5", "--set", "mesh.ramp=0.05"]
 
@@ -87,28 +89,34 @@ def test_the_mesh_frequency_is_that_of_a_differential_too():
     assert figures["mesh_frequency_Hz"] == pytest.approx(30 * turns, rel=1e-3)
 
 
-def test_the_printed_table_has_units_and_names_the_meshes():
+def test_printed_results_have_units_and_name_the_meshes():
     shown, figures = invoke("paper", *SHORT).stdout, expected()
-    rows = dict(line.rsplit(maxsplit=1) for line in shown.splitlines() if "]  " in line)
-    labels = {label.strip(): float(value) for label, value in rows.items() if "│" not in label}
+    labels = dict(re.split(r"  +", line, maxsplit=1) for line in shown.splitlines() if "  " in line)
     mesh, fine = figures.mesh, expected(1e6)
-    for label, statistic, samples, rel in (
-        ("DTE of all meshes, mean [m]", mesh["dte_mean"].mean(), fine.dte.mean(), 1e-4),
-        ("DTE of all meshes, rms about the mean [m]", mesh["dte_rms"].mean(),
+    for label, unit, statistic, samples, rel in (
+        ("DTE of all meshes, mean", "m", mesh["dte_mean"].mean(), fine.dte.mean(), 1e-4),
+        ("DTE of all meshes, rms about the mean", "m", mesh["dte_rms"].mean(),
          fine.dte.std(axis=0).mean(), 1e-3),
-        ("DTE of any mesh, peak [m]", mesh["dte_peak"].max(), abs(fine.dte).max(), 5e-3),
-        ("force of any mesh, peak [N]", mesh["mesh_force_peak"].max(),
+        ("DTE of any mesh, peak", "m", mesh["dte_peak"].max(), abs(fine.dte).max(), 5e-3),
+        ("force of any mesh, peak", "N", mesh["mesh_force_peak"].max(),
          abs(fine.mesh_force).max(), 5e-3),
     ):  # fmt: skip
-        assert labels[label] == pytest.approx(statistic, rel=1e-5)
-        assert labels[label] == pytest.approx(samples, rel=rel)
+        value = to_si(labels[label], unit)
+        assert value == pytest.approx(statistic, rel=1e-5)
+        assert value == pytest.approx(samples, rel=rel)
     rows = {
-        cells[0].strip(): [float(cell) for cell in cells[1:]]
+        cells[0].strip(): [cell.strip() for cell in cells[1:]]
         for cells in (line.strip("│").split("│") for line in shown.splitlines() if line[0] == "│")
     }
     dte = figures.dte.mean(axis=0)
-    assert rows["DTE, mean [m]"] == pytest.approx([dte[:3].mean(), dte[3:].mean()], rel=0.01)
-    assert all(label.endswith("]") for label in (*labels, *rows))
+    printed = [to_si(cell, "m") for cell in rows["DTE, mean"]]
+    assert printed == pytest.approx([dte[:3].mean(), dte[3:].mean()], rel=0.01)
+
+
+def test_the_sign_of_the_coast_flanks_is_explained_where_they_carry_the_load():
+    line = "Forces and DTE are negative where the coast flanks carry the load."
+    assert line not in invoke("paper", *SHORT).stdout
+    assert line in invoke("wind_turbine_stage", "--duration", "0.05").stdout
 
 
 def test_samples_contain_their_scene(tmp_path):

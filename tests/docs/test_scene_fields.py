@@ -14,7 +14,9 @@ def test_every_field_is_a_row_of_the_page_with_all_its_attributes():
     assert len(rows) == len(fields) > 120
     for row, field in zip(rows, fields, strict=True):
         cells = [cell.strip() for cell in row.strip("|").split(" | ")]
-        assert cells == [f"`{field.name}`", *(part.strip() for part in field[1:])]
+        assert cells[0] == f"`{field.name}`" and cells[2] == field.meaning.strip()
+        assert cells[1].startswith(f"{field.default}; {field.range}")
+        assert field.unit in ("", "-") or cells[1].endswith(f" {field.unit}")
 
 
 def test_pages_of_scenes_link_to_it():

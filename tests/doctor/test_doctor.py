@@ -121,3 +121,10 @@ def test_a_command_that_cannot_be_loaded_affects_no_other(monkeypatch):
     assert "librcl.so" in done.output
     assert done.output.strip().endswith("run `planetary-twin doctor` for details")
     assert CliRunner().invoke(build_app(), ["modal", "--help"]).exit_code == 0
+
+
+def test_missing_packages_are_listed_without_markers(monkeypatch):
+    monkeypatch.setattr(packages, "_installed", lambda need: False)
+    found = {finding.part: finding for finding in packages.check()}
+    assert found["plots"].details == "to draw plots: missing matplotlib"
+    assert not any(";" in finding.details for finding in found.values())

@@ -9,6 +9,7 @@ from power_flows import ALL_FLOWS, scene_of
 from test_long_run import HOURS, columns, turns_after
 
 import planetary_twin_py as pt
+from planetary_twin_py.integrators.clock import TICKS
 from planetary_twin_py.run import start
 
 PAPER = pt.load_scene("paper").replace(dynamics="quasi_static")
@@ -126,9 +127,9 @@ def aged(scene):
     for state in (engine._origin, engine._ledger._mark):
         state.seconds += 3600 * HOURS
         state.turns[:1] += turns_after(scene, HOURS)
-    twin._clock += 3600 * HOURS
-    engine.reached = twin._clock
-    twin._end, twin._books = engine.sample(twin._clock), twin._account()
+    twin._ticks += 3600 * HOURS * TICKS
+    engine.reached = Fraction(3600 * HOURS)
+    twin._stand()
     return twin
 
 

@@ -1,7 +1,6 @@
-"""The model as a wheel: what is in it, and that it works alone."""
+"""The model as a wheel: what is in it, and that it works alone. Building it takes minutes."""
 
 import email
-import re
 import shutil
 import subprocess
 import sys
@@ -9,21 +8,15 @@ import tarfile
 import tomllib
 import zipfile
 from pathlib import Path
-from xml.etree import ElementTree
 
 import pytest
-from catkin_pkg.package import parse_package
 from packaging.requirements import Requirement
-from packaging.version import Version
 
 from planetary_twin_py._core.levels import CHOICE, NEEDS, runnable_levels
 
 ROOT = Path(__file__).parents[2]
 PROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text())["project"]
-MANIFESTS = [
-    ROOT / folder / "package.xml"
-    for folder in ("planetary_twin_py", "msgs_spec", "ros_ws/src/planetary_twin")
-]
+pytestmark = [pytest.mark.exhaustive, pytest.mark.slow]
 NOT_THE_MODELS = ("ros", "rclpy", "rerun", "mcap", "matplotlib", "pyarrow", "distributed", "sundae")
 
 
@@ -86,15 +79,16 @@ import planetary_twin_py as pt
 from planetary_twin_py import _core
 digits = hashlib.sha256()
 for name in pt.packaged_scenes():
-    for changes in ({}, {"input_torque": 0.5, "backlash": 1e-5}):
+    for changes in (
+        {}, {"input_torque": 0.5, "backlash": 1e-5, "torque_ripple": 2.0}, {"input_speed": 0.1},
+        {"mesh.runout.sun": 1e-6, "backlash": 2e-5}, {"dynamics": "quasi_static"},
+    ):
         result = pt.simulate(pt.load_scene(name).replace(**changes), 0.01)
         digits.update(result.dte.tobytes() + result.total_power_loss.tobytes())
 print(_core.LEVEL, digits.hexdigest())
 """
 
 
-@pytest.mark.exhaustive
-@pytest.mark.slow
 def test_every_level_of_a_wheel_computes_the_same_bits(tmp_path, monkeypatch):
     (wheel,) = build(tmp_path).glob("*.whl")
     zipfile.ZipFile(wheel).extractall(tmp_path / "installed")
@@ -168,8 +162,6 @@ def without_extras(folder, code, *arguments):
     )
 
 
-@pytest.mark.exhaustive
-@pytest.mark.slow
 def test_the_model_alone_simulates(alone):
     done = without_extras(
         alone,
@@ -214,37 +206,3 @@ def test_a_command_names_the_extra_it_lacks(alone, typed, extra):
     assert done.returncode == 2, done.stderr
     assert len(done.stderr.splitlines()) == 1
     assert f"pip install 'planetary_twin_py[{extra}]'" in done.stderr
-
-
-def test_all_tell_the_same_version():
-    version = PROJECT["version"]
-    assert len(Version(version).release) == 3
-    assert {str(parse_package(str(file)).version) for file in MANIFESTS} == {version}
-    setup = (ROOT / "ros_ws/src/planetary_twin/setup.py").read_text()
-    assert re.findall(r'version="(.+)"', setup) == [version]
-    cited = (ROOT / "CITATION.cff").read_text()
-    assert re.findall(r"^version: (.+)$", cited, re.MULTILINE) == [version]
-    assert re.search(
-        rf"^## \[({re.escape(version)}|Unreleased)\]", (ROOT / "CHANGELOG.md").read_text(), re.M
-    )
-
-
-@pytest.mark.parametrize("file", MANIFESTS, ids=lambda file: file.parent.name)
-def test_manifests_follow_rep_149(file):
-    warnings = []
-    package = parse_package(str(file), warnings=warnings)
-    package.validate(warnings)
-    assert not warnings
-    assert package.package_format == 3 and package.licenses == [PROJECT["license"]]
-    assert ElementTree.parse(file).getroot().tag == "package"
-
-
-def test_the_nodes_depend_on_every_ros_package_they_import():
-    nodes = ROOT / "ros_ws/src/planetary_twin"
-    text = "\n".join(file.read_text() for file in nodes.rglob("*.py") if "build" not in file.parts)
-    imported = set(re.findall(r"^\s*(?:from|import) (\w+)", text, re.MULTILINE))
-    declared = {need.name for need in parse_package(str(MANIFESTS[2])).exec_depends}
-    share = Path(sys.prefix, "share")
-    ros = {name for name in imported if (share / name / "package.xml").exists()}
-    assert {"rclpy", "sensor_msgs"} <= ros
-    assert ros - {"planetary_twin"} <= declared

@@ -42,7 +42,7 @@ def test_standing_still_friction_carries_no_torque_and_takes_no_power():
 @EITHER_LAW
 @pytest.mark.parametrize("direction", [1.0, -1.0])
 def test_starting_from_standstill_the_sun_turns_as_the_set_point_tells(law, direction):
-    """angle = slew t^2/2; the shaft, which winds up anew, makes the difference."""
+    """angle = slew t^2/2; the twist of the shaft is the difference."""
     slew = 500.0
     scene = PLAIN.replace(
         input_speed=direction * pt.rpm(1000),

@@ -36,7 +36,7 @@ def test_windows_of_1_7_and_1000_milliseconds_pass_the_same_states(name):
 
 
 @EVERY_REGIME
-def test_what_is_set_at_an_instant_acts_alike_whatever_windows_lie_between(name):
+def test_a_change_has_the_same_effect_for_all_lengths_of_windows(name):
     changes = [{"lambda_ratio": 2.0}, {"backlash": 4e-7}, {"input_torque": 20.0}, {}]
 
     def run(window):

@@ -1,0 +1,55 @@
+"""The command `load-sharing` against the library."""
+
+import json
+
+import numpy as np
+import pytest
+from typer.testing import CliRunner
+
+import planetary_twin_py as pt
+from planetary_twin_py.cli import build_app
+
+
+def invoke(*arguments):
+    return CliRunner().invoke(build_app(), ["load-sharing", *arguments])
+
+
+def test_figures_are_those_of_the_library():
+    figures = json.loads(invoke("floating_sun", "--json", "-").stdout)
+    found = pt.load_sharing(pt.load_scene("floating_sun"))
+    assert figures["factor"] == pytest.approx(found.factor)
+    assert np.array(figures["share"]) == pytest.approx(found.share)
+    assert np.array(figures["displacement"]["sun"]) == pytest.approx(found.displacement[:, 0])
+
+
+def test_the_factor_and_a_floating_sun_are_printed():
+    shown = " ".join(invoke("floating_sun").output.split())
+    factor = pt.load_sharing(pt.load_scene("floating_sun")).factor
+    assert f"largest share: {factor:.4f}" in shown
+    assert "none: floats" in shown
+
+
+def test_both_flanks_are_reported():
+    wedged = ("--set", "backlash=0.2um", "--set", "errors.pin_tangential=[-40um,0um,0um,0um]")
+    assert "both flanks of a mesh touch" in invoke("floating_sun", *wedged).output
+    assert "both flanks" not in invoke("floating_sun").output
+
+
+def test_a_picture_is_drawn(tmp_path):
+    png = tmp_path / "sharing.png"
+    assert invoke("floating_sun", "--picture", str(png)).exit_code == 0
+    assert png.read_bytes().startswith(b"\x89PNG")
+
+
+@pytest.mark.parametrize(
+    ("change", "words"),
+    [
+        ("input_torque=0 N m", "input_torque"),
+        ("errors.pin_tangential=[-20um,0um]", "errors.pin_tangential: has 2 entries: must have 4"),
+        ("supports.planet.bearing=0N/m", "no static equilibrium"),
+    ],
+)
+def test_invalid_input_ends_in_one_line(change, words):
+    result = invoke("floating_sun", "--set", change)
+    assert result.exit_code == 2
+    assert words in result.output.strip().splitlines()[-1]

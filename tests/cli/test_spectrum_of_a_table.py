@@ -1,0 +1,114 @@
+"""Spectrum of a vibration in a table: tones of known amplitude, with the harmonics of a scene."""
+
+import json
+
+import numpy as np
+import pytest
+from typer.testing import CliRunner
+
+from planetary_twin_py.cli import build_app
+
+RATE = 25_600.0  # [Hz]
+MESH = 499.0  # [Hz] of the gears of `paper` at 998 rpm
+SIDEBAND = 998.0 / 60.0  # [Hz] one turn of the sun
+NAME = "acceleration [m/s^2]"
+
+
+def invoke(*arguments):
+    return CliRunner().invoke(build_app(), ["spectrum", *map(str, arguments)])
+
+
+def vibration():
+    """Two seconds with two mesh harmonics and a pair of sidebands."""
+    time = np.arange(0.0, 2.0, 1.0 / RATE)
+    modulation = 1.0 + 0.1 * np.cos(2.0 * np.pi * SIDEBAND * time)
+    first = 0.8 * modulation * np.sin(2.0 * np.pi * MESH * time)
+    return time, first + 0.3 * np.sin(2.0 * np.pi * 2.0 * MESH * time + 1.0)
+
+
+@pytest.fixture(scope="module")
+def table(tmp_path_factory):
+    file = tmp_path_factory.mktemp("measured") / "vibration.csv"
+    columns = np.column_stack(vibration())
+    np.savetxt(file, columns, delimiter=",", header=f"time [s],{NAME}", comments="", fmt="%.9f")
+    return file
+
+
+def lines(*arguments):
+    done = invoke(*arguments, "--json", "-")
+    assert done.exit_code == 0, done.stderr
+    return json.loads(done.stdout)["lines"]
+
+
+def test_tones_have_their_amplitudes_and_mesh_harmonics_their_numbers(table):
+    found = lines(table, "--scene", "paper", "--set", "input_speed=998 rpm")[:4]
+    expected = ((MESH, 0.8, 1), (2.0 * MESH, 0.3, 2))
+    for line, (frequency, amplitude, harmonic) in zip(found, expected, strict=False):
+        assert line["frequency_hz"] == pytest.approx(frequency, abs=0.05)
+        assert line["amplitude"] == pytest.approx(amplitude, rel=0.01)
+        assert line["harmonic"] == harmonic and line["alias_of_harmonic"] is None
+    sidebands = sorted(line["frequency_hz"] for line in found[2:])
+    assert sidebands == pytest.approx([MESH - SIDEBAND, MESH + SIDEBAND], abs=0.1)
+    assert [line["amplitude"] for line in found[2:]] == pytest.approx([0.04, 0.04], rel=0.02)
+
+
+def test_orders_count_the_turns_of_the_sun(table):
+    found = lines(table, "--scene", "paper", "--set", "input_speed=998 rpm", "--order")
+    assert found[0]["order"] == pytest.approx(30.0, abs=0.01)
+    assert sorted(line["order"] for line in found[2:4]) == pytest.approx([29.0, 31.0], abs=0.02)
+
+
+def test_without_a_scene_no_line_is_called_a_mesh_harmonic(table):
+    assert {line["harmonic"] for line in lines(table)} == {None}
+
+
+def test_the_unit_of_the_heading_is_printed(table):
+    shown = invoke(table).stdout
+    assert "amplitude [m/s^2]" in shown and shown.rstrip().endswith("m/s^2")
+    assert "acceleration, from 0.0000 to" in shown
+
+
+def test_a_sample_rate_replaces_a_missing_time(tmp_path):
+    file = tmp_path / "vibration.csv"
+    np.savetxt(file, vibration()[1], header="acceleration", comments="")
+    assert lines(file, "--sample-rate", RATE)[0]["frequency_hz"] == pytest.approx(MESH, abs=0.05)
+    done = invoke(file)
+    assert done.exit_code == 2 and "missing; add it or give --sample-rate" in done.stderr
+
+
+def test_one_of_several_columns_is_chosen_by_its_name(tmp_path):
+    file, (time, values) = tmp_path / "vibration.csv", vibration()
+    rows = np.column_stack((time, values, 2.0 * values))
+    np.savetxt(file, rows, delimiter=";", header="time [s];radial [g];axial [g]", comments="")
+    assert lines(file, "--column", "axial")[0]["amplitude"] == pytest.approx(1.6, rel=0.01)
+    for given in ((), ("--column", "tangential")):
+        done = invoke(file, *given)
+        assert done.exit_code == 2 and "columns: radial, axial" in done.stderr
+        assert len(done.stderr.splitlines()) == 1
+
+
+@pytest.mark.parametrize(
+    ("options", "words"),
+    [
+        (("--order",), "needs --scene"),
+        (("--set", "input_speed=1000 rpm"), "needs --scene"),
+        (("--sample-rate", "0"), "greater than 0"),
+    ],
+)
+def test_missing_or_invalid_options_are_refused_in_one_line(table, options, words):
+    done = invoke(table, *options)
+    assert done.exit_code != 0 and words in done.stderr
+    assert len(done.stderr.splitlines()) == 1
+
+
+def test_missing_samples_and_uneven_times_are_refused(tmp_path):
+    file = tmp_path / "vibration.csv"
+    file.write_text("time,acceleration\n0,1\n1,\n2,3\n")
+    assert "row 2: acceleration: has no value" in invoke(file).stderr
+    file.write_text("time,acceleration\n0,1\n1,2\n2,3\n5,4\n")
+    assert "row 4: time = 5 s" in invoke(file).stderr
+
+
+def test_options_of_tables_are_refused_for_recordings(tmp_path):
+    done = invoke(tmp_path / "run.npz", "--scene", "paper")
+    assert done.exit_code != 0 and "are for tables" in done.stderr
