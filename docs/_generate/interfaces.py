@@ -9,11 +9,11 @@ _FIELD = re.compile(
     r"(@range\s+(?P<range>\S+)\s*)?(?P<meaning>.*)$"
 )
 _PARTS = {"msg": ("",), "srv": ("Request", "Response")}
-_COLUMNS = "\n| field | type | unit | range | meaning |\n|---|---|---|---|---|\n"
+_COLUMNS = "\n| field | type [unit], range | meaning |\n|---|---|---|\n"
 _HEAD = """# Messages and services
 
 Generated from the files of `msgs_spec`, package `planetary_twin_msgs`. A unit of - means
-dimensionless. A field without a range accepts any value.
+dimensionless; a field without a unit is no quantity. A field without a range accepts any value.
 """
 
 
@@ -57,6 +57,7 @@ def _table(lines: list[str], file: Path) -> str:
 
 
 def _row(field: re.Match[str]) -> str:
-    limits = (field["range"] or "").replace(",", " to ")
-    cells = (f"`{field['name']}`", field["type"], field["unit"] or "", limits, field["meaning"])
+    unit = f" [{field['unit']}]" if field["unit"] else ""
+    limits = f", {field['range'].replace(',', ' to ')}" if field["range"] else ""
+    cells = (f"`{field['name']}`", f"{field['type']}{unit}{limits}", field["meaning"])
     return "| " + " | ".join(cell.replace("|", "\\|") for cell in cells) + " |\n"

@@ -24,7 +24,7 @@ _TYPES = {
     if name.startswith("PARAMETER_")
 }
 _OF_ROS = {"use_sim_time", "start_type_description_service"}
-_TITLES = "parameter", "type", "default", "range", "changes", "meaning"
+_TITLES = "parameter", "type = default; range", "changes", "meaning"
 _HEAD = """# Nodes
 
 Generated from the nodes, with the scene `paper`. Names are relative to the namespace
@@ -103,12 +103,11 @@ def _parameters(node: Node) -> str:
 
 def _parameter(descriptor: ParameterDescriptor, value: object) -> str:
     limits = descriptor.floating_point_range
-    span = f"{limits[0].from_value:g} to {limits[0].to_value:g}" if limits else ""
+    span = f"; {limits[0].from_value:g} to {limits[0].to_value:g}" if limits else ""
+    shown = f"{value:g}" if isinstance(value, float) else f"`{value!r}`"
     cells = (
         f"`{descriptor.name}`",
-        _TYPES[descriptor.type],
-        f"{value:g}" if isinstance(value, float) else f"`{value!r}`",
-        span,
+        f"{_TYPES[descriptor.type]} = {shown}{span}",
         changes(descriptor),
         descriptor.description,
     )

@@ -9,11 +9,12 @@ Generated from the schema of a scene. `planetary-twin fields` lists the fields o
 these names; fields of `operating_point` also without the prefix: `backlash`. Faults are a list; N
 counts them from 0.
 
-Defaults and ranges are in the unit beside them. Values may have any compatible unit: `0.2 um`,
-`1000 rpm`. A round bracket excludes the end of a range. A unit of - means dimensionless.
+Defaults and ranges are in the unit after them; without a unit they are dimensionless or text.
+Values may have any compatible unit: `0.2 um`, `1000 rpm`. A round bracket excludes the end of a
+range.
 [Scenes](../scenes.md) explains how the fields act together.
 """
-_COLUMNS = "| field | unit | default | range | meaning |\n|---|---|---|---|---|\n"
+_COLUMNS = "| field | default; range | meaning |\n|---|---|---|\n"
 
 
 def page() -> str:
@@ -28,5 +29,6 @@ def _section(section: SceneSection) -> str:
 
 
 def _row(field: SceneField) -> str:
-    cells = (f"`{field.name}`", *field[1:])
+    unit = f" {field.unit}" if field.unit not in ("", "-") else ""
+    cells = (f"`{field.name}`", f"{field.default}; {field.range}{unit}", field.meaning)
     return "| " + " | ".join(cell.replace("|", "\\|") for cell in cells) + " |\n"
