@@ -28,7 +28,7 @@ run: setup
 PYTEST := $(BIN)/pytest --quiet --numprocesses=3 --dist=loadfile
 
 test:
-	@echo "lint, then tests of every feature: about 7 minutes on 2 idle cores"
+	@echo "lint, then tests of every feature: about 5 minutes on 2 idle cores"
 	@$(MAKE) --no-print-directory lint
 	$(PYTEST) -m "not exhaustive" --ignore=tests/ros/test_soak.py $(ARGS)
 
@@ -80,13 +80,15 @@ picture: setup
 sample: setup
 	tools/make_sample $(VENV)
 
-# The pictures of docs/studies.md.
+# The pictures of docs/studies.md and docs/howto/load-sharing.md.
 studies: setup
 	$(BIN)/planetary-twin sweep paper --dynamics quasi_static --lubrication.lambda_ratio computed \
 		--lubrication.boundary load_sharing --input-speed 500rpm:10000rpm:20 \
 		--input-torque 5:100:20 --duration 0.1 --settling 0 --out docs/efficiency-map.png
 	$(BIN)/planetary-twin stribeck paper --set lubrication.boundary=load_sharing \
 		--out docs/stribeck.png
+	$(BIN)/planetary-twin load-sharing floating_sun --picture docs/load-sharing.png
+	$(BIN)/planetary-twin lost-motion paper --torque "100 N m" --picture docs/lost-motion.png
 	$(BIN)/planetary-twin bifurcation paper --input-speed 9500rpm:12500rpm:121 \
 		--set input_torque=10 --set backlash=20um --set mesh.damping.loss_factor=0.006 \
 		--set drive.speed_limit=14000rpm --cycles 40 --tolerance 1e-3 --out docs/bifurcation.png
@@ -115,23 +117,23 @@ clean:
 $(STAMPS)/dependencies: requirements.lock
 	$(eval FOUND := $(shell PYTHON='$(PYTHON)' tools/check_machine 2>&1))
 	$(if $(filter-out 0,$(.SHELLSTATUS)),$(error $(FOUND)))
-	tools/make_venv $(FOUND) $(VENV)
+	@tools/make_venv $(FOUND) $(VENV)
 	@mkdir -p $(STAMPS) && touch $@
 
 $(STAMPS)/interfaces: $(STAMPS)/dependencies tools/build_interfaces tools/ros_from_pip.cmake $(INTERFACES)
-	tools/build_interfaces $(VENV)
+	@tools/build_interfaces $(VENV)
 	@touch $@
 
 # Python reads the model from here; the core is compiled below, each time its sources change.
 $(STAMPS)/model: $(STAMPS)/dependencies tools/install_model pyproject.toml benchmarks/pyproject.toml
-	tools/install_model $(VENV)
-	$(INSTALL) --editable benchmarks
+	@tools/install_model $(VENV)
+	@$(INSTALL) --editable benchmarks
 	@touch $@
 
 $(STAMPS)/core: $(STAMPS)/dependencies tools/build_core $(CORE)
-	tools/build_core $(VENV)
+	@tools/build_core $(VENV)
 	@touch $@
 
 $(STAMPS)/nodes: $(STAMPS)/dependencies tools/install_nodes $(NODES)
-	tools/install_nodes $(VENV)
+	@tools/install_nodes $(VENV)
 	@touch $@

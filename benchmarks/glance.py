@@ -1,4 +1,4 @@
-"""Draws speed against error at a glance from the last measurement with peers.
+"""Draws speed against error from the last measurement with peers.
 
 python benchmarks/glance.py docs/speed-against-error.png
 """
@@ -29,12 +29,12 @@ METHODS = {
     "dop853_compiled": "DOP853",
     "rk4": "RK4, fixed steps",
 }
-BEST, WORST = 1e-7, 1.0  # relative errors that are shown; beyond the worst nothing is right
+BEST, WORST = 1e-7, 1.0  # relative errors in the plot
 FAST = (0.1, 100.0)  # times real time
 
 
 def rows() -> list[Row]:
-    """The measured rows; what JSON cannot write is NaN again."""
+    """The measured rows, with NaN for the null of JSON."""
     found = json.loads(MEASURED.read_text("utf-8"))
     known = [entry for entry in found if set(entry) == set(Row._fields)]
     return [

@@ -1,9 +1,9 @@
-"""What it takes to open a recording, against its length: time, processor time, memory.
+"""Cost of opening a recording over its length: time, processor time, memory.
 
     .venv/bin/python benchmarks/open_recording.py recordings/NAME --seconds 10 60 600
 
-A longer recording is made of the one that is given: it is repeated, with times and numbers that go
-on. That takes some 4 MB of disk for each second.
+A longer recording is made from the given one, which is repeated with increasing times and numbers.
+It takes about 4 MB of disk for each second.
 """
 
 from __future__ import annotations
@@ -70,7 +70,7 @@ def lengthen(path: Path, folder: Path, seconds: float) -> Path:
 
 
 def cost(*command: str) -> Cost:
-    """What `planetary-twin` costs with these arguments."""
+    """Cost of `planetary-twin` with these arguments."""
     program = str(Path(sys.executable).with_name("planetary-twin"))
     begin = time.perf_counter()
     with tempfile.TemporaryFile() as output:
@@ -106,7 +106,7 @@ def _messages(path: Path, bag: BagWriter) -> list[tuple[str, Message]]:
 
 
 def _advance(row: Any, shift: int, number: int) -> None:
-    """Make a message one that comes `shift` [ns] later and `number` messages further."""
+    """Move a message by `shift` [ns] and by `number` messages."""
     names = row.dtype.names
     for name in set(names).intersection(TIMES):
         row[name] += shift * 1e-9

@@ -93,7 +93,7 @@ def measure(scene: pt.Scene, tolerance: float) -> Errors:
     frequency = speed * scene.gearset.teeth.ring / (2.0 * math.pi)  # at most
     duration = min(max(4.0 / frequency, 0.004), 0.02) if frequency > 0.0 else 0.02
     method = "collocation" if frequency > FASTEST_ROSENBROCK else "rosenbrock"
-    with warnings.catch_warnings(record=True) as heard:
+    with warnings.catch_warnings(record=True) as warned:
         warnings.simplefilter("always")
         run = pt.simulate(scene, duration, tolerance=tolerance)
     closer = pt.simulate(scene, duration, tolerance=1e-5).energy
@@ -105,7 +105,7 @@ def measure(scene: pt.Scene, tolerance: float) -> Errors:
         float(np.sqrt(np.mean((run.dte - exact.dte) ** 2) / np.mean(exact.dte**2))),
         abs(losses[0] - losses[1]) / max(abs(losses[1]), LEAST_SHARE * passing, 1e-9),
         abs(closer.residual) / max(turnover, 1e-6 * closer.stored),
-        tuple(str(each.message) for each in heard),
+        tuple(str(each.message) for each in warned),
     )
 
 

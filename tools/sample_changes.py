@@ -23,28 +23,28 @@ TOPIC = "gearbox_state"
 
 def main() -> None:
     """Subscribe once the logger has: the simulation waits for this node, so for both."""
-    heard = [0.0]
+    newest = [0.0]
 
-    def hear(state: GearboxState) -> None:
-        heard[0] = state.simulated_time
+    def keep(state: GearboxState) -> None:
+        newest[0] = state.simulated_time
 
     with Client("changes", "/planetary_twin") as client:
         service = client.node.create_client(SetOperatingPoint, "simulation/set_operating_point")
         wait(client, service.service_is_ready)
         wait(client, lambda: client.node.count_subscribers(TOPIC) > 0)
-        client.node.create_subscription(GearboxState, TOPIC, hear, 10)
+        client.node.create_subscription(GearboxState, TOPIC, keep, 10)
         for instant, values in CHANGES.items():
-            wait(client, partial(reached, heard, instant))
+            wait(client, partial(reached, newest, instant))
             request = SetOperatingPoint.Request(names=list(values), values=list(values.values()))
             answer = client.call(service, request)
             if answer is None or not answer.success:
                 raise SystemExit(f"{values}: {answer.message if answer else 'no answer'}")
-        wait(client, partial(reached, heard, END))
+        wait(client, partial(reached, newest, END))
 
 
-def reached(heard: list[float], instant: float) -> bool:
-    """Whether the state heard of last is of `instant` [s] or later."""
-    return heard[0] >= instant
+def reached(newest: list[float], instant: float) -> bool:
+    """Whether the newest state is of `instant` [s] or later."""
+    return newest[0] >= instant
 
 
 def wait(client: Client, ready: Callable[[], bool]) -> None:

@@ -1,4 +1,4 @@
-"""How many operating points a second pass through `simulate_many`, set-up included."""
+"""Operating points per second of `simulate_many`, with set-up."""
 
 from __future__ import annotations
 
@@ -13,16 +13,18 @@ from rich.table import Table
 from planetary_twin_py.batch import simulate_many
 from planetary_twin_py.scene import Scene, load_scene
 
-SIZES = ((0.05, 40), (1.0, 8))  # simulated time of a point [s], and how many there are
+from .markdown import markdown_table
+
+SIZES = ((0.05, 40), (1.0, 8))  # simulated time of a point [s], number of points
 WORKERS = (1, 2)
-ROUNDS = 5  # of which the median counts
+ROUNDS = 5  # the median is reported
 TOLERANCE = 1e-4
 
 _TITLES = ("points of", "workers", "points/s", "spread", "ratio")
 
 
 class Throughput(NamedTuple):
-    """What one number of workers does with points of one length."""
+    """Throughput of a number of workers for points of one length."""
 
     duration: float  # simulated, of a point [s]
     workers: int
@@ -38,7 +40,7 @@ class Throughput(NamedTuple):
 def measure_batch(
     sizes: Sequence[tuple[float, int]] = SIZES, progress: Callable[[str], None] = lambda text: None
 ) -> list[Throughput]:
-    """Measure every size on every number of workers, by turns: another load slows all of them."""
+    """Measure every size with every number of workers, in turns, so that other loads slow all."""
     found = []
     for duration, count in sizes:
         scenes, rates = operating_points(count), dict[int, list[float]]()
@@ -55,7 +57,7 @@ def measure_batch(
 
 
 def operating_points(count: int) -> list[Scene]:
-    """The scene `paper` at as many pairs of load and lambda ratio."""
+    """The scene `paper` at `count` pairs of load and lambda ratio."""
     scene, side = load_scene("paper"), math.ceil(math.sqrt(count))
     grid = [divmod(n, side) for n in range(count)]
     return [
@@ -77,7 +79,7 @@ def _cells(row: Throughput) -> tuple[str, ...]:
 
 
 def batch_table(rows: Sequence[Throughput]) -> Table:
-    """For the terminal."""
+    """Table for the terminal."""
     table = Table(box=None, header_style="bold", pad_edge=False)
     for title in _TITLES:
         table.add_column(title, justify="right")
@@ -88,12 +90,10 @@ def batch_table(rows: Sequence[Throughput]) -> Table:
 
 def batch_markdown(rows: Sequence[Throughput]) -> str:
     """A section for the page `docs/speed-and-accuracy.md`."""
-    lines = [_TITLES, ("---",) * len(_TITLES), *(_cells(row) for row in rows)]
-    table = "\n".join("| " + " | ".join(cells) + " |" for cells in lines)
     return f"""
 ## Many operating points
 
 `simulate_many` at tolerance {TOLERANCE:g}: wall time, with set-up and samples at 50 kHz.
 
-{table}
+{markdown_table(_TITLES, [_cells(row) for row in rows])}
 """

@@ -11,13 +11,13 @@ from .timing import repeats
 
 
 class Case(NamedTuple):
-    """A scene, and how much of it is compared with the reference."""
+    """A scene, and the interval that is compared with the reference."""
 
     name: str
     changes: dict[str, Any]
     duration: float  # [s] compared
-    repeats: int  # times as long a run is timed, at most
-    # Changes that begin it where the comparison does; such a case is timed as a whole.
+    repeats: int  # largest ratio of the timed to the compared interval
+    # Changes that start the run at the compared interval; such a case is timed as a whole.
     stretch: dict[str, Any] | None = None
 
     def scene(self) -> Scene:
@@ -29,7 +29,7 @@ class Case(NamedTuple):
         return self.scene().replace(**(self.stretch or {}))
 
     def timed(self, seconds: float) -> float:
-        """How long a run to time [s], if what is compared takes `seconds` of computing."""
+        """Duration of the timed run [s] if the compared interval takes `seconds` to compute."""
         whole = self.stretch is not None
         return self.duration * (self.repeats if whole else repeats(seconds, self.repeats))
 
@@ -42,8 +42,8 @@ RUN_UP = {
     "drive.speed_control.slew_rate": rpm(1000 - 5) / 0.5,
 }
 FROM_500_RPM = {"drive.speed_control.start_speed": rpm(500)}
-# On average flanks part and meet 27 times in a mesh period. They do so when the torque is least,
-# and chaotically: after two dozen impacts the paths of any two methods are apart.
+# On average flanks separate and meet 27 times in a mesh period, when the torque is lowest. The
+# motion is chaotic: after two dozen impacts any two methods have diverged.
 DOUBLE_SIDED_RATTLE = {
     "input_torque": 0.3,
     "torque_ripple": 0.3,
@@ -52,7 +52,7 @@ DOUBLE_SIDED_RATTLE = {
     "mesh.damping.damping_ratio": 0.01,
 }
 ZETA_004 = {"mesh.damping.law": "viscous", "mesh.damping.damping_ratio": 0.04}
-# Gears of half the mass, with a natural mode that the meshing meets at this speed.
+# Gears of half the mass, with a natural mode at the meshing frequency of this speed.
 RESONANCE = {
     **ZETA_004,
     "gearset.equivalent_mass.sun": 0.136,
@@ -72,7 +72,7 @@ CASES = (
     Case("stiff 100 rpm", {"input_speed": rpm(100)}, 0.02, 50),
     Case("rattle", {"input_torque": 0.3, "torque_ripple": 3.0}, 0.03, 20),
     Case("rattle, 27 events per mesh period", DOUBLE_SIDED_RATTLE, 0.0215, 20),
-    # At lower speeds the printed damping is so strong that an explicit reference takes minutes.
+    # At lower speeds the printed damping is so high that an explicit reference takes minutes.
     Case("run-up 5 to 1000 rpm in 0.5 s", RUN_UP, 0.02, 25, FROM_500_RPM),
     Case("light damping 1000 rpm", {"mesh.damping.law": "viscous"}, 0.01, 20),
     Case("light damping zeta 0.04", ZETA_004, 0.01, 20),

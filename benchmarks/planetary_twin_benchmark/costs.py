@@ -1,4 +1,4 @@
-"""What speed costs: against terms, planets, speed and duration, one table each."""
+"""Speed over terms of the model, planets, motor speed and duration, one table each."""
 
 from __future__ import annotations
 
@@ -14,6 +14,7 @@ from planetary_twin_py.gearset.phasing import nearest_assembly
 from planetary_twin_py.scene import Scene, load_scene
 from planetary_twin_py.units import rpm
 
+from .markdown import markdown_table, three_digits
 from .timing import METHOD, SAMPLE_RATE, Speed, affordable, end_to_end, speed
 
 TOLERANCE = 1e-4
@@ -22,9 +23,9 @@ PLANETS = range(2, 8)
 SPEEDS = (10.0, 30.0, 100.0, 300.0, 1000.0, 3000.0, 10_000.0)  # [rpm]
 DURATIONS = (0.1, 1.0, 10.0)  # [s]
 
-# Two to six planets in equal distances, seven almost; none of them meshes in step with another.
+# Two to six planets at equal angles, seven nearly so; no two of them mesh in phase.
 TEETH = Teeth(43, 17, 77)
-MESH_FREQUENCY = 500.0  # [Hz] that of the scene `paper`
+MESH_FREQUENCY = 500.0  # [Hz] of the scene `paper`
 
 _NO_FRICTION = {"lubrication.friction": False}
 _LOSSES: dict[str, Any] = {
@@ -57,9 +58,9 @@ TERMS: dict[str, dict[str, Any]] = {
 
 
 class Cost(NamedTuple):
-    """One line of a table."""
+    """A line of a table."""
 
-    against: str  # which table
+    against: str  # name of the table
     value: str
     speed: Speed
 
@@ -68,8 +69,8 @@ class Cost(NamedTuple):
 _Entries = Iterator[tuple[str, Callable[[], Speed]]]
 
 
-def _kernels(scene: Scene) -> Callable[[], Speed]:
-    """Measures integration alone, over as long as it takes to time it."""
+def _integration(scene: Scene) -> Callable[[], Speed]:
+    """Measures integration alone, over a time that is long enough to measure."""
 
     def measured() -> Speed:
         duration = affordable(scene, TOLERANCE, SHORTEST, LONGEST)
@@ -80,19 +81,19 @@ def _kernels(scene: Scene) -> Callable[[], Speed]:
 
 def _terms() -> _Entries:
     for name, changes in TERMS.items():
-        yield name, _kernels(load_scene("paper").replace(**changes))
+        yield name, _integration(load_scene("paper").replace(**changes))
 
 
 def _planets() -> _Entries:
     for count in PLANETS:
-        yield f"{count}", _kernels(with_planets(count, TEETH))
+        yield f"{count}", _integration(with_planets(count, TEETH))
     for count in PLANETS:
-        yield f"{count} in phase", _kernels(with_planets(count, teeth_in_phase(count)))
+        yield f"{count} in phase", _integration(with_planets(count, teeth_in_phase(count)))
 
 
 def _speeds() -> _Entries:
     for value in SPEEDS:
-        yield f"{value:g} rpm", _kernels(load_scene("paper").replace(input_speed=rpm(value)))
+        yield f"{value:g} rpm", _integration(load_scene("paper").replace(input_speed=rpm(value)))
 
 
 def _durations() -> _Entries:
@@ -104,16 +105,16 @@ def _durations() -> _Entries:
 TABLES: dict[str, Callable[[], _Entries]] = {
     "terms": _terms,
     "planets": _planets,
-    "speed": _speeds,
+    "motor speed": _speeds,
     "duration": _durations,
 }
 
 
 def teeth_in_phase(count: int) -> Teeth:
-    """Numbers next to TEETH with which `count` planets in equal distances mesh in phase.
+    """Tooth numbers close to TEETH with which `count` planets at equal angles mesh in phase.
 
-    Those of sun and ring are then multiples of `count`. Planets get no fewer, or teeth would touch
-    below the base circle.
+    The numbers of sun and ring are multiples of `count`. Planets get no fewer teeth than in TEETH,
+    otherwise teeth would touch below the base circle.
     """
     half = count // math.gcd(count, 2)
     sun, planet = count * round(TEETH.sun / count), half * math.ceil(TEETH.planet / half)
@@ -121,7 +122,7 @@ def teeth_in_phase(count: int) -> Teeth:
 
 
 def with_planets(count: int, teeth: Teeth) -> Scene:
-    """The scene `paper` with gears that take `count` planets, each under the same load."""
+    """The scene `paper` with gears for `count` planets, each with the same load."""
     paper = load_scene("paper")
     even = [2.0 * math.pi * n / count for n in range(count)]
     per_planet = paper.operating_point.input_torque / paper.gearset.planets
@@ -136,7 +137,7 @@ def with_planets(count: int, teeth: Teeth) -> Scene:
 def measure_costs(
     tables: Iterable[str] = tuple(TABLES), progress: Callable[[str], None] = lambda text: None
 ) -> list[Cost]:
-    """Measure the lines of the tables named."""
+    """Measure the lines of the named tables."""
     found = []
     for against in tables:
         for value, measured in TABLES[against]():
@@ -147,7 +148,7 @@ def measure_costs(
 
 def _cells(cost: Cost) -> tuple[str, str, str]:
     median, low, high = cost.speed
-    return cost.value, f"{median:.3g}", f"{low:.3g}-{high:.3g}"
+    return cost.value, three_digits(median), f"{three_digits(low)}-{three_digits(high)}"
 
 
 def _of(costs: Sequence[Cost]) -> Iterator[tuple[str, list[Cost]]]:
@@ -156,7 +157,7 @@ def _of(costs: Sequence[Cost]) -> Iterator[tuple[str, list[Cost]]]:
 
 
 def cost_tables(costs: Sequence[Cost]) -> list[Table]:
-    """For the terminal."""
+    """Tables for the terminal."""
     tables = []
     for against, lines in _of(costs):
         table = Table(box=None, header_style="bold", pad_edge=False)
@@ -172,8 +173,8 @@ def cost_markdown(costs: Sequence[Cost]) -> str:
     """A section for the page `docs/speed-and-accuracy.md`."""
     tables = []
     for against, lines in _of(costs):
-        rows = [(against, "speed", "spread"), ("---",) * 3, *(_cells(cost) for cost in lines)]
-        tables.append("\n".join("| " + " | ".join(cells) + " |" for cells in rows))
+        cells = [_cells(cost) for cost in lines]
+        tables.append(markdown_table((against, "speed", "spread"), cells))
     body = "\n\n".join(tables)
     return f"""
 ## What speed costs

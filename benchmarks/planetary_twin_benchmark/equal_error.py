@@ -1,16 +1,17 @@
-"""Who is fastest at an error: the quickest run of each kind whose error is no larger."""
+"""Speed at equal error: the fastest run of each kind of solver within an error."""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Sequence
 
+from .markdown import markdown_table, three_digits
 from .steady import Steady
 from .table import Row
 from .timing import METHOD
 
 ERRORS = (1e-3, 1e-4, 1e-6)
-# Solvers off the shelf, by the beginnings of their names.
+# Off-the-shelf solvers, by the first letters of their names.
 KINDS = {
     "CVODE": ("cvode",),
     "SciPy": ("scipy",),
@@ -19,7 +20,7 @@ KINDS = {
 
 
 def fastest(rows: Iterable[Row], error: float, beginnings: tuple[str, ...]) -> float:
-    """Simulated over processor time, samples included; NaN where no run is so exact."""
+    """Simulated time over processor time, with samples; NaN if no run is accurate enough."""
     speeds = [
         row.rtf_sampled
         for row in rows
@@ -32,21 +33,27 @@ def equal_error_markdown(rows: Sequence[Row], steady: Sequence[Steady]) -> str:
     """A section for the page `docs/speed-and-accuracy.md`; nothing without peers."""
     if all(row.method in (METHOD, "rosenbrock") for row in rows):
         return ""
-    titles = ("case", "DTE error at most", f"`{METHOD}`", *KINDS, "a minute of `auto`")
-    lines: list[Sequence[str]] = [titles, ("---",) * len(titles)]
-    for case in dict.fromkeys(row.case for row in rows):
-        own = [row for row in rows if row.case == case]
-        for error in ERRORS:
-            lines.append((case, f"{error:.0e}", *_speeds(own, error), _minute(case, error, steady)))
-    body = "\n".join("| " + " | ".join(cells) + " |" for cells in lines)
+    body = "\n\n".join(_section(error, rows, steady) for error in ERRORS)
     return f"""
 ## At equal error
 
-Speed of the fastest run within this error, with samples; in brackets the ratio of `{METHOD}` to it.
-*a minute*: as below, without samples.
+Speed of the fastest run within an error of the DTE, with samples; in brackets the ratio of
+`{METHOD}` to it. *`auto`, 60 s*: one minute of the default method as in
+[steady running](#steady-running), without samples.
 
 {body}
 """
+
+
+def _section(error: float, rows: Sequence[Row], steady: Sequence[Steady]) -> str:
+    """The speeds of all cases at one error."""
+    titles = ("case", f"`{METHOD}`", *KINDS, "`auto`, 60 s")
+    lines = [
+        (case, *_speeds([row for row in rows if row.case == case], error),
+         _minute(case, error, steady))
+        for case in dict.fromkeys(row.case for row in rows)
+    ]  # fmt: skip
+    return f"### DTE error at most {error:.0e}\n\n{markdown_table(titles, lines)}"
 
 
 def _speeds(rows: Sequence[Row], error: float) -> list[str]:
@@ -54,7 +61,11 @@ def _speeds(rows: Sequence[Row], error: float) -> list[str]:
     cells = [_figure(own)]
     for beginnings in KINDS.values():
         peer = fastest(rows, error, beginnings)
-        cells.append(_figure(peer) if math.isnan(own / peer) else f"{peer:.2g} ({own / peer:.2g})")
+        cells.append(
+            _figure(peer)
+            if math.isnan(own / peer)
+            else f"{peer:.2g} ({float(f'{own / peer:.2g}'):g})"
+        )
     return cells
 
 
@@ -64,4 +75,4 @@ def _minute(case: str, error: float, steady: Sequence[Steady]) -> str:
 
 
 def _figure(speed: float) -> str:
-    return "-" if math.isnan(speed) else f"{speed:.3g}"
+    return "-" if math.isnan(speed) else three_digits(speed)

@@ -1,8 +1,8 @@
 """A converged reference: SciPy's DOP853 from event to event.
 
-An explicit Runge-Kutta method of order 8 with its own error control and its own event location
-(Brent's method on its own interpolant) shares the equations of motion with the march, but neither
-step, nor step control, nor interpolant, nor the way events are found.
+This explicit Runge-Kutta method of order 8 has its own error control and event location (Brent's
+method on its own interpolant). It shares the equations of motion with the march, but no step, step
+control, interpolant or event location.
 """
 
 from __future__ import annotations
@@ -32,21 +32,21 @@ from planetary_twin_py.integrators.clock import delay, instant, run_on
 from planetary_twin_py.scene import Scene
 
 RELATIVE, ABSOLUTE_X, ABSOLUTE_V = 1e-11, 1e-16, 1e-12
-LONGEST = 1e-3  # [s] stretch between two restarts
-LOOKS = 6  # between two steps, at flanks that may meet and part within one
+LONGEST = 1e-3  # [s] between two restarts
+LOOKS = 6  # checks per step for flanks that meet and separate within it
 
 
 Event = Callable[[float, np.ndarray], float]
 
 
 def _ending(event: Any) -> Event:
-    """Where an event falls below zero, a stretch ends."""
+    """Mark an event: integration ends where it falls below zero."""
     event.terminal, event.direction = True, -1.0
     return event
 
 
 def _missed(stretch: Any, flanks: list[Event]) -> float | None:
-    """A time within the stretch at which a flank is beyond its event, or None."""
+    """A time within the interval at which a flank is beyond its event, or None."""
     for begin, end in pairwise(stretch.t):
         for t in np.linspace(begin, end, LOOKS + 2)[1:-1]:
             y = stretch.sol(t)
@@ -87,8 +87,8 @@ class Reference:
     def _stretch(self) -> Any:
         """Integrate from `begin` to the next event.
 
-        SciPy looks at flanks where its steps end, and misses those that meet and part within one;
-        a stretch that ends between is one it sees.
+        SciPy checks flanks at the ends of its steps, and misses those that meet and separate within
+        a step; such an interval is repeated with an end at that time.
         """
         begin, n = self._march.begin, self._bodies
         start = np.concatenate([begin.x[:n], begin.v[:n], begin.trim[: self._axes]])
@@ -108,7 +108,7 @@ class Reference:
         )  # fmt: skip
 
     def _longest(self) -> float:
-        slew = self._march.moment.slew[: self._axes]
+        slew = self._march.constants.slew[: self._axes]
         gap = (self._model.load.target_speed - self._march.begin.set_speed)[: self._axes]
         return min([LONGEST, *(gap[slew != 0.0] / slew[slew != 0.0])])
 
@@ -120,8 +120,8 @@ class Reference:
         n, train, march = self._bodies, self._engine.train, self._march
         self._unpack(y)
         begin = march.begin
-        forces(self._model, begin, march.moment, self._x, self._v, t, self._trim, self._work)
-        set_speed = begin.set_speed + march.moment.slew * t
+        forces(self._model, begin, march.constants, self._x, self._v, t, self._trim, self._work)
+        set_speed = begin.set_speed + march.constants.slew * t
         lag = [
             set_speed[a] - body_speed(train, begin, self._v, train.coupling[2 * a, 0])
             for a in range(self._axes)
@@ -131,8 +131,8 @@ class Reference:
     def _flanks(self, start: np.ndarray) -> list[Event]:
         """An event for every flank.
 
-        One that rounding left beyond its event at the start must not go on unseen: SciPy looks
-        for changes of sign.
+        A flank that rounding left beyond its event at the start gets an offset, because SciPy
+        detects changes of sign only.
         """
         meshes = range(int(self._engine.train.meshes))
         beyond = [max(0.0, -2.0 * self._departure(i, 0.0, start)) for i in meshes]
@@ -147,18 +147,20 @@ class Reference:
         advance, pace = self._stand(t, y)
         march = self._march
         stand = (advance, pace, 0.0)
-        return float(departure(self._model, march.begin, march.moment, i, self._x, self._v, stand))
+        return float(
+            departure(self._model, march.begin, march.constants, i, self._x, self._v, stand)
+        )
 
     def _stand(self, t: float, y: np.ndarray) -> tuple[float, float]:
-        """Mesh cycles since the start of the stretch, and their pace [1/s]."""
+        """Mesh cycles since the start of the interval, and their rate [1/s]."""
         self._unpack(y)
-        train, rate = self._engine.train, float(self._march.moment.cycle_rate)
+        train, rate = self._engine.train, float(self._march.constants.cycle_rate)
         shift = cycle_shift(train, self._x) - cycle_shift(train, self._march.begin.x)
         return rate * t + shift, rate + cycle_shift(train, self._v)
 
     def _to_edge(self, i: int, t: float, y: np.ndarray) -> float:
-        """Mesh cycles left to the edge ahead."""
-        train, begin, moment = self._engine.train, self._march.begin, self._march.moment
+        """Mesh cycles to the next edge."""
+        train, begin, moment = self._engine.train, self._march.begin, self._march.constants
         side, segment, kind = int(begin.side[i]), begin.segment[i], train.kind[i]
         cycle = moment.start[i] + side * self._stand(t, y)[0]
         if side * moment.cycle_rate >= 0.0:
@@ -168,17 +170,17 @@ class Reference:
     def _observe(self, solution: Any, delay: float, out: np.ndarray) -> None:
         self._unpack(solution(delay))
         march = self._march
-        observe(self._model, march.begin, march.moment, self._x, self._v, delay, self._work, out)
+        observe(self._model, march.begin, march.constants, self._x, self._v, delay, self._work, out)
 
     def _finish(self, stretch: Any) -> None:
-        """Hand the end of the stretch to the march, which changes contacts and segments."""
+        """Pass the end of the interval to the march, which changes contacts and segments."""
         begin, end, n = self._march.begin, self._march.end, self._bodies
         y, length = stretch.y[:, -1], float(stretch.t[-1])
         self._march.end = begin
         end.x[:n], end.v[:n], end.trim[: self._axes] = y[:n], y[n : 2 * n], y[2 * n :]
         run_on(begin, end, length)
         self._march.control.step = length
-        end.set_speed = begin.set_speed + self._march.moment.slew * length
+        end.set_speed = begin.set_speed + self._march.constants.slew * length
         turn = begin.fraction + begin.speed * length / (2.0 * np.pi)
         end.turns, end.fraction = begin.turns + np.floor(turn), turn - np.floor(turn)
         meshes = int(self._engine.train.meshes)

@@ -6,13 +6,15 @@ import math
 from collections.abc import Sequence
 from statistics import median
 from string import Template
+from typing import Any
 
 from rich.table import Table
 
 from .cases import CASES, Case
+from .markdown import markdown_table, speed_cell
 from .reference import RELATIVE
 from .table import METHODS, WHOLE, Row
-from .timing import METHOD, ROUNDS, SAMPLE_RATE
+from .timing import METHOD, ROUNDS, SAMPLE_RATE, Speed
 
 _TITLES = (
     "case", "method", "tolerance", "DTE error", "error/tolerance", "loss error", "speed", "spread",
@@ -24,8 +26,9 @@ _PAGE = Template("""# Speed against error
 Made by the command in `benchmarks/README.md` on one core of a shared machine, so compare ratios.
 Scene, arrays and start take $setup ms more.
 
-- *speed*: simulated time over processor time without samples, median of $rounds rounds; *spread*:
-  the slowest and the fastest round; *sampled*: speed with samples of all meshes at $rate kHz.
+- *speed*: simulated time over processor time without samples, median of $rounds rounds; in
+  brackets the slowest and the fastest round.
+- *sampled*: speed with samples of all meshes at $rate kHz.
 - *end to end*: speed of `simulate` over $whole s by wall time, with set-up and samples.
 - *DTE error*: rms error of the dynamic transmission error over its rms, for the worst mesh.
 - *loss error*: relative error of the mean power loss.
@@ -34,16 +37,15 @@ Scene, arrays and start take $setup ms more.
   `tests/reference_model.py` is a second reference, which shares no code with the model.
 $peers
 The method `march` is exponential collocation at Radau points in the modes of the meshes in contact,
-from event to event; near standstill ROS34PW2, a linearly implicit Runge-Kutta method of order 3,
-takes over (`integrators/`). `tolerance` bounds the local error of a step relative to the static
-deflection of the meshes; in these cases the DTE error is $least to $most times the tolerance. The
-default method, `auto`, does the same until steady running is periodic, see below.
+from event to event. Near standstill ROS34PW2, a linearly implicit Runge-Kutta method of order 3,
+takes over (`core/integrators/`). `tolerance` bounds the local error of a step relative to the
+static deflection of the meshes; in these cases the DTE error is $least to $most times the
+tolerance. The default method, `auto`, does the same until steady running is periodic, see below.
 $picture$summary
 ## All runs
 
-$table
+All cases are scene `paper` with some fields changed. Values are in SI.
 
-The cases: the scene `paper` with
 $cases
 """)
 
@@ -53,6 +55,23 @@ _PEERS = f"""- Methods other than {" and ".join(f"`{name}`" for name in METHODS)
   only time is the one with samples, which they interpolate; it excludes the computation of losses
   from the states.
 """
+
+
+_PAGE_TITLES = (
+    "method", "tolerance", "DTE error", "loss error", "speed", "sampled", "end to end",
+)  # fmt: skip
+
+
+def _page_cells(row: Row) -> tuple[str, ...]:
+    return (
+        row.method,
+        f"{row.tolerance:.0e}",
+        _figure(row.error_dte, ".1e"),
+        _figure(row.error_power_loss, ".1e"),
+        row.note or speed_cell(Speed(row.rtf, row.rtf_low, row.rtf_high)),
+        _figure(row.rtf_sampled, ".3g"),
+        _figure(row.end_to_end_rtf, ".3g"),
+    )
 
 
 def _cells(row: Row) -> tuple[str, ...]:
@@ -75,7 +94,7 @@ def _figure(value: float, form: str) -> str:
 
 
 def as_table(rows: Sequence[Row]) -> Table:
-    """For the terminal."""
+    """Table for the terminal."""
     table = Table(box=None, header_style="bold", pad_edge=False)
     for title in _TITLES:
         name = title in _TITLES[:2]
@@ -88,7 +107,6 @@ def as_table(rows: Sequence[Row]) -> Table:
 
 def as_markdown(rows: Sequence[Row], picture: str | None = None, summary: str = "") -> str:
     """The page `docs/speed-and-accuracy.md`; `picture` and `summary` are of the same rows."""
-    lines = [_TITLES, ("---",) * len(_TITLES), *(_cells(row) for row in rows)]
     own = [row for row in rows if row.method == METHOD]
     ratios = [row.error_ratio for row in own]
     return _PAGE.substitute(
@@ -102,11 +120,27 @@ def as_markdown(rows: Sequence[Row], picture: str | None = None, summary: str = 
         peers=_PEERS if any(row.method not in METHODS for row in rows) else "",
         summary=summary,
         picture="" if picture is None else f"\n![Error against time]({picture})\n",
-        table="\n".join("| " + " | ".join(cells) + " |" for cells in lines),
-        cases="\n".join(f"- {case.name}: {_described(case)}" for case in CASES),
+        cases="\n\n".join(_section(case, rows) for case in dict.fromkeys(row.case for row in rows)),
     )
 
 
+def _section(name: str, rows: Sequence[Row]) -> str:
+    """The runs of one case under its name and its changes to the scene."""
+    described = "".join(f"{_described(case)}\n\n" for case in CASES if case.name == name)
+    lines = [_page_cells(row) for row in rows if row.case == name]
+    return f"### {name}\n\n{described}{markdown_table(_PAGE_TITLES, lines)}"
+
+
 def _described(case: Case) -> str:
-    stretch = "" if case.stretch is None else f", with {case.stretch}"
-    return f"{case.changes or 'as it is'}; {case.duration * 1e3:g} ms compared{stretch}"
+    changes = _fields(case.changes) or "No field is changed"
+    start = "" if case.stretch is None else f", from {_fields(case.stretch)}"
+    return f"{changes}; {case.duration * 1e3:g} ms are compared{start}."
+
+
+def _fields(changes: dict[str, Any]) -> str:
+    """Changes as a list of fields and values."""
+    return ", ".join(f"`{name}: {_value(value)}`" for name, value in changes.items())
+
+
+def _value(value: Any) -> str:
+    return f"{value:.5g}" if isinstance(value, float) else str(value)

@@ -1,4 +1,4 @@
-"""What steady running costs once it repeats itself, and how wrong it is then."""
+"""Speed and error of steady running once mesh cycles repeat."""
 
 from __future__ import annotations
 
@@ -14,15 +14,16 @@ from planetary_twin_py.engine import Engine
 from planetary_twin_py.scene import Scene
 
 from .cases import Case
+from .markdown import markdown_table, speed_cell
 from .table import TOLERANCES, errors
 from .timing import METHOD, SAMPLE_RATE, Speed, run, speed
 
 AUTO = "auto"
 MINUTE = 60.0  # [s]
-BY = 4.0  # [s] by which it is to repeat
-COMPARED = 0.02  # [s] before that, compared with what is computed ...
+BY = 4.0  # [s] by which it must repeat
+COMPARED = 0.02  # [s] before BY that are compared with a computed run ...
 EXACT = 1e-7  # ... at this tolerance
-LOOKED = 0.01  # [s] between two looks at whether it repeats
+LOOKED = 0.01  # [s] between two checks whether it repeats
 NAN = math.nan
 NOT = Speed(NAN, NAN, NAN)
 
@@ -32,15 +33,15 @@ class Steady(NamedTuple):
 
     case: str
     tolerance: float
-    repeats_from: float  # [s], NaN: it does not
-    late: float  # mesh cycles by which it is late
-    error_dte: float  # that aside
+    repeats_from: float  # [s], NaN if it does not repeat
+    late: float  # delay [mesh cycles]
+    error_dte: float  # without the delay
     error_power_loss: float
     speed: Speed  # from the start, without samples
     setup_s: float  # building and starting the model [s]
 
     def figures(self) -> dict[str, str | float | None]:
-        """For JSON, which knows no NaN."""
+        """Values for JSON, None for NaN."""
         values = {"method": AUTO, **self._asdict()}
         values["rtf"], values["rtf_low"], values["rtf_high"] = values.pop("speed")
         return {name: None if value != value else value for name, value in values.items()}
@@ -51,7 +52,7 @@ def measure_steady(
     tolerances: Iterable[float] = TOLERANCES,
     progress: Callable[[str], None] = lambda text: None,
 ) -> list[Steady]:
-    """Measure all cases; one that does not repeat has no figures."""
+    """Measure all cases; a case that does not repeat has no figures."""
     found, tolerances = [], list(tolerances)
     for case in cases:
         exact = None
@@ -71,7 +72,7 @@ def measure_steady(
 
 
 def repeats_from(scene: Scene, tolerance: float) -> float:
-    """Simulated time [s] from which the scene repeats itself; NaN if not by then."""
+    """Simulated time [s] from which mesh cycles repeat; NaN if they do not by BY."""
     engine = Engine(scene, tolerance)
     for look in range(1, round(BY / LOOKED) + 1):
         engine.advance(look * LOOKED, 1, SAMPLE_RATE, 0)
@@ -81,10 +82,10 @@ def repeats_from(scene: Scene, tolerance: float) -> float:
 
 
 class _Settled(NamedTuple):
-    """The stretch that is compared."""
+    """The interval that is compared."""
 
     mesh: np.ndarray  # (samples, QUANTITIES, meshes)
-    cycles: np.ndarray  # (samples,) through which the meshes have gone
+    cycles: np.ndarray  # (samples,) completed by the meshes
 
 
 def _settled(scene: Scene, tolerance: float, method: str) -> _Settled:
@@ -98,10 +99,10 @@ def _settled(scene: Scene, tolerance: float, method: str) -> _Settled:
 
 
 def _errors(found: _Settled, exact: _Settled) -> tuple[float, float, float]:
-    """Mesh cycles by which it is late, and the errors that this does not explain.
+    """Delay [mesh cycles], and the errors that the delay does not explain.
 
-    What friction is wrong by, the speed loop makes good by an angle: it is soft, so that the
-    shift is by many times more wrong than the loss.
+    The speed loop compensates an error of friction by an angle. It is soft, so the relative error
+    of this angle is many times that of the loss.
     """
     late = float((exact.cycles - found.cycles).mean())
     pace = np.gradient(exact.cycles)[:, None]
@@ -134,8 +135,22 @@ def _cells(row: Steady) -> tuple[str, ...]:
     )
 
 
+_PAGE_TITLES = ("tolerance", "repeats from", "late by", "DTE error", "loss error", "a minute")
+
+
+def _page_cells(row: Steady) -> tuple[str, ...]:
+    tolerance, begin, late, dte, _, loss, *_ = _cells(row)[1:]
+    return tolerance, begin, late, dte, loss, speed_cell(row.speed)
+
+
+def _section(case: str, rows: Sequence[Steady]) -> str:
+    """One case at all tolerances."""
+    lines = [_page_cells(row) for row in rows if row.case == case]
+    return f"### {case}, 60 s\n\n{markdown_table(_PAGE_TITLES, lines)}"
+
+
 def steady_table(rows: Sequence[Steady]) -> Table:
-    """For the terminal."""
+    """Table for the terminal."""
     table = Table(box=None, header_style="bold", pad_edge=False)
     for title in _TITLES:
         table.add_column(title, justify="left" if title == "case" else "right")
@@ -146,15 +161,15 @@ def steady_table(rows: Sequence[Steady]) -> Table:
 
 def steady_markdown(rows: Sequence[Steady]) -> str:
     """A section for the page `docs/speed-and-accuracy.md`."""
-    lines = [_TITLES, ("---",) * len(_TITLES), *(_cells(row) for row in rows)]
-    body = "\n".join("| " + " | ".join(cells) + " |" for cells in lines)
+    body = "\n\n".join(_section(case, rows) for case in dict.fromkeys(row.case for row in rows))
     return f"""
 ## Steady running
 
 The default method, `auto`, in the same cases over {MINUTE:g} s. Once mesh cycles are periodic, they
 are not computed again (`core/integrators/periodic.hpp`).
 
-- *a minute*: simulated time over processor time from the start, without samples, with settling.
+- *a minute*: simulated time over processor time from the start, without samples, with settling; in
+  brackets the slowest and the fastest round.
 - Errors are those of the last {COMPARED * 1e3:g} ms before {BY:g} s, against `{METHOD}` at
   tolerance {EXACT:g}.
 - *late by*: delay in mesh cycles. The speed loop compensates an error of friction by an angle; with

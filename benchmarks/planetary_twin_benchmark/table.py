@@ -1,4 +1,4 @@
-"""Runs every case at every tolerance, and says how fast and how wrong."""
+"""Runs every case at every tolerance and measures speed and error."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ class Row(NamedTuple):
     case: str
     method: str
     tolerance: float
-    error_dte: float  # rms error of the transmission error over its rms, the worst mesh [-]
+    error_dte: float  # rms error of the transmission error over its rms, largest of all meshes [-]
     error_power_loss: float  # error of the mean power loss over its value [-]
     rtf: float  # simulated over processor time without samples, median; of peers, with them
     rtf_low: float  # the slowest round
@@ -41,12 +41,12 @@ class Row(NamedTuple):
         return self.error_dte / self.tolerance
 
     def figures(self) -> dict[str, str | float | None]:
-        """For JSON, which knows no NaN."""
+        """Values for JSON, None for NaN."""
         values = self._asdict()
         return {name: None if value != value else value for name, value in values.items()}
 
 
-# Further rows of a case, held against its reference (samples, QUANTITIES, meshes).
+# Further rows of a case, compared with its reference (samples, QUANTITIES, meshes).
 Beside = Callable[[Case, np.ndarray], Iterable[Row]]
 
 
@@ -65,8 +65,8 @@ def measure(
     """Measure all cases.
 
     Args:
-        cases: what to measure.
-        tolerances: each gives a row of every method.
+        cases: to measure.
+        tolerances: a row of every method for each.
         progress: receives the name of what is being measured.
         beside: gives further rows.
         methods: of `Engine`.
@@ -105,10 +105,10 @@ def errors(samples: np.ndarray, reference: np.ndarray) -> tuple[float, float]:
 
 
 def dte_error(dte: np.ndarray, true: np.ndarray) -> float:
-    """Relative error (rms, worst mesh) of transmission errors (samples, meshes)."""
+    """Relative rms error, largest of all meshes, of transmission errors (samples, meshes)."""
     return float(np.sqrt(((dte - true) ** 2).mean(axis=0) / (true**2).mean(axis=0)).max())
 
 
 def loss_error(lost: float, true: float) -> float:
-    """Relative error of a power loss; NaN where nothing is lost."""
+    """Relative error of a power loss; NaN if there is no loss."""
     return float(abs(lost / true - 1.0)) if true else math.nan

@@ -1,4 +1,4 @@
-"""How fast a scene runs: simulated over processor time, the median of a few rounds."""
+"""Speed of a scene: simulated time over processor time, median of several rounds."""
 
 from __future__ import annotations
 
@@ -15,12 +15,12 @@ from planetary_twin_py.simulation import simulate
 
 METHOD = "march"  # every mesh cycle is computed
 SAMPLE_RATE = 50_000.0
-ROUNDS = 3  # timed runs, of which the median counts
-ROUND = 0.1  # [s] that one of them takes, about
+ROUNDS = 3  # timed runs; the median is reported
+ROUND = 0.1  # [s] approximate duration of one
 
 
 class Speed(NamedTuple):
-    """Simulated over computing time, of some rounds."""
+    """Simulated time over computing time of several rounds."""
 
     median: float
     low: float  # the slowest
@@ -28,12 +28,12 @@ class Speed(NamedTuple):
 
     @classmethod
     def of(cls, rounds: Sequence[float]) -> Self:
-        """What the rounds come to."""
+        """Median and extremes of `rounds`."""
         return cls(median(rounds), min(rounds), max(rounds))
 
 
 class Run(NamedTuple):
-    """What one run gave and took."""
+    """Samples and times of one run."""
 
     mesh: np.ndarray  # (samples, QUANTITIES, meshes)
     seconds: float  # processor time of the run in its thread
@@ -53,7 +53,7 @@ def run(scene: Scene, duration: float, method: str, tolerance: float, *, sampled
 
 
 def speed(scene: Scene, duration: float, method: str, tolerance: float, *, sampled: bool) -> Speed:
-    """Speed of runs of `duration` [s], set-up left out."""
+    """Speed of runs of `duration` [s], without set-up."""
     return _rounds(
         duration,
         lambda: run(scene, duration, method, tolerance, sampled=sampled).seconds,
@@ -72,12 +72,12 @@ def end_to_end(scene: Scene, duration: float, tolerance: float) -> Speed:
 
 
 def repeats(seconds: float, most: int) -> int:
-    """How often to run on what took `seconds`, so that it takes about a ROUND."""
+    """Number of repetitions of a run of `seconds` that take about a ROUND."""
     return max(1, min(most, int(ROUND / max(seconds, 1e-6))))
 
 
 def affordable(scene: Scene, tolerance: float, shortest: float, longest: float) -> float:
-    """Duration [s] within these bounds that takes about a ROUND to run."""
+    """Duration [s] within these bounds that takes about a ROUND to compute."""
     duration = shortest
     while duration < longest:
         seconds = run(scene, duration, METHOD, tolerance, sampled=False).seconds

@@ -50,8 +50,8 @@ $entries
 
 ## Equations
 
-Files are relative to `planetary_twin_py/`. The choice is the scene field and value that select the
-printed form: `planetary-twin simulate paper --set FIELD=VALUE`, or the same in a scene file.
+Files are relative to `planetary_twin_py/`. A printed form with a field and a value in brackets can
+be selected: `planetary-twin simulate paper --set FIELD=VALUE`, or the same in a scene file.
 
 $equations
 
@@ -97,7 +97,7 @@ def write_page(
             summary=_table(("", "title", "verdict"), [_summary(entry) for entry in entries]),
             entries="\n\n".join(_entry(entry, folder.name, suffix) for entry in entries),
             equations=_table(
-                ("equation", "law", "file", "default", "printed form", "choice"),
+                ("equation", "default", "printed form"),
                 [_equation(equation) for equation in EQUATIONS],
             ),
             left_out=evidence.printed.description,
@@ -151,14 +151,11 @@ def _tick(holds: bool) -> str:
 
 
 def _equation(equation: Equation) -> tuple[str, ...]:
-    choice = f"`{equation.choice}`" if equation.choice else "-"
+    choice = f" (`{equation.choice}`)" if equation.choice else ""
     return (
-        equation.label,
-        equation.law,
-        f"`{equation.file}`",
+        f"{equation.label} {equation.law}, `{equation.file}`",
         equation.default,
-        equation.printed,
-        choice,
+        equation.printed + choice,
     )
 
 

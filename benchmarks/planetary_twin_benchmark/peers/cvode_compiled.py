@@ -1,4 +1,4 @@
-"""SUNDIALS CVODE with nothing interpreted between its steps: the library of scikit-sundae, called
+"""SUNDIALS CVODE without interpreted code between its steps: the library of scikit-sundae, called
 from compiled code, calls a compiled right-hand side.
 
 Samples come from CVODE's own interpolation. BDF solves its equations by Newton's iteration with a

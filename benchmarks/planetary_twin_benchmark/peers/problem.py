@@ -1,4 +1,4 @@
-"""A scene as an initial value problem, and what a solver has made of it."""
+"""A scene as an initial value problem, and results from the states of a solver."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ CALLS = 100_000  # of the right-hand side, to time it
 
 
 class Problem:
-    """y' = f(t, y), y(0) = 0, and the sizes of what varies."""
+    """y' = f(t, y), y(0) = 0, and the magnitudes of the entries of y."""
 
     def __init__(self, scene: Scene) -> None:
         train, point = build_train(scene), scene.operating_point
@@ -42,7 +42,7 @@ class Problem:
         self.mesh_period = 1.0 / frequency  # at the start [s]
 
     def _scale(self, scene: Scene) -> np.ndarray:
-        """Sizes of the entries of y (size,): deflection of a mesh, and its fastest vibration."""
+        """Magnitudes of the entries of y (size,): deflection and fastest vibration of a mesh."""
         train, point = self._train, scene.operating_point
         force = abs(mesh_force(scene, abs(point.input_torque) + point.torque_ripple))
         stiffness = float(train.stiffness.min())
@@ -65,7 +65,7 @@ class Problem:
         return slope
 
     def seconds_per_call(self) -> float:
-        """What the right-hand side takes, called from compiled code, over one mesh cycle [s]."""
+        """Time of the right-hand side, called from compiled code, over one mesh cycle [s]."""
         y, dy = np.zeros(self.size), np.zeros(self.size)
         begin = time.thread_time()
         repeat_derivative(self.record, self.mesh_period / CALLS, y, dy, CALLS)
@@ -78,5 +78,5 @@ class Problem:
 
 
 def sample_times(duration: float, sample_rate: float) -> np.ndarray:
-    """The instants of the benchmark: whole multiples of 1/sample_rate [s], from the first on."""
+    """Instants of the benchmark: integer multiples of 1/sample_rate [s], from 1 on."""
     return np.arange(1, round(duration * sample_rate) + 1) / sample_rate

@@ -1,4 +1,4 @@
-"""What every peer is: a function that solves a `Problem` and keeps to a limit of time."""
+"""Interface of a peer: a function that solves a `Problem` within a time limit."""
 
 from __future__ import annotations
 
@@ -11,21 +11,21 @@ from .problem import Problem
 
 
 class SolverError(Exception):
-    """A solver gave up, for the reason given."""
+    """A solver failed, for the given reason."""
 
 
 class TooSlow(SolverError):
-    """A solver's time was up."""
+    """A solver exceeded its time limit."""
 
 
 class Deadline:
-    """A limit of time, at which whoever solves looks now and then."""
+    """A time limit, which solvers check at intervals."""
 
     def __init__(self, seconds: float) -> None:
         self._seconds, self._end = seconds, time.monotonic() + seconds
 
     def check(self) -> None:
-        """Raises TooSlow once the time is up."""
+        """Raise TooSlow after the time limit."""
         if time.monotonic() > self._end:
             raise TooSlow(f"over {self._seconds:g} s")
 

@@ -1,4 +1,4 @@
-"""The peers by name, and one run of one of them."""
+"""The peers by name, and a run of one of them."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ SOLVERS: dict[str, Solver] = {
 
 
 class Run(NamedTuple):
-    """What a solver found and what it took."""
+    """Result and cost of a solver."""
 
     dte: np.ndarray  # (samples, meshes) [m]
     power_loss: float  # mean over the samples [W]

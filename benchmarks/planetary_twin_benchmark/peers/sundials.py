@@ -1,4 +1,4 @@
-"""The CVODE library that the package scikit-sundae brings, by its C functions.
+"""C functions of the CVODE library in the package scikit-sundae.
 
 Hindmarsh et al. 2005, "SUNDIALS: Suite of nonlinear and differential/algebraic equation solvers".
 """
@@ -46,7 +46,7 @@ _FUNCTIONS: dict[str, tuple[Any, list[Any]]] = {  # what it returns, what it tak
 
 
 class Setting(NamedTuple):
-    """What CVODE is to integrate, and how."""
+    """Problem and settings for CVODE."""
 
     method: int  # ADAMS or BDF
     function: int  # address of a CVRhsFn
@@ -57,7 +57,7 @@ class Setting(NamedTuple):
 
 
 class Solver(NamedTuple):
-    """Addresses of CVODE's memory and of the vector whose numbers are `y`."""
+    """Addresses of the memory of CVODE and of the vector with the values `y`."""
 
     memory: int
     vector: int
@@ -66,7 +66,7 @@ class Solver(NamedTuple):
 
 @cache
 def library() -> ctypes.CDLL:
-    """CVODE and what it needs, with typed functions.
+    """CVODE and the libraries it needs, with typed functions.
 
     Raises:
         importlib.metadata.PackageNotFoundError: scikit-sundae is not installed.
@@ -82,7 +82,7 @@ def library() -> ctypes.CDLL:
 
 @contextmanager
 def cvode(setting: Setting) -> Iterator[Solver]:
-    """A CVODE solver that starts from y = 0 at time zero, freed in the end."""
+    """A CVODE solver that starts from y = 0 at time zero and is freed at the end."""
     lib, y = library(), np.zeros(len(setting.absolute))
     with ExitStack() as held:
         context = _POINTER()

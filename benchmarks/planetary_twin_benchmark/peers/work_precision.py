@@ -1,4 +1,4 @@
-"""Every peer on a case: how fast and how wrong."""
+"""Speed and error of every peer in a case."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ def peer_rows(
     tolerances: Iterable[float] = TOLERANCES,
     names: Iterable[str] = tuple(SOLVERS),
 ) -> Beside:
-    """What gives the rows of the peers `names`; `progress` receives what is being measured."""
+    """Function that returns rows of the peers `names`; `progress` receives what is measured."""
     tolerances, names = sorted(tolerances, reverse=True), list(names)
 
     def rows(case: Case, reference: np.ndarray) -> Iterator[Row]:
@@ -36,7 +36,7 @@ def peer_rows(
 
 
 def _rows(case: Case, name: str, tolerances: list[float], reference: np.ndarray) -> Iterator[Row]:
-    """A row for every tolerance; where one takes too long, so would those below it."""
+    """A row for every tolerance; after one that takes too long, smaller ones are not run."""
     slow: SolverError | None = None
     for tolerance in tolerances:
         try:

@@ -1,0 +1,191 @@
+"""Speed of the integrator against its error, case by case, for one build of the core or for two.
+
+    python benchmarks/core_speed.py                      # this checkout
+    python benchmarks/core_speed.py --against ../before  # ... beside another one with its own build
+
+Prints simulated over processor time (without and with samples at 50 kHz), processor time and number
+of steps, and the error of the transmission error against the same build at a tolerance of 1e-8,
+relative to its rms and to the rms of its alternating part, of the worst mesh. With two builds, runs
+alternate between their processes, and the last column is the median of the ratios of the rounds.
+The periodic repetition of mesh cycles is off (`march`).
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+import subprocess
+import sys
+import time
+from pathlib import Path
+from statistics import median
+from typing import Any, NamedTuple
+
+import numpy as np
+
+SAMPLE_RATE = 50_000.0
+WINDOW = 0.02  # [s] of a call: what it returns is small enough that its memory is used again
+CONVERGED = 1e-8  # tolerance of the run that errors are measured against
+HERE = Path(__file__).resolve().parent
+
+
+class Case(NamedTuple):
+    """A case of `planetary_twin_benchmark.cases`, and how it is timed."""
+
+    name: str
+    of: str  # its name there
+    tolerance: float
+    lead: float  # [s] before what is timed
+    timed: float  # [s]
+
+
+CASES = (
+    Case("steady 1000 rpm", "steady 1000 rpm", 1e-3, 0.01, 0.4),
+    Case("steady at 1e-6", "steady 1000 rpm", 2e-5, 0.01, 0.2),
+    Case("steady 3000 rpm", "steady 3000 rpm", 1e-3, 0.01, 0.2),
+    Case("stiff 100 rpm", "stiff 100 rpm", 1e-3, 0.01, 2.0),
+    Case("rattle", "rattle", 1e-3, 0.01, 0.4),
+    Case("light damping", "light damping 1000 rpm", 1e-3, 0.01, 0.2),
+    Case("run-up", "run-up 5 to 1000 rpm in 0.5 s", 1e-3, 0.02, 0.48),
+    Case("resonance 17 000 rpm", "resonance 17 000 rpm", 1e-3, 0.005, 0.02),
+)
+
+
+class Timed(NamedTuple):
+    """What a timed run took."""
+
+    seconds: float  # of processor
+    steps: int
+
+
+def timed(case: Case, sampled: bool) -> Timed:
+    """Run a case in this process."""
+    from planetary_twin_benchmark.cases import CASES as SCENES
+
+    from planetary_twin_py.run import start
+
+    scene = next(each for each in SCENES if each.name == case.of).scene()
+    engine = start(scene, case.tolerance, "march")
+    engine.advance(case.lead, 1, SAMPLE_RATE, 0)
+    before, windows = engine.control.steps, round(case.timed / WINDOW)
+    ends = [case.lead + (n + 1) * case.timed / windows for n in range(windows)]
+    seconds, done = 0.0, round(case.lead * SAMPLE_RATE)
+    for end in ends:
+        due = round(end * SAMPLE_RATE)
+        begin = time.thread_time()
+        engine.advance(end, done + 1, SAMPLE_RATE, due - done if sampled else 0)
+        seconds += time.thread_time() - begin
+        done = due
+    return Timed(seconds, engine.control.steps - before)
+
+
+def errors(case: Case) -> tuple[float, float]:
+    """Error of the DTE over its rms, and over that of its alternating part, of the worst mesh."""
+    from planetary_twin_benchmark.cases import CASES as SCENES
+
+    from planetary_twin_py._core import DTE
+    from planetary_twin_py.run import start
+
+    compared = next(each for each in SCENES if each.name == case.of)
+    room = round(compared.duration * SAMPLE_RATE)
+
+    def dte(tolerance: float) -> Any:
+        engine = start(compared.compared(), tolerance, "march")
+        return engine.advance(compared.duration, 1, SAMPLE_RATE, room).mesh[:, DTE]
+
+    def rms(values: Any) -> Any:
+        return np.sqrt(np.mean(values**2, axis=0))
+
+    exact = dte(CONVERGED)
+    error = rms(dte(case.tolerance) - exact)
+    alternating = rms(exact - exact.mean(axis=0))
+    return float(np.max(error / rms(exact))), float(np.max(error / alternating))
+
+
+def serve() -> None:
+    """Answer requests of the parent process, a line each."""
+    for line in sys.stdin:
+        request = json.loads(line)
+        case = Case(*request["case"])
+        answer = errors(case) if request["errors"] else timed(case, request["sampled"])
+        print(json.dumps(answer), flush=True)
+
+
+class Build:
+    """A checkout with its built core, in a process of its own."""
+
+    def __init__(self, checkout: Path) -> None:
+        self.name = checkout.resolve().name
+        paths = [str(checkout.resolve()), str(HERE)]
+        code = f"import sys; sys.path[:0] = {paths}; import core_speed; core_speed.serve()"
+        self._process = subprocess.Popen(
+            [sys.executable, "-c", code],
+            stdin=subprocess.PIPE,
+            stdout=subprocess.PIPE,
+            text=True,
+        )
+
+    def ask(self, case: Case, *, errors: bool = False, sampled: bool = False) -> Any:
+        """What the process answers."""
+        stdin, stdout = self._process.stdin, self._process.stdout
+        assert stdin is not None and stdout is not None
+        print(json.dumps({"case": case, "errors": errors, "sampled": sampled}), file=stdin)
+        stdin.flush()
+        return json.loads(stdout.readline())
+
+    def close(self) -> None:
+        """End the process."""
+        assert self._process.stdin is not None
+        self._process.stdin.close()
+        self._process.wait()
+
+
+def measure(builds: list[Build], case: Case, rounds: int) -> list[str]:
+    """Rows of the table for a case, a row for each build."""
+    runs: list[list[list[Timed]]] = [[[], []] for _ in builds]
+    for round_number in range(rounds):
+        for sampled in (False, True):
+            order = range(len(builds)) if round_number % 2 else reversed(range(len(builds)))
+            for b in order:
+                runs[b][sampled].append(Timed(*builds[b].ask(case, sampled=sampled)))
+    rows = []
+    for build, (plain, sampled_runs) in zip(builds, runs, strict=True):
+        seconds = median(run.seconds for run in plain)
+        spread = [case.timed / run.seconds for run in plain]
+        sampled_speed = case.timed / median(run.seconds for run in sampled_runs)
+        error, alternating = build.ask(case, errors=True)
+        pairs = zip(runs[-1][0], plain, strict=True)
+        ratio = median(theirs.seconds / own.seconds for theirs, own in pairs)
+        rows.append(
+            f"{case.name:22s}{build.name:14s}{case.timed / seconds:8.2f}"
+            f"{f'{min(spread):.3g}-{max(spread):.3g}':>14s}{sampled_speed:9.2f}"
+            f"{1e9 * seconds / plain[0].steps:9.0f}{plain[0].steps:8d}"
+            f"{error:10.1e}{alternating:10.1e}{ratio:7.2f}"
+        )
+    return rows
+
+
+def main() -> None:
+    """Measure all cases and print the table."""
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("--against", type=Path, help="another checkout with its own build")
+    parser.add_argument("--rounds", type=int, default=5)
+    parser.add_argument("--cases", nargs="*", help="parts of the names of cases")
+    arguments = parser.parse_args()
+    builds = [Build(HERE.parent)]
+    if arguments.against:
+        builds.append(Build(arguments.against))
+    print(
+        f"{'case':22s}{'build':14s}{'RTF':>8s}{'slow-fast':>14s}{'sampled':>9s}{'ns/step':>9s}"
+        f"{'steps':>8s}{'error':>10s}{'of AC':>10s}{'ratio':>7s}"
+    )
+    for case in CASES:
+        if arguments.cases and not any(part in case.name for part in arguments.cases):
+            continue
+        print(*measure(builds, case, arguments.rounds), sep="\n", flush=True)
+    for build in builds:
+        build.close()
+
+
+if __name__ == "__main__":
+    main()
