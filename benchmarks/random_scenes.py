@@ -1,9 +1,9 @@
 """Errors of transmission error and loss over random scenes, against the other method, converged.
 
-Speeds run from 0.001 to 20 000 rpm in both senses, with standstill; gear sets, power flows, laws
-and faults are drawn. Prints a line for each scene whose error exceeds ten tolerances, with "warned"
-where its run says so, or whose ledger misses a millionth of the turnover at 1e-5; then how many
-there are.
+Speeds run from 0.001 to 20 000 rpm in both senses, with standstill; gear sets, power flows, laws,
+faults and errors of planets are drawn. Prints a line for each scene whose error exceeds ten
+tolerances, with "warned" where its run says so, or whose ledger misses a millionth of the turnover
+at 1e-5; then how many there are.
 
     python benchmarks/random_scenes.py --count 100 --seed 1 --tolerance 1e-4
 """
@@ -22,6 +22,7 @@ import planetary_twin_py as pt
 SETS = [(30, 20, 70, 3), (36, 18, 72, 4), (24, 24, 72, 3), (40, 30, 100, 2), (30, 20, 70, 5)]
 FASTEST_ROSENBROCK = 3000.0  # [Hz] mesh frequency above which collocation is the reference
 CRACK = {"kind": "crack", "gear": "sun", "tooth": 0, "stiffness_loss": 0.4}
+ERROR = 1e-6  # [m] largest error of a pin or a tooth
 LEAST_SHARE = 1e-3  # of the power that passes: losses below it are compared with it
 
 
@@ -76,6 +77,7 @@ def random_changes(random: np.random.Generator) -> dict[str, Any]:
         "mesh.damping.law": one("viscous", "meshing_frequency", "natural_frequency"),
         "mesh.runout": one({}, {"sun": "2 um"}),
         "faults": one([], [], [CRACK]),
+        "errors": one({}, {}, errors_of_planets(random, planets)),
         "lubrication.film": one("dowson_higginson", "dowson_toyoda", "salagianni"),
         "lubrication.lambda_ratio": one("prescribed", "computed"),
         "lubrication.boundary": one("greenwood_tripp", "load_sharing"),
@@ -84,7 +86,18 @@ def random_changes(random: np.random.Generator) -> dict[str, Any]:
     }
     if changes["mesh.runout"]:
         changes["backlash"] += 2e-6  # runout closes 1.5 um of it
+    if changes["errors"]:
+        changes["backlash"] += 8.0 * ERROR  # more than all errors close
     return changes
+
+
+def errors_of_planets(random: np.random.Generator, planets: int) -> dict[str, Any]:
+    """Errors of pins and of the thickness of planets, of each another."""
+
+    def each() -> tuple[float, ...]:
+        return tuple(random.uniform(-ERROR, ERROR, planets))
+
+    return {"pin_radial": each(), "pin_tangential": each(), "planet_thickness": each()}
 
 
 def measure(scene: pt.Scene, tolerance: float) -> Errors:

@@ -38,6 +38,7 @@ FILES = sorted(
     if not {"build", "core"} & {*file.relative_to(folder).parts} or folder.name == "tests"
     if file not in (THIS, THIS.with_name("test_page_words.py"))
 )
+CORE = sorted(file for file in (PACKAGE / "core").rglob("*") if file.suffix in {".hpp", ".cpp"})
 
 
 def found_in(source):
@@ -54,6 +55,11 @@ def test_a_source_has_plain_words_only(file):
     path = str(file.relative_to(ROOT))
     found = found_in(file.read_text(encoding="utf-8"))
     assert {word for word in found if (path, word) not in DEPRECATED} == set()
+
+
+@pytest.mark.parametrize("file", CORE, ids=lambda file: str(file.relative_to(ROOT)))
+def test_a_source_of_the_core_has_plain_words_only(file):
+    assert set(DIALECT.findall(file.read_text(encoding="utf-8"))) == set()
 
 
 def test_comments_strings_and_names_are_searched():

@@ -109,7 +109,7 @@ void bind_parts_of_steps(nb::module_& m) {
         [](const Model& model, March& march, bool with_friction) {
             with_lanes(model.train, [&](auto lanes) { sweep<lanes>(model, march, with_friction); });
         },
-        "model"_a, "march"_a, "with_friction"_a, "Take the rest anew at all nodes.");
+        "model"_a, "march"_a, "with_friction"_a, "Evaluate the rest at all nodes.");
     m.def("end_within", &end_within, "model"_a, "march"_a, "h"_a,
           "Let the step of collocation end after `h` seconds, on its own motion.");
     m.def("rosenbrock_step", &rosenbrock_step, "model"_a, "state"_a, "constants"_a, "h"_a,

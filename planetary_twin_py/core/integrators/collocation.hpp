@@ -2,10 +2,11 @@
 
 // One step of exponential collocation.
 //
-// The rest of `propagation` is taken at Radau's points of the step, answered exactly, and taken
-// anew at what comes out, until that moves no more. So a step is as long as the *rest* is smooth,
-// however the meshes swing or stiffly settle (exponential Runge-Kutta methods of collocation type:
-// Hochbruck and Ostermann 2010, Exponential integrators, Acta Numerica 19, section 2.2).
+// The rest of `propagation` is evaluated at Radau's points of the step; the exact response to it
+// moves the points, and the rest is evaluated again, until the points no longer move. So the *rest*
+// limits the length of a step, however fast the meshes vibrate or decay (exponential Runge-Kutta
+// methods of collocation type: Hochbruck and Ostermann 2010, Exponential integrators, Acta Numerica
+// 19, section 2.2).
 
 #include <cmath>
 #include <limits>
@@ -63,7 +64,7 @@ void enter(const Model& model, March& march) {
     node_force<L>(model, march, contacts, 0.0, start).store(run.force);
 }
 
-// Take the rest anew at node n.
+// Evaluate the rest at node n.
 template <int L>
 LAW void find_rest(const Model& model, March& march, const ContactState& contacts, std::int64_t n) {
     using V = Row<L>;
@@ -75,7 +76,7 @@ LAW void find_rest(const Model& model, March& march, const ContactState& contact
     rest.store(run.rest[n]);
 }
 
-// Take the rest anew at all nodes, with friction as it was unless `with_friction`.
+// Evaluate the rest at all nodes, with the friction of the last sweep unless `with_friction`.
 template <int L>
 void sweep(const Model& model, March& march, bool with_friction) {
     Propagation& run = march.run;

@@ -3,12 +3,12 @@
 // Drive the one-step methods from event to event and sample what lies between.
 //
 // Events are tooth pairs entering or leaving, flanks meeting or parting, and the speed set-point
-// reaching its target. Steps end on them, so the equations are smooth within every step. The window
-// a caller asks for never clips a step: samples come from the step's interpolant, and the state at
-// the end of the window is that of the last step begun. So the path does not depend on the windows.
+// reaching its target. Steps end on them, so the equations are smooth within every step. Windows do
+// not cut steps: samples come from the interpolant of the step, and the last step ends at or after
+// the end of the window. So the path does not depend on the windows.
 //
-// Steps are made by collocation; where that is unfit, Rosenbrock's method takes over for a while.
-// Where nothing changes any more from one mesh cycle to the next, none are made.
+// Steps are collocation steps. Where collocation does not converge, Rosenbrock's method takes over
+// for a while. Where mesh cycles repeat, the last cycle is repeated, and no steps are computed.
 
 #include "integrators/march_record.hpp"
 #include "run/clock.hpp"

@@ -236,7 +236,7 @@ void stand_on(const Model& model, March& march, const CycleStep& step) {
     march.sums.step = step.sums;
     const State& begin = march.begin;
     set_step_constants(model, begin, march.constants);
-    if (step.collocated) return;  // else dense output makes the step anew
+    if (step.collocated) return;  // else dense output computes the step again
     place_bristles(march.first.pairs, begin.bristle);
     forces(model, begin, march.constants, begin.x, begin.v, 0.0, begin.trim, march.first);
 }

@@ -19,7 +19,7 @@ namespace gearbox {
 // Look whether the step just made ends where the train has been before.
 void watch(const Model& model, March& march);
 
-// Something acts on the train from outside: it must settle anew.
+// Something acts on the train from outside: it must settle again.
 void forget(March& march);
 
 // The step that was played last, or that closed the cycle.

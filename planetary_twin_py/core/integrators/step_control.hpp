@@ -37,7 +37,7 @@ inline double growth_of_step(double error, double order) {
     return SAFETY * power(error, -1.0 / order);
 }
 
-// Thrown where no finite state can be reached, however short the step.
+// The exception where no finite state can be reached, however short the step.
 struct NoFiniteState {};
 
 }  // namespace gearbox

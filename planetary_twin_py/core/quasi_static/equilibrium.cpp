@@ -51,9 +51,9 @@ bool rubs_as_before(const Model& model, Equilibrium& run, double slack) {
     return still;
 }
 
-// Guess the friction anew: nothing where its sense has just changed, else midway.
+// Guess the friction again: nothing where its sense has just changed, else midway.
 //
-// The friction of a light load is large beside it, so an idle planet is thrown from flank to flank,
+// The friction of a light load is large beside it, so an idle planet jumps from flank to flank,
 // pass by pass, while it is at rest amid its play.
 void rest_the_idle(const Train& train, Equilibrium& run) {
     for (std::int64_t j = 0; j < train.bodies; ++j) {

@@ -61,8 +61,8 @@ enum class Outcome { WITHIN_LIMITS, EXCEEDED, NOT_FINITE };
 // Where the window closes within the limits, `end` takes all that has been added up.
 Outcome run_window(const WindowJob& job);
 
-// Take integrals of the ledger since they were last taken, so that they begin anew: what a window
-// adds is not lost beside what a long run has added.
+// Take the integrals of the ledger since the last call and set them to zero: beside the sums of a
+// long run, rounding would lose what a window adds.
 void take_ledger(March& march, double* ledger);
 
 // Take integrals and extremes of the meshes up to `until`, the end of the last window.

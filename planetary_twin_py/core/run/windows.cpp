@@ -10,7 +10,7 @@ namespace gearbox {
 std::vector<Outcome> run_windows(const std::vector<WindowJob>& jobs, int workers) {
     std::vector<Outcome> outcomes(jobs.size());
     std::vector<std::exception_ptr> defects(jobs.size());
-    std::atomic<std::size_t> next = 0;  // whoever is free takes the next one
+    std::atomic<std::size_t> next = 0;  // a free thread takes the next one
     auto work = [&] {
         for (std::size_t n = next++; n < jobs.size(); n = next++) {
             try {

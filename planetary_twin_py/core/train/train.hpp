@@ -10,7 +10,7 @@ struct alignas(64) Train {
     std::int64_t bodies;
     std::int64_t lanes;                         // bodies or meshes, in whole registers
     std::int64_t axes;                          // inputs, each with its rigid motion of the train
-    alignas(64) double body_copies[BODIES];     // bodies that move alike, of which an entry is one
+    alignas(64) double body_copies[BODIES];     // bodies of equal motion in one entry
     alignas(64) double mass[BODIES];            // J/r^2 of all of them [kg]
     alignas(64) double radius[BODIES];          // r of x = r theta [m]
     alignas(64) double inverse_radius[BODIES];  // 1/r [1/m]
@@ -32,7 +32,7 @@ struct alignas(64) Train {
     std::int64_t meshes;
     alignas(64) std::int64_t body[MESHES][GEARS];  // first gear, second gear, carrier
     alignas(64) double sign[MESHES][GEARS];        // of their x in d
-    alignas(64) double copies[MESHES];  // meshes alike that count in forces and powers on the train
+    alignas(64) double copies[MESHES];             // number of equal meshes in one entry
     alignas(64) std::int64_t kind[MESHES];
     alignas(64) double phase[MESHES];  // delay in mesh cycles; whole cycles count teeth
     double coast_lead[KINDS];          // mesh cycles by which coast flanks follow drive flanks

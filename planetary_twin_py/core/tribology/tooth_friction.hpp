@@ -116,8 +116,8 @@ inline void add_outer(Matrix matrix, const std::int64_t* body, const double* row
 //
 // Large where little slides: at the pitch point, and for everything near standstill. Where the
 // forces on the bodies would turn the sliding round within h seconds, the slope is that of the
-// chord to rest: beside it the tangent is flat, and steps would throw the sliding to and fro. `row`
-// (GEARS,) is room to work in.
+// chord to rest: beside it the tangent is flat, and steps would reverse the sliding each time.
+// `row` (GEARS,) is room to work in.
 inline void friction_damping(const Train& train, const ToothPairs& pairs, const double* force,
                              double h, double* row, Matrix matrix) {
     for (std::int64_t k = 0; k < pairs.count; ++k) {
