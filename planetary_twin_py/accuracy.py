@@ -91,12 +91,6 @@ def accuracy_warnings(scene: Scene, run: Result) -> Iterator[str]:
     Returns:
         A sentence per warning.
     """
-    if scene.dynamics == "quasi_static" and _may_close_play(scene):
-        yield (
-            "mesh.runout and errors may close the backlash, so that both flanks of a tooth touch. "
-            "In this model only one flank carries: mesh forces may be wrong; increase backlash, or "
-            "see the command load-sharing, which counts both flanks"
-        )
     stats, rate = run.stats, settling_rate(scene, scene.operating_point)
     elapsed = max(run.duration, float(run.time[-1]))  # the time of settling counts, too
     missing = unsettled(elapsed * rate, rate)
@@ -105,21 +99,6 @@ def accuracy_warnings(scene: Scene, run: Result) -> Iterator[str]:
             stats.flank_events, stats.reversals, stats.repeated_steps, missing, stats.both_flanks
         )
     )
-
-
-def _may_close_play(scene: Scene) -> bool:
-    """Whether radial errors together may exceed half the backlash in some mesh."""
-    errors, runout, gearset = scene.errors, scene.mesh.runout, scene.gearset
-    half = scene.mesh.flanks(scene.operating_point.backlash, gearset.pressure_angle)[0]
-    turning = runout.planet + errors.carrier_offset.size
-    central = (runout.sun, runout.ring + errors.ring_offset.size)
-    planets = [errors.of_planet(i) for i in range(gearset.planets)]
-    for mesh, own, lean in zip(gearset.geometry.meshes, central, (1.0, -1.0), strict=True):
-        sine, cosine = math.sin(mesh.pressure_angle), math.cos(mesh.pressure_angle)
-        closed = max(0.5 * cosine * thick - lean * sine * out for out, _, thick, _ in planets)
-        if closed + sine * (turning + own) > half:
-            return True
-    return False
 
 
 def course_warnings(course: Course) -> Iterator[str]:

@@ -62,7 +62,7 @@ def test_a_hundredth_of_the_loss_is_the_limit(sign):
     assert text.endswith("tighten the tolerance from 0.0001 to 1e-05")
 
 
-def test_a_train_that_loses_nothing_is_judged_by_what_it_turns_over():
+def test_a_train_without_losses_is_judged_by_its_energy_turnover():
     smooth = replace(CLOSED, friction=0.0, bearing=0.0, elastic=35.0)
     assert smooth.residual == 0.0
     limit = 1e-5 * (TURNOVER + 21.0)
@@ -77,7 +77,7 @@ def test_a_loss_below_zero_of_a_printed_law_counts_by_its_size():
     assert ledger_warning(balance_of_run(off_by(0.21, printed)), 1e-4) is not None
 
 
-def test_rounding_of_what_a_train_at_rest_holds_is_no_residual():
+def test_rounding_of_the_stored_energy_of_a_train_at_rest_is_no_residual():
     still = Balance(residual=4e-10, turnover=4e-10, stored=1.0)
     assert ledger_warning(still, 1e-4) is None
     assert ledger_warning(still._replace(residual=2e-9), 1e-4) is not None
@@ -113,7 +113,7 @@ SMOOTH = {"lubrication.friction": False}
 
 @pytest.mark.parametrize("changes", [IDLE, STILL, SMOOTH, IDLE | SMOOTH, STILL | SMOOTH])
 @pytest.mark.parametrize("dynamics", ["torsional", "quasi_static"])
-def test_where_nothing_is_driven_or_lost_nothing_is_warned_of(changes, dynamics):
+def test_a_train_without_drive_and_losses_does_not_warn(changes, dynamics):
     scene = PAPER.replace(dynamics=dynamics, **changes)
     with warnings.catch_warnings():
         warnings.simplefilter("error", pt.LedgerWarning)

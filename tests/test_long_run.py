@@ -175,7 +175,7 @@ def test_a_change_acts_at_its_instant_as_in_the_first_hour(change):
     assert np.array_equal(columns(now), columns(then))
 
 
-def test_the_ledger_of_a_window_begins_at_nothing_whatever_went_before():
+def test_the_ledger_of_a_window_begins_at_zero_after_any_history():
     """Else 1e-3 J of a step would be added to the 2e10 J of a thousand hours."""
     twin = pt.Twin(PAPER)
     added = [twin.advance(0.01) for _ in range(10)]

@@ -58,7 +58,7 @@ def automatic() -> QualityControl:
 
 @pytest.mark.parametrize("order", [3.0, 4.0, 12.0])
 @pytest.mark.parametrize("at_loosest", [1e-4, 0.02, 0.07, 0.15, 0.3, 0.9])
-def test_it_settles_on_the_tightest_rung_whose_cost_is_granted(order, at_loosest):
+def test_it_settles_at_the_tightest_setting_whose_cost_is_allowed(order, at_loosest):
     load = power_law(at_loosest, order)
     settled = set(chosen(automatic(), load, 30.0)[-500:])
     assert len(settled) == 1
@@ -167,7 +167,7 @@ def test_a_tolerance_of_the_user_is_kept_whatever_it_costs():
     assert set(chosen(policy, lambda _: 0.0, 5.0)) == {2e-5}
 
 
-def test_it_begins_with_the_rung_it_is_given():
+def test_it_begins_with_the_given_setting():
     for rung in LADDER:
         assert of(0.0, begin=rung).setting.tolerance == rung
     assert of(0.0, begin=2e-5).setting.tolerance == 1e-5
@@ -254,7 +254,7 @@ def test_a_fuller_waveform_that_is_too_dear_is_tried_once_a_minute_at_most():
     assert sum(rate == FULL for rate in rates) < 0.001 * len(rates)
 
 
-def test_repeated_windows_tell_of_the_waveform_but_not_of_the_tolerance():
+def test_repeated_windows_show_the_cost_of_the_waveform_but_not_of_the_tolerance():
     policy = automatic()
     assert settings(policy, lambda _: 0.01, 60.0, repeated=True)[-1].tolerance == LIVE_TOLERANCE
     assert settings(policy, lambda _: 0.9, 60.0, repeated=True)[-1].tolerance == LIVE_TOLERANCE

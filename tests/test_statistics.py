@@ -125,7 +125,7 @@ def test_a_repeated_cycle_counts_as_one_that_is_computed():
     assert one.time == pytest.approx(other.time)
 
 
-def test_windows_weigh_up_to_the_run():
+def test_weighted_windows_add_up_to_the_run():
     twin, run = pt.Twin(PAPER, tolerance=1e-4), pt.simulate(PAPER, 0.2, 1000.0)
     windows = [twin.advance(0.01) for _ in range(20)]
     for name in ("dte_mean", "mesh_force_mean", "power_loss", "film_thickness"):

@@ -77,7 +77,7 @@ def test_a_change_takes_effect_at_its_instant_and_not_before(instant):
     assert np.all(after[1].mesh_force[0] - after[0].mesh_force[0] > 0.2)
 
 
-def test_setting_what_holds_already_changes_nothing():
+def test_setting_present_values_changes_nothing():
     twin, undisturbed = pt.Twin(PAPER), pt.Twin(PAPER)
     first = waveform(twin, 0.00123, 1)
     twin.set(**PAPER.operating_point.model_dump())
@@ -184,7 +184,7 @@ def test_a_tolerance_set_holds_from_its_instant_and_is_logged():
     assert after[0] == pytest.approx(after[1], rel=1e-2)
 
 
-def test_a_tighter_tolerance_set_on_the_way_is_worth_its_steps():
+def test_a_tighter_tolerance_during_a_run_reduces_the_error():
     changed, loose, exact = (pt.Twin(PAPER, tolerance=t) for t in (1e-2, 1e-2, 1e-7))
     for twin in (changed, loose, exact):
         twin.advance(0.01)
@@ -214,7 +214,7 @@ def test_a_run_is_made_again_bit_by_bit_from_its_log():
     assert np.array_equal(np.vstack(log), np.vstack(samples))
 
 
-def test_a_sample_rate_set_changes_what_is_looked_at_and_not_what_happens():
+def test_a_change_of_the_sample_rate_changes_the_samples_and_not_the_motion():
     twin, full = pt.Twin(PAPER), pt.Twin(PAPER)
     rates = [50e3, 25e3, 25e3, 6250.0, 12.5e3, 50e3]
     for k, rate in enumerate(rates):
@@ -248,7 +248,7 @@ def test_statistics_are_means_over_time_however_samples_fall_into_the_window():
         assert shown["dte_rms"] == pytest.approx(dte.std(axis=0), rel=1e-3)
 
 
-def test_a_window_without_a_sample_shows_what_was_set_before_it():
+def test_a_window_without_a_sample_shows_the_previous_setting():
     twin = pt.Twin(PAPER)
     twin.advance(0.01)
     before = twin.advance(1e-7).mesh

@@ -22,7 +22,7 @@ from planetary_twin_py.units import UnitError, column_to_si, to_si
         ("20 %", "", 0.2),
     ],
 )
-def test_a_number_with_a_unit_is_what_it_says(written, unit, meant):
+def test_a_number_with_a_unit_is_converted_to_si(written, unit, meant):
     assert to_si(written, unit) == pytest.approx(meant, rel=1e-12)
 
 
@@ -61,7 +61,7 @@ def test_no_sign_that_is_not_understood_is_dropped(written):
         ("furlongz", "m", ""),
     ],
 )
-def test_another_unit_is_named_with_that_wanted_and_what_to_write(given, unit, advice):
+def test_a_wrong_unit_is_named_with_the_expected_one_and_an_example(given, unit, advice):
     message = f"[{given}] cannot be converted to {unit}{advice}"
     for read in (
         lambda: to_si(f"70 {given}", unit),

@@ -90,6 +90,7 @@ class QuasiStaticEngine:
         ledger = Ledger(model, tolerance, lean, origin, energy)
         self.model, self.tolerance, self._lean, self._ledger = model, tolerance, lean, ledger
         self._origin, self._run = origin.copy(), first_guess(lean)
+        self._both_flanks = self.control.both_flanks  # before this operating point
 
     def advance(
         self, until: float | Fraction, first_sample: int, sample_rate: float, room: int
@@ -111,6 +112,7 @@ class QuasiStaticEngine:
             raise RunawayError(f"the run stops before {float(until):g} s: {reason}") from None
         roll(self.model, self._origin, instant(until))
         self.reached = Fraction(until)
+        self._count()
         return samples
 
     def window(
@@ -166,7 +168,9 @@ class QuasiStaticEngine:
 
         They restart at zero, so that rounding does not grow with the length of the run.
         """
-        return self._ledger.take(instant(self.reached))
+        energy = self._ledger.take(instant(self.reached))
+        self._count()
+        return energy
 
     def take_mesh_sums(self, time: float | Fraction) -> MeshSums:
         """Integrals and extremes of the meshes from the previous call to `time` [s].
@@ -174,6 +178,12 @@ class QuasiStaticEngine:
         `time` is the end of the last window.
         """
         return self._ledger.take_mesh_sums(instant(time))
+
+    def _count(self) -> None:
+        """Update the counters of the run."""
+        self.control.both_flanks = (
+            self._both_flanks + self._run.both_flanks + self._ledger.both_flanks
+        )
 
     @property
     def powers(self) -> np.ndarray:

@@ -63,10 +63,17 @@ class Ledger:
         self._totals, self._peak = np.zeros(TOTALS), np.zeros((PEAKS, MESHES))
         self._totals[ENERGY] = energy
         self._run = first_guess(lean)
+        self._repeated_both_flanks = 0
         self._repeats = _repeats(model)
         self._edges = self._corners(origin)
         self._cycle: tuple[np.ndarray, np.ndarray, np.ndarray] | None = None
+        self._cycle_both_flanks = 0
         self._edges = self._panels(origin)
+
+    @property
+    def both_flanks(self) -> int:
+        """Equilibria so far in which both flanks of a mesh touch."""
+        return int(self._run.both_flanks) + self._repeated_both_flanks
 
     def take(self, time: Instant) -> np.ndarray:
         """Energy ledger from the previous call to `time`, which is not before the origin."""
@@ -107,10 +114,11 @@ class Ledger:
     def _cycles(self, time: Instant, period: float) -> tuple[np.ndarray, np.ndarray]:
         """Totals and peaks, after moving the mark by whole mesh cycles and adding the remainder."""
         if self._cycle is None:
-            self._cycle = self._divide(self._model, self._mark)
+            self._cycle, self._cycle_both_flanks = self._divide(self._model, self._mark)
         phase, totals, _ = self._cycle
         whole = math.floor(delay(self._mark, time) / period + ON_EDGE)
         if whole > 0:
+            self._repeated_both_flanks += whole * self._cycle_both_flanks
             self._move(whole * totals[-1], self._seen(1.0, period), whole * period)
         left = max(delay(self._mark, time), 0.0)
         last = int(np.searchsorted(phase, left / period + ON_EDGE, "right")) - 1
@@ -140,12 +148,15 @@ class Ledger:
             state.set_speed = state.speed = speed
             rate = frame_cycle_rate(model.train, state)
             if rate != 0.0:
-                phase = self._divide(model, state)[0]
+                (phase, _, _), _ = self._divide(model, state)
                 first = frame_cycle(model.train, state, 1)
                 return np.mod(first + math.copysign(1.0, rate) * phase[:-1], 1.0)
         return self._edges
 
-    def _divide(self, model: Model, origin: State) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    def _divide(
+        self, model: Model, origin: State
+    ) -> tuple[tuple[np.ndarray, np.ndarray, np.ndarray], int]:
+        """A mesh cycle in panels, and the number of its equilibria with both flanks in touch."""
         rate = frame_cycle_rate(model.train, origin)
         first = frame_cycle(model.train, origin, 1)
         ahead = np.mod(math.copysign(1.0, rate) * (self._edges - first), 1.0)
@@ -153,7 +164,8 @@ class Ledger:
         edges = edges[np.append(np.diff(edges) > SAME, True)]
         edges[0], edges[-1] = 0.0, 1.0
         run = first_guess(self._lean)
-        return divide_cycle(model, self._tolerance, origin, run, edges, 1.0 / abs(rate))
+        cycle = divide_cycle(model, self._tolerance, origin, run, edges, 1.0 / abs(rate))
+        return cycle, int(run.both_flanks)
 
     def _corners(self, origin: State) -> np.ndarray:
         """Mesh cycles of the frame at which the ramp of a tooth pair begins or ends."""

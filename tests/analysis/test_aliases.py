@@ -24,7 +24,7 @@ PAPER = pt.load_scene("paper")
 
 
 @pytest.mark.parametrize("tone", [10_300.0, 19_000.0, 20_700.0, 33_300.0])
-def test_a_sampled_tone_stands_where_it_folds_to(tone):
+def test_a_sampled_tone_appears_at_its_alias(tone):
     time = np.arange(20_000) / 20_000.0
     (line,) = strongest_lines(
         *amplitude_spectrum(np.sin(2.0 * np.pi * tone * time + 0.3), 20_000.0), 1
@@ -33,7 +33,7 @@ def test_a_sampled_tone_stands_where_it_folds_to(tone):
     assert line.amplitude == pytest.approx(1.0, rel=1e-3)
 
 
-def test_the_harmonic_that_folds_to_a_place_is_found_and_none_where_none_does():
+def test_the_harmonic_behind_an_alias_is_found_and_none_elsewhere():
     # 2700 Hz: 4 x is 10 800 and folds to 9200, 5 x is 13 500 and folds to 6500
     assert aliased_harmonic(9200.0, 2700.0, 20_000.0, 5.0) == 4
     assert aliased_harmonic(6500.0, 2700.0, 20_000.0, 5.0) == 5
@@ -65,7 +65,7 @@ def test_lines_of_a_fast_run_that_are_no_harmonics_are_folded_ones(fast, spectru
     assert not any(fine.alias(line) for line in fine.lines(12))
 
 
-def test_high_lines_of_a_slow_sampling_are_named_as_what_they_may_be():
+def test_lines_that_may_be_aliases_are_marked():
     """At 1000 rpm and 20 kHz harmonic 23 folds onto 17, 22 onto 18, 21 onto 19."""
     found = frequency_spectrum_of(signal_of(pt.rpm(1000), 20_000.0), 30)
     named = {found.harmonic(line.place): found.alias(line) for line in found.lines(19)}
@@ -73,7 +73,7 @@ def test_high_lines_of_a_slow_sampling_are_named_as_what_they_may_be():
     assert named[1] is None  # far above what folds back
 
 
-def test_what_stands_at_half_the_rate_is_about_what_folds_back():
+def test_amplitudes_at_half_the_rate_estimate_the_aliased_ones():
     """The height of lines beyond half of 20 and 50 kHz, from samples at 1 MHz."""
     fine = frequency_spectrum_of(signal_of(pt.rpm(1000), 1e6), 30)
     for rate in (20_000.0, 50_000.0):

@@ -48,7 +48,7 @@ def test_two_tones_five_bins_apart_are_separate_lines():
 
 
 @pytest.mark.parametrize("count", [999, 1000])
-def test_the_mean_stands_at_zero_hertz_and_nowhere_else(count):
+def test_the_mean_is_at_zero_hertz_and_nowhere_else(count):
     amplitude = pt.amplitude_spectrum(np.full(count, -4.0), RATE).amplitude
     assert amplitude[0] == 4.0
     assert np.all(amplitude[1:] == 0.0)

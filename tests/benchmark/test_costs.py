@@ -18,7 +18,7 @@ def test_planets_mesh_at_the_same_frequency_under_the_same_load_and_out_of_step(
 
 
 @pytest.mark.parametrize("count", costs.PLANETS)
-def test_planets_in_phase_differ_from_them_in_nothing_but_teeth(count):
+def test_planets_in_phase_differ_only_in_teeth(count):
     teeth = costs.teeth_in_phase(count)
     assert {phase % 1 for phase in checked_phases(count, teeth)} == {0}
     assert max(abs(a - b) for a, b in zip(teeth, costs.TEETH, strict=True)) <= 2 * count

@@ -127,7 +127,7 @@ def test_the_error_against_the_reference_falls_with_the_tolerance(name, referenc
     [(SMOOTH, 1e-6), (VISCOUS, 1e-8)],
     ids=["smooth", "viscous"],
 )
-def test_a_tight_tolerance_comes_to_the_reference(case, agreement, references):
+def test_a_tight_tolerance_converges_to_the_reference(case, agreement, references):
     found = solved("scipy_dop853", case, 1e-11).dte
     assert dte_error(found, references[case.name][:, DTE]) < agreement
 

@@ -13,7 +13,7 @@ def _settle_soon(monkeypatch):
     monkeypatch.setattr(steady, "BY", 0.8)
 
 
-def test_what_repeats_is_within_the_tolerance_and_a_minute_of_it_costs_little():
+def test_repeated_cycles_are_within_the_tolerance_and_a_minute_of_them_costs_little():
     (row,) = measure_steady([Case("smooth", RECTANGULAR | FRICTIONLESS, 0.01, 1)], [1e-3])
     assert 0.3 < row.repeats_from < 0.8
     assert 0.0 < row.error_dte < 1e-3
@@ -26,7 +26,7 @@ def test_what_repeats_is_within_the_tolerance_and_a_minute_of_it_costs_little():
     assert figures["rtf_low"] <= figures["rtf"] <= figures["rtf_high"] and figures["setup_s"] > 0.0
 
 
-def test_what_does_not_repeat_has_no_figures():
+def test_motion_that_does_not_repeat_has_no_figures():
     (row,) = measure_steady([Case("standstill", {"input_speed": 0.0}, 0.01, 1)], [1e-2])
     assert math.isnan(row.repeats_from) and math.isnan(row.speed.median)
     assert "| never | - |" in steady_markdown([row])

@@ -20,7 +20,7 @@ def test_ring_turns_as_willis_says(second):
     assert 30 * (sun - carrier) == pytest.approx(-70 * (ring - carrier), rel=2e-3, abs=0.5)
 
 
-def test_torques_are_as_the_teeth_but_for_the_losses():
+def test_torques_have_the_ratio_of_the_teeth_except_for_losses():
     twin = pt.Twin(SCENE)
     twin.advance(0.2)
     window = twin.advance(0.2)

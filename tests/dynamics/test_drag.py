@@ -28,7 +28,7 @@ def test_balance_closes_with_bearings_and_churning_whatever_is_held(flow):
     assert (run.bearing_loss >= 0.0).all() and (run.churning_loss >= 0.0).all()
 
 
-def test_planet_bearings_take_what_palmgren_says_at_the_pin_load():
+def test_loss_of_planet_bearings_follows_palmgren_at_the_pin_load():
     """1500 rpm of the planets, 2 * 1750 N on each pin, nu 89.9 mm^2/s at 70 deg C."""
     only = {"planet_bearing": LOSSES["planet_bearing"]}
     run = pt.simulate(scene_of(FLOWS[0], losses=only), 0.1)

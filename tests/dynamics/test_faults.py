@@ -57,7 +57,7 @@ def assert_passes(found, first, period):
 
 @pytest.mark.parametrize("planet", [0, 1, 2])
 @pytest.mark.parametrize("tooth", [0, 7])
-def test_a_tooth_of_the_sun_comes_to_each_planet_as_the_sun_turns(planet, tooth):
+def test_a_tooth_of_the_sun_meets_each_planet_as_the_sun_turns(planet, tooth):
     time, change = disturbances(CRACK | {"gear": "sun", "tooth": tooth})
     found = passages(time, change[:, planet])
     sun_speed = 2 * math.pi * MESH_FREQUENCY / ZS  # against the carrier
@@ -67,7 +67,7 @@ def test_a_tooth_of_the_sun_comes_to_each_planet_as_the_sun_turns(planet, tooth)
 
 
 @pytest.mark.parametrize("planet", [0, 1, 2])
-def test_a_tooth_of_the_ring_comes_to_each_planet_as_the_ring_turns(planet):
+def test_a_tooth_of_the_ring_meets_each_planet_as_the_ring_turns(planet):
     time, change = disturbances(CRACK | {"gear": "ring", "tooth": 5})
     found = passages(time, change[:, 3 + planet])
     ring_speed = 2 * math.pi * MESH_FREQUENCY / ZR  # backwards
@@ -76,7 +76,7 @@ def test_a_tooth_of_the_ring_comes_to_each_planet_as_the_ring_turns(planet):
 
 
 @pytest.mark.parametrize("planet", [1, 3])
-def test_a_tooth_of_a_planet_comes_to_sun_and_ring_half_a_turn_apart(planet):
+def test_a_tooth_of_a_planet_meets_sun_and_ring_half_a_turn_apart(planet):
     time, change = disturbances(CRACK | {"gear": "planet", "planet": planet, "tooth": 3})
     size = np.abs(change).max(axis=0)
     assert set(np.argsort(size)[-2:]) == {planet - 1, planet + 2}
@@ -146,7 +146,7 @@ def test_a_spall_is_felt_where_it_is_on_the_path():
     ],
     ids=str,
 )
-def test_sidebands_stand_at_the_orders_of_the_faulty_gear(fault, mesh, order):
+def test_sidebands_are_at_the_orders_of_the_faulty_gear(fault, mesh, order):
     """Relative to the carrier a tooth of the sun returns every Zs mesh cycles, and so on."""
     cycles = round(1 / order)
     rate, turns = 64 * MESH_FREQUENCY, 4

@@ -55,7 +55,7 @@ def sliding_speeds(train, pairs, speed):
 
 @ALL_FLOWS
 @pytest.mark.parametrize("seed", range(3))
-def test_friction_takes_what_the_sliding_loses(flow, seed):
+def test_power_of_friction_is_force_times_sliding_speed(flow, seed):
     random = np.random.default_rng(seed)
     engine = Engine(scene_of(flow), 1e-4)
     train = engine.train

@@ -74,7 +74,7 @@ def test_natural_frequencies_of_the_bare_gearset(flow, expected):
 
 @pytest.mark.parametrize("flow", [FLOWS[0], FLOWS[3], DIFFERENTIALS[0]], ids=str)
 @pytest.mark.parametrize("planets, groups", [(2, 1), (4, 2), (5, 1)])
-def test_planet_modes_depend_on_nothing_but_planet_and_meshes(flow, planets, groups):
+def test_planet_modes_depend_only_on_planet_and_meshes(flow, planets, groups):
     """With planets in phase, the train has all modes but those of planets against one another."""
     changes = {
         "gearset.planet_angles": tuple(2 * math.pi * k / planets for k in range(planets)),

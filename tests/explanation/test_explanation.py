@@ -45,7 +45,7 @@ def test_a_quasi_static_scene_says_that_dynamics_is_left_out():
     assert limits(pt.load_scene("paper")) == limits(still)[1:]
 
 
-def test_a_scene_with_a_helix_says_what_that_does_not_do():
+def test_a_scene_with_a_helix_names_the_effects_that_are_not_modelled():
     straight = pt.load_scene("paper")
     helical = straight.replace(**{"gearset.helix_angle": "-15 deg"})
     assert limits(helical)[0].name == "helix" and limits(helical)[1:] == limits(straight)
@@ -59,7 +59,7 @@ def test_running_knows_no_helix():
     assert np.array_equal(pt.simulate(straight, 0.01).dte, pt.simulate(helical, 0.01).dte)
 
 
-def test_what_leaving_friction_out_changes_is_what_two_runs_differ_by():
+def test_the_effect_of_friction_is_the_difference_of_two_runs():
     scene = pt.load_scene("paper")
     found = explain(scene, 0.02)
     effect = next(e for e in found.effects if e.term.name == "tooth friction")
@@ -73,7 +73,7 @@ def test_what_leaving_friction_out_changes_is_what_two_runs_differ_by():
 
 
 @pytest.mark.parametrize("name", ["paper", "wind_turbine_stage", "lightly_loaded"])
-def test_explain_and_simulate_tell_the_same_figures_of_the_same_run(name):
+def test_explain_and_simulate_print_the_same_figures_of_the_same_run(name):
     explained = [
         json.loads(CliRunner().invoke(build_app(), [*command, "--json", "-"]).stdout)
         for command in (

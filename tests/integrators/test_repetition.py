@@ -67,7 +67,7 @@ class Settled:
 
 @pytest.mark.slow
 @EVERY_SCENE
-def test_what_repeats_is_what_would_have_been_computed(scene):
+def test_repeated_cycles_equal_computed_ones(scene):
     repeated, computed = Settled(scene, "auto"), Settled(scene, "march")
     assert repeated.engine.control.repeated > 0.2 * computed.engine.control.steps
     assert computed.engine.control.repeated == 0
@@ -82,7 +82,7 @@ def test_what_repeats_is_what_would_have_been_computed(scene):
 
 
 @EVERY_SCENE
-def test_energy_closes_over_what_repeats(scene):
+def test_energy_closes_over_repeated_cycles(scene):
     run = Settled(scene, "auto")
     lost = run.ledger[[FRICTION, DAMPING, BEARING, CHURNING]].sum() - run.ledger[STIFFNESS_WORK]
     machines = run.ledger[WORK : WORK + 2]
@@ -104,7 +104,7 @@ def test_ten_minutes_later_the_gears_are_where_the_set_point_says():
 
 
 @pytest.mark.parametrize("change", [{"lambda_ratio": 2.0}, {"input_torque": 20.0}])
-def test_a_change_acts_at_its_instant_on_what_repeats(change):
+def test_a_change_acts_at_its_instant_on_repeated_cycles(change):
     """Its path is that of a run in which nothing ever repeats."""
     seen, end = [], PERIODS / bandwidth(PAPER)
     for method in ("auto", "march"):
@@ -119,7 +119,7 @@ def test_a_change_acts_at_its_instant_on_what_repeats(change):
     assert np.abs(dte[0] - dte[1]).max() < TOLERANCE * np.abs(dte[1]).max()
 
 
-def test_windows_do_not_decide_what_repeats():
+def test_repetition_does_not_depend_on_the_windows():
     def path(window):
         twin, parts = pt.Twin(PAPER, 2e3), []
         for _ in range(round(2.5 / window)):
@@ -173,7 +173,7 @@ def test_all_is_as_before_when_all_teeth_and_the_fluctuation_have_come_round(cha
     assert common_cycles(train, build_load(scene, scene.operating_point, train)) == cycles
 
 
-def test_with_two_motors_nothing_comes_round():
+def test_with_two_motors_the_motion_does_not_repeat():
     scene = pt.load_scene("differential")
     train = build_train(scene)
     assert common_cycles(train, build_load(scene, scene.operating_point, train)) == 0

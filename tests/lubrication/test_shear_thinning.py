@@ -65,7 +65,7 @@ def test_heavy_load_and_fast_sliding_end_at_the_limiting_stress():
 @pytest.mark.parametrize("mesh, rpm", CASES)
 @pytest.mark.parametrize("share", [1e-3, 1e-2, 0.1, 1.0])
 @pytest.mark.parametrize("slide_to_roll", [0.01, 0.1, 0.5])
-def test_two_points_stand_for_the_pressure_over_the_contact(mesh, rpm, share, slide_to_roll):
+def test_two_points_represent_the_pressure_over_the_contact(mesh, rpm, share, slide_to_roll):
     load, speed = share * LOAD, slide_to_roll * pitch_point(mesh, rpm).speed
     area, log_film, _ = contact(load, mesh, rpm)
 

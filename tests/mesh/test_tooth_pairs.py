@@ -44,7 +44,7 @@ def test_every_pair_has_the_trapezoid_of_its_position(path, ramp):
 
 @PATHS
 @RAMPS
-def test_mean_number_of_pairs_is_the_contact_ratio_less_the_ramp(path, ramp):
+def test_mean_number_of_pairs_is_the_contact_ratio_minus_the_ramp(path, ramp):
     table = pair_table(path, ramp)
     mean = 0.0
     for j in range(table.segments):
@@ -77,7 +77,7 @@ def test_a_pair_is_alone_where_the_paths_leave_it_alone(path, window):
 
 
 @pytest.mark.parametrize("path", [PathOfContact(0.6, 0.42), PathOfContact(1.6, 1.5)])
-def test_contact_ratios_it_has_no_table_for_are_refused(path):
+def test_contact_ratios_outside_the_table_are_refused(path):
     with pytest.raises(ValueError, match="contact ratio"):
         pair_table(path, 0.03)
 
@@ -117,7 +117,7 @@ def test_positions_of_a_fault_become_edges():
 
 @PATHS
 @RAMPS
-def test_mean_weight_is_the_contact_ratio_less_a_ramp(path, ramp):
+def test_mean_weight_is_the_contact_ratio_minus_a_ramp(path, ramp):
     table = pair_table(path, ramp)
     mean = mean_weight(table.edge, table.weight[:, TOTAL])
     assert mean == pytest.approx(path.contact_ratio - ramp)

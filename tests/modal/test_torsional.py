@@ -76,7 +76,7 @@ def test_an_unknown_model_and_a_scene_without_supports_end_in_one_line():
         pt.natural_modes(scene, "planar")
 
 
-def test_planets_in_phase_have_modes_of_their_own_all_the_same():
+def test_planets_in_phase_have_separate_modes():
     """The twin integrates one for all; modes in which one moves against another are not lost."""
     angles = tuple(2 * math.pi * k / 5 for k in range(5))
     modes = pt.natural_modes(scene_of(FLOWS[0], **{"gearset.planet_angles": angles}))

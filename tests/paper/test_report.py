@@ -90,7 +90,7 @@ def test_efficiency_is_in_the_band_of_the_literature(found):
     assert efficiency[0, 0, 0] == pytest.approx(0.9883, abs=5e-4)  # 63 N m, 1000 rpm, lambda 1
 
 
-def test_printed_friction_torque_puts_in_twice_what_sliding_takes(found):
+def test_power_of_the_printed_friction_torque_is_twice_the_sliding_loss(found):
     values = found["Figure 11"].figures
     gain = values["ledger_efficiency_printed"] - 1.0
     assert gain.min() > 0.0

@@ -137,7 +137,7 @@ def test_points_with_clipped_viscous_friction_are_hollow_and_the_caption_explain
     assert "hollow: viscous friction is clipped" in figure.get_supxlabel()
 
 
-def test_a_stribeck_curve_is_hollow_on_the_side_that_is_clipped():
+def test_a_stribeck_curve_is_drawn_hollow_where_friction_is_clipped():
     figures = {
         f"{side}_{name}": (lambda speed, value=value: value * speed)
         for side in ("sun_planet", "planet_ring")

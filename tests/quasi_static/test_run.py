@@ -92,7 +92,7 @@ def test_dynamics_tends_to_statics_as_the_speed_falls(changes):
     assert differences[1] < 0.6 * differences[0]
 
 
-def test_loss_is_that_of_dynamics_at_low_speed_but_for_what_meshes_yield():
+def test_loss_equals_that_of_dynamics_at_low_speed_except_for_the_compliance_of_meshes():
     """Flanks also slide as their mesh yields, which is less the stiffer it is."""
     gaps = []
     for stiffness in (2e8, 2e9):
@@ -178,7 +178,7 @@ def test_speed_follows_the_slewed_set_point_and_inertia_takes_its_work():
     [WEAR, ERRORS, {"torque_ripple": 20.0}, {"drive.speed_control.start_speed": 20.0}],
     ids=["wear", "errors", "ripple", "ramp"],
 )
-def test_the_ledger_follows_what_does_not_repeat(changes):
+def test_the_ledger_integrates_motion_that_does_not_repeat(changes):
     """Against the mean of many samples, and at a hundredth of the tolerance."""
     scene = PAPER.replace(**changes)
     run = pt.simulate(scene, 0.05, sample_rate=2e6)

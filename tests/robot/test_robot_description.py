@@ -89,7 +89,7 @@ def test_links_stand_at_the_absolute_angles(
 
 @pytest.mark.parametrize("held", ["carrier", "ring", "sun"])
 @pytest.mark.parametrize("turned", [0.0, 0.4, -7.3])
-def test_the_teeth_one_sees_stand_in_the_gaps_of_their_mates(
+def test_visible_teeth_are_in_the_gaps_of_their_mates(
     gearset: Gearset, tmp_path: Path, held: str, turned: float
 ) -> None:
     tree = _tree(gearset, tmp_path)

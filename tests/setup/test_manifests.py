@@ -18,7 +18,7 @@ MANIFESTS = [
 ]
 
 
-def test_all_tell_the_same_version():
+def test_all_have_the_same_version():
     version = PROJECT["version"]
     assert len(Version(version).release) == 3
     assert {str(parse_package(str(file)).version) for file in MANIFESTS} == {version}

@@ -51,7 +51,7 @@ def wheel(built):
     return made
 
 
-def test_the_source_archive_holds_what_is_compiled_and_nothing_that_was(built):
+def test_the_source_archive_has_sources_and_no_compiled_files(built):
     (archive,) = built.glob("*.tar.gz")
     with tarfile.open(archive) as opened:
         held = {name.partition("/")[2] for name in opened.getnames()}

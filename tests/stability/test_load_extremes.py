@@ -33,7 +33,7 @@ def assert_carries(wave, scene, torque):
 
 
 @pytest.mark.parametrize("law", ["viscous", "meshing_frequency"])
-def test_without_load_nothing_is_pressed_and_friction_takes_nothing(law):
+def test_without_load_there_is_neither_force_nor_friction(law):
     idle = sound_run(PAPER.replace(input_torque=0.0, **{"mesh.damping.law": law}), 0.05)
     loaded = sound_run(PAPER.replace(**{"mesh.damping.law": law}), 0.05, tolerance=1e-4)
     assert idle.energy.friction < 1e-6 * loaded.energy.friction
@@ -48,7 +48,7 @@ def test_a_load_that_changes_its_sign_ends_on_the_other_flanks(torque):
     assert_carries(settled_after(scene, -torque), scene, -torque)
 
 
-def test_with_friction_the_other_flanks_carry_the_same_but_for_the_friction():
+def test_with_friction_the_other_flanks_carry_the_same_except_for_friction():
     wave = settled_after(UNIFORM.replace(**DAMPED), -HEAVY)
     assert wave.mesh_force.mean(axis=0) == pytest.approx(-static_force(UNIFORM), rel=0.02)
 

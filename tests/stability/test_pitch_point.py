@@ -21,7 +21,7 @@ def cycles(scene, count=2.5, samples=4000):
 
 
 @DIRECTIONS
-def test_at_the_pitch_point_a_pair_alone_takes_no_power_and_beside_it_takes_some(speed):
+def test_a_single_pair_loses_no_power_at_the_pitch_point_and_some_beside_it(speed):
     run = cycles(PAPER.replace(input_speed=speed))
     cycle, loss = mesh_cycle(run), run.power_loss[:, 0]
     alone = (cycle > -0.2) & (cycle < 0.24)
@@ -46,7 +46,7 @@ def test_beside_it_the_power_lost_is_friction_times_the_sliding_of_the_flanks(sp
     assert run.power_loss[plateau, 0] == pytest.approx((friction * sliding)[plateau], rel=1e-4)
 
 
-def test_friction_that_changes_its_sense_at_the_pitch_point_needs_no_flood_of_steps():
+def test_friction_that_reverses_at_the_pitch_point_needs_few_steps():
     with_friction = sound_run(PAPER, 0.02, tolerance=1e-4).stats
     without = sound_run(
         PAPER.replace(**{"lubrication.friction": False}), 0.02, tolerance=1e-4
@@ -55,7 +55,7 @@ def test_friction_that_changes_its_sense_at_the_pitch_point_needs_no_flood_of_st
 
 
 @pytest.mark.parametrize("threshold", [1e-12, 1e-6, 1e-3, 1.0])
-def test_friction_as_steep_as_a_step_is_passed(threshold):
+def test_friction_as_steep_as_a_step_is_integrated(threshold):
     scene = PAPER.replace(**{"lubrication.sliding_threshold": threshold})
     run = sound_run(scene, 0.004, tolerance=1e-4)
     assert run.stats.steps < 20_000

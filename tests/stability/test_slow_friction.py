@@ -39,7 +39,7 @@ def test_loss_and_transmission_error_keep_to_the_tolerance(case, tolerance):
 
 
 @pytest.mark.parametrize("case", SOME_CASES)
-def test_a_tight_tolerance_leaves_what_sticking_and_slipping_makes_uncertain(case):
+def test_stick_slip_stays_uncertain_at_a_tight_tolerance(case):
     """Where the sun sticks and slips, instants of sticking decide: the loss comes to some 2e-3."""
     run, exact = run_of(case, 1e-4, "auto"), run_of(case, 1e-6, "rosenbrock")
     loss, expected = (each.mesh["power_loss"].sum() for each in (run, exact))

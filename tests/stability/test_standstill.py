@@ -41,7 +41,7 @@ def test_standing_still_friction_carries_no_torque_and_takes_no_power():
 
 @EITHER_LAW
 @pytest.mark.parametrize("direction", [1.0, -1.0])
-def test_starting_from_standstill_the_sun_turns_as_the_set_point_tells(law, direction):
+def test_from_standstill_the_sun_follows_the_set_point(law, direction):
     """angle = slew t^2/2; the twist of the shaft is the difference."""
     slew = 500.0
     scene = PLAIN.replace(
@@ -88,7 +88,7 @@ def test_teeth_jammed_by_an_error_of_form_come_to_rest_at_the_live_tolerance():
     assert live == pytest.approx([tight] * 4, rel=2e-3)
 
 
-def test_jammed_teeth_come_to_rest_in_few_steps_for_each_flank_that_meets_or_parts():
+def test_jammed_teeth_settle_in_few_steps_per_flank_event():
     """After each event the bristles load up from zero, which steps resolve."""
     stats = pt.simulate(JAMMED, 0.02, 20_000.0, tolerance=5e-3).stats
     assert stats.steps < 35 * stats.flank_events

@@ -52,7 +52,7 @@ def test_a_change_has_the_same_effect_for_all_lengths_of_windows(name):
         assert np.array_equal(run(window), whole)
 
 
-def test_windows_of_a_nanosecond_pass_the_same_states_and_tell_speeds():
+def test_windows_of_a_nanosecond_pass_the_same_states_and_give_speeds():
     twin, other = pt.Twin(PAPER), pt.Twin(PAPER)
     windows = [twin.advance(1e-9) for _ in range(2000)]
     assert twin.time == pytest.approx(2e-6, rel=1e-9)
@@ -77,7 +77,7 @@ def test_the_longest_window_is_as_good_as_a_short_one(speed):
 
 
 @pytest.mark.parametrize("duration", [3600.0, 60.000001, 0.0, -1e-9, np.inf, np.nan])
-def test_a_window_that_cannot_be_is_refused_in_one_line_and_no_time_passes(duration):
+def test_an_impossible_window_is_refused_in_one_line_and_no_time_passes(duration):
     twin = pt.Twin(PAPER)
     with pytest.raises(ValueError, match=r"^duration = .*at most 60$"):
         twin.advance(duration)

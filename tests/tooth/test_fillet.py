@@ -28,7 +28,7 @@ def rack_in_gear(gear, rolled):
 
 
 @pytest.mark.parametrize("gear", EXTERNAL, ids=lambda g: g.teeth)
-def test_external_outline_is_what_a_rolling_rack_leaves(gear):
+def test_external_outline_is_the_envelope_of_a_rolling_rack(gear):
     """No point of it ever enters the tooth, and at every radius some point touches it."""
     cut = rack_in_gear(gear, np.linspace(-4.0, 4.0, 4001)[:, None]).ravel()
     cut = cut[(np.abs(cut) > gear.root_radius) & (np.abs(cut) < gear.tip_radius)]

@@ -128,7 +128,7 @@ def test_crack_makes_a_pair_softer_the_deeper_it_is_and_not_at_depth_zero(mesh):
         before = after
 
 
-def test_crack_weighs_most_when_its_tooth_is_loaded_at_the_tip():
+def test_a_crack_has_the_largest_effect_when_its_tooth_is_loaded_at_the_tip():
     """The cracked sun tooth drives and leaves the mesh at its tip, at the end of the path."""
     pair = pair_of(sun_planet_pair)
     cracked = replace(pair, first=replace(pair.first, crack=Crack(0.4 * MODULE)))

@@ -434,7 +434,8 @@ inline void bind_records(nb::module_& m) {
         .FIELD(Equilibrium, torque)
         .FIELD(Equilibrium, balance)
         .FIELD(Equilibrium, external)
-        .FIELD(Equilibrium, springs);
+        .FIELD(Equilibrium, springs)
+        .FIELD(Equilibrium, both_flanks);
     record<Springs>(m, "Springs")
         .FIELD(Springs, copies)
         .FIELD(Springs, error)

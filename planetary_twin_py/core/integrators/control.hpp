@@ -29,7 +29,7 @@ struct alignas(64) Control {
     std::int64_t pair_events;
     std::int64_t flank_events;
     std::int64_t reversals;    // steps in which vibration may reverse friction, see `creep`
-    std::int64_t both_flanks;  // steps in which both flanks of a mesh touch, see there
+    std::int64_t both_flanks;  // steps in which both flanks of a mesh touch
 };
 
 }  // namespace gearbox

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "integrators/both_flanks.hpp"
 #include "integrators/collocated_step.hpp"
 #include "integrators/creep.hpp"
 #include "integrators/cycle_samples.hpp"
@@ -15,6 +14,7 @@
 #include "integrators/step_sums.hpp"
 #include "integrators/stiff_step.hpp"
 #include "integrators/window_sums.hpp"
+#include "mesh/both_flanks.hpp"
 #include "mesh/contact_change.hpp"
 #include "train/set_step_constants.hpp"
 #include "tribology/tooth_friction.hpp"
@@ -92,7 +92,7 @@ void begin_step(const Model& model, March& march) {
     hold_or_slide(model, march);
     set_tolerances(model, march);
     avoid_reversals(model, march);
-    note_both_flanks(model, march);
+    if (both_flanks_touch(model, march.begin, march.constants)) ++march.control.both_flanks;
 }
 
 void one_step(const Model& model, March& march, double longest) {

@@ -128,6 +128,9 @@ bool close_cycle(const Model& model, March& march) {
     whole.after = whole.turned * TURN / model.load.target_speed[0];
     periodic.place = periodic.steps;
     periodic.part = 0;
+    periodic.sums.time = 0.0;
+    for (std::int64_t k = 0; k < periodic.steps; ++k)
+        add_sums(periodic.tape[k].sums, periodic.sums, train.lanes);
     double late =
         std::max(std::fabs(took / whole.after - 1.0), std::fabs(turned / whole.turned - 1.0));
     return late * static_cast<double>(periodic.cycles) * PHASE <=
@@ -173,6 +176,18 @@ void begin_cycle(Periodic& periodic) {
     periodic.place = 0;
 }
 
+// Begin the cycle in which `until` lies; those before it count as a whole.
+void begin_cycle_of(March& march, std::int64_t lanes, const Instant& until) {
+    Periodic& periodic = march.periodic;
+    const double end = periodic.tape[periodic.steps - 1].end.after;
+    begin_cycle(periodic);
+    while (delay(periodic.start, until) > end) {
+        march.control.repeated += periodic.steps;
+        add_sums(periodic.sums, march.sums.total, lanes);
+        begin_cycle(periodic);
+    }
+}
+
 // Let `state` be at a place in the present cycle.
 void stand(const Periodic& periodic, const Place& place, State& state) {
     const State& start = periodic.start;
@@ -200,7 +215,7 @@ Turns turns_at(const Periodic& periodic, const Place& place) {
 CycleStep& next_step(const Model& model, March& march, const Instant& until) {
     Periodic& periodic = march.periodic;
     while (true) {
-        if (periodic.place == periodic.steps) begin_cycle(periodic);
+        if (periodic.place == periodic.steps) begin_cycle_of(march, model.train.lanes, until);
         CycleStep& step = periodic.tape[periodic.place++];
         ++march.control.repeated;
         if (delay(periodic.start, until) <= step.end.after) return step;

@@ -46,6 +46,7 @@ struct alignas(64) Periodic {
     std::int64_t part;  // ... turn is that of the first cycle, and this many denominators
     Place whole;        // end of the cycle
     std::vector<CycleStep> tape;
+    MeshSums sums;  // of the whole cycle
 };
 
 }  // namespace gearbox

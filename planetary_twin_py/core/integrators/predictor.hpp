@@ -12,7 +12,7 @@
 
 namespace gearbox {
 
-inline constexpr double CLOSE = 0.25;  // relative difference of the lengths of two steps compared
+inline constexpr double SIMILAR = 0.25;  // relative difference of the lengths of two steps compared
 inline constexpr int START = MOST_NODES;  // row of what was at the start
 
 // Let rest and friction grow over the step as they did when it was last made; whether that is
@@ -21,7 +21,7 @@ template <int L>
 bool recall(March& march) {
     Propagation& run = march.run;
     const ContactState& past = contacts_of(run);
-    if (!(std::fabs(past.past_step - run.motion.step) < CLOSE * run.motion.step)) return false;
+    if (!(std::fabs(past.past_step - run.motion.step) < SIMILAR * run.motion.step)) return false;
     using V = Row<L>;
     V rest(past.past_rest[START]), rubbing(past.past_rubbing[START]);
     for (int n = 0; n < run.nodes.count; ++n) {

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "mesh/both_flanks.hpp"
 #include "mesh/cycle.hpp"
 #include "mesh/deflection.hpp"
 #include "mesh/form_errors.hpp"
@@ -116,6 +117,7 @@ void settle(const Model& model, double tolerance, Equilibrium& run, double (*sho
         if (rubs_as_before(model, run, slack) && rests) {
             check_jump(model, run);
             book_machines(model, run);
+            if (both_flanks_touch(model, state, run.step)) ++run.both_flanks;
             return;
         }
         if (n >= BRISK_PASSES) rest_the_idle(train, run);

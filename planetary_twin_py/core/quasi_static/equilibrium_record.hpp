@@ -23,6 +23,7 @@ struct alignas(64) Equilibrium {
     double balance[2];               // torques to be balanced along each rigid motion [N m]
     alignas(64) double external[16];  // all forces but those of the meshes [N]
     Springs springs;
+    std::int64_t both_flanks;  // equilibria so far in which both flanks of a mesh touch
 };
 
 }  // namespace gearbox

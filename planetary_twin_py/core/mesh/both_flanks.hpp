@@ -1,0 +1,29 @@
+#pragma once
+
+// Notices meshes in which both flanks of a tooth touch, of which this model carries one.
+//
+// Radial errors e_R that close more than half the backlash b press the other flank into its
+// neighbour as well, unless the load squeezes the flank that carries by more than 2 (|e_R| - b).
+
+#include "mesh/deflection.hpp"
+#include "mesh/form_errors.hpp"
+#include "train/model.hpp"
+
+namespace gearbox {
+
+// Whether both flanks of some mesh touch at a state, with the constants of a step from there.
+inline bool both_flanks_touch(const Model& model, const State& state, const StepConstants& step) {
+    const Train& train = model.train;
+    const double half = model.load.half_backlash;
+    for (std::int64_t i = 0; i < train.meshes; ++i) {
+        std::int64_t kind = train.kind[i];
+        if (state.side[i] == OPEN || train.lines[kind] == train.harmonics[kind]) continue;
+        double gap = half + radial_error(train, i, step.line_angle, 0.0, 0.0).length;
+        if (gap >= 0.0) continue;
+        double d = deflection(train, step, i, state.x, state.v, 0.0, 0.0).d;
+        if (static_cast<double>(state.side[i]) * d - half < -2.0 * gap) return true;
+    }
+    return false;
+}
+
+}  // namespace gearbox
