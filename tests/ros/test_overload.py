@@ -28,11 +28,8 @@ FLOOR = SAMPLE_RATE / 2**HALVINGS
 # Rattle without end: no mesh cycle returns, so every window must be computed.
 RATTLE = """\
 base: paper
-input_torque: 0.3
-torque_ripple: 0.3
-backlash: 5.0e-7
-mesh:
-  damping: {law: viscous, damping_ratio: 0.01}
+operating_point: {input_torque: 0.3, torque_ripple: 0.3, backlash: 5.0e-7}
+mesh: {damping: {law: viscous, damping_ratio: 0.01}}
 """
 
 
