@@ -11,6 +11,9 @@ namespace gearbox {
 
 // Tolerance from which friction in single precision errs by less than all else.
 inline constexpr double SINGLE_PRECISION = 1e-5;
+// The same where it is shown: films then err by less than a hundredth of the tolerance, as the
+// polynomials of `cycle_samples.cpp` ask for.
+inline constexpr double SINGLE_PRECISION_SHOWN = 5e-4;
 
 // Forces of the meshes at a node.
 template <int L>
@@ -109,7 +112,8 @@ void show_friction(const Model& model, March& march, const double* delays, int c
         share_pushes<L>(model.train, march.constants, node.meshes);
         instants[n] = {&node.meshes, node.spin, &node.friction};
     }
-    find_friction(model, march.constants, instants, count, false);
+    find_friction(model, march.constants, instants, count,
+                  march.control.tolerance >= SINGLE_PRECISION_SHOWN);
 }
 
 }  // namespace gearbox
