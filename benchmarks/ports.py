@@ -62,7 +62,7 @@ def seconds_per_step(twin: pt.Twin, commands: list[dict[str, float]]) -> float:
 
 
 def allocated(twin: pt.Twin, commands: list[dict[str, float]]) -> int:
-    """Memory that is still allocated after steps that does not belong to what came before [bytes]."""
+    """Memory that steps leave allocated [bytes]."""
     for command in commands:
         twin.step(DT, **command)
     tracemalloc.start()
