@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from ports_of_paper import PAPER, driven
+from ports.ports_of_paper import PAPER, driven
 
 import planetary_twin_py as pt
 
@@ -28,6 +28,8 @@ def by_windows(scene, commands, cuts):
     linear = scene.drive.interpolation == "linear"
     parts, times = [], sorted({*commands.time, *cuts, SPAN} - {0.0})
     for end in times:
+        if end - twin.time < 1e-12:
+            continue  # a cut at a command
         when = end if linear else twin.time
         values = {
             name: float(getattr(commands, name)[n])
@@ -89,7 +91,7 @@ def test_a_command_that_changes_nothing_has_no_effect():
 
 def test_statistics_of_a_run_cover_what_lies_between_commands():
     scene, commands = commanded("hold")
-    run = simulated(scene, commands)
+    run = pt.simulate(scene, SPAN, 1e6, tolerance=1e-3, commands=commands)
     assert run.mesh["dte_mean"] == pytest.approx(run.dte.mean(axis=0), rel=2e-3)
     assert run.mesh["mesh_force_mean"] == pytest.approx(run.mesh_force.mean(axis=0), rel=2e-3)
 

@@ -4,7 +4,15 @@ import math
 
 import numpy as np
 import pytest
-from ports_of_paper import NO_FRICTION, PAPER, RATIO, at_rest, driven, inertia_at_input, momentum
+from ports.ports_of_paper import (
+    NO_FRICTION,
+    PAPER,
+    RATIO,
+    at_rest,
+    driven,
+    inertia_at_input,
+    momentum,
+)
 
 import planetary_twin_py as pt
 
@@ -33,7 +41,7 @@ def test_a_locked_output_holds_the_torque_and_the_shafts_twist():
     window = twin.advance(1e-3)
     assert shown.output_torque == pytest.approx(63.0 / -RATIO, rel=1e-6)
     assert shown.input_speed == pytest.approx(0.0, abs=1e-6)
-    assert shown.output_speed == 0.0
+    assert shown.output_speed == pytest.approx(0.0, abs=1e-12)
     # Both shafts, and d of both meshes: x_sun = d_sun + d_ring where carrier and ring stand still.
     sun_mesh, ring_mesh = (window.waveform.dte[-1] - slack)[[0, 3]]
     yielded = (sun_mesh + ring_mesh) / _base_radius(30)
@@ -181,8 +189,8 @@ def test_two_twins_in_series_twist_as_their_shafts_in_series():
     first = pt.Twin(at_rest("torque", "torque", **DAMPED), tolerance=1e-4)
     second = pt.Twin(at_rest("motion", "motion", **DAMPED), tolerance=1e-4)
     back, dt = 0.0, 2e-4
-    for n in range(6000):
-        torque = 10.0 * min(1.0, n / 2000)
+    for n in range(8000):
+        torque = 5.0 * (1.0 - math.cos(math.pi * min(1.0, n / 5000)))
         front = first.step(dt, input_torque=torque, output_torque=back)
         behind = second.step(dt, input_speed=front.output_speed, output_speed=0.0)
         back = -behind.input_torque
