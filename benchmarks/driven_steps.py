@@ -23,7 +23,7 @@ import planetary_twin_py as pt
 DT = 1e-3  # [s]
 STEPS = 1000  # of a round
 TOLERANCE, CONVERGED = 1e-3, 1e-7
-CAUSALITIES = (("torque", "torque"), ("torque", "motion"), ("motion", "torque"))
+CAUSALITIES = (("machine", "torque"), ("torque", "motion"), ("motion", "torque"))
 TORQUE, LOAD, SPEED = 63.0, 147.0, pt.rpm(1000)
 
 
@@ -45,7 +45,8 @@ def course(ports: tuple[str, str], count: int, swing: float) -> list[dict[str, f
     }
     # A new speed acts at once, on a shaft that it deflects for the whole step.
     size = {name: swing * (0.1 if name.endswith("torque") else 1e-3) for name in mean}
-    used = [f"{side}_{names[port]}" for side, port in zip(("input", "output"), ports, strict=True)]
+    sides = zip(("input", "output"), ports, strict=True)
+    used = [f"{side}_{names[port]}" for side, port in sides if port != "machine"]
     return [
         {name: mean[name] * (1.0 + size[name] * np.sin(0.3 * n + len(name))) for name in used}
         for n in range(count)

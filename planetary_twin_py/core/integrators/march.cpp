@@ -97,7 +97,7 @@ void begin_step(const Model& model, March& march) {
 
 void one_step(const Model& model, March& march, double longest) {
     Control& control = march.control;
-    march.sums.stale = control.changed || control.collocated;
+    march.sums.stale = control.changed || control.collocated || !march.sums.known;
     NextEvent event = next_event(model, march);
     longest = std::min(longest, control.longest);
     std::int64_t changing = FAILED;
@@ -115,7 +115,8 @@ void one_step(const Model& model, March& march, double longest) {
 }
 
 void accept(const Model& model, March& march, std::int64_t mesh) {
-    sum_step(model, march);
+    march.sums.known = !march.sums.unasked;
+    if (march.sums.known) sum_step(model, march);
     if (mesh != NO_MESH) {
         change_contact(model, march.end, march.scratch, mesh);
         march.control.flank_events += static_cast<std::int64_t>(model.train.copies[mesh]);

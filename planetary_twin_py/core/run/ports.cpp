@@ -94,6 +94,11 @@ void act(Model& model, March& march, const Instant& now, const Actions& actions)
     march.sums.taken = march.control.step;
 }
 
+// Whether anything is given: then nothing repeats, and steps without a window need no sums.
+bool is_driven(const Load& load) {
+    return load.port[MOTOR] != BY_MACHINE || load.port[LOAD_MACHINE] != BY_MACHINE;
+}
+
 // Largest magnitudes of the motion at the end of a step of the caller.
 void note_peaks(const Model& model, const March& march, Peaks& peaks) {
     const Train& train = model.train;
@@ -151,16 +156,19 @@ void read_ports(const Model& model, March& march, const Instant& time, PortState
 
 Outcome step_ports(Model& model, March& march, const PortStep& step, const Limits& limits,
                    WindowEnd& end, PortStates& out) {
-    const Instant until = instant_of(step.end);
+    const Instant now = instant_of(step.begin), until = instant_of(step.end);
     const double duration = static_cast<double>(step.end - step.begin) / static_cast<double>(TICKS);
+    Actions actions = actions_of(model.load, now, step.command, step.linear ? duration : 0.0);
+    bool finite = true;
+    march.sums.unasked = is_driven(model.load);
     try {
-        const Instant now = instant_of(step.begin);
-        Actions actions = actions_of(model.load, now, step.command, step.linear ? duration : 0.0);
         if (actions.change) act(model, march, now, actions);
         advance(model, march, until, NEVER, {}, {});
     } catch (const NoFiniteState&) {
-        return Outcome::NOT_FINITE;
+        finite = false;
     }
+    march.sums.unasked = false;
+    if (!finite) return Outcome::NOT_FINITE;
     read_ports(model, march, until, out);
     note_peaks(model, march, end.peaks);
     std::fill(std::begin(end.power), std::end(end.power), 0.0);
