@@ -1,7 +1,7 @@
 """Cost of a step of a twin whose ports are given, with and without a new command.
 
-python benchmarks/driven_steps.py [ROUNDS]: processor time of steps of 1 ms; median of the rounds
-and their spread, the real-time factor, the error of the DTE, and the memory that Python allocates per step.
+python benchmarks/driven_steps.py [ROUNDS]: processor time of steps of 1 ms, median of the rounds and
+spread; the real-time factor, the error of the DTE, and the memory that steps leave.
 
 An unchanged step has the commands of the step before: the torques act already, and the integrator
 does not end a step for them. Errors are those of a commanded run at tolerance 1e-3 against 1e-7,
@@ -21,7 +21,8 @@ import numpy as np
 import planetary_twin_py as pt
 
 DT = 1e-3  # [s]
-STEPS = 1000  # of a round
+STEPS = 200  # of a round
+SWINGS = (1e-6, 0.1, 1.0)  # of 10 % of torques and 0.1 % of speeds
 TOLERANCE, CONVERGED = 1e-3, 1e-7
 CAUSALITIES = (("machine", "torque"), ("torque", "motion"), ("motion", "torque"))
 TORQUE, LOAD, SPEED = 63.0, 147.0, pt.rpm(1000)
@@ -93,26 +94,34 @@ def error(ports: tuple[str, str]) -> float:
     return float((missed / np.sqrt(np.mean(runs[1] ** 2, axis=0))).max())
 
 
+def measure(ports: tuple[str, str], swing: float, rounds: int) -> tuple[list[float], list[float]]:
+    """Processor time of unchanged steps and of commanded ones [us], alternately, (rounds,) each."""
+    twins = [pt.Twin(scene_of(ports), tolerance=TOLERANCE) for _ in range(2)]
+    courses = [course(ports, STEPS, share) for share in (0.0, swing)]
+    found: tuple[list[float], list[float]] = ([], [])
+    for twin in twins:
+        seconds_per_step(twin, courses[0][:100])
+    for _ in range(rounds):
+        for twin, commands, times in zip(twins, courses, found, strict=True):
+            times.append(1e6 * seconds_per_step(twin, commands))
+    return found
+
+
 def main() -> None:
     """Measure each causality."""
-    rounds = int(sys.argv[1]) if len(sys.argv) > 1 else 7
+    rounds = int(sys.argv[1]) if len(sys.argv) > 1 else 15
     for ports in CAUSALITIES:
-        plain, changed = [], []
-        for _ in range(rounds):
-            twins = [pt.Twin(scene_of(ports), tolerance=TOLERANCE) for _ in range(2)]
-            for twin in twins:
-                seconds_per_step(twin, course(ports, 100, 0.0))
-            plain.append(1e6 * seconds_per_step(twins[0], course(ports, STEPS, 0.0)))
-            changed.append(1e6 * seconds_per_step(twins[1], course(ports, STEPS, 1.0)))
-        ratios = [b / a for a, b in zip(plain, changed, strict=True)]
-        grown = allocated(pt.Twin(scene_of(ports), tolerance=TOLERANCE), course(ports, 100, 1.0))
-        print(
-            f"{ports[0]:>6}, {ports[1]:<6}: unchanged {median(plain):.1f} us, new command "
-            f"{median(changed):.1f} us ({min(changed):.1f} to {max(changed):.1f}), ratio "
-            f"{median(ratios):.2f} ({min(ratios):.2f} to {max(ratios):.2f}), "
-            f"{1e6 * DT / median(changed):.0f} times real time, DTE error {error(ports):.1e}, "
-            f"{grown} bytes left by 100 steps"
-        )
+        for swing in SWINGS:
+            plain, changed = measure(ports, swing, rounds)
+            ratios = sorted(b / a for a, b in zip(plain, changed, strict=True))
+            print(
+                f"{ports[0]:>7}, {ports[1]:<6} swing of torques {10.0 * swing:g} %: unchanged "
+                f"{median(plain):.1f} us, new command {median(changed):.1f} us, ratio "
+                f"{median(ratios):.2f} ({ratios[0]:.2f} to {ratios[-1]:.2f}), "
+                f"{1e6 * DT / median(changed):.0f} times real time"
+            )
+        left = allocated(pt.Twin(scene_of(ports), tolerance=TOLERANCE), course(ports, 100, 1.0))
+        print(f"{'':>9}DTE error {error(ports):.1e}, {left} bytes left by 100 steps")
 
 
 if __name__ == "__main__":
