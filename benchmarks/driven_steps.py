@@ -1,7 +1,7 @@
 """Cost of a step of a twin whose ports are given, with and without a new command.
 
-python benchmarks/driven_steps.py [ROUNDS]: processor time of steps of 1 ms, median of the rounds and
-spread; the real-time factor, the error of the DTE, and the memory that steps leave.
+python benchmarks/driven_steps.py [ROUNDS]: processor time of steps of 1 ms, median of the rounds
+and spread; the real-time factor, the error of the DTE, and the memory that steps leave.
 
 An unchanged step has the commands of the step before: the torques act already, and the integrator
 does not end a step for them. Errors are those of a commanded run at tolerance 1e-3 against 1e-7,
