@@ -11,6 +11,7 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
+    from ._core import PortStates
     from .accuracy import AccuracyWarning
     from .analysis.orders import (
         ByAngle,
@@ -30,6 +31,7 @@ if TYPE_CHECKING:
         strongest_lines,
     )
     from .batch import Outcome, simulate_many
+    from .commands import Commands
     from .ledger_check import LedgerWarning
     from .modal.modes import NaturalModes
     from .modal.natural import natural_modes
@@ -64,6 +66,8 @@ _EXPORTS = {
         "strongest_lines",
     ),
     "accuracy": ("AccuracyWarning",),
+    "_core": ("PortStates",),
+    "commands": ("Commands",),
     "batch": ("Outcome", "simulate_many"),
     "ledger_check": ("LedgerWarning",),
     "modal.modes": ("NaturalModes",),
@@ -90,6 +94,7 @@ __all__ = [
     "AccuracyWarning",
     "ByAngle",
     "Change",
+    "Commands",
     "Energy",
     "LedgerWarning",
     "Line",
@@ -99,6 +104,7 @@ __all__ = [
     "OrderMap",
     "OrderSpectrum",
     "Outcome",
+    "PortStates",
     "PowerDensity",
     "Result",
     "RunawayError",

@@ -14,34 +14,42 @@ from typing import NoReturn
 import numpy as np
 
 from ._core import (
+    AXES,
     EXCEEDED,
     IMPULSE,
     LEDGER,
     METHODS,
     NO_FINITE_STATE,
     NOT_FINITE,
+    REFUSED,
+    WITHIN_LIMITS,
     Control,
     Load,
     March,
     Model,
+    PortStates,
     Report,
     Train,
     WindowEnd,
     advance,
     begin_step,
     cut,
+    give,
     radau,
+    read_ports,
+    step_ports,
     stored,
     take_books,
     take_ledger,
     take_mesh_sums,
 )
 from ._core import MeshSums as MeshSumsRecord
+from .commands import Command, port_ranges
 from .dynamics.cycle import common_cycles, turns_per_cycle
 from .dynamics.mesh_sums import MeshSums, clear, mesh_sums
 from .dynamics.oil import build_oil
 from .dynamics.speed_loop import SpeedLoopCheck, bandwidth
-from .dynamics.start import LoadBuilder, start_state
+from .dynamics.start import LoadBuilder, begin_given, keep_given, start_state
 from .dynamics.static_load import mesh_force, static_torques
 from .dynamics.train import build_train, lightest_body
 from .integrators.clock import (
@@ -93,7 +101,7 @@ class _Scale:
         A motor turns its own inertia without the meshes.
         """
         inertia = load.inertia.diagonal()[: len(self._own)]
-        torque: np.ndarray = (inertia - self._own) / self._shares
+        torque: np.ndarray = np.maximum(inertia - self._own, 0.0) / self._shares
         return self._per_torque * torque / self._stiffness
 
 
@@ -124,6 +132,8 @@ class Engine:
         self._periodic, self._last = self.march.periodic, self.march.last
         self._shown: tuple[float | Fraction, Samples] | None = None
         self._limits = Limits(scene, self.train)
+        self.port_ranges = port_ranges(scene, self.train)
+        self._linear = scene.drive.interpolation == "linear"
         self._failure: RunawayError | None = None
         control = self.march.control
         control.step = control.next_step = control.next_stiff = FIRST_STEP
@@ -135,6 +145,7 @@ class Engine:
                 where = scene.operating_point.model_copy(update={"input_speed": speed})
                 self._speed_loop.check(where)
         self._loads, self._scale = LoadBuilder(scene, self.train), _Scale(scene, self.train)
+        self._given = False
         self._oil_at: tuple[float, float] | None = None
         self._cycles: dict[bool, int] = {}
         self._pause = SETTLING / bandwidth(scene)
@@ -156,7 +167,10 @@ class Engine:
         oil_at = point.oil_temperature, point.lambda_ratio
         if self._oil_at != oil_at:
             self.model.oil, self._oil_at = build_oil(self.scene, point), oil_at
-        self.model.load = self._loads.build(point)
+        load, ports = self._loads.build(point), self.scene.drive.ports
+        if self._given:  # what is given stays, whatever the operating point
+            keep_given(self.model.load, load)
+        self.model.load, self._given = load, ports.given
         control, scale = self.march.control, self._scale
         control.tolerance = self.tolerance
         control.deflection = scale.deflection(point)
@@ -173,7 +187,8 @@ class Engine:
         periodic = self.march.periodic
         rippled = self.model.load.ripple != 0.0
         if rippled not in self._cycles:
-            cycles = common_cycles(self.train, self.model.load) if self._may_repeat else 0
+            may_repeat = self._may_repeat and not self.scene.drive.ports.given
+            cycles = common_cycles(self.train, self.model.load) if may_repeat else 0
             self._cycles[rippled] = cycles
         cycles = self._cycles[rippled]
         if cycles > 0:
@@ -298,12 +313,97 @@ class Engine:
             raise self._failure
         if self.scene.mesh.damping.follows_speed:
             self._speed_loop.check(point)
+        self._cut(time)
+        self.tolerance = tolerance
+        self._load(point)
+
+    def _cut(self, time: float | Fraction) -> None:
+        """End the last step at `time` [s], the end of the last window."""
         cut(self.model, self.march, instant(time))
         clear(self.march.sums.total)
         self.march.sums.taken = self.march.control.step  # what lies before `time`
         self._shown = None
-        self.tolerance = tolerance
+
+    def set_ports(self, scene: Scene, point: OperatingPoint, time: Fraction) -> None:
+        """Continue with the ports of `scene` from `time` [s], the end of the last window.
+
+        Torques and motions that are given from then on begin as they are; a machine that takes
+        over the speed begins at the present one.
+
+        Args:
+            scene: that of the run, with other ports.
+            point: operating point of the run.
+            time: the end of the last window [s].
+
+        Raises:
+            ValueError: the speed loop would not be stable; nothing has changed.
+            RunawayError: the run has been stopped.
+        """
+        if self._failure is not None:
+            raise self._failure
+        speed_loop, loads = SpeedLoopCheck(scene, self.train), LoadBuilder(scene, self.train)
+        speed_loop.check(point)
+        shown = PortStates()
+        read_ports(self.model, self.march, instant(time), shown)
+        self._cut(time)
+        self.scene, self._speed_loop, self._loads = scene, speed_loop, loads
+        self._given = False
+        self._cycles.clear()
         self._load(point)
+        if scene.drive.ports.given:
+            begin_given(self.model.load, instant(time), shown)
+        self._end.trim = [0.0] * AXES
+        self._end.set_speed[0] = shown.input_speed
+
+    def give(self, command: Command, ticks: int, reaching: float) -> None:
+        """Let a command act from the end of the last window on.
+
+        Args:
+            command: what is given at the ports.
+            ticks: the end of the last window, in ticks of the clock.
+            reaching: time in which values are reached along straight lines [s]; 0: at once.
+
+        Raises:
+            RunawayError: the run has been stopped, or no step is possible.
+        """
+        if self._failure is not None:
+            raise self._failure
+        try:
+            give(self.model, self.march, instant_of_ticks(ticks), *command, reaching)
+        except ArithmeticError as reason:
+            self._fail(reason)
+        self._shown = None
+
+    def step(
+        self, begin: int, end: int, command: Command, out: PortStates, reached: WindowEnd
+    ) -> bool:
+        """Let a command act and integrate, without samples.
+
+        Args:
+            begin: the present time, in ticks of the clock.
+            end: the end of the step, in ticks of the clock.
+            command: what is given at the ports.
+            out: what the ports show at the end.
+            reached: room for what the limits of the run are checked against.
+
+        Returns:
+            Whether the ports took the command; otherwise nothing has changed.
+
+        Raises:
+            RunawayError: the run exceeds physical limits, or has been stopped before.
+        """
+        if self._failure is not None:
+            raise self._failure
+        outcome = step_ports(
+            self.model, self.march, begin, end, *command, self._linear, self.port_ranges,
+            self._limits.record, reached, out,
+        )  # fmt: skip
+        if outcome == REFUSED:
+            return False
+        self._shown = None
+        if outcome != WITHIN_LIMITS:
+            self._watch(outcome, reached)
+        return True
 
     @property
     def reached(self) -> Fraction:

@@ -28,6 +28,8 @@ from ._core import (
     WORK,
 )
 from .accuracy import AccuracyWarning, accuracy_warnings
+from .commands import Commands
+from .driven import DrivenRun
 from .dynamics.bodies import body_names, mesh_names
 from .dynamics.mesh_sums import MeshSums, in_order
 from .integrators.interpolant import Samples
@@ -49,6 +51,7 @@ def simulate(
     method: str = "auto",
     tolerance: float = TOLERANCE,
     settling: float = 0.0,
+    commands: Commands | None = None,
 ) -> Result:
     """Simulate a scene from a steady state.
 
@@ -65,12 +68,15 @@ def simulate(
         tolerance: relative local error tolerance.
         settling: simulated time before the result [s], which excludes the initial transient. The
             times of the result include it.
+        commands: what is given at the ports over time, from the start of settling on; None: the
+            torques and speeds of the operating point, as at the start.
 
     Returns:
         Samples, energy ledger and statistics of the time after `settling`.
 
     Raises:
-        ValueError: an argument is out of range, or the scene is invalid.
+        ValueError: an argument is out of range, the scene is invalid, or a command is not given at
+            its port.
         RunawayError: the run exceeds physical limits, see `runaway`.
 
     Warns:
@@ -81,13 +87,14 @@ def simulate(
     if not 0.0 <= settling < math.inf:
         raise ValueError(f"settling = {settling!r} s: must be finite and not negative")
     engine = start(scene, tolerance, method)
+    driven = DrivenRun(engine, scene, commands)
     begin = time.perf_counter()
     passed, end = (_samples(t, sample_rate) for t in (settling, settling + duration))
-    engine.advance(settling, passed + 1, sample_rate, 0)
+    driven.advance(settling, passed + 1, sample_rate, 0)
     engine.take_ledger()
     engine.take_mesh_sums(settling)
     before = _Start(engine.reached, engine.stored(), passed, _turned(engine, settling))
-    samples = engine.advance(settling + duration, passed + 1, sample_rate, end - passed)
+    samples = driven.advance(settling + duration, passed + 1, sample_rate, end - passed)
     wall = time.perf_counter() - begin
     speed = (_turned(engine, settling + duration) - before.turned) / duration
     sums = engine.take_mesh_sums(settling + duration)

@@ -5,14 +5,17 @@ from __future__ import annotations
 from fractions import Fraction
 from typing import NamedTuple
 
-from ._core import Figures, WindowEnd, window_figures
+from ._core import Figures, PortStates, WindowEnd, window_figures
 from .accuracy import Course, Settling, course_so_far, unsettled
+from .commands import Command, Commands, course_of
 from .dynamics.bodies import body_names, build_report, mesh_names
+from .engine import Engine
 from .gearset.kinematics import mesh_frequency
 from .integrators.clock import TICKS
 from .integrators.interpolant import Waves, new_waves
 from .run import start
 from .scene import TUNABLES, OperatingPoint, Scene, SceneError
+from .scene.drive import Causality, Ports
 from .tolerance import LIVE_TOLERANCE, check_tolerance
 from .window import Waveform, Window, by_name
 from .window_jobs import WindowJobs, run_alone
@@ -21,6 +24,10 @@ LEEWAY = 10**6  # of these parts of a sample period a sample may exceed the wind
 LONGEST_WINDOW = 60.0  # [s], because samples are kept in memory; or
 MOST_SAMPLES = 4096  # samples, if that is longer
 LOWEST_SAMPLE_RATE = 1.0  # [Hz]
+LONGEST_STEP = 1.0  # [s] of `Twin.step`, which cannot be interrupted
+
+
+NOTHING = Command()  # is given
 
 
 class Change(NamedTuple):
@@ -34,6 +41,8 @@ class Change(NamedTuple):
     """Relative local error tolerance."""
     sample_rate: float
     """Of the waveform [Hz]; it does not affect the motion."""
+    ports: Ports = Ports()
+    """What acts on the shafts of input and output."""
 
 
 class Twin:
@@ -45,13 +54,18 @@ class Twin:
         scene: the scene; the run starts in a steady state at its operating point.
         sample_rate: of the waveform [Hz].
         tolerance: relative local error tolerance; the default is suitable for real time.
+        keep_commands: whether to keep what is given at the ports, see `commands`.
 
     Raises:
         ValueError: the scene, the sample rate or the tolerance is invalid.
     """
 
     def __init__(
-        self, scene: Scene, sample_rate: float = 50_000.0, tolerance: float = LIVE_TOLERANCE
+        self,
+        scene: Scene,
+        sample_rate: float = 50_000.0,
+        tolerance: float = LIVE_TOLERANCE,
+        keep_commands: bool = False,
     ) -> None:
         _check_sample_rate(sample_rate)
         self.scene = scene
@@ -63,13 +77,19 @@ class Twin:
             len(self.bodies), len(self.meshes), int(self._engine.train.machines)
         )
         self._ticks = 0
-        self.log = [Change(0.0, scene.operating_point, tolerance, float(sample_rate))]
+        first = Change(0.0, scene.operating_point, tolerance, float(sample_rate), scene.drive.ports)
+        self.log = [first]
         """All changes. Applied at the same times, they reproduce the run and its samples."""
         self._ends = WindowEnd(), WindowEnd()  # of the last window, and of the next one
         self._stand()
         self._forgetting, self._settled = Settling(scene), 0.0
         self._settling = self._forgetting.rate(scene.operating_point)
         self._course = course_so_far(self._engine.control, 0.0)
+        self._kept: tuple[list[int], list[Command]] | None = ([], []) if keep_commands else None
+        self._linear = scene.drive.interpolation == "linear"
+        self._given = scene.drive.ports.given
+        self._stepped = False  # since the last window, without sums of the meshes
+        self._shown, self._reached = PortStates(), WindowEnd()
 
     @property
     def bodies(self) -> tuple[str, ...]:
@@ -100,6 +120,22 @@ class Twin:
     def sample_rate(self) -> float:
         """Current sample rate of the waveform [Hz]."""
         return self.log[-1].sample_rate
+
+    @property
+    def ports(self) -> Ports:
+        """What acts on the shafts of input and output."""
+        return self.log[-1].ports
+
+    @property
+    def commands(self) -> Commands:
+        """All that was given at the ports so far; with them, `simulate` repeats the run.
+
+        Raises:
+            ValueError: the twin was not made with `keep_commands`.
+        """
+        if self._kept is None:
+            raise ValueError("keep_commands = False: must be True to keep commands")
+        return course_of(*self._kept)
 
     def set(self, **changes: float) -> float:
         """Change fields of the operating point at the current time.
@@ -152,23 +188,153 @@ class Twin:
             self.log.append(last._replace(time=self.time, sample_rate=float(sample_rate)))
         return self.time
 
-    def advance(self, duration: float) -> Window:
+    def set_ports(self, input: Causality | None = None, output: Causality | None = None) -> float:
+        """Change what acts on the shafts of input and output at the current time.
+
+        Torques and motions that are given from then on begin as they are at this time, and stay so
+        until a command changes them. A machine that takes over the speed begins at the present one.
+
+        Args:
+            input: "machine", "torque" or "motion", see `drive.input.port`; None: as before.
+            output: the same of the output shaft.
+
+        Returns:
+            The simulated time from which they apply [s].
+
+        Raises:
+            ValueError: a port cannot be given in this scene; nothing is changed.
+        """
+        ports = Ports(input or self.ports.input, output or self.ports.output)
+        if ports == self.ports:
+            return self.time
+        scene = self.scene.replace(
+            **{"drive.input.port": ports.input, "drive.output.port": ports.output}
+        )
+        self._end_steps()
+        self._driven().set_ports(scene, self.operating_point, Fraction(self._ticks, TICKS))
+        self.scene, self._given = scene, ports.given
+        self._stand()
+        self.log.append(self.log[-1]._replace(time=self.time, ports=ports))
+        return self.time
+
+    def step(
+        self,
+        dt: float,
+        *,
+        input_torque: float | None = None,
+        output_torque: float | None = None,
+        input_speed: float | None = None,
+        output_speed: float | None = None,
+    ) -> PortStates:
+        """Let torques or motions act at the ports, and simulate without waveform or statistics.
+
+        What is not given stays as it is. With `drive.interpolation = hold`, values act from the
+        present time on; with `linear`, they are reached at the end of the step. Positive torques
+        act on the shafts in the positive direction, so a brake on a shaft that turns forwards has a
+        negative torque.
+
+        Args:
+            dt: simulated time [s], above 0 and at most 1 s.
+            input_torque: on the input shaft [N m]; requires `drive.input.port = torque`.
+            output_torque: on the output shaft [N m]; requires `drive.output.port = torque`.
+            input_speed: of the input shaft [rad/s]; requires `drive.input.port = motion`.
+            output_speed: of the output shaft [rad/s]; requires `drive.output.port = motion`.
+
+        Returns:
+            Angles, speeds and torques of the shafts at the end. It is the same object in every
+            step; `copy()` keeps its values.
+
+        Raises:
+            ValueError: dt or a value is out of range, or a value is not given at its port; nothing
+                has changed.
+            RunawayError: the run exceeds physical limits; the twin cannot be advanced further.
+        """
+        if not 0.0 < dt <= LONGEST_STEP:
+            raise ValueError(f"dt = {dt!r} s: must be above 0 and at most {LONGEST_STEP:g}")
+        command = Command(input_torque, output_torque, input_speed, output_speed)
+        begin, engine = self._ticks, self._engine
+        end = begin + (round(dt * TICKS) or 1)
+        if not (
+            isinstance(engine, Engine)
+            and engine.step(begin, end, command, self._shown, self._reached)
+        ):
+            self._refuse(command)
+        if self._kept is not None:
+            self._keep(end if self._linear else begin, command)
+        self._ticks, self._stepped = end, True
+        return self._shown
+
+    def _refuse(self, command: Command) -> None:
+        """Raise the error of a command that the ports do not take."""
+        engine = self._driven()
+        command.check(engine.scene, engine.port_ranges)
+
+    def _driven(self) -> Engine:
+        """The engine, if its ports can be given."""
+        if not isinstance(self._engine, Engine):
+            raise SceneError(f"dynamics = {self.scene.dynamics!r}: must be torsional for ports")
+        return self._engine
+
+    def _keep(self, ticks: int, command: Command) -> None:
+        assert self._kept is not None
+        if any(value is not None for value in command) or self._linear:
+            self._kept[0].append(ticks)
+            self._kept[1].append(command)
+
+    def _end_steps(self) -> None:
+        """Begin a window after steps, of which the meshes have no sums."""
+        if self._stepped:
+            self._engine.take_mesh_sums(Fraction(self._ticks, TICKS))
+            self._stand()
+            self._stepped = False
+
+    def advance(
+        self,
+        duration: float,
+        *,
+        input_torque: float | None = None,
+        output_torque: float | None = None,
+        input_speed: float | None = None,
+        output_speed: float | None = None,
+    ) -> Window:
         """Simulate one window.
 
         Args:
             duration: simulated time [s], above 0 and at most 60 s or 4096 samples, whichever is
                 longer.
+            input_torque: on the input shaft [N m], as in `step`.
+            output_torque: on the output shaft [N m].
+            input_speed: of the input shaft [rad/s].
+            output_speed: of the output shaft [rad/s].
 
         Returns:
             Statistics and waveform of the window.
 
         Raises:
-            ValueError: the duration is out of range.
+            ValueError: the duration or a value is out of range, or a value is not given at its
+                port; nothing has changed.
             RunawayError: the run exceeds physical limits; the twin cannot be advanced further.
         """
+        command = Command(input_torque, output_torque, input_speed, output_speed)
         plan = self._plan(duration)
+        self._begin(plan, command)
         run_alone(self._jobs(plan))
         return self._close(plan)
+
+    def _begin(self, plan: _Plan, command: Command = NOTHING) -> None:
+        """Let a command act in a window that begins now."""
+        self._end_steps()
+        if self._given or command != NOTHING:
+            self._give(command, plan.end)
+
+    def _give(self, command: Command, end: int) -> None:
+        """Let a command act from the present time to `end` [ticks]."""
+        engine = self._driven()
+        command.check(engine.scene, engine.port_ranges)
+        reaching = (end - self._ticks) / TICKS if self._linear else 0.0
+        engine.give(command, self._ticks, reaching)
+        if self._kept is not None:
+            self._keep(end if self._linear else self._ticks, command)
 
     def _jobs(self, plan: _Plan) -> WindowJobs:
         """What the core is to compute for a window."""
@@ -177,8 +343,9 @@ class Twin:
         )
 
     def _change(self, point: OperatingPoint, tolerance: float) -> float:
-        change = Change(self.time, point, tolerance, self.sample_rate)
+        change = Change(self.time, point, tolerance, self.sample_rate, self.ports)
         if change[1:] != self.log[-1][1:]:
+            self._end_steps()
             self._engine.change(point, tolerance, Fraction(self._ticks, TICKS))
             self._stand()  # a change of backlash is not work of this window
             self._settling = self._forgetting.rate(point)

@@ -83,6 +83,8 @@ class Twins:
         """
         running = [place for place in range(len(self)) if place not in self._failures]
         plans = {place: self._twins[place]._plan(duration) for place in running}
+        for place, plan in plans.items():
+            self._twins[place]._begin(plan)
         jobs = [self._twins[place]._jobs(plan) for place, plan in plans.items()]
         for n, error in run_together(jobs, self._workers).items():
             self._failures[running[n]] = error

@@ -30,6 +30,10 @@ constexpr std::int64_t DRIVE_SIDE = 1, OPEN = 0, COAST_SIDE = -1;
 // Places of the machines.
 constexpr int MOTOR = 0, LOAD_MACHINE = 1, SECOND_MOTOR = 2;
 
+// What acts on the shaft of a machine: its own controller, a torque that is given from outside, or
+// a motion that is, to which the shaft answers with a torque.
+constexpr std::int64_t BY_MACHINE = 0, BY_TORQUE = 1, BY_MOTION = 2;
+
 // Entries of `State.energy` and of the powers by which they grow: work [J] and angular impulse
 // [N m s] that each machine has put in, then what tooth friction, damping, bearings and churning
 // have taken and what the meshes have put in by changing their shape [J].

@@ -1,8 +1,10 @@
 """The speed loop of the drive: gains, default bandwidth, stability.
 
 Each motor has a proportional controller of its speed; the integral of its speed error trims the
-load of the first input and the motor of the second. With J the inertia of the train at a motor
-and w = 2 pi bandwidth, the gains J w and J w^2/4 make the loop critically damped on a rigid train.
+load of the first input and the motor of the second. Where a torque is given at one port, the
+machine at the other has both parts; where a motion is given, there is no speed loop. With J the
+inertia of the train at a motor and w = 2 pi bandwidth, the gains J w and J w^2/4 make the loop
+critically damped on a rigid train.
 
 The train is not rigid. For motor and load of total inertia J on one shaft of stiffness k, the loop
 is stable if J w^2/4 < k (Routh-Hurwitz), for any division of the inertia: a faster integrator moves
@@ -24,7 +26,7 @@ import numpy as np
 
 from .._core import AXES, MACHINES, Train, damping_time
 from ..scene import OperatingPoint, Scene, SceneError
-from .bodies import LOAD_MACHINE, SECOND_MOTOR
+from .bodies import LOAD_MACHINE, MOTOR, SECOND_MOTOR
 from .mean_stiffness import mean_stiffness
 from .static_load import static_torques
 from .train import TRAINS_KEPT, build_train, unloaded
@@ -49,6 +51,7 @@ class Gains(NamedTuple):
     inertia: np.ndarray  # of the whole train at the motors [kg m^2], (AXES, AXES)
     proportional: np.ndarray  # of each motor [N m s/rad], (AXES,)
     trim: np.ndarray  # torque per integral of a speed error [N m/rad], (MACHINES, AXES)
+    load_proportional: float  # of a load that holds the speed alone [N m s/rad]
 
 
 class Loop(NamedTuple):
@@ -102,6 +105,8 @@ def bandwidth(scene: Scene) -> float:
         ValueError: there is an instant without contact of teeth.
     """
     given = scene.drive.speed_control.bandwidth
+    if given is None and not scene.drive.ports.hold_speed:
+        return FASTEST_DEFAULT  # of no effect
     return _default(unloaded(scene)) if given is None else given
 
 
@@ -128,11 +133,28 @@ def speed_loop_gains(scene: Scene, train: Train, bandwidth: float) -> Gains:
     inertia = np.einsum("j,ja,jb->ab", train.mass * train.radius**2, train.ratio, train.ratio)
     integral = np.diag(inertia) * w**2 / 4.0
     trim = np.zeros((MACHINES, AXES))
+    if scene.drive.ports.given:
+        return _gains_of_one_machine(scene, train, inertia, w)
     # The first motor gives its torque only; the load is trimmed to hold the speed.
     trim[LOAD_MACHINE, 0] = -static_torques(scene)[LOAD_MACHINE] * integral[0]
     if axes > 1:
         trim[SECOND_MOTOR, 1] = integral[1]
-    return Gains(inertia, np.diag(inertia) * w, trim)
+    return Gains(inertia, np.diag(inertia) * w, trim, 0.0)
+
+
+def _gains_of_one_machine(scene: Scene, train: Train, inertia: np.ndarray, w: float) -> Gains:
+    """Gains where torque or motion is given at a port; w = 2 pi bandwidth [rad/s]."""
+    ports, total = scene.drive.ports, float(inertia[0, 0])
+    gains = Gains(np.zeros((AXES, AXES)), np.zeros(AXES), np.zeros((MACHINES, AXES)), 0.0)
+    if not ports.hold_speed:
+        return gains
+    if ports.input == "machine":
+        gains.inertia[0, 0], gains.proportional[0] = total, total * w
+        gains.trim[MOTOR, 0] = total * w**2 / 4.0
+        return gains
+    ratio = float(train.ratio[train.coupling[LOAD_MACHINE, 0], 0])
+    gains.trim[LOAD_MACHINE, 0] = total * w**2 / 4.0 / ratio
+    return gains._replace(load_proportional=total * w / ratio**2)
 
 
 class LinearTrain:
@@ -195,6 +217,8 @@ def _feedback(scene: Scene, train: Train) -> np.ndarray:
     """P and I [kg] in the coordinates of `Train`, shape (2, bodies, bodies)."""
     gains, machines = speed_loop_gains(scene, train, 0.5 / math.pi), train.coupling[:, 0]
     feedback = np.zeros((2, train.bodies, train.bodies))
+    load = machines[LOAD_MACHINE]
+    feedback[0, load, load] = gains.load_proportional * train.inverse_radius[load] ** 2
     for a in range(train.axes):
         motor = machines[2 * a]
         feedback[0, motor, motor] = gains.proportional[a] * train.inverse_radius[motor] ** 2
@@ -215,6 +239,7 @@ class SpeedLoopCheck:
     def __init__(self, scene: Scene, train: Train) -> None:
         self._cycles, self._chosen = train.cycles.copy(), bandwidth(scene)
         self._linear = LinearTrain(scene, train)
+        self._holds = scene.drive.ports.hold_speed
         self._stable: set[float] = set()  # recent mesh frequencies [Hz] that are stable
 
     def check(self, point: OperatingPoint) -> None:
@@ -226,6 +251,8 @@ class SpeedLoopCheck:
         Raises:
             SceneError: the loop is not stable at sqrt(2) times its bandwidth.
         """
+        if not self._holds:
+            return
         speeds = np.zeros(AXES)
         speeds[:] = point.input_speed, point.second_input_speed
         frequency = abs(float(self._cycles @ speeds)) / (2.0 * math.pi)

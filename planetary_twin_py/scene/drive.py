@@ -2,12 +2,36 @@
 
 from __future__ import annotations
 
-from typing import Self
+from typing import Literal, NamedTuple, Self
 
 from pydantic import Field, model_validator
 
 from .gearset import Member
 from .quantity import Section, quantity
+
+Causality = Literal["machine", "torque", "motion"]
+
+
+class Ports(NamedTuple):
+    """What acts on the shafts of input and output, see `Machine.port`."""
+
+    input: Causality = "machine"
+    """At the shaft of the motor."""
+    output: Causality = "machine"
+    """At the shaft of the load."""
+
+    @property
+    def given(self) -> bool:
+        """Whether torque or motion is given at a port."""
+        return self != Ports()
+
+    @property
+    def hold_speed(self) -> bool:
+        """Whether machines hold the speed set-point.
+
+        A machine does unless the motion of the other shaft is given: then it only gives its torque.
+        """
+        return "machine" in self and "motion" not in self
 
 
 class Machine(Section):
@@ -20,6 +44,12 @@ class Machine(Section):
     )
     coupling_damping: float = quantity(
         "N m s/rad", "damping of the shaft coupling to the member", ge=0.0, le=1e9
+    )
+    port: Causality = Field(
+        "machine",
+        description="what acts on the shaft: machine, with its controller; torque, given from "
+        "outside, from which the speed follows; motion, given from outside, from which the torque "
+        "follows (the inertia is then not part of the train)",
     )
 
 
@@ -63,6 +93,17 @@ class Drive(Section):
     torque_limit: float = quantity(
         "N m", "largest torque set-point of a motor", 1000.0, gt=0, le=1e9
     )
+
+    interpolation: Literal["hold", "linear"] = Field(
+        "hold",
+        description="course of given torques and motions between commands: hold, constant from a "
+        "command on; linear, along a straight line that reaches it at the end of its step",
+    )
+
+    @property
+    def ports(self) -> Ports:
+        """What acts on the shafts of input and output."""
+        return Ports(self.input.port, self.output.port)
 
     @property
     def inputs(self) -> tuple[Machine, ...]:

@@ -70,6 +70,7 @@ class Scene(Section):
     def _errors(self) -> Iterator[str]:
         """Errors of parts that do not fit together."""
         yield from self._machines()
+        yield from self._ports()
         yield from self._limits()
         yield from self._faulty_teeth()
         yield from self._play()
@@ -89,6 +90,18 @@ class Scene(Section):
         if self.drive.second_input is None and self.operating_point.second_input_speed != 0.0:
             speed = self.operating_point.second_input_speed
             yield f"second_input_speed = {speed!r}: must be 0 without a second input"
+
+    def _ports(self) -> Iterator[str]:
+        """Errors of ports at which torque or motion is given."""
+        for side in ("input", "second_input", "output"):
+            machine = getattr(self.drive, side)
+            if machine is None or machine.port == "machine":
+                continue
+            field = f"drive.{side}.port = {machine.port!r}"
+            if self.drive.second_input is not None:
+                yield f"{field}: must be machine in a differential (gearset.held = 'none')"
+            elif self.dynamics != "torsional":
+                yield f"{field}: requires dynamics = torsional, not {self.dynamics!r}"
 
     def _limits(self) -> Iterator[str]:
         """Errors of the operating point: values outside the limits of the drive."""

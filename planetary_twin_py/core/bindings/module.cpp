@@ -19,5 +19,6 @@ NB_MODULE(CORE_MODULE, m) {
     gearbox::bind_quasi_static(m);
     gearbox::bind_integrators(m);
     gearbox::bind_run(m);
+    gearbox::bind_ports(m);
     gearbox::bind_peers(m);
 }

@@ -12,6 +12,7 @@ void bind_initial_state(nanobind::module_& m);
 void bind_quasi_static(nanobind::module_& m);
 void bind_integrators(nanobind::module_& m);
 void bind_run(nanobind::module_& m);
+void bind_ports(nanobind::module_& m);
 void bind_peers(nanobind::module_& m);
 
 }  // namespace gearbox

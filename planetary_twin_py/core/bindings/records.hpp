@@ -60,7 +60,14 @@ inline void bind_records(nb::module_& m) {
         .FIELD(Load, ripple_order)
         .FIELD(Load, inertia)
         .FIELD(Load, proportional)
-        .FIELD(Load, trim_gain);
+        .FIELD(Load, trim_gain)
+        .FIELD(Load, load_proportional)
+        .FIELD(Load, port)
+        .FIELD(Load, since_seconds)
+        .FIELD(Load, since)
+        .FIELD(Load, torque_rate)
+        .FIELD(Load, speed)
+        .FIELD(Load, acceleration);
     record<Train>(m, "Train")
         .FIELD(Train, bodies)
         .FIELD(Train, lanes)
@@ -180,6 +187,7 @@ inline void bind_records(nb::module_& m) {
         .FIELD(StepConstants, damping)
         .FIELD(StepConstants, spin)
         .FIELD(StepConstants, slew)
+        .FIELD(StepConstants, torque)
         .FIELD(StepConstants, line_angle)
         .FIELD(StepConstants, faulty);
     record<MeshesNow>(m, "MeshesNow")

@@ -6,6 +6,7 @@
 #include "integrators/collocation.hpp"
 #include "integrators/flanks.hpp"
 #include "integrators/frame.hpp"
+#include "integrators/given_work.hpp"
 #include "integrators/step_control.hpp"
 #include "integrators/step_ledger.hpp"
 #include "mesh/deflection.hpp"
@@ -44,7 +45,7 @@ void find_end_waves(Propagation& run, double h) {
 
 // Let the step end after h seconds: bodies alone.
 template <int L>
-void place_end(March& march, double h) {
+void place_end(const Model& model, March& march, double h) {
     Propagation& run = march.run;
     const std::int64_t last = run.nodes.count - 1;
     march.control.step = h;
@@ -61,6 +62,7 @@ void place_end(March& march, double h) {
     auto [x, v] = sum_rows<L>(contacts_of(run).form, modes);
     x.store(march.end.x);
     v.store(march.end.v);
+    move_given(model, march.begin, h, march.end.x, march.end.v);
 }
 
 // What else the end of the step has, once it stands.
@@ -69,6 +71,7 @@ void finish_end(const Model& model, March& march) {
     const double h = march.control.step;
     trim_at(model, march, h, march.end.x, march.end.trim);
     integrate_powers<L>(model.train, march, h);
+    book_given_work<L>(model, march, h);
     pass_time(model, march, h);
 }
 
@@ -94,7 +97,7 @@ void meet_edge(const Model& model, March& march, std::int64_t mesh, double h) {
         double gap = time_by_pace(model, march, mesh);
         if (std::fabs(gap) < ON_EDGE || !(std::fabs(gap) < WITHIN * h)) return;
         h += gap;
-        place_end<L>(march, h);
+        place_end<L>(model, march, h);
     }
 }
 
@@ -103,7 +106,7 @@ template <int L>
 std::int64_t end_on_flank_event(const Model& model, March& march, double h) {
     FlankEvent event = first_flank_event(model, march);
     if (event.mesh != NO_MESH && h > SHORTEST_STEP && !at_event(model, march, event.mesh))
-        place_end<L>(march, event.when);
+        place_end<L>(model, march, event.when);
     return event.mesh;
 }
 
@@ -173,7 +176,7 @@ std::int64_t make_step(const Model& model, March& march, double longest, const N
     control.collocated = true;
     control.changed = false;
     march.end = march.begin;
-    place_end<L>(march, h);
+    place_end<L>(model, march, h);
     if (event.mesh != NO_MESH && h == event.time) meet_edge<L>(model, march, event.mesh, h);
     keep_last_forces(model, march, run.node[last], march.last);
     std::int64_t changing = end_on_flank_event<L>(model, march, h);
@@ -186,7 +189,7 @@ std::int64_t make_step(const Model& model, March& march, double longest, const N
 void end_within(const Model& model, March& march, double h) {
     march.end = march.begin;
     with_lanes(model.train, [&](auto lanes) {
-        place_end<lanes>(march, h);
+        place_end<lanes>(model, march, h);
         finish_end<lanes>(model, march);
     });
 }

@@ -40,7 +40,7 @@ void enter(const Model& model, March& march) {
     Propagation& run = march.run;
     ModalMotion& motion = run.motion;
     Node& start = run.start;
-    motion.modes = find_modes(model.train, march.begin, run.known);
+    motion.modes = find_modes(model, march.begin, run.known);
     ContactState& contacts = contacts_of(run);
     damp_modes<L>(contacts, march.constants.tau);
     copy<L>(contacts.square, motion.square);

@@ -72,11 +72,13 @@ void spread_mode(const Train& train, ContactState& modes, std::int64_t m) {
     }
 }
 
-void solve_modes(const Train& train, const State& state, ContactState& modes) {
+void solve_modes(const Model& model, const State& state, ContactState& modes) {
+    const Train& train = model.train;
     modes.pull[0] = modes.pull[1] = FIRST_PULL;
     modes.varies = train.faults > 0 || train.lines[0] + train.lines[1] > 0;
     double scale[BODIES] = {}, squares[BODIES], matrix[BODIES][BODIES] = {};
-    for (std::int64_t j = 0; j < train.bodies; ++j) scale[j] = 1.0 / std::sqrt(train.mass[j]);
+    for (std::int64_t j = 0; j < train.bodies; ++j)
+        scale[j] = has_given_motion(model, j) ? 0.0 : 1.0 / std::sqrt(train.mass[j]);
     find_stiffness(train, state, modes);
     stiffness_matrix(train, modes, scale, matrix);
     symmetric_eigen(matrix, static_cast<int>(train.bodies), squares);
@@ -88,7 +90,7 @@ void solve_modes(const Train& train, const State& state, ContactState& modes) {
     }
 }
 
-std::int64_t search(const Train& train, const State& state, ContactModes& known,
+std::int64_t search(const Model& model, const State& state, ContactModes& known,
                     const ContactKey& key) {
     if (auto found = known.places.find(key); found != known.places.end()) return found->second;
     if (known.count() == CONTACT_STATES) {
@@ -100,15 +102,18 @@ std::int64_t search(const Train& train, const State& state, ContactModes& known,
     ContactState& modes = known.states.emplace_back();
     modes = ContactState{};
     modes.key = key;
-    solve_modes(train, state, modes);
+    solve_modes(model, state, modes);
     known.places.emplace(key, n);
     return n;
 }
 
 }  // namespace
 
-ContactKey contact_key(const Train& train, const State& state) {
+ContactKey contact_key(const Model& model, const State& state) {
+    const Train& train = model.train;
     ContactKey key{0, 0};
+    for (std::int64_t c = 0; c < train.machines; ++c)
+        key.sun = 2 * key.sun + (model.load.port[c] == BY_MOTION ? 1 : 0);
     for (std::int64_t i = 0; i < train.meshes; ++i) {
         std::int64_t segment = state.side[i] != OPEN ? state.segment[i] + 1 : 0;
         std::int64_t& own = train.kind[i] == 0 ? key.sun : key.ring;
@@ -117,14 +122,14 @@ ContactKey contact_key(const Train& train, const State& state) {
     return key;
 }
 
-std::int64_t find_modes(const Train& train, const State& state, ContactModes& known) {
-    ContactKey key = contact_key(train, state);
+std::int64_t find_modes(const Model& model, const State& state, ContactModes& known) {
+    ContactKey key = contact_key(model, state);
     if (known.count() > 0) {
         if (known.states[known.last].key == key) return known.last;
         std::int64_t likely = known.states[known.last].follower;
         if (likely < known.count() && known.states[likely].key == key) return known.last = likely;
     }
-    std::int64_t n = search(train, state, known, key);
+    std::int64_t n = search(model, state, known, key);
     known.states[known.last].follower = n;
     return known.last = n;
 }

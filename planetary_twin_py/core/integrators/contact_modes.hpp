@@ -8,16 +8,18 @@
 // the same states in every cycle.
 
 #include "integrators/contact_modes_record.hpp"
+#include "train/model.hpp"
 #include "train/state.hpp"
-#include "train/train.hpp"
 
 namespace gearbox {
 
 inline constexpr std::int64_t CONTACT_STATES = 1024;  // kept at most
 
-ContactKey contact_key(const Train& train, const State& state);
+// Contacts of `state`, and which shafts have a motion that is given.
+ContactKey contact_key(const Model& model, const State& state);
 
-// Place in `known` of the modes of the contacts of `state`, which are computed once.
-std::int64_t find_modes(const Train& train, const State& state, ContactModes& known);
+// Place in `known` of the modes of the contacts of `state`, which are computed once. In them, the
+// end of a shaft whose motion is given stands still.
+std::int64_t find_modes(const Model& model, const State& state, ContactModes& known);
 
 }  // namespace gearbox

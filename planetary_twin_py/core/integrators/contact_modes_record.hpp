@@ -12,7 +12,8 @@ namespace gearbox {
 inline constexpr int MOST_NODES = 5;  // points of collocation in a step
 inline constexpr int KEPT_STEPS = 3;  // in a contact state, whose free waves are kept
 
-// Numbers for the stiffnesses of sun and ring meshes: their segments, 0 where they are open.
+// Numbers for the stiffnesses of sun and ring meshes: their segments, 0 where they are open. That
+// of the sun begins with the shafts whose motion is given.
 struct ContactKey {
     std::int64_t sun;
     std::int64_t ring;

@@ -19,7 +19,7 @@ inline void interpolate(const Model& model, March& march, double delay) {
     State& dense = march.dense;
     if (march.control.collocated) {
         with_lanes(model.train,
-                   [&](auto lanes) { propagate<lanes>(march, delay, dense.x, dense.v); });
+                   [&](auto lanes) { propagate<lanes>(model, march, delay, dense.x, dense.v); });
         return;
     }
     bool at_begin = delay <= SHORTEST_STEP;

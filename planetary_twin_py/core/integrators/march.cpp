@@ -97,7 +97,7 @@ void begin_step(const Model& model, March& march) {
 
 void one_step(const Model& model, March& march, double longest) {
     Control& control = march.control;
-    march.sums.stale = control.changed || control.collocated;
+    march.sums.stale = control.changed || control.collocated || !march.sums.known;
     NextEvent event = next_event(model, march);
     longest = std::min(longest, control.longest);
     std::int64_t changing = FAILED;
@@ -115,7 +115,8 @@ void one_step(const Model& model, March& march, double longest) {
 }
 
 void accept(const Model& model, March& march, std::int64_t mesh) {
-    sum_step(model, march);
+    march.sums.known = !march.sums.unasked;
+    if (march.sums.known) sum_step(model, march);
     if (mesh != NO_MESH) {
         change_contact(model, march.end, march.scratch, mesh);
         march.control.flank_events += static_cast<std::int64_t>(model.train.copies[mesh]);
@@ -127,17 +128,11 @@ void accept(const Model& model, March& march, std::int64_t mesh) {
 }
 
 void advance(const Model& model, March& march, const Instant& until, const Instant& bound,
-             Sampling samples, const Samples& out, const Samples& last) {
+             Sampling samples, const Samples& out) {
     std::int64_t taken = 0;
     while (true) {
         take_samples(model, march, samples, out, taken);
-        if (taken == out.rows && delay(march.end, until) <= 0.0) {
-            if (march.periodic.playing)
-                sample_cycle(model, march, until, last, 0);
-            else
-                sample(model, march, delay(march.begin, until), last, 0);
-            return;
-        }
+        if (taken == out.rows && delay(march.end, until) <= 0.0) return;
         count_step(model, march);
         if (march.periodic.playing) {
             play_window(model, march, until, samples, out, taken);
@@ -147,6 +142,27 @@ void advance(const Model& model, March& march, const Instant& until, const Insta
             watch(model, march);
         }
     }
+}
+
+void advance(const Model& model, March& march, const Instant& until, const Instant& bound,
+             const Sampling& samples, const Samples& out, const Samples& last) {
+    advance(model, march, until, bound, samples, out);
+    if (march.periodic.playing)
+        sample_cycle(model, march, until, last, 0);
+    else
+        sample(model, march, delay(march.begin, until), last, 0);
+}
+
+void interrupt(const Model& model, March& march, const Instant& until) {
+    if (!march.control.collocated || march.periodic.playing) return cut(model, march, until);
+    forget(march);
+    if (delay(march.end, until) < 0.0) {
+        end_within(model, march, delay(march.begin, until));
+        march.control.changed = false;
+    }
+    march.end.seconds = until.seconds;
+    march.end.time = until.time;
+    march.run.place = KEPT_STEPS;  // what is kept of a contact state begins where it begins
 }
 
 void cut(const Model& model, March& march, const Instant& until) {

@@ -27,10 +27,18 @@ void one_step(const Model& model, March& march, double longest);
 // Let the step stand; `mesh` changes its contact at its end (NO_MESH: none).
 void accept(const Model& model, March& march, std::int64_t mesh);
 
-// Integrate to `until`, and fill `out` with `samples`, none of them later, and `last` with the one
-// at `until`. No step that is made passes `bound`. Throws NoFiniteState.
+// Integrate to `until`, and fill `out` with `samples`, none of them later. No step that is made
+// passes `bound`. Throws NoFiniteState.
 void advance(const Model& model, March& march, const Instant& until, const Instant& bound,
-             Sampling samples, const Samples& out, const Samples& last);
+             Sampling samples, const Samples& out);
+
+// The same, and fill `last` with the sample at `until`.
+void advance(const Model& model, March& march, const Instant& until, const Instant& bound,
+             const Sampling& samples, const Samples& out, const Samples& last);
+
+// Let the last step end at `until`, which is within it, on its own motion: what is given at the
+// ports changes there. Other than `cut`, this makes no step again. Throws NoFiniteState.
+void interrupt(const Model& model, March& march, const Instant& until);
 
 // Take back what lies beyond `until`, which is within the last step: what changes from outside,
 // changes there, and the next step begins at it. Throws NoFiniteState.

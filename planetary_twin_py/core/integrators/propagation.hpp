@@ -13,6 +13,7 @@
 #include <cmath>
 
 #include "integrators/contact_modes.hpp"
+#include "integrators/given_motion.hpp"
 #include "integrators/march_record.hpp"
 #include "integrators/oscillator.hpp"
 #include "train/model.hpp"
@@ -261,11 +262,12 @@ LAW RowPair<L> modes_at(const ModalMotion& motion, double delay) {
 
 // x and v at any time within the step.
 template <int L>
-void propagate(March& march, double delay, double* x, double* v) {
+void propagate(const Model& model, March& march, double delay, double* x, double* v) {
     Propagation& run = march.run;
     auto [at, rate] = sum_rows<L>(contacts_of(run).form, modes_at<L>(run.motion, delay));
     at.store(x);
     rate.store(v);
+    move_given(model, march.begin, delay, x, v);
 }
 
 // Trim of the speed loops, the integral of set-point minus speed.
@@ -297,6 +299,7 @@ SHARED void move_node(const Model& model, const March& march, double delay, cons
     meshes.second.store(node.rate);
     bodies.first.store(node.x);
     bodies.second.store(node.v);
+    move_given(model, march.begin, delay, node.x, node.v);
     for (int g = 0; g < GEARS - 1; ++g)
         (V(march.constants.spin[g]) + sum_rows<L>(contacts.spin[g], modes.second))
             .store(node.spin[g]);

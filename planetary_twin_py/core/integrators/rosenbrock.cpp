@@ -20,6 +20,15 @@ using namespace ros34pw2;
 
 constexpr double ENDS[2] = {1.0, -1.0};
 
+// Change of given torques with time.
+void drift_machines(const Model& model, Workspace& work) {
+    const Train& train = model.train;
+    for (std::int64_t c = 0; c < train.machines; ++c) {
+        std::int64_t body = train.coupling[c][0];
+        work.drift[body] += model.load.torque_rate[c] * train.inverse_radius[body];
+    }
+}
+
 // K, and M/(gamma h) + C + gamma h K, of the contacts at the middle of the step.
 void assemble_meshes(const Model& model, const State& state, const StepConstants& constants,
                      double h, Workspace& work) {
@@ -40,6 +49,18 @@ void assemble_meshes(const Model& model, const State& state, const StepConstants
     }
 }
 
+// Let the ends of shafts whose motion is given move as they do: nothing of the train acts on them.
+void free_given(const Model& model, double h, Workspace& work) {
+    const Train& train = model.train;
+    for (std::int64_t c = 0; c < train.machines; ++c) {
+        if (model.load.port[c] != BY_MOTION) continue;
+        std::int64_t body = train.coupling[c][0], member = train.coupling[c][1];
+        work.stiffness[body][body] = work.stiffness[body][member] = 0.0;
+        work.system[body][member] = work.system[member][body] = 0.0;
+        work.system[body][body] = train.mass[body] / (GAMMA * h);
+    }
+}
+
 void assemble(const Model& model, const State& state, const StepConstants& constants, double h,
               const Evaluation& first, Workspace& work) {
     const Train& train = model.train;
@@ -48,6 +69,7 @@ void assemble(const Model& model, const State& state, const StepConstants& const
     std::memset(work.system, 0, sizeof work.system);
     std::memset(work.drift, 0, sizeof work.drift);
     assemble_meshes(model, state, constants, h, work);
+    drift_machines(model, work);
     for (std::int64_t c = 0; c < train.machines; ++c) {
         double k = train.coupling_stiffness[c];
         add_outer(work.stiffness, train.coupling[c], ENDS, 2, k);
@@ -60,6 +82,19 @@ void assemble(const Model& model, const State& state, const StepConstants& const
             friction_damping(train, first.pairs, first.force, h, work.row, work.system);
     }
     for (std::int64_t j = 0; j <= train.bodies; ++j) work.system[j][j] += train.mass[j] / step;
+    free_given(model, h, work);
+}
+
+// Let the members of such shafts feel what their ends do in a stage, which is known.
+void pull_by_given(const Model& model, double h, double* right) {
+    const Train& train = model.train;
+    const double step = GAMMA * h;
+    for (std::int64_t c = 0; c < train.machines; ++c) {
+        if (model.load.port[c] != BY_MOTION) continue;
+        std::int64_t body = train.coupling[c][0], member = train.coupling[c][1];
+        double pull = train.coupling_damping[c] + step * train.coupling_stiffness[c];
+        right[member] += pull * right[body] * step / train.mass[body];
+    }
 }
 
 // Bodies and trim at stage i, and what its right-hand sides take from the stages before.
@@ -117,6 +152,7 @@ void make_stage(const Model& model, const State& state, const StepConstants& con
     }
     if (first.pairs.held)
         pull_bristles(train, first.pairs, out.pairs, h, GAMMA * h, STAGE.c[i], i, right, work);
+    pull_by_given(model, h, right);
     solve(work.system, bodies - 1, right);
     right[bodies - 1] = 0.0;
     for (std::int64_t j = 0; j < bodies; ++j) work.ux[i][j] = (work.rx[j] + right[j]) / g;

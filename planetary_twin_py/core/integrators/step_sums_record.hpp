@@ -20,6 +20,8 @@ struct alignas(64) StepSums {
     MeshSums total;  // since it was taken, up to the start of the last step
     double taken;    // of the last step [s]
     Look look;
+    bool unasked;                      // no one asks for sums: steps have none
+    bool known;                        // `rates` are those of the end of the last step
     bool stale;                        // `rates` are not those of the start of the step
     alignas(64) double rates[12][16];  // by which the integrals grow at the end of a stiff step
     alignas(64) double push[16];       // there [N]

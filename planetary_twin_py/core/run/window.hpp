@@ -54,7 +54,7 @@ struct WindowJob {
     bool closes;  // whether the window ends there
 };
 
-enum class Outcome { WITHIN_LIMITS, EXCEEDED, NOT_FINITE };
+enum class Outcome { WITHIN_LIMITS, EXCEEDED, NOT_FINITE, REFUSED };
 
 // Integrate to `until`; fill the waveform, and turns, angles, peaks and power of `end`.
 //

@@ -12,11 +12,12 @@ struct Energies {
     double kinetic, elastic;  // [J]
 };
 
-// Kinetic energy of all bodies, machines included [J].
+// Kinetic energy of all bodies, machines included [J], but for those whose motion is given.
 inline double kinetic(const Model& model, const State& state) {
     const Train& train = model.train;
     double total = 0.0;
     for (std::int64_t j = 0; j < train.bodies; ++j) {
+        if (has_given_motion(model, j)) continue;
         double speed = body_speed(train, state, state.v, j) * train.radius[j];
         total += 0.5 * train.mass[j] * speed * speed;
     }

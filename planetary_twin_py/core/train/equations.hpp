@@ -71,7 +71,10 @@ LAW void apply_couplings(const Train& train, const double* x, const double* v,
     }
 }
 
-// Add the torques of the motors, which keep their speeds, and of the load.
+// Add the torques of the motors, which keep their speeds, and of the load; or what is given.
+//
+// A shaft whose motion is given answers with the torque of its coupling. Its end moves as its mass
+// would under the force here: the inertia of what moves it is not part of the train.
 LAW void apply_machines(const Model& model, const State& state, const StepConstants& step,
                         const double* x, const double* v, double delay, const double* trim,
                         MachineForces& forces, double* power) {
@@ -79,7 +82,8 @@ LAW void apply_machines(const Model& model, const State& state, const StepConsta
     const Load& load = model.load;
     for (std::int64_t c = 0; c < train.machines; ++c) {
         std::int64_t body = train.coupling[c][0];
-        double speed = body_speed(train, state, v, body), torque = load.torque[c];
+        double speed = body_speed(train, state, v, body);
+        double torque = step.torque[c] + load.torque_rate[c] * delay;
         for (std::int64_t a = 0; a < train.axes; ++a) torque += load.trim_gain[c][a] * trim[a];
         if (c != LOAD_MACHINE) {
             std::int64_t own = c / 2;
@@ -87,13 +91,22 @@ LAW void apply_machines(const Model& model, const State& state, const StepConsta
             torque += load.proportional[own] * (set_speed - speed);
             for (std::int64_t a = 0; a < train.axes; ++a)
                 torque += load.inertia[own][a] * step.slew[a];
+        } else if (load.load_proportional != 0.0) {
+            double set_speed = state.set_speed[0] + step.slew[0] * delay;
+            torque += load.load_proportional * (train.ratio[body][0] * set_speed - speed);
         }
         if (c == MOTOR && load.ripple != 0.0) {
             double angle = 2.0 * std::numbers::pi * state.fraction[0] + state.speed[0] * delay;
             angle += x[body] / train.radius[body];
             torque += load.ripple * sin_cos(load.ripple_order * angle).sine;
         }
-        forces.machine[c] += torque * train.inverse_radius[body];
+        double force = torque * train.inverse_radius[body];
+        if (load.port[c] == BY_MOTION) {
+            torque = -forces.machine[c] * train.radius[body];
+            forces.machine[c] = 0.0;
+            force = train.mass[body] * train.radius[body] * load.acceleration[c];
+        }
+        forces.machine[c] += force;
         power[WORK + c] = torque * speed;
         power[IMPULSE + c] = torque;
     }

@@ -180,6 +180,7 @@ void trim(const Model& model, const double* drags, State& state) {
             for (std::int64_t b = 0; b < train.axes; ++b)
                 effect[a][b] += train.ratio[train.coupling[c][0]][a] * model.load.trim_gain[c][b];
     if (train.axes == 1) {
+        if (effect[0][0] == 0.0) return;  // no machine holds the speed
         state.trim[0] += drags[0] / effect[0][0];
         return;
     }

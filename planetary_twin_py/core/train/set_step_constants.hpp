@@ -62,6 +62,14 @@ inline double frame_cycle_rate(const Train& train, const State& state) {
     return rate / (2.0 * std::numbers::pi);
 }
 
+// Torques of the load at a state; a given one may change with time.
+inline void place_torques(const Load& load, const State& state, StepConstants& step) {
+    double passed = static_cast<double>(state.seconds - load.since_seconds);
+    passed += state.time - load.since;
+    for (int c = 0; c < MACHINES; ++c)
+        step.torque[c] = load.torque[c] + load.torque_rate[c] * passed;
+}
+
 // Fill `step` for a step that begins at `state`.
 inline void set_step_constants(const Model& model, const State& state, StepConstants& step) {
     const Train& train = model.train;
@@ -70,6 +78,7 @@ inline void set_step_constants(const Model& model, const State& state, StepConst
         double gap = model.load.target_speed[a] - state.set_speed[a];
         step.slew[a] = gap != 0.0 ? std::copysign(model.load.slew_rate, gap) : 0.0;
     }
+    place_torques(model.load, state, step);
     for (int j = 0; j < BODIES; ++j)
         step.rigid[j] = train.ratio[j][0] * state.speed[0] + train.ratio[j][1] * state.speed[1];
     for (std::int64_t i = 0; i < train.meshes; ++i)

@@ -27,6 +27,7 @@ struct alignas(64) StepConstants {
     alignas(64) double rigid[BODIES];    // speeds of the frame [rad/s]
     alignas(64) double spin[GEARS - 1][MESHES];    // of the gears of the frame's meshes [rad/s]
     double slew[AXES];                             // of the speed set-points [rad/s^2]
+    double torque[MACHINES];                       // of the load at the start [N m]
     alignas(64) double line_angle[MESHES][LINES];  // of the errors of form at the start [rad]
     alignas(64) std::int8_t faulty[MESHES][PAIRS][FAULTS];  // which tooth pairs have which fault
 };

@@ -1,0 +1,109 @@
+// Ports of a train, for `planetary_twin_py.ports`.
+
+#include <limits>
+#include <optional>
+
+#include <nanobind/stl/optional.h>
+
+#include "bindings/arrays.hpp"
+#include "bindings/parts.hpp"
+#include "bindings/raise.hpp"
+#include "bindings/record.hpp"
+#include "bindings/unlocked.hpp"
+#include "run/ports.hpp"
+
+namespace gearbox {
+
+using namespace nb::literals;
+
+namespace {
+
+using Given = std::optional<double>;
+
+// A value that is not given acts as before; one that is no number is out of range.
+double value_of(const Given& given) {
+    constexpr double infinite = std::numeric_limits<double>::infinity();
+    if (!given) return std::numeric_limits<double>::quiet_NaN();
+    return std::isnan(*given) ? infinite : *given;
+}
+
+Command command_of(const Given& input_torque, const Given& output_torque, const Given& input_speed,
+                   const Given& output_speed) {
+    return {{value_of(input_torque), value_of(output_torque)},
+            {value_of(input_speed), value_of(output_speed)}};
+}
+
+template <int port>
+void bind_port(nb::class_<PortStates>& states, const char* angle, const char* speed,
+               const char* torque) {
+    states.def_prop_ro(
+        angle, [](const PortStates& self) { return self.angle[port]; },
+        "Angle since the start [rad].");
+    states.def_prop_ro(
+        speed, [](const PortStates& self) { return self.speed[port]; }, "Speed [rad/s].");
+    states.def_prop_ro(
+        torque, [](const PortStates& self) { return self.torque[port]; },
+        "Torque on the train [N m].");
+}
+
+void bind_port_states(nb::module_& m) {
+    nb::class_<PortStates> states(m, "PortStates",
+                                  "Angles, speeds and torques of the input and the output shaft.");
+    states.def(nb::init<>());
+    states.def_ro("time", &PortStates::time, "Simulated time [s].");
+    bind_port<MOTOR>(states, "input_angle", "input_speed", "input_torque");
+    bind_port<LOAD_MACHINE>(states, "output_angle", "output_speed", "output_torque");
+    states.def(
+        "copy", [](const PortStates& self) { return PortStates(self); },
+        "A copy, which later steps do not change.");
+}
+
+int py_step_ports(Model& model, March& march, std::int64_t begin, std::int64_t end,
+                  const Given& input_torque, const Given& output_torque, const Given& input_speed,
+                  const Given& output_speed, bool linear, const PortRanges& ranges,
+                  const Limits& limits, WindowEnd& reached, PortStates& out) {
+    PortStep step{begin, end, command_of(input_torque, output_torque, input_speed, output_speed),
+                  linear};
+    if (check(model.load, ranges, step.command) != Answer::OBEYED)
+        return static_cast<int>(Outcome::REFUSED);
+    Unlocked unlocked;
+    return static_cast<int>(step_ports(model, march, step, limits, reached, out));
+}
+
+}  // namespace
+
+void bind_ports(nb::module_& m) {
+    m.attr("BY_MACHINE") = BY_MACHINE;
+    m.attr("BY_TORQUE") = BY_TORQUE;
+    m.attr("BY_MOTION") = BY_MOTION;
+    m.attr("PORTS") = PORTS;
+    m.attr("REFUSED") = static_cast<int>(Outcome::REFUSED);
+    record<PortRanges>(m, "PortRanges").FIELD(PortRanges, torque).FIELD(PortRanges, speed);
+    bind_port_states(m);
+    m.def("step_ports", &py_step_ports, "model"_a, "march"_a, "begin"_a, "end"_a, "input_torque"_a,
+          "output_torque"_a, "input_speed"_a, "output_speed"_a, "linear"_a, "ranges"_a, "limits"_a,
+          "reached"_a, "out"_a,
+          "Give the command at `begin` [ticks], and integrate to `end`; returns the outcome.\n\n"
+          "`None`: what acts stays as it is.");
+    m.def(
+        "give",
+        [](Model& model, March& march, const InstantTuple& now, const Given& input_torque,
+           const Given& output_torque, const Given& input_speed, const Given& output_speed,
+           double reaching) {
+            Command command = command_of(input_torque, output_torque, input_speed, output_speed);
+            run_unlocked([&] { give(model, march, instant_of(now), command, reaching); });
+        },
+        "model"_a, "march"_a, "now"_a, "input_torque"_a, "output_torque"_a, "input_speed"_a,
+        "output_speed"_a, "reaching"_a,
+        "Let a command act from `now` on, or reach its values `reaching` seconds later.\n\n"
+        "Raises:\n    ArithmeticError: no finite state can be reached.");
+    m.def(
+        "read_ports",
+        [](const Model& model, March& march, const InstantTuple& time, PortStates& out) {
+            read_ports(model, march, instant_of(time), out);
+        },
+        "model"_a, "march"_a, "time"_a, "out"_a,
+        "Fill `out` with what the ports show at `time`, within the last step.");
+}
+
+}  // namespace gearbox

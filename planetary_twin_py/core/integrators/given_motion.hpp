@@ -1,0 +1,38 @@
+#pragma once
+
+// Ends of shafts whose motion is given: where they are within a step. In the modes of the contacts
+// they stand still, so what the modes say of the bodies is without them.
+
+#include "integrators/march_record.hpp"
+#include "train/model.hpp"
+
+namespace gearbox {
+
+// x and v of the end of a shaft; its speed changes evenly.
+struct GivenMotion {
+    double place;         // at the start of the step [m]
+    double speed;         // [m/s]
+    double acceleration;  // [m/s^2]
+
+    double x(double t) const { return place + t * (speed + 0.5 * t * acceleration); }
+    double v(double t) const { return speed + t * acceleration; }
+};
+
+inline GivenMotion given_motion(const Model& model, const State& begin, std::int64_t machine) {
+    std::int64_t body = model.train.coupling[machine][0];
+    return {begin.x[body], begin.v[body],
+            model.train.radius[body] * model.load.acceleration[machine]};
+}
+
+// Put the ends of such shafts where they are `delay` seconds after the start of the step.
+inline void move_given(const Model& model, const State& begin, double delay, double* x, double* v) {
+    for (std::int64_t c = 0; c < model.train.machines; ++c) {
+        if (model.load.port[c] != BY_MOTION) continue;
+        std::int64_t body = model.train.coupling[c][0];
+        GivenMotion motion = given_motion(model, begin, c);
+        x[body] = motion.x(delay);
+        v[body] = motion.v(delay);
+    }
+}
+
+}  // namespace gearbox

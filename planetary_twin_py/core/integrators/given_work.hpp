@@ -1,0 +1,89 @@
+#pragma once
+
+// What shafts do whose motion is given, exactly: quadrature at the nodes of a step would miss the
+// waves of their members, which their torques follow.
+
+#include "integrators/given_motion.hpp"
+#include "integrators/propagation.hpp"
+#include "integrators/step_ledger.hpp"
+#include "train/body_speed.hpp"
+
+namespace gearbox {
+
+// Integrals of a motion x over a step, and of t x.
+struct Moments {
+    double zeroth;  // [m s]
+    double first;   // [m s^2]
+};
+
+// Of body j over h seconds, with `wave`s at their end.
+//
+// A mode is a polynomial and a free motion u, u'' + c u' + w^2 u = 0, from which the integrals of
+// u and of t u follow.
+template <int L>
+Moments moments(const Propagation& run, std::int64_t j, double h, const double* cosine,
+                const double* sine) {
+    using V = Row<L>;
+    const ModalMotion& motion = run.motion;
+    const double part = h * motion.per_step;
+    V zeroth(0.0), first(0.0);
+    double power = h;
+    for (int k = 0; k < 7; ++k, power *= part) {
+        zeroth += V(motion.particular[k]) * (power / (k + 1));
+        first += V(motion.particular[k]) * (power * h / (k + 2));
+    }
+    V square(motion.square), c(motion.damping), u0(motion.free[0]), w0(motion.free[1]);
+    V u1 = V(cosine) * u0 + V(sine) * w0;
+    V w1 = (V(cosine) - c * V(sine)) * w0 - square * V(sine) * u0;
+    V inverse = 1.0 / larger(square, V(SMALLEST));
+    V wave0 = (w0 - w1 - c * (u1 - u0)) * inverse;
+    V wave1 = (u1 - u0 - h * w1 - c * (h * u1 - wave0)) * inverse;
+    Mask<L> free = V(run.spring) + V(run.damper) == 0.0;
+    V share(contacts_of(run).share[j]);
+    return {total(share * (zeroth + select(free, 0.0, wave0))),
+            total(share * (first + select(free, 0.0, wave1)))};
+}
+
+// What damping in the shaft of machine c takes by both its ends moving at once, less what the nodes
+// say of it [J]; `across` is the integral of the product of their speeds [m^2/s].
+inline double damped_across(const Model& model, const Propagation& run, std::int64_t c,
+                            const GivenMotion& end, double across) {
+    const std::int64_t member = model.train.coupling[c][1];
+    double at_nodes = 0.0;
+    for (std::int64_t n = 0; n < run.nodes.count; ++n) {
+        double t = run.nodes.abscissa[n] * run.motion.step;
+        at_nodes += run.weight[n] * end.v(t) * run.node[n].v[member];
+    }
+    return -2.0 * model.train.coupling_damping[c] * (across - at_nodes);
+}
+
+// Book impulse and work at the ends of shafts whose motion is given, h seconds into the step.
+template <int L>
+void book_given_work(const Model& model, March& march, double h) {
+    const Train& train = model.train;
+    const State& begin = march.begin;
+    State& after = march.end;
+    const Propagation& run = march.run;
+    for (std::int64_t c = 0; c < train.machines; ++c) {
+        if (model.load.port[c] != BY_MOTION) continue;
+        const std::int64_t body = train.coupling[c][0], member = train.coupling[c][1];
+        const GivenMotion end = given_motion(model, begin, c);
+        const double k = train.coupling_stiffness[c], damper = train.coupling_damping[c];
+        const double v = end.speed, a = end.acceleration, moved = after.x[member] - begin.x[member];
+        Moments own{h * (end.place + h * (v / 2.0 + h * a / 6.0)),
+                    h * h * (end.place / 2.0 + h * (v / 3.0 + h * a / 8.0))};
+        Moments its = moments<L>(run, member, h, run.end_cosine, run.end_sine);
+        Moments twist{own.zeroth - its.zeroth, own.first - its.first};
+        double twisted = end.x(h) - end.place - moved, last = end.x(h) - after.x[member];
+        double impulse = k * twist.zeroth + damper * twisted;
+        double moment = k * twist.first + damper * (h * last - twist.zeroth);
+        double r = train.radius[body], speed = body_speed(train, begin, begin.v, body);
+        after.energy[IMPULSE + c] = begin.energy[IMPULSE + c] + r * impulse;
+        after.energy[WORK + c] =
+            begin.energy[WORK + c] + r * (speed * impulse + model.load.acceleration[c] * moment);
+        double across = v * moved + a * (h * after.x[member] - its.zeroth);
+        after.energy[DAMPING] += damped_across(model, run, c, end, across);
+    }
+}
+
+}  // namespace gearbox

@@ -1,0 +1,180 @@
+#include "run/ports.hpp"
+
+#include <algorithm>
+#include <limits>
+
+#include "integrators/frame.hpp"
+#include "integrators/interpolant.hpp"
+#include "integrators/march.hpp"
+#include "integrators/step_control.hpp"
+#include "integrators/window_sums.hpp"
+#include "mesh/deflection.hpp"
+#include "train/equations.hpp"
+
+namespace gearbox {
+
+namespace {
+
+constexpr Instant NEVER{0, std::numeric_limits<double>::infinity()};
+
+// What acts at a port: a torque [N m] or a speed [rad/s], and its rate of change.
+struct Action {
+    double value;
+    double rate;
+
+    bool operator==(const Action&) const = default;
+};
+
+Instant instant_of(std::int64_t ticks) {
+    return {ticks / TICKS, static_cast<double>(ticks % TICKS) / static_cast<double>(TICKS)};
+}
+
+// What acts at a port, so many seconds after the instant of the load.
+Action acting(const Load& load, int port, double passed) {
+    if (load.port[port] == BY_MOTION)
+        return {load.speed[port] + load.acceleration[port] * passed, load.acceleration[port]};
+    return {load.torque[port] + load.torque_rate[port] * passed, load.torque_rate[port]};
+}
+
+// What a command makes of it.
+Action commanded(const Load& load, int port, const Action& now, const Command& command,
+                 double reaching) {
+    double value = load.port[port] == BY_MOTION ? command.speed[port] : command.torque[port];
+    if (std::isnan(value)) return {now.value, 0.0};
+    if (reaching == 0.0) return {value, 0.0};
+    return {now.value, (value - now.value) / reaching};
+}
+
+// Let the end of a shaft have a speed, and nothing else change.
+void set_speed(const Train& train, State& state, int machine, double speed) {
+    std::int64_t body = train.coupling[machine][0];
+    double rigid = train.ratio[body][0] * state.speed[0] + train.ratio[body][1] * state.speed[1];
+    state.v[body] = (speed - rigid) * train.radius[body];
+}
+
+// What acts at both ports from an instant on.
+struct Actions {
+    Action at[PORTS];
+    bool change;
+};
+
+Actions actions_of(const Load& load, const Instant& now, const Command& command, double reaching) {
+    double passed = static_cast<double>(now.seconds - load.since_seconds) + (now.time - load.since);
+    Actions actions{};
+    for (int port = 0; port < PORTS; ++port) {
+        if (load.port[port] == BY_MACHINE) continue;
+        Action before = acting(load, port, passed);
+        actions.at[port] = commanded(load, port, before, command, reaching);
+        actions.change |= !(before == actions.at[port]);
+    }
+    return actions;
+}
+
+void act_at(Model& model, State& state, int port, const Action& action) {
+    Load& load = model.load;
+    if (load.port[port] != BY_MOTION) {
+        load.torque[port] = action.value;
+        load.torque_rate[port] = action.rate;
+        return;
+    }
+    load.speed[port] = action.value;
+    load.acceleration[port] = action.rate;
+    set_speed(model.train, state, port, action.value);
+}
+
+// Let other actions begin at an instant within the last step. What the meshes show before does not
+// count with what follows.
+void act(Model& model, March& march, const Instant& now, const Actions& actions) {
+    Load& load = model.load;
+    interrupt(model, march, now);
+    load.since_seconds = now.seconds;
+    load.since = now.time;
+    for (int port = 0; port < PORTS; ++port)
+        if (load.port[port] != BY_MACHINE) act_at(model, march.end, port, actions.at[port]);
+    march.sums.taken = march.control.step;
+}
+
+// Whether anything is given: then nothing repeats, and steps without a window need no sums.
+bool is_driven(const Load& load) {
+    return load.port[MOTOR] != BY_MACHINE || load.port[LOAD_MACHINE] != BY_MACHINE;
+}
+
+// Largest magnitudes of the motion at the end of a step of the caller.
+void note_peaks(const Model& model, const March& march, Peaks& peaks) {
+    const Train& train = model.train;
+    for (std::int64_t i = 0; i < train.meshes; ++i)
+        peaks.dte[i] = std::fabs(mesh_motion(train, i, march.dense.x));
+    for (std::int64_t j = 0; j < train.bodies; ++j)
+        peaks.speed[j] = std::fabs(body_speed(train, march.begin, march.dense.v, j));
+}
+
+}  // namespace
+
+Answer check(const Load& load, const PortRanges& ranges, const Command& command) {
+    for (int port = 0; port < PORTS; ++port) {
+        const double torque = command.torque[port], speed = command.speed[port];
+        bool misplaced = (!std::isnan(torque) && load.port[port] != BY_TORQUE) ||
+                         (!std::isnan(speed) && load.port[port] != BY_MOTION);
+        if (misplaced) return Answer::NOT_GIVEN;
+        if (std::fabs(torque) > ranges.torque[port] || std::fabs(speed) > ranges.speed[port])
+            return Answer::OUT_OF_RANGE;
+    }
+    return Answer::OBEYED;
+}
+
+void give(Model& model, March& march, const Instant& now, const Command& command, double reaching) {
+    Actions actions = actions_of(model.load, now, command, reaching);
+    if (!actions.change) return;
+    count_until(model, march, delay(march.begin, now));
+    act(model, march, now, actions);
+}
+
+void read_ports(const Model& model, March& march, const Instant& time, PortStates& out) {
+    const Train& train = model.train;
+    const State& begin = march.begin;
+    const double passed = delay(begin, time);
+    const double *x = march.dense.x, *v = march.dense.v;
+    double trim[AXES] = {};
+    interpolate(model, march, passed);
+    trim_at(model, march, passed, x, trim);
+    MachineForces forces;
+    double power[LEDGER] = {};
+    apply_couplings(train, x, v, forces, power);
+    apply_machines(model, begin, march.constants, x, v, passed, trim, forces, power);
+    out.time = static_cast<double>(time.seconds) + time.time;
+    for (int port = 0; port < PORTS; ++port) {
+        std::int64_t body = train.coupling[port][0];
+        double angle = x[body] / train.radius[body];
+        for (std::int64_t a = 0; a < train.axes; ++a)
+            angle += train.ratio[body][a] *
+                     (TURN * (begin.turns[a] + begin.fraction[a]) + begin.speed[a] * passed);
+        out.angle[port] = angle;
+        out.speed[port] = body_speed(train, begin, v, body);
+        out.torque[port] = power[IMPULSE + port];
+    }
+}
+
+Outcome step_ports(Model& model, March& march, const PortStep& step, const Limits& limits,
+                   WindowEnd& end, PortStates& out) {
+    const Instant now = instant_of(step.begin), until = instant_of(step.end);
+    const double duration = static_cast<double>(step.end - step.begin) / static_cast<double>(TICKS);
+    Actions actions = actions_of(model.load, now, step.command, step.linear ? duration : 0.0);
+    bool finite = true;
+    march.sums.unasked = is_driven(model.load);
+    try {
+        if (actions.change) act(model, march, now, actions);
+        advance(model, march, until, NEVER, {}, {});
+    } catch (const NoFiniteState&) {
+        finite = false;
+    }
+    march.sums.unasked = false;
+    if (!finite) return Outcome::NOT_FINITE;
+    read_ports(model, march, until, out);
+    note_peaks(model, march, end.peaks);
+    std::fill(std::begin(end.power), std::end(end.power), 0.0);
+    std::copy_n(out.torque, PORTS, end.power + IMPULSE);
+    bool exceeded = exceeds(limits, model.train, model.load, end.peaks, end.power);
+    return exceeded ? Outcome::EXCEEDED : Outcome::WITHIN_LIMITS;
+}
+
+}  // namespace gearbox

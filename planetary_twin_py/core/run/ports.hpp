@@ -1,0 +1,67 @@
+#pragma once
+
+// Ports: the shafts of the first motor (input) and of the load (output), at which torque or motion
+// may be given from outside, and changed at every step of the caller.
+
+#include <cmath>
+#include <cstdint>
+
+#include "integrators/march_record.hpp"
+#include "run/clock.hpp"
+#include "run/limits.hpp"
+#include "run/window.hpp"
+#include "train/model.hpp"
+
+namespace gearbox {
+
+constexpr int PORTS = 2;                           // MOTOR and LOAD_MACHINE
+constexpr std::int64_t TICKS = 1'000'000'000'000;  // per second, of the clock of the caller
+
+// What is given at the ports; a NaN: what acts stays as it is.
+struct Command {
+    double torque[PORTS];  // on the shaft [N m]
+    double speed[PORTS];   // of the shaft [rad/s]
+};
+
+// Largest magnitudes that may be given.
+struct PortRanges {
+    double torque[PORTS];  // [N m]
+    double speed[PORTS];   // [rad/s]
+};
+
+// What the ports show.
+struct PortStates {
+    double time;           // [s]
+    double angle[PORTS];   // since the start [rad]
+    double speed[PORTS];   // [rad/s]
+    double torque[PORTS];  // on the train [N m]
+};
+
+// What a command may find.
+enum class Answer { OBEYED, OUT_OF_RANGE, NOT_GIVEN };
+
+// Whether the ports take a command: its values are in their ranges, and what it gives is given.
+Answer check(const Load& load, const PortRanges& ranges, const Command& command);
+
+// Let a command act from `now` on, the end of the last window: at once, or, where `reaching` is not
+// 0, along straight lines that reach its values after so many seconds. What the meshes show in the
+// last step counts up to `now`. Throws NoFiniteState.
+void give(Model& model, March& march, const Instant& now, const Command& command, double reaching);
+
+// What the ports show at `time`, within the last step.
+void read_ports(const Model& model, March& march, const Instant& time, PortStates& out);
+
+// A stretch of time under a command.
+struct PortStep {
+    std::int64_t begin;  // [ticks]
+    std::int64_t end;    // [ticks]
+    Command command;
+    bool linear;  // whether the values are reached along straight lines, at its end
+};
+
+// Give the command, integrate to the end of the step without samples, and fill `out` and, with what
+// the limits are checked against, `end`.
+Outcome step_ports(Model& model, March& march, const PortStep& step, const Limits& limits,
+                   WindowEnd& end, PortStates& out);
+
+}  // namespace gearbox

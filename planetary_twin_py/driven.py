@@ -1,0 +1,70 @@
+"""A run under a course of commands, from one command to the next."""
+
+from __future__ import annotations
+
+import math
+from collections import deque
+from fractions import Fraction
+
+import numpy as np
+
+from .commands import Command, Commands, actions
+from .engine import Engine
+from .integrators.clock import TICKS
+from .integrators.interpolant import Samples
+from .run import Run
+from .scene import Scene, SceneError
+
+
+class DrivenRun:
+    """Advances a run, and lets commands act at their times.
+
+    Args:
+        run: from `run.start`.
+        scene: its scene.
+        commands: the course of commands; None: what is given stays as at the start.
+
+    Raises:
+        ValueError: a command is out of range, or is not given at its port.
+    """
+
+    def __init__(self, run: Run, scene: Scene, commands: Commands | None) -> None:
+        self._run = run
+        linear = scene.drive.interpolation == "linear"
+        self._pending = deque(() if commands is None else actions(commands, linear))
+        if not self._pending:
+            return
+        if not isinstance(run, Engine):
+            raise SceneError(f"dynamics = {scene.dynamics!r}: must be torsional for commands")
+        for action in self._pending:
+            action.command.check(scene, run.port_ranges)
+
+    def advance(self, until: float, first_sample: int, sample_rate: float, room: int) -> Samples:
+        """Simulate until `until`, see `Run.advance`.
+
+        Args:
+            until: time [s].
+            first_sample: number of the first sample.
+            sample_rate: sample times are integer multiples of its inverse [Hz].
+            room: number of samples.
+
+        Returns:
+            The samples.
+
+        Raises:
+            RunawayError: the run exceeds physical limits.
+        """
+        parts, done = list[Samples](), 0
+        while self._pending and Fraction(self._pending[0].ticks, TICKS) < until:
+            ticks, command, reaching = self._pending.popleft()
+            time = Fraction(ticks, TICKS)
+            due = min(max(math.floor(time * Fraction(sample_rate)) + 1 - first_sample, done), room)
+            parts.append(self._run.advance(time, first_sample + done, sample_rate, due - done))
+            done = due
+            self._give(ticks, command, reaching)
+        parts.append(self._run.advance(until, first_sample + done, sample_rate, room - done))
+        return Samples(*map(np.concatenate, zip(*parts, strict=True)))
+
+    def _give(self, ticks: int, command: Command, reaching: float) -> None:
+        assert isinstance(self._run, Engine)
+        self._run.give(command, ticks, reaching)

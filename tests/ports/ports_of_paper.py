@@ -1,0 +1,52 @@
+"""The paper's gearbox with given ports, and closed forms of its rigid train."""
+
+import numpy as np
+
+import planetary_twin_py as pt
+from planetary_twin_py.dynamics.bodies import build_bodies, machines
+
+PAPER = pt.load_scene("paper")
+RATIO = -3.0 / 7.0  # of the output's speed to the input's
+NO_FRICTION = {"lubrication.friction": False}
+CAUSALITIES = ("machine", "torque", "motion")
+
+
+def driven(input, output, **changes):
+    """The paper's gearbox with these ports."""
+    return PAPER.replace(**{"drive.input.port": input, "drive.output.port": output, **changes})
+
+
+def at_rest(input, output, **changes):
+    """The same, at rest and without load."""
+    still = {"input_speed": 0.0, "input_torque": 0.0}
+    return driven(input, output, **still, **NO_FRICTION, **changes)
+
+
+def inertia_at_input(scene, without=()):
+    """Inertia of the rigid train at the input, from J/r^2 of all bodies [kg m^2]."""
+    bodies = build_bodies(scene)
+    squares = bodies.copies * bodies.mass * (bodies.radius * bodies.ratio[:, 0]) ** 2
+    squares = squares[:-1]  # the ground
+    left_out = [bodies.place[name] for name in without]
+    return float(np.delete(squares, left_out).sum())
+
+
+def momentum(scene, result, states):
+    """Angular momentum along the rigid motion [kg m^2/s], from gears and the ports' shafts.
+
+    Forces between the bodies do no work in a rigid motion, so only torques at the ports change it.
+    """
+    bodies = build_bodies(scene)
+    total = 0.0
+    for n, name in enumerate(result.bodies):
+        at = bodies.place[name]
+        if at == len(bodies.mass) - 1:
+            continue
+        total += (
+            bodies.mass[at] * bodies.radius[at] ** 2 * bodies.ratio[at, 0] * result.speed[-1, n]
+        )
+    shafts = (states.input_speed, states.output_speed)
+    for (name, _), speed in zip(machines(scene).items(), shafts, strict=True):
+        at = bodies.place[name]
+        total += bodies.mass[at] * bodies.radius[at] ** 2 * bodies.ratio[at, 0] * speed
+    return float(total)

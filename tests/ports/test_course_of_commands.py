@@ -1,0 +1,121 @@
+"""A run under commands is repeated bit for bit, whatever its windows."""
+
+import numpy as np
+import pytest
+from ports.ports_of_paper import PAPER, driven
+
+import planetary_twin_py as pt
+
+SPAN = 0.02  # [s]
+
+
+def commanded(interpolation):
+    """A scene and a course of commands at uneven times."""
+    scene = driven("torque", "motion", **{"drive.interpolation": interpolation})
+    time = np.array([0.0, 0.0013, 0.004, 0.0041, 0.009, 0.0123456789, 0.015])
+    torque = np.array([63.0, 70.0, np.nan, 20.0, -30.0, 40.0, 63.0])
+    speed = np.array([-44.88, -44.8, -44.9, np.nan, -45.0, -44.7, -44.88])
+    return scene, pt.Commands(time, input_torque=torque, output_speed=speed)
+
+
+def simulated(scene, commands):
+    return pt.simulate(scene, SPAN, tolerance=1e-3, method="auto", commands=commands)
+
+
+def by_windows(scene, commands, cuts):
+    """All samples of a twin that is advanced from one cut or command to the next."""
+    twin = pt.Twin(scene, tolerance=1e-3)
+    linear = scene.drive.interpolation == "linear"
+    parts, times = [], sorted({*commands.time, *cuts, SPAN} - {0.0})
+    for end in times:
+        if end - twin.time < 1e-12:
+            continue  # a cut at a command
+        when = end if linear else twin.time
+        values = {
+            name: float(getattr(commands, name)[n])
+            for n in np.flatnonzero(np.abs(commands.time - when) < 1e-13)
+            for name in ("input_torque", "output_speed")
+            if not np.isnan(getattr(commands, name)[n])
+        }
+        window = twin.advance(end - twin.time, **values)
+        parts.append(window.waveform)
+    return np.vstack([np.hstack([part.dte, part.mesh_force]) for part in parts])
+
+
+@pytest.mark.parametrize("cuts", [(), (0.0005, 0.0039, 0.0142), tuple(np.arange(1, 20) * 1e-3)])
+def test_held_commands_have_the_same_samples_in_any_windows(cuts):
+    scene, commands = commanded("hold")
+    run = simulated(scene, commands)
+    samples = by_windows(scene, commands, cuts)
+    assert np.array_equal(samples, np.hstack([run.dte, run.mesh_force]))
+
+
+def test_straight_lines_have_the_same_samples_in_simulate_and_twin():
+    scene, commands = commanded("linear")
+    later = pt.Commands(
+        commands.time[1:],
+        input_torque=commands.input_torque[1:],
+        output_speed=commands.output_speed[1:],
+    )
+    run = simulated(scene, later)
+    samples = by_windows(scene, later, ())
+    assert np.array_equal(samples, np.hstack([run.dte, run.mesh_force]))
+
+
+@pytest.mark.parametrize("interpolation", ["hold", "linear"])
+def test_steps_that_are_kept_are_repeated(interpolation):
+    scene = driven("torque", "torque", **{"drive.interpolation": interpolation})
+    twin = pt.Twin(scene, tolerance=1e-3, keep_commands=True)
+    rng = np.random.default_rng(1)
+    for _ in range(15):
+        command = {"input_torque": 63.0 + 9.0 * rng.standard_normal()}
+        if rng.random() < 0.5:
+            command["output_torque"] = 147.0 + 20.0 * rng.standard_normal()
+        twin.step(float(rng.choice([1e-3, 4e-4, 1.7e-3])), **command if rng.random() < 0.8 else {})
+    window = twin.advance(2e-3)
+    run = pt.simulate(scene, window.end, tolerance=1e-3, commands=twin.commands)
+    last = run.time > window.start + 1e-12
+    assert np.array_equal(run.dte[last], window.waveform.dte)
+    assert np.array_equal(run.mesh_force[last], window.waveform.mesh_force)
+
+
+def test_a_command_that_changes_nothing_has_no_effect():
+    """Steps of any length with the torques that act already leave the motion as it is."""
+    plain, driven_on = pt.Twin(driven("torque", "torque")), pt.Twin(driven("torque", "torque"))
+    plain.advance(0.01, input_torque=50.0, output_torque=120.0)
+    for _ in range(25):
+        driven_on.step(4e-4, input_torque=50.0, output_torque=120.0)
+    parts = [twin.advance(2e-3).waveform.dte for twin in (plain, driven_on)]
+    assert np.array_equal(*parts)
+
+
+def test_statistics_of_a_run_cover_what_lies_between_commands():
+    scene, commands = commanded("hold")
+    run = pt.simulate(scene, SPAN, 1e6, tolerance=1e-3, commands=commands)
+    assert run.mesh["dte_mean"] == pytest.approx(run.dte.mean(axis=0), rel=2e-3)
+    assert run.mesh["mesh_force_mean"] == pytest.approx(run.mesh_force.mean(axis=0), rel=2e-3)
+
+
+def test_a_twin_keeps_commands_only_if_asked():
+    with pytest.raises(ValueError, match="keep_commands"):
+        _ = pt.Twin(PAPER).commands
+
+
+@pytest.mark.parametrize(
+    ("time", "torque", "message"),
+    [
+        ([0.0, 0.0], [1.0, 2.0], "increasing"),
+        ([0.0, np.nan], [1.0, 2.0], "finite"),
+        ([-1.0], [1.0], "at least 0"),
+        ([0.0, 1.0], [1.0], "has shape"),
+    ],
+)
+def test_a_course_that_makes_no_sense_is_refused(time, torque, message):
+    with pytest.raises(ValueError, match=message):
+        pt.Commands(np.array(time), input_torque=np.array(torque))
+
+
+def test_a_course_with_a_command_that_no_port_takes_is_refused_before_the_run():
+    commands = pt.Commands(np.array([0.0]), input_torque=np.array([1.0]))
+    with pytest.raises(ValueError, match=r"requires drive.input.port = 'torque'"):
+        pt.simulate(PAPER, 0.01, commands=commands)

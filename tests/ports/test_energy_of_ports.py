@@ -1,0 +1,79 @@
+"""The energy ledger with each causality: power in = power out + losses + what is stored."""
+
+import itertools
+
+import numpy as np
+import pytest
+from ports.ports_of_paper import CAUSALITIES, RATIO, driven
+
+import planetary_twin_py as pt
+from planetary_twin_py.commands import Command
+
+PORTS = [pair for pair in itertools.product(CAUSALITIES, repeat=2) if pair != ("machine",) * 2]
+
+
+def course(ports, interpolation):
+    """Commands every millisecond at both ports, as these take them."""
+    time = np.arange(0, 40) * 1e-3
+    wave = np.sin(2.0 * np.pi * 60.0 * time)
+    swing = 0.3 * wave if interpolation == "linear" else 0.0 * wave
+    every = {
+        "input_torque": 63.0 + 15.0 * wave,
+        "input_speed": 104.7 + swing,
+        "output_torque": 147.0 + 20.0 * wave,
+        "output_speed": RATIO * (104.7 + swing),
+    }
+    names = {"torque": "torque", "motion": "speed"}
+    sides = zip(("input", "output"), ports, strict=True)
+    used = [f"{side}_{names[port]}" for side, port in sides if port != "machine"]
+    return pt.Commands(time, **{name: every[name] for name in used})
+
+
+def turnover(energy):
+    return sum(map(abs, energy.machines)) + abs(energy.kinetic) + abs(energy.elastic)
+
+
+@pytest.mark.parametrize("interpolation", ["hold", "linear"])
+@pytest.mark.parametrize("ports", PORTS, ids="-".join)
+def test_the_ledger_closes_under_commands(ports, interpolation):
+    scene = driven(*ports, **{"drive.interpolation": interpolation})
+    energy = pt.simulate(scene, 0.05, tolerance=1e-5, commands=course(ports, interpolation)).energy
+    assert energy.friction > 0.0
+    assert abs(energy.residual) < 1e-6 * turnover(energy)
+
+
+@pytest.mark.parametrize("ports", [("torque", "motion"), ("motion", "torque")], ids="-".join)
+def test_the_ledger_closes_by_rosenbrocks_method(ports):
+    scene = driven(*ports, **{"drive.interpolation": "linear"})
+    residuals = []
+    for tolerance in (1e-4, 1e-6):
+        run = pt.simulate(
+            scene, 0.05, 1e4, "rosenbrock", tolerance, commands=course(ports, "linear")
+        )
+        residuals.append(abs(run.energy.residual) / turnover(run.energy))
+    assert residuals[1] < 1e-6
+    assert residuals[1] < residuals[0]
+
+
+def test_work_at_a_port_is_the_integral_of_torque_times_speed():
+    """From what every step shows of the ports, at steps far shorter than their vibration."""
+    twin, dt, work = pt.Twin(driven("motion", "torque"), tolerance=1e-5), 1e-5, np.zeros(2)
+
+    def ledger(torque):
+        """What was booked until now, where a command ends the last step."""
+        twin._engine.give(Command(output_torque=torque), twin._ticks, 0.0)
+        return twin._engine.take_ledger()[:2]
+
+    def powers(shown):
+        return np.array(
+            [shown.input_torque * shown.input_speed, shown.output_torque * shown.output_speed]
+        )
+
+    last = powers(twin.step(dt))
+    ledger(140.0)
+    last[1] *= 140.0 / 147.0
+    for _ in range(2000):
+        now = powers(twin.step(dt))
+        work += 0.5 * dt * (last + now)
+        last = now
+    assert work == pytest.approx(ledger(147.0), rel=1e-6)
