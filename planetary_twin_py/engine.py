@@ -355,6 +355,12 @@ class Engine:
         self._end.trim = [0.0] * AXES
         self._end.set_speed[0] = shown.input_speed
 
+    def port_states(self, ticks: int) -> PortStates:
+        """What the ports show at the end of the last window, in ticks of the clock."""
+        shown = PortStates()
+        read_ports(self.model, self.march, instant_of_ticks(ticks), shown)
+        return shown
+
     def give(self, command: Command, ticks: int, reaching: float) -> None:
         """Let a command act from the end of the last window on.
 

@@ -8,7 +8,7 @@ from typing import NamedTuple
 from ._core import Figures, PortStates, WindowEnd, window_figures
 from .accuracy import Course, Settling, course_so_far, unsettled
 from .commands import Command, Commands, course_of
-from .dynamics.bodies import body_names, build_report, mesh_names
+from .dynamics.bodies import body_names, build_report, machines, mesh_names
 from .engine import Engine
 from .gearset.kinematics import mesh_frequency
 from .integrators.clock import TICKS
@@ -71,6 +71,8 @@ class Twin:
         self.scene = scene
         self._names, self._mesh_names = body_names(scene), mesh_names(scene)
         self._teeth, self._sun = scene.gearset.tooth_numbers, self._names.names.index("sun")
+        members = [machine.member for machine in machines(scene).values()]
+        self._members = tuple(self._names.names.index(member) for member in members)
         self._report = build_report(self._names, self._mesh_names)
         self._engine = start(scene, tolerance)
         self._figures = _FiguresOf(
@@ -136,6 +138,15 @@ class Twin:
         if self._kept is None:
             raise ValueError("keep_commands = False: must be True to keep commands")
         return course_of(*self._kept)
+
+    @property
+    def port_states(self) -> PortStates:
+        """Angles, speeds and torques of the input and the output shaft at the current time.
+
+        Raises:
+            ValueError: the dynamics of the scene are not torsional.
+        """
+        return self._driven().port_states(self._ticks)
 
     def set(self, **changes: float) -> float:
         """Change fields of the operating point at the current time.
@@ -406,6 +417,7 @@ class Twin:
             stored_energy=record.stored_energy,
             residual_power=record.residual_power,
             course=self._follow(duration),
+            members=self._members,
         )
 
     def _follow(self, duration: float) -> Course:

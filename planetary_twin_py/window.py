@@ -95,6 +95,15 @@ class Window:
     """Residual of the energy ledger, an error of the integration [W]."""
     course: Course
     """Counters from which the accuracy is estimated, see `accuracy`."""
+    members: tuple[int, ...]
+    """Places in `bodies` of the members to which the machines are coupled, (machines,)."""
+
+    @property
+    def shaft_torque(self) -> np.ndarray:
+        """Mean torque on the shaft of each body [N m], (bodies,); NaN without a shaft."""
+        torque = np.full(len(self.bodies), math.nan)
+        torque[list(self.members)] = self.machine_torque
+        return torque
 
     @property
     def input_speed(self) -> float:

@@ -60,19 +60,26 @@ def waveform_fields(window: Window) -> dict[str, Any]:
 
 def joint_fields(window: Window) -> dict[str, Any]:
     """Fields of JointState."""
-    return {"position": window.angle, "velocity": window.mean_speed}
+    return {
+        "position": window.angle,
+        "velocity": window.mean_speed,
+        "effort": window.shaft_torque,
+    }
 
 
-def joint_fields_like(window: Window, recorded: np.ndarray) -> dict[str, Any]:
+def joint_fields_like(window: Window, message: Any) -> dict[str, Any]:
     """
-    Fields of JointState with the whole turns of a recorded message.
+    Fields of JointState that a recorded message has, with its whole turns.
 
     Args:
         window: an interval.
-        recorded: positions of a recorded message [rad], shape (bodies,). Their whole turns depend
-            on the start of the run, so they are used here, with the remainder from `window`.
+        message: a recorded message. The whole turns of its positions depend on the start of the
+            run, so they are used here, with the remainder from `window`. Earlier versions recorded
+            no torques.
     """
-    found = joint_fields(window)
+    found, recorded = joint_fields(window), np.asarray(message.position)
+    if not len(message.effort):
+        del found["effort"]
     if recorded.shape == window.angle.shape:
         turns = np.rint((recorded - window.angle) / TURN)
         found["position"] = window.angle + TURN * np.where(np.isfinite(turns), turns, 0.0)

@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Iterable
 from typing import Any
 
-import numpy as np
 from rosbags.typesys import Stores, get_types_from_msg, get_typestore
 
 from ...robot import robot_description
@@ -71,7 +70,7 @@ class Composer:
         """
         self.write(STATE, self._state(window), stamp, stamp)
         names = [f"{body}_joint" for body in window.bodies]
-        joints = {"name": names, **joint_fields(window), "effort": np.empty(0)}
+        joints = {"name": names, **joint_fields(window)}
         self.write(JOINTS, joints, stamp, stamp)
         if len(window.waveform.time):
             self.write(WAVEFORM, waveform_fields(window), first, stamp)

@@ -152,7 +152,7 @@ def _expected(topic: str, message: Any, window: Window) -> Mapping[str, Any]:
         return {name: found[name] for name in names if name in found}
     if topic == WAVEFORM:
         return waveform_fields(window)
-    return joint_fields_like(window, np.asarray(message.position))
+    return joint_fields_like(window, message)
 
 
 def _distance(recorded: np.ndarray, simulated: np.ndarray) -> float:

@@ -37,7 +37,7 @@ class Listener(Protocol):
         """Receive the operating point that applies from simulated time `instant` [s]."""
 
     def refused(self, reason: str) -> None:
-        """Receive the reason why a ramp ended before its final values."""
+        """Receive the reason why a ramp ended early, or why a command had no effect."""
 
     def retuned(self, instant: float, before: Setting, quality: QualityControl) -> None:
         """From simulated time `instant` [s], the setting of `quality` replaces `before`."""
@@ -79,6 +79,14 @@ class Progress(NamedTuple):
     held: float = 0.0  # [s] wall time for which the twin has waited for its recorder
 
 
+Given = Callable[[Twin, float], dict[str, float]]
+
+
+def nothing_given(twin: Twin, interval: float) -> dict[str, float]:
+    """Return no commands."""
+    return {}
+
+
 class LiveTwin:
     """
     Advances `twin` by `interval` [s] at a time.
@@ -86,6 +94,9 @@ class LiveTwin:
     It runs at `rate_factor` simulated seconds per second, or as fast as possible if that is 0.
     `quality` chooses tolerance and sample rate; any thread may replace it at any time. Commands
     are executed between two intervals; their futures return the simulated instant [s].
+
+    `given` returns what is given at the ports from the present time of a twin on, as arguments of
+    `Twin.advance`, for an interval [s] of a running twin; for a step of a paused one, it is 0.
 
     Above real time and in steps, the twin waits for its recorder. At real time or below, it does
     not.
@@ -98,8 +109,10 @@ class LiveTwin:
         rate_factor: float,
         quality: QualityControl,
         listener: Listener,
+        given: Given = nothing_given,
     ) -> None:
         self._twin = twin
+        self._given = given
         self._interval = interval
         self._stop = threading.Event()
         self._pace = Pace(interval / rate_factor if rate_factor else 0.0, self._stop.wait)
@@ -141,9 +154,19 @@ class LiveTwin:
         """Pause simulated time, or resume it."""
         return self._commands.put(lambda: self._pause(paused))
 
-    def step(self, duration: float) -> Future[float]:
-        """Advance a paused twin by `duration` [s], as fast as possible."""
-        return self._commands.put(lambda: self._step(duration))
+    def step(
+        self,
+        duration: float,
+        given: Mapping[str, float] | None = None,
+        show: Callable[[Twin], None] = lambda twin: None,
+    ) -> Future[float]:
+        """
+        Advance a paused twin by `duration` [s], as fast as possible.
+
+        `given` acts at its ports from the present time on. `show` is called with the twin at the
+        end, in its thread.
+        """
+        return self._commands.put(lambda: self._step(duration, given or {}, show))
 
     def restart(self, twin: Twin) -> Future[float]:
         """Replace the twin by `twin`."""
@@ -166,7 +189,7 @@ class LiveTwin:
                     self.progress = self._present()
                 for answer in answers:
                     answer()
-                if running and self._advance(self._interval, self._pace.wait):
+                if running and self._run_on():
                     before, self._mark = self._mark, time.monotonic()
                     self._ran += self._interval
                     self._lasted += self._mark - before
@@ -184,9 +207,22 @@ class LiveTwin:
                 self._listener.resumed(self._twin)
             self._listener.changed(self._twin.operating_point, self._twin.time)
 
-    def _advance(self, duration: float, wait: Callable[[], None]) -> bool:
+    def _run_on(self) -> bool:
+        """Advance by an interval under the newest commands, or without them if it refuses them."""
+        try:
+            given = self._given(self._twin, self._interval)
+            return self._advance(self._interval, self._pace.wait, given)
+        except ValueError as refusal:
+            self._listener.refused(f"a command has no effect: {refusal}")
+            return self._advance(self._interval, self._pace.wait, {})
+
+    def _advance(
+        self, duration: float, wait: Callable[[], None], given: Mapping[str, float]
+    ) -> bool:
         """
         Compute one interval and publish it after `wait`; returns False if the twin fails.
+
+        Raises `ValueError` if the twin does not take what is `given`; no time has passed then.
 
         The quality control chooses the setting beforehand and then observes the computing time,
         which does not include the wait.
@@ -195,7 +231,7 @@ class LiveTwin:
         self._tune(quality)
         begin, cpu = time.monotonic(), time.thread_time()
         try:
-            window = self._twin.advance(duration)
+            window = self._twin.advance(duration, **given)
         except RunawayError as reason:  # nothing of the interval is published
             self._failure = str(reason)
             return False
@@ -244,7 +280,7 @@ class LiveTwin:
             self._change(values)
         except ValueError as refusal:  # the twin keeps its last good state
             self._ramps.clear()
-            self._listener.refused(str(refusal))
+            self._listener.refused(f"a ramp ends before its final values: {refusal}")
 
     def _refuse_after_failure(self) -> None:
         if self._failure:
@@ -255,7 +291,9 @@ class LiveTwin:
         self._paused = paused
         return self._twin.time
 
-    def _step(self, duration: float) -> float:
+    def _step(
+        self, duration: float, given: Mapping[str, float], show: Callable[[Twin], None]
+    ) -> float:
         self._refuse_after_failure()
         if not self._paused:
             raise ValueError(f"duration = {duration:g} s: the twin runs; pause it first")
@@ -264,15 +302,17 @@ class LiveTwin:
                 f"duration = {duration:g} s: must be above 0 and at most {LONGEST_STEP:g}"
             )
         self._listener.resumed(self._twin)
+        given = {**self._given(self._twin, 0.0), **given}
         count = math.ceil(duration / self._interval - 1e-9)
         for n in range(count):
             left = duration - n * self._interval
             self._follow_ramps()
             self._announce()
             self._wait_for_room()
-            self._advance(min(self._interval, left), lambda: None)
+            self._advance(min(self._interval, left), lambda: None, given if n == 0 else {})
             self.progress = self._present()
             self._refuse_after_failure()
+        show(self._twin)
         return self._twin.time
 
     def _wait_for_room(self) -> None:

@@ -104,6 +104,7 @@ class JointsMessage:
     """
     JointState with a joint `<body>_joint` for each body; positions are absolute angles.
 
+    Efforts are the mean torques on the shafts of motor and load, NaN for bodies without a shaft.
     Positions are within one turn. If `continuous`, they count whole turns from the start of the
     run. The URDF in `robot_description` attaches the planets such that absolute angles move them
     correctly.
@@ -115,9 +116,11 @@ class JointsMessage:
             name=[f"{body}_joint" for body in bodies],
             position=array("d", size),
             velocity=array("d", size),
+            effort=array("d", size),
         )
         self._position = np.frombuffer(self.message.position)
         self._velocity = np.frombuffer(self.message.velocity)
+        self._effort = np.frombuffer(self.message.effort)
         self._turns = WholeTurns() if continuous else None
 
     def fill(self, window: Window) -> JointState:
@@ -125,6 +128,7 @@ class JointsMessage:
         turns = self._turns.after(window) if self._turns else 0.0
         self._position[:] = window.angle + TURN * turns
         self._velocity[:] = window.mean_speed
+        self._effort[:] = window.shaft_torque
         return self.message
 
 

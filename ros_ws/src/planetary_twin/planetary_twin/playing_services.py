@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from concurrent.futures import Future
 from typing import Protocol
 
 from builtin_interfaces.msg import Time
@@ -46,7 +47,12 @@ class PlayingServices:
             response.simulated_time = instant
             return self._set(response.stamp, instant)
 
-        return answer(response, lambda: self._control.playing().step(request.duration), describe)
+        def step() -> Future[float]:
+            if request.command.name:
+                raise ValueError("command: must be empty: a recording takes no commands")
+            return self._control.playing().step(request.duration)
+
+        return answer(response, step, describe)
 
     def _seek(self, request: Seek.Request, response: Seek.Response) -> Seek.Response:
         def describe(instant: float) -> str:

@@ -13,6 +13,8 @@ from typing import Any
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
 from planetary_twin_msgs.srv import NaturalModes, SetOperatingPoint
 from rclpy.parameter import Parameter
+from rclpy.subscription import Subscription
+from sensor_msgs.msg import JointState
 
 import planetary_twin_py as pt
 from planetary_twin_py.quality_control import QualityControl, Setting
@@ -29,6 +31,7 @@ from .managed import ManagedNode, NodeError, run_node
 from .parameters import brief
 from .ramps import LONGEST_RAMP
 from .real_time import KEEPS_UP, RealTimeReport
+from .shaft_commands import ShaftCommands, joint_names, values_of
 from .simulation_parameters import TOLERANCE, SimulationParameters, tunables
 from .simulation_services import SimulationServices
 from .stamps import STEADY
@@ -60,6 +63,8 @@ class Simulation(ManagedNode):
         self._telemetry: Telemetry | None = None
         self._before: Telemetry | None = None  # the closed one of the previous configuration
         self._audience: Audience | None = None
+        self._commands: ShaftCommands | None = None
+        self._subscription: Subscription | None = None
         self.add_post_set_parameters_callback(self._submit)
         self._backlog: Backlog | None = None
         self._timer = self.create_timer(_REPORT_PERIOD, self._diagnose, clock=STEADY)
@@ -73,6 +78,10 @@ class Simulation(ManagedNode):
         """Create the publishers, so that subscribers find them, and build the model."""
         self._given.read()
         self._telemetry = Telemetry(self, self._given, self._before)
+        self._commands = ShaftCommands(self._given, self.get_clock())
+        self._subscription = self.create_subscription(
+            JointState, "~/command", self._commands.receive, self._commands.qos
+        )
         self._audience = Audience(self, self._given.wait_for)
         # Half of what publishers keep: messages in transit do not fill the rest.
         room = round(0.5 * STALL * self._given.rate)
@@ -92,7 +101,9 @@ class Simulation(ManagedNode):
             raise NodeError(f"{reason}; clean up and configure the node for a new run") from None
         given, quality = self._given, self._given.quality(twin)
         self._audience.begin()
-        self._live = LiveTwin(twin, 1.0 / given.rate, given.rate_factor, quality, self)
+        self._live = LiveTwin(
+            twin, 1.0 / given.rate, given.rate_factor, quality, self, self._commands.given
+        )
         self._report = self._new_report(twin, self._live.start())
         self._telemetry.describe(self._urdf)
         self.get_logger().info(f"runs {twin.scene.name} from {twin.time:g} s")
@@ -112,6 +123,9 @@ class Simulation(ManagedNode):
         if live is not None:
             live.stop()
         self._twin = self._report = self._audience = None
+        if self._subscription is not None:
+            self.destroy_subscription(self._subscription)
+            self._subscription = None
         if self._backlog is not None:
             self._backlog.close()
             self._backlog = None
@@ -150,8 +164,8 @@ class Simulation(ManagedNode):
             self._telemetry.originate(twin.scene)
 
     def refused(self, reason: str) -> None:
-        """Warn of a ramp that ended before its final values."""
-        self.get_logger().warning(f"a ramp ends before its final values: {reason}")
+        """Warn of a ramp that ended before its final values, or of a command without effect."""
+        self.get_logger().warning(reason, throttle_duration_sec=_REPORT_PERIOD)
 
     def retuned(self, instant: float, before: Setting, quality: QualityControl) -> None:
         """Log the setting in force and its reason."""
@@ -181,6 +195,16 @@ class Simulation(ManagedNode):
         if self._live is None:
             raise ValueError("the simulation is not active, so its time does not advance")
         return self._live
+
+    def command(self, message: JointState) -> dict[str, float]:
+        """Return what a command gives at the ports, as arguments of `Twin.advance`."""
+        if not message.name:
+            return {}
+        joints = joint_names(self._given.scene)
+        values = values_of(message, joints)
+        if not values:
+            raise ValueError(f"command: must have an effort or velocity of {' or '.join(joints)}")
+        return values
 
     def reset(self) -> Future[float]:
         """Start again at time zero, at the operating point of the parameters."""

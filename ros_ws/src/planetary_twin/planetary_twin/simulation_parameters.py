@@ -21,6 +21,7 @@ from .parameters import (
     declare_tunable,
     number,
 )
+from .shaft_commands import SILENCE
 
 TOLERANCE = pt.Tunable(
     "tolerance",
@@ -42,6 +43,8 @@ _SETTINGS = (
     "sample_rate",
     "rate_factor",
     "compute_share",
+    "command_timeout",
+    "command_silence",
 )
 
 
@@ -84,6 +87,12 @@ class SimulationParameters:
         self.sample_rate: float = value["sample_rate"]
         self.rate_factor: float = value["rate_factor"]
         self._compute_share: float = value["compute_share"]
+        self.command_timeout: float = value["command_timeout"]
+        self.command_silence: str = value["command_silence"]
+        if self.command_silence not in SILENCE:
+            raise ValueError(
+                f"command_silence = {self.command_silence!r}: must be one of {', '.join(SILENCE)}"
+            )
 
     @property
     def period(self) -> float:
@@ -179,6 +188,20 @@ def _declare_settings(node: ParameterNode) -> None:
         0.4,
         (0.05, 0.9),
         "share of the time that computing may take if the tolerance is automatic [-]",
+    )
+    declare_bounded(
+        node,
+        "command_timeout",
+        0.0,
+        (0.0, 10.0),
+        "time without a command after which command_silence applies [s]; 0: never",
+    )
+    declare_fixed(
+        node,
+        "command_silence",
+        "hold",
+        "after command_timeout: hold the last command; zero torque and speed; or brake the input "
+        "shaft to rest at the slew rate of the drive",
     )
 
 

@@ -7,10 +7,14 @@ from typing import Protocol
 
 from planetary_twin_msgs.srv import Step
 from rclpy.node import Node
+from sensor_msgs.msg import JointState
 from std_srvs.srv import SetBool, Trigger
+
+from planetary_twin_py import Twin
 
 from .command_queue import answer
 from .live import LiveTwin
+from .shaft_commands import joint_names
 
 
 class TimeControl(Protocol):
@@ -22,8 +26,20 @@ class TimeControl(Protocol):
     def reset(self) -> Future[float]:
         """Start again at simulated time zero; the future returns the instant [s]."""
 
+    def command(self, message: JointState) -> dict[str, float]:
+        """Return what a command gives at the ports, as arguments of `Twin.advance`."""
+
     def stamp(self, instant: float) -> int:
         """Return the ROS time [ns] of a simulated instant [s]."""
+
+
+def show_ports(twin: Twin, message: JointState) -> None:
+    """Fill `message` with angles, speeds and torques of the input and the output shaft."""
+    ports = twin.port_states
+    message.name = list(joint_names(twin.scene))
+    message.position = [ports.input_angle, ports.output_angle]
+    message.velocity = [ports.input_speed, ports.output_speed]
+    message.effort = [ports.input_torque, ports.output_torque]
 
 
 class TimeServices:
@@ -44,13 +60,22 @@ class TimeServices:
         )
 
     def _step(self, request: Step.Request, response: Step.Response) -> Step.Response:
+        def show(twin: Twin) -> None:
+            if twin.scene.dynamics == "torsional":
+                show_ports(twin, response.state)
+
         def describe(instant: float) -> str:
             response.simulated_time = instant
             stamp = divmod(self._control.stamp(instant), 1_000_000_000)
             response.stamp.sec, response.stamp.nanosec = stamp
+            response.state.header.stamp = response.stamp
             return ""
 
-        return answer(response, lambda: self._control.running().step(request.duration), describe)
+        def step() -> Future[float]:
+            given = self._control.command(request.command)
+            return self._control.running().step(request.duration, given, show)
+
+        return answer(response, step, describe)
 
     def _reset(self, request: Trigger.Request, response: Trigger.Response) -> Trigger.Response:
         return answer(

@@ -1,0 +1,195 @@
+"""A twin driven by other programs: ~/command, lockstep by ~/step, torques of the joints."""
+
+from __future__ import annotations
+
+import math
+import time
+from pathlib import Path
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+from planetary_twin.shaft_commands import ShaftCommands
+from planetary_twin_msgs.srv import Step
+from rclpy.clock import Clock
+from sensor_msgs.msg import JointState
+from std_srvs.srv import SetBool, Trigger
+
+import planetary_twin_py as pt
+
+from .conftest import Start
+from .peer import TWIN, Peer
+
+NODE = f"{TWIN}/simulation"
+PAPER = pt.load_scene("paper")
+SUN, RING = "sun_joint", "ring_joint"
+
+
+def driven(folder: Path, input: str, output: str) -> str:
+    """A scene file with these ports."""
+    path = folder / "driven.yaml"
+    ports = f"{{input: {{port: {input}}}, output: {{port: {output}}}}}"
+    path.write_text(f"base: paper\nname: driven\ndrive: {ports}\n")
+    return str(path)
+
+
+def command(effort: tuple[float, float], stamp: int = 0) -> JointState:
+    """Torques on both shafts [N m], stamped [ns]."""
+    message = JointState(name=[SUN, RING], effort=list(effort))
+    message.header.stamp.sec, message.header.stamp.nanosec = divmod(stamp, 1_000_000_000)
+    return message
+
+
+def running(peer: Peer, start: Start, folder: Path, *options: str) -> list[JointState]:
+    """Joint states of a simulation whose torques are given."""
+    path = driven(folder, "torque", "torque")
+    given = [part for option in (f"scene:={path}", *options) for part in ("-p", option)]
+    start("planetary_twin.simulation", "--ros-args", *given)
+    joints = peer.listen(JointState, f"{TWIN}/joint_states")
+    peer.until(lambda: joints)
+    return joints
+
+
+def torque(message: JointState, joint: str) -> float:
+    return message.effort[list(message.name).index(joint)]
+
+
+def speed(message: JointState, joint: str) -> float:
+    return message.velocity[list(message.name).index(joint)]
+
+
+def test_joint_states_have_the_torques_on_the_shafts(peer: Peer, start: Start) -> None:
+    start("planetary_twin.simulation")
+    joints = peer.listen(JointState, f"{TWIN}/joint_states")
+    peer.until(lambda: len(joints) > 20)
+    assert torque(joints[-1], SUN) == pytest.approx(63.0, rel=0.02)
+    assert torque(joints[-1], RING) == pytest.approx(147.0, rel=0.03)
+    assert all(math.isnan(torque(joints[-1], f"planet_{n}_joint")) for n in (1, 2, 3))
+
+
+def test_lockstep_has_the_bits_of_a_twin_in_python(
+    peer: Peer, start: Start, tmp_path: Path
+) -> None:
+    """Pause, reset, then commands in and states out, one call a step."""
+    joints = running(peer, start, tmp_path, "rate_factor:=0.0")
+    assert peer.call(SetBool, f"{NODE}/pause", SetBool.Request(data=True)).success
+    assert peer.call(Trigger, f"{NODE}/reset", Trigger.Request()).success
+    twin = pt.Twin(pt.load_scene(tmp_path / "driven.yaml"))
+    rng, begin, calls = np.random.default_rng(3), time.monotonic(), 300
+    for _ in range(calls):
+        effort = (63.0 + 9.0 * rng.standard_normal(), 147.0 + 9.0 * rng.standard_normal())
+        request = Step.Request(duration=1e-3, command=command(effort))
+        answer = peer.call(Step, f"{NODE}/step", request)
+        assert answer.success, answer.message
+        shown = twin.step(1e-3, input_torque=effort[0], output_torque=effort[1])
+        state = answer.state
+        assert list(state.name) == [SUN, RING]
+        assert list(state.position) == [shown.input_angle, shown.output_angle]
+        assert list(state.velocity) == [shown.input_speed, shown.output_speed]
+        assert list(state.effort) == [shown.input_torque, shown.output_torque]
+        assert answer.simulated_time == pytest.approx(shown.time, abs=1e-12)
+    print(f"{calls / (time.monotonic() - begin):.0f} lockstep calls a second")
+    # The same by topic: the command that arrived last acts in the next step.
+    publisher = peer.node.create_publisher(JointState, f"{NODE}/command", 10)
+    peer.until(lambda: publisher.get_subscription_count())
+    publisher.publish(command((50.0, 120.0)))
+    count = len(joints)
+    time.sleep(0.2)  # the subscription has no answer that could be waited for
+    answer = peer.call(Step, f"{NODE}/step", Step.Request(duration=1e-3))
+    shown = twin.step(1e-3, input_torque=50.0, output_torque=120.0)
+    assert list(answer.state.velocity) == [shown.input_speed, shown.output_speed]
+    assert list(answer.state.effort) == [50.0, 120.0]
+    peer.until(lambda: len(joints) > count)
+
+
+def test_steps_with_a_command_that_no_port_takes_are_refused(
+    peer: Peer, start: Start, tmp_path: Path
+) -> None:
+    running(peer, start, tmp_path, "rate_factor:=0.0")
+    assert peer.call(SetBool, f"{NODE}/pause", SetBool.Request(data=True)).success
+    for request, reason in (
+        (command((1e9, 0.0)), "input_torque = 1000000000.0 N m: must be within"),
+        (JointState(name=[RING], velocity=[1.0]), "output_speed = 1.0: requires drive.output.port"),
+        (JointState(name=["elbow"], effort=[1.0]), "command: must have an effort or velocity of"),
+    ):
+        answer = peer.call(Step, f"{NODE}/step", Step.Request(duration=1e-3, command=request))
+        assert not answer.success
+        assert answer.message.startswith(reason)
+
+
+def test_commands_by_topic_drive_the_shafts(peer: Peer, start: Start, tmp_path: Path) -> None:
+    joints = running(peer, start, tmp_path)
+    publisher = peer.node.create_publisher(JointState, f"{NODE}/command", 10)
+
+    def follows(effort: tuple[float, float]) -> bool:
+        publisher.publish(command(effort))
+        return (torque(joints[-1], SUN), torque(joints[-1], RING)) == pytest.approx(effort)
+
+    peer.until(lambda: follows((66.0, 148.0)))
+    peer.until(lambda: follows((60.0, 146.0)))
+
+
+@pytest.mark.parametrize("silence", ["hold", "zero", "brake"])
+def test_silence_holds_releases_or_brakes(
+    peer: Peer, start: Start, tmp_path: Path, silence: str
+) -> None:
+    joints = running(peer, start, tmp_path, "command_timeout:=0.3", f"command_silence:={silence}")
+    publisher = peer.node.create_publisher(JointState, f"{NODE}/command", 10)
+
+    def follows() -> bool:
+        publisher.publish(command((64.0, 147.0)))
+        return torque(joints[-1], SUN) == pytest.approx(64.0)
+
+    peer.until(follows)
+    count = len(joints)
+    peer.until(lambda: len(joints) > count + 100)  # a second of silence
+    if silence == "hold":
+        assert torque(joints[-1], SUN) == pytest.approx(64.0)
+    elif silence == "zero":
+        assert torque(joints[-1], SUN) == torque(joints[-1], RING) == 0.0
+    else:
+        assert speed(joints[-1], SUN) == pytest.approx(0.0, abs=1e-2)
+    peer.until(follows)  # the next command acts again
+
+
+def received(*messages: JointState, timeout: float = 0.0) -> ShaftCommands:
+    given = SimpleNamespace(scene=PAPER, command_timeout=timeout, command_silence="hold")
+    commands = ShaftCommands(given, Clock())
+    for message in messages:
+        commands.receive(message)
+    return commands
+
+
+def torques(commands: ShaftCommands) -> dict[str, float]:
+    scene = PAPER.replace(**{"drive.input.port": "torque", "drive.output.port": "torque"})
+    return commands.given(pt.Twin(scene), 0.01)
+
+
+def test_repeated_and_reordered_commands_have_no_effect() -> None:
+    commands = received(
+        command((1.0, 2.0), 5),
+        command((3.0, 4.0), 5),
+        command((5.0, 6.0), 4),
+        command((7.0, 8.0), 6),
+    )
+    assert torques(commands) == {"input_torque": 7.0, "output_torque": 8.0}
+    assert commands.ignored == {"repeated or out of order": 2}
+    assert torques(commands) == {}
+
+
+def test_late_commands_have_no_effect() -> None:
+    now = Clock().now().nanoseconds
+    commands = received(
+        command((1.0, 2.0), now - 2_000_000_000), command((3.0, 4.0), now), timeout=1.0
+    )
+    assert torques(commands) == {"input_torque": 3.0, "output_torque": 4.0}
+    assert commands.ignored == {"late": 1}
+
+
+def test_values_that_are_missing_or_nan_leave_a_port_as_it_is() -> None:
+    half = JointState(name=["other", RING, SUN], effort=[1.0, 2.0])
+    assert torques(received(half)) == {"output_torque": 2.0}
+    assert torques(received(command((math.nan, 5.0)))) == {"output_torque": 5.0}
+    empty = received(JointState(name=[SUN], position=[1.0]))
+    assert torques(empty) == {}
+    assert empty.ignored == {"no effort or velocity of sun_joint or ring_joint": 1}
