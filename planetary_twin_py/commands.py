@@ -31,6 +31,12 @@ class Command(NamedTuple):
     output_speed: float | None = None
     """Of the output shaft [rad/s]."""
 
+    @property
+    def values(self) -> dict[str, float]:
+        """Values that are given, by name."""
+        named = zip(NAMES, self, strict=True)
+        return {name: value for name, value in named if value is not None}
+
     def check(self, scene: Scene, ranges: PortRanges) -> None:
         """Check that the ports of a scene take this command.
 

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from fractions import Fraction
+from types import MappingProxyType
 from typing import NamedTuple
 
 from ._core import Figures, PortStates, WindowEnd, window_figures
@@ -329,6 +331,8 @@ class Twin:
         command = Command(input_torque, output_torque, input_speed, output_speed)
         plan = self._plan(duration)
         self._begin(plan, command)
+        if command != NOTHING:
+            plan = plan._replace(given=command.values)
         run_alone(self._jobs(plan))
         return self._close(plan)
 
@@ -417,6 +421,7 @@ class Twin:
             stored_energy=record.stored_energy,
             residual_power=record.residual_power,
             course=self._follow(duration),
+            given=plan.given,
             members=self._members,
         )
 
@@ -435,6 +440,7 @@ class _Plan(NamedTuple):
     first: int  # number of its first sample
     waves: Waves  # room for its samples
     repeated: bool
+    given: Mapping[str, float] = MappingProxyType({})  # at the ports
 
 
 class _FiguresOf:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
@@ -95,6 +96,8 @@ class Window:
     """Residual of the energy ledger, an error of the integration [W]."""
     course: Course
     """Counters from which the accuracy is estimated, see `accuracy`."""
+    given: Mapping[str, float]
+    """What was given at the ports from the start of the window on, by arguments of `advance`."""
     members: tuple[int, ...]
     """Places in `bodies` of the members to which the machines are coupled, (machines,)."""
 

@@ -61,7 +61,7 @@ def branched(run: RecordedRun, branch: Branch) -> tuple[float, RecordedRun]:
     for change in after:
         scene.replace(**change.values)
     origin = Origin(scene, run.origin.begins, makers_here())
-    return begins, RecordedRun(origin, intervals, before + after)
+    return begins, RecordedRun(origin, intervals, before + after, run.given)
 
 
 def _values(scene: Scene, branch: Branch) -> tuple[dict[str, float], Scene]:

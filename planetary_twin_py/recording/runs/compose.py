@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 from typing import Any
 
+import numpy as np
 from rosbags.typesys import Stores, get_types_from_msg, get_typestore
 
 from ...robot import robot_description
@@ -14,8 +15,9 @@ from ..container.records import RecordingError
 from ..ros2.bag import BagWriter
 from ..ros2.definitions import KINDS
 from ..ros2.fields import joint_fields, state_fields, waveform_fields
+from ..ros2.given import fields_of
 from ..ros2.metadata import Topic
-from ..ros2.topics import DESCRIPTION, JOINTS, ORIGIN, POINT, STATE, WAVEFORM
+from ..ros2.topics import DESCRIPTION, GIVEN, JOINTS, ORIGIN, POINT, STATE, WAVEFORM
 from .origin import Origin
 
 Row = dict[str, Any]
@@ -39,7 +41,7 @@ class Composer:
         self._types = get_typestore(Stores.EMPTY)
         self._kinds: dict[str, str] = {}
         self._channels: dict[str, int] = {}
-        known = {f"{namespace}/{name}": name for name in KINDS}
+        known = {f"{namespace}/{name}": name for name in (*KINDS, GIVEN)}
         for topic in topics:
             if topic.name in known:
                 self._add(known[topic.name], topic)
@@ -74,6 +76,8 @@ class Composer:
         self.write(JOINTS, joints, stamp, stamp)
         if len(window.waveform.time):
             self.write(WAVEFORM, waveform_fields(window), first, stamp)
+        if window.given:
+            self.write(GIVEN, self._given(window), stamp, stamp)
 
     def write(self, topic: str, row: Row, stamp: int, sent: int) -> None:
         """Write the next message of a topic, if it is one of the topics to write.
@@ -92,6 +96,13 @@ class Composer:
         data = bytes(self._types.serialize_cdr(message, self._kinds[topic]))
         self._bag.write(self._channels[topic], data, sent, sent, number)
 
+    def _given(self, window: Window) -> Row:
+        """Fields of what was given in a window."""
+        input_joint, output_joint = (f"{window.bodies[at]}_joint" for at in window.members[:2])
+        found = fields_of(window.given, (input_joint, output_joint))
+        effort, velocity = np.array(found["effort"]), np.array(found["velocity"])
+        return {**found, "position": np.empty(0), "effort": effort, "velocity": velocity}
+
     def _state(self, window: Window) -> Row:
         if STATE not in self._kinds:
             return {}
@@ -103,7 +114,7 @@ class Composer:
         if "header" in self._fields(topic):
             time = types["builtin_interfaces/msg/Time"](*divmod(stamp, 1_000_000_000))
             # JointState has no frame.
-            frame = "" if topic == JOINTS else self._frame
+            frame = "" if topic in (JOINTS, GIVEN) else self._frame
             row = {"header": types["std_msgs/msg/Header"](time, frame), **row}
         unknown = [name for name in self._fields(topic) if name not in row]
         if unknown:

@@ -11,6 +11,7 @@ from typing import Any, NamedTuple
 from ...integrators.clock import TICKS
 from ...twin import Twin
 from ...window import Window
+from ..ros2.given import causality
 from ..ros2.topics import WAVEFORM
 from .schedule import Change, Interval, RecordedRun, stamp_of, without_gaps
 
@@ -79,7 +80,10 @@ def steps(run: RecordedRun) -> Iterator[Step]:
             twin.set(**changes[-1].values)
         twin.set_tolerance(interval.tolerance)
         twin.set_sample_rate(interval.sample_rate)
-        window = twin.advance((interval.end - interval.begin) / TICKS)
+        given = run.given.get(interval.stamp, {})
+        if given:  # a brake changes the ports
+            twin.set_ports(**causality(given))
+        window = twin.advance((interval.end - interval.begin) / TICKS, **given)
         yield Step(interval, changes, window)
 
 

@@ -15,8 +15,9 @@ from ...printable import one_line
 from ...scene import TUNABLES
 from ..container.records import RecordingError, files_of
 from ..ros2.decode import Decoder, MessageError
+from ..ros2.given import joint_names, values_of
 from ..ros2.repeats import Repeats, unrepeated
-from ..ros2.topics import ORIGIN, POINT, STATE
+from ..ros2.topics import GIVEN, ORIGIN, POINT, STATE
 from ..ros2.typestore import is_recorded
 from .origin import Origin, read_origin
 
@@ -54,6 +55,8 @@ class RecordedRun:
     origin: Origin
     intervals: list[Interval] = field(default_factory=list)
     changes: list[Change] = field(default_factory=list)
+    given: dict[int, dict[str, float]] = field(default_factory=dict)
+    """What was given at the ports in an interval, by its stamp [ns]."""
 
 
 def read_runs(path: Path, namespace: str, remarks: list[str]) -> list[RecordedRun]:
@@ -75,6 +78,7 @@ def read_runs(path: Path, namespace: str, remarks: list[str]) -> list[RecordedRu
         ORIGIN: collected.origin,
         POINT: collected.change,
         STATE: collected.interval,
+        GIVEN: collected.command,
     }
     for name, message in messages_of(path, namespace, tuple(take), remarks):
         take[name](message)
@@ -144,6 +148,7 @@ class _Collector:
         self._origins: dict[int, Origin] = {}
         self._changes: list[Change] = []
         self._intervals: list[Interval] = []
+        self._commands: list[tuple[int, Any]] = []  # by stamp [ns]
 
     def origin(self, message: Any) -> None:
         try:
@@ -178,11 +183,15 @@ class _Collector:
             )
         )
 
+    def command(self, message: Any) -> None:
+        self._commands.append((stamp_of(message), message))
+
     def runs(self, path: Path, remarks: list[str]) -> list[RecordedRun]:
         runs, skipped = self._started()
         if skipped:
             remarks.append(f"{skipped} intervals of a run whose start or origin is not recorded")
         self._share_changes(runs, remarks)
+        self._share_commands(runs)
         runs = [run for run in runs if run.intervals]
         if not runs:
             raise RecordingError(
@@ -209,6 +218,14 @@ class _Collector:
                 run.intervals.append(interval)
             before = interval.stamp
         return runs, skipped
+
+    def _share_commands(self, runs: list[RecordedRun]) -> None:
+        """Assign commands to runs by their stamps, which are those of the intervals."""
+        begins = [run.origin.begins for run in runs]
+        for stamp, message in self._commands:
+            if place := bisect_right(begins, stamp):
+                run = runs[place - 1]
+                run.given[stamp] = values_of(message, joint_names(run.origin.scene))
 
     def _share_changes(self, runs: list[RecordedRun], remarks: list[str]) -> None:
         """Assign the changes to runs by their stamps, which never decrease."""

@@ -13,10 +13,11 @@ from rclpy.qos import QoSProfile, ReliabilityPolicy
 from sensor_msgs.msg import JointState
 
 from planetary_twin_py import Scene, Twin
+from planetary_twin_py.recording.ros2.given import SIDES, joint_names, values_of
 
 SILENCE = ("hold", "zero", "brake")
 """What acts if no command arrives: the last one, nothing, or a brake on the input shaft."""
-_QUANTITIES = {"torque": ("effort", "torque"), "motion": ("velocity", "speed")}
+_QUANTITIES = {"torque": "torque", "motion": "speed"}  # that are given
 # Subscribers of this reliability match publishers of both.
 _QOS = QoSProfile(depth=10, reliability=ReliabilityPolicy.BEST_EFFORT)
 
@@ -29,34 +30,10 @@ class Given(Protocol):
     command_silence: str
 
 
-def joint_names(scene: Scene) -> tuple[str, str]:
-    """Return the joints of input and output, as in `joint_states`."""
-    return f"{scene.drive.input.member}_joint", f"{scene.drive.output.member}_joint"
-
-
-def values_of(message: JointState, joints: tuple[str, str]) -> dict[str, float]:
-    """
-    Return efforts and velocities of both shafts in a message, by names of `Twin.advance`.
-
-    Other joints, missing values and NaN are ignored, as ros2_control does with interfaces that no
-    controller claims.
-    """
-    found = {}
-    for side, joint in zip(("input", "output"), joints, strict=True):
-        if joint not in message.name:
-            continue
-        place = list(message.name).index(joint)
-        for field, quantity in _QUANTITIES.values():
-            values = getattr(message, field)
-            if place < len(values) and not math.isnan(values[place]):
-                found[f"{side}_{quantity}"] = float(values[place])
-    return found
-
-
 def for_ports(values: dict[str, float], twin: Twin) -> dict[str, float]:
     """Return those `values` that are given at the ports of `twin`."""
-    sides = zip(("input", "output"), twin.ports, strict=True)
-    names = [f"{side}_{_QUANTITIES[port][1]}" for side, port in sides if port in _QUANTITIES]
+    sides = zip(SIDES, twin.ports, strict=True)
+    names = [f"{side}_{_QUANTITIES[port]}" for side, port in sides if port in _QUANTITIES]
     return {name: values[name] for name in names if name in values}
 
 

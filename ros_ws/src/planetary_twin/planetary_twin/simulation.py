@@ -18,6 +18,7 @@ from sensor_msgs.msg import JointState
 
 import planetary_twin_py as pt
 from planetary_twin_py.quality_control import QualityControl, Setting
+from planetary_twin_py.recording.ros2.given import joint_names, values_of
 from planetary_twin_py.robot import robot_description
 from planetary_twin_py.runaway import RunawayError
 
@@ -31,7 +32,7 @@ from .managed import ManagedNode, NodeError, run_node
 from .parameters import brief
 from .ramps import LONGEST_RAMP
 from .real_time import KEEPS_UP, RealTimeReport
-from .shaft_commands import ShaftCommands, joint_names, values_of
+from .shaft_commands import ShaftCommands
 from .simulation_parameters import TOLERANCE, SimulationParameters, tunables
 from .simulation_services import SimulationServices
 from .stamps import STEADY

@@ -16,6 +16,8 @@ from std_msgs.msg import String
 from tf2_msgs.msg import TFMessage
 
 from planetary_twin_py import OperatingPoint, Scene, Window
+from planetary_twin_py.recording.ros2.given import fields_of, joint_names
+from planetary_twin_py.recording.ros2.topics import GIVEN
 from planetary_twin_py.recording.runs.origin import Origin, makers_here
 from planetary_twin_py.robot import frames
 
@@ -82,6 +84,9 @@ class Telemetry:
         self._diagnostics = create(DiagnosticArray, "/diagnostics", _DEPTH)
         self._tf = create(TFMessage, "/tf", kept) if given.tf else None
         self._clock = create(Clock, "/clock", kept) if given.clock else None
+        driven = given.scene.drive.ports.given
+        self._given = create(JointState, GIVEN, kept) if driven else None
+        self._shafts = joint_names(given.scene)
         publishers = (
             self._state,
             self._waveform,
@@ -92,6 +97,7 @@ class Telemetry:
             self._diagnostics,
             self._tf,
             self._clock,
+            self._given,
         )
         self._topics = {p: p.topic_name for p in publishers if p is not None}
         each = (self._clock, self._state, self._joints, self._waveform, self._tf)
@@ -153,6 +159,9 @@ class Telemetry:
         if len(window.waveform.time):  # a single step may be shorter than the sample period
             wave = self._waveform_message.fill(window)
             self._prepared.append((self._waveform, wave, [wave.header.stamp], wave.start_time))
+        if self._given is not None and window.given:
+            given = JointState(**fields_of(window.given, self._shafts))
+            self._prepared.append((self._given, given, [given.header.stamp], window.end))
         if self._tf is not None:
             transforms = self._transforms_message
             self._prepared.append(

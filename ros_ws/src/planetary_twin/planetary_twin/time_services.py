@@ -11,10 +11,10 @@ from sensor_msgs.msg import JointState
 from std_srvs.srv import SetBool, Trigger
 
 from planetary_twin_py import Twin
+from planetary_twin_py.recording.ros2.given import joint_names
 
 from .command_queue import answer
 from .live import LiveTwin
-from .shaft_commands import joint_names
 
 
 class TimeControl(Protocol):

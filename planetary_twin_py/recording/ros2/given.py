@@ -1,0 +1,52 @@
+"""What is given at the ports of a twin, in messages of type JointState."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from typing import Any
+
+from ...scene import Scene
+
+SIDES = ("input", "output")
+FIELDS = {"effort": "torque", "velocity": "speed"}
+
+
+def joint_names(scene: Scene) -> tuple[str, str]:
+    """Joints of input and output, as in `joint_states`."""
+    return f"{scene.drive.input.member}_joint", f"{scene.drive.output.member}_joint"
+
+
+def values_of(message: Any, joints: tuple[str, str]) -> dict[str, float]:
+    """Efforts and velocities of both shafts in a message, by the arguments of `Twin.advance`.
+
+    Other joints, missing values and NaN are ignored, as ros2_control does with interfaces that no
+    controller claims.
+    """
+    found, names = {}, list(message.name)
+    for side, joint in zip(SIDES, joints, strict=True):
+        if joint not in names:
+            continue
+        place = names.index(joint)
+        for field, quantity in FIELDS.items():
+            values = getattr(message, field)
+            if place < len(values) and not math.isnan(values[place]):
+                found[f"{side}_{quantity}"] = float(values[place])
+    return found
+
+
+def fields_of(values: Mapping[str, float], joints: tuple[str, str]) -> dict[str, Any]:
+    """Fields of JointState for values that are given; NaN for those that are not."""
+    return {
+        "name": list(joints),
+        **{
+            field: [values.get(f"{side}_{quantity}", math.nan) for side in SIDES]
+            for field, quantity in FIELDS.items()
+        },
+    }
+
+
+def causality(values: Mapping[str, float]) -> dict[str, str]:
+    """Ports at which values are given, as arguments of `Twin.set_ports`."""
+    kinds = {"torque": "torque", "speed": "motion"}
+    return {side: kinds[quantity] for side, quantity in (name.split("_") for name in values)}
