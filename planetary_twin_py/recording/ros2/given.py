@@ -7,6 +7,7 @@ from collections.abc import Mapping
 from typing import Any
 
 from ...scene import Scene
+from ...scene.drive import Causality
 
 SIDES = ("input", "output")
 FIELDS = {"effort": "torque", "velocity": "speed"}
@@ -46,7 +47,7 @@ def fields_of(values: Mapping[str, float], joints: tuple[str, str]) -> dict[str,
     }
 
 
-def causality(values: Mapping[str, float]) -> dict[str, str]:
+def causality(values: Mapping[str, float]) -> dict[str, Causality]:
     """Ports at which values are given, as arguments of `Twin.set_ports`."""
-    kinds = {"torque": "torque", "speed": "motion"}
+    kinds: dict[str, Causality] = {"torque": "torque", "speed": "motion"}
     return {side: kinds[quantity] for side, quantity in (name.split("_") for name in values)}

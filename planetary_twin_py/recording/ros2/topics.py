@@ -5,7 +5,7 @@ WAVEFORM = "mesh_waveform"
 JOINTS = "joint_states"
 POINT = "operating_point"
 ORIGIN = "run_origin"
-GIVEN = "shaft_commands"  # only of a twin whose ports are given
+GIVEN = "applied_commands"  # only of a twin whose ports are given
 DESCRIPTION = "robot_description"
 REAL_TIME = "simulation: real time"  # a report in /diagnostics
 

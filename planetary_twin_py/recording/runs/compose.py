@@ -70,14 +70,14 @@ class Composer:
             stamp: ROS time of its end [ns].
             first: ROS time of its first sample [ns].
         """
+        if window.given:
+            self.write(GIVEN, self._given(window), stamp, stamp)
         self.write(STATE, self._state(window), stamp, stamp)
         names = [f"{body}_joint" for body in window.bodies]
         joints = {"name": names, **joint_fields(window)}
         self.write(JOINTS, joints, stamp, stamp)
         if len(window.waveform.time):
             self.write(WAVEFORM, waveform_fields(window), first, stamp)
-        if window.given:
-            self.write(GIVEN, self._given(window), stamp, stamp)
 
     def write(self, topic: str, row: Row, stamp: int, sent: int) -> None:
         """Write the next message of a topic, if it is one of the topics to write.

@@ -78,11 +78,11 @@ def steps(run: RecordedRun) -> Iterator[Step]:
         while waiting and waiting[0].time <= twin.time:
             changes.append(waiting.popleft())
             twin.set(**changes[-1].values)
+        given = run.given.get(interval.stamp, {})
+        if given:  # a brake changes the ports; in the order of the nodes
+            twin.set_ports(**causality(given))
         twin.set_tolerance(interval.tolerance)
         twin.set_sample_rate(interval.sample_rate)
-        given = run.given.get(interval.stamp, {})
-        if given:  # a brake changes the ports
-            twin.set_ports(**causality(given))
         window = twin.advance((interval.end - interval.begin) / TICKS, **given)
         yield Step(interval, changes, window)
 

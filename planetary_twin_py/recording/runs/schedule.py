@@ -77,8 +77,8 @@ def read_runs(path: Path, namespace: str, remarks: list[str]) -> list[RecordedRu
     take: dict[str, Callable[[Any], None]] = {
         ORIGIN: collected.origin,
         POINT: collected.change,
-        STATE: collected.interval,
         GIVEN: collected.command,
+        STATE: collected.interval,
     }
     for name, message in messages_of(path, namespace, tuple(take), remarks):
         take[name](message)

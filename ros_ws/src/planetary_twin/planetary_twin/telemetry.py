@@ -153,15 +153,15 @@ class Telemetry:
         if self._clock is not None:  # first: no message may be stamped later than the clock
             clock = self._clock_message
             self._prepared.append((self._clock, clock, [clock.clock], window.end))
+        if self._given is not None and window.given:
+            given = JointState(**fields_of(window.given, self._shafts))
+            self._prepared.append((self._given, given, [given.header.stamp], window.end))
         state, joints = self._state_message.fill(window), self._joints_message.fill(window)
         self._prepared.append((self._state, state, [state.header.stamp], window.end))
         self._prepared.append((self._joints, joints, [joints.header.stamp], window.end))
         if len(window.waveform.time):  # a single step may be shorter than the sample period
             wave = self._waveform_message.fill(window)
             self._prepared.append((self._waveform, wave, [wave.header.stamp], wave.start_time))
-        if self._given is not None and window.given:
-            given = JointState(**fields_of(window.given, self._shafts))
-            self._prepared.append((self._given, given, [given.header.stamp], window.end))
         if self._tf is not None:
             transforms = self._transforms_message
             self._prepared.append(
