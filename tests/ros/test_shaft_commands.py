@@ -181,6 +181,17 @@ def test_repeated_and_reordered_commands_have_no_effect() -> None:
     assert torques(commands) == {}
 
 
+def test_the_report_counts_what_was_ignored_and_names_the_silence() -> None:
+    commands = received(command((1.0, 2.0), 5), command((3.0, 4.0), 5))
+    status = commands.status("/twin")
+    assert (ord(status.level), status.name) == (1, "twin/simulation: commands")
+    assert [(v.key, v.value) for v in status.values] == [("ignored: repeated or out of order", "1")]
+    assert received().status("/twin").message == "no command yet"
+    silent = received(command((1.0, 2.0)), timeout=1e-3)
+    time.sleep(0.01)
+    assert silent.status("/twin").message.endswith("s: hold")
+
+
 def test_late_commands_have_no_effect() -> None:
     now = Clock().now().nanoseconds
     commands = received(

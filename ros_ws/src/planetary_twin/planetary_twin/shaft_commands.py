@@ -8,13 +8,16 @@ import time
 from collections import Counter
 from typing import Protocol
 
+from diagnostic_msgs.msg import DiagnosticStatus, KeyValue
 from rclpy.clock import Clock
 from rclpy.qos import QoSProfile, ReliabilityPolicy
 from sensor_msgs.msg import JointState
 
 from planetary_twin_py import Scene, Twin
 from planetary_twin_py.recording.ros2.given import SIDES, joint_names, values_of
+from planetary_twin_py.recording.ros2.topics import status_name
 
+COMMANDS = "simulation: commands"
 SILENCE = ("hold", "zero", "brake")
 """What acts if no command arrives: the last one, nothing, or a brake on the input shaft."""
 _QUANTITIES = {"torque": "torque", "motion": "speed"}  # that are given
@@ -70,12 +73,30 @@ class ShaftCommands:
         if not values and not reason:
             reason = f"no effort or velocity of {' or '.join(self.joints)}"
         if reason:
-            self.ignored[reason] += 1
+            with self._lock:
+                self.ignored[reason] += 1
             return
         with self._lock:
             self._newest = stamp or self._newest
             self._values |= values
             self._received = time.monotonic()
+
+    def status(self, hardware: str) -> DiagnosticStatus:
+        """Return the report on commands for `/diagnostics`; `hardware` is the namespace."""
+        with self._lock:
+            silent = time.monotonic() - self._received
+            ignored = dict(self.ignored)
+        late = bool(self._timeout) and silent > self._timeout
+        message = f"no command for {silent:.1f} s: {self._silence}" if late else "received"
+        if silent == -math.inf:
+            message = "no command yet"
+        return DiagnosticStatus(
+            level=DiagnosticStatus.WARN if late or ignored else DiagnosticStatus.OK,
+            name=status_name(COMMANDS, hardware),
+            message=message,
+            hardware_id=hardware,
+            values=[KeyValue(key=f"ignored: {why}", value=str(n)) for why, n in ignored.items()],
+        )
 
     def _fault(self, stamp: int) -> str:
         if not stamp:

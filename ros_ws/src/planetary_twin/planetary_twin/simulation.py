@@ -310,6 +310,8 @@ class Simulation(ManagedNode):
         def report_now(published: Mapping[str, int]) -> DiagnosticArray:
             message = report.message(live.progress, live.quality, published, last=last)
             message.status += [self._ledger.status(), self._accuracy.status()]
+            if self._given.scene.drive.ports.given:
+                message.status.append(self._commands.status(self.get_namespace()))
             return message
 
         message = self._telemetry.diagnose(report_now)
