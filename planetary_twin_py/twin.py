@@ -421,7 +421,7 @@ class Twin:
             stored_energy=record.stored_energy,
             residual_power=record.residual_power,
             course=self._follow(duration),
-            given=plan.given,
+            given=dict(plan.given),
             members=self._members,
         )
 
