@@ -63,8 +63,10 @@ def terms(scene: Scene) -> tuple[Term, ...]:
 
 
 def _dynamics(scene: Scene) -> Term | None:
-    # A force that jumps at first contact has no equilibrium for loads below the jump.
-    if scene.dynamics == "quasi_static" or scene.mesh.backlash == "regulatory_factor":
+    # A force that jumps at first contact has no equilibrium for loads below the jump. Without
+    # dynamics, nothing can be given at the ports.
+    jumps = scene.mesh.backlash == "regulatory_factor"
+    if scene.dynamics == "quasi_static" or jumps or scene.drive.ports.given:
         return None
     law = "rotation of every body, elastic couplings and teeth"
     return Term("torsional dynamics", law, {"dynamics": "quasi_static"})

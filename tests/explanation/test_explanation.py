@@ -29,6 +29,13 @@ def test_every_term_can_be_left_out_and_is_then_off(name):
             assert term.name not in names(without)
 
 
+def test_every_term_of_a_driven_scene_can_be_left_out():
+    driven = pt.load_scene("paper").replace(**{"drive.input.port": "torque"})
+    assert "torsional dynamics" not in names(driven)
+    for term in terms(driven):
+        assert driven.replace(**term.without) != driven
+
+
 def test_a_term_that_is_off_is_not_listed():
     bare = pt.load_scene("paper").replace(
         backlash=0.0, **{"mesh.ramp": 0.0, "lubrication.friction": False}
