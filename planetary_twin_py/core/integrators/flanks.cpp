@@ -59,7 +59,8 @@ double left_without_waves(const Model& model, const March& march, std::int64_t i
         LengthAndRate wide = widening(train, march.constants, i, side, now.advance, now.pace);
         wider = {wide.length, tau * wide.rate};
     }
-    double waves_add = d + tau * rate, left = play_left(model.load, side, own, wider, 0.0);
+    double waves_add = d + tau * rate;
+    double left = play_left(train, model.load, i, side, own, wider, 0.0);
     return left - (side != OPEN ? static_cast<double>(side) * waves_add : std::fabs(waves_add));
 }
 
@@ -163,7 +164,7 @@ int first_scanned(const Model& model, March& march, std::int64_t i, double end) 
         if (train.lines[train.kind[i]] > 0)
             play = departure_at(model, march, i, (k + 1) * end / SCANNED);
         else
-            play = play_left(model.load, march.begin.side[i],
+            play = play_left(train, model.load, i, march.begin.side[i],
                              {run.scan_d[k][i], tau * run.scan_rate[k][i]}, {0.0, 0.0},
                              slack_of(march));
         if (play < 0.0) return k;
