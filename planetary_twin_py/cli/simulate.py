@@ -211,8 +211,10 @@ def _axes(motion: AxesMotion) -> dict[str, Any]:
         found[f"{name}_mean_{unit}"] = dict(zip(motion.bodies, mean.tolist(), strict=True))
         found[f"{name}_peak_{unit}"] = dict(zip(motion.bodies, peak.tolist(), strict=True))
     planets = motion.bodies[len(motion.bodies) - motion.load_share.shape[1] :]
-    found["load_share"] = dict(zip(planets, motion.load_share.mean(axis=0).tolist(), strict=True))
-    found["load_sharing_factor"] = motion.load_sharing_factor
+    shares = motion.mean_load_share.tolist()
+    if all(share == share for share in shares):  # there is a load to share
+        found["load_share"] = dict(zip(planets, shares, strict=True))
+        found["load_sharing_factor"] = motion.load_sharing_factor
     return found
 
 
@@ -224,7 +226,7 @@ def _axes_table(motion: AxesMotion, found: dict[str, Any]) -> Table:
         table.add_column(body, justify="right")
     for key, (text, unit) in _AXES.items():
         table.add_row(text, *(figure(value, unit) for value in found[key].values()))
-    share = found["load_share"]
+    share = found.get("load_share", {})
     shares = (f"{share[body]:.4f}" if body in share else "" for body in motion.bodies)
     table.add_row("share of the load, mean", *shares)
     return table

@@ -46,13 +46,20 @@ class AxesMotion:
     """Force of the drive flanks, then of the coast flanks of each mesh [N],
     (samples, 2, meshes)."""
     load_share: np.ndarray
-    """Torque that each planet takes from the sun over the mean of all planets,
-    (samples, planets)."""
+    """Torque that each planet takes from the sun over the mean of all planets, NaN where that is
+    zero, (samples, planets)."""
+
+    @property
+    def mean_load_share(self) -> np.ndarray:
+        """Mean torque of each planet over the mean of all planets, (planets,)."""
+        planets = self.load_share.shape[1]
+        mean = self.flank_force[:, :, :planets].mean(axis=0)
+        return _shares(mean[0] - mean[1])
 
     @property
     def load_sharing_factor(self) -> float:
-        """Largest mean share of a planet."""
-        return float(self.load_share.mean(axis=0).max())
+        """Load sharing factor K_gamma: the largest mean share of a planet."""
+        return float(self.mean_load_share.max())
 
 
 def joined_flanks(mesh: np.ndarray, place: np.ndarray) -> np.ndarray:
@@ -98,17 +105,20 @@ def axes_motion(scene: Scene, train: Train, samples: Samples, angle: np.ndarray)
     count = 2 * planets
     forces = np.abs(samples.mesh[:, MESH_FORCE])
     flanks = np.stack([forces[:, :count], forces[:, count:]], axis=1)
-    net = flanks[:, 0, :planets] - flanks[:, 1, :planets]
-    with np.errstate(invalid="ignore"):  # without any torque
-        share = net / net.mean(axis=1, keepdims=True)
     return AxesMotion(
         names,
         moved,
         _bearing_force(train, moved, moving, turning),
         _in_housing(moved[:, : len(CENTRAL)], angle),
         flanks,
-        share,
+        _shares(flanks[:, 0, :planets] - flanks[:, 1, :planets]),
     )
+
+
+def _shares(force: np.ndarray) -> np.ndarray:
+    """Forces of the sun meshes over their mean, (..., planets)."""
+    mean = force.mean(axis=-1, keepdims=True)
+    return np.asarray(np.divide(force, mean, out=np.full_like(force, np.nan), where=mean != 0.0))
 
 
 def _moved(train: Train, bodies: int, x: np.ndarray) -> np.ndarray:

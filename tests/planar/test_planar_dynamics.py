@@ -1,13 +1,14 @@
 """Runs with moving axes against torsion, statics, natural modes and balances."""
 
 import math
+import re
 
 import numpy as np
 import pytest
 from planar.moving_scenes import MASSES, evenly, planar
 from power_flows import DIFFERENTIALS, FLOWS, flow_name
 
-from planetary_twin_py import Twin, load_scene, simulate
+from planetary_twin_py import SceneError, Twin, load_scene, simulate
 from planetary_twin_py.planar.load_sharing import load_sharing
 
 RATTLE = {"input_torque": 0.3, "torque_ripple": 3.0}
@@ -89,11 +90,16 @@ def test_mean_loads_are_shared_as_in_statics(planets, sun):
             "lubrication.friction": False,
         },
     )
-    expected = load_sharing(scene).share.mean(axis=0)
+    static = load_sharing(scene)
+    expected = static.share.mean(axis=0)
     run = simulate(scene, 0.02, settling=0.03)
     forces = run.mesh["mesh_force_mean"][:planets]
     assert forces / forces.mean() == pytest.approx(expected, rel=5e-3)
-    assert run.axes.load_share.mean(axis=0) == pytest.approx(expected, rel=5e-3)
+    assert run.axes.mean_load_share == pytest.approx(expected, rel=5e-3)
+    bearings = np.concatenate([static.bearing, static.planet_bearing], axis=1).mean(axis=0)
+    assert run.axes.bearing_force.mean(axis=0) == pytest.approx(bearings, rel=5e-3, abs=2.0)
+    moved = static.displacement.mean(axis=0)
+    assert run.axes.displacement[:, :3].mean(axis=0) == pytest.approx(moved, rel=5e-3, abs=2e-8)
 
 
 def test_windows_of_any_length_give_the_same_samples():
@@ -135,3 +141,64 @@ def test_renumbered_planets_are_the_same_planets():
     assert same.mesh["mesh_force_mean"] == pytest.approx(mean, rel=1e-4)
     rms = one.mesh["dte_rms"].reshape(2, 3)[:, order].ravel()
     assert same.mesh["dte_rms"] == pytest.approx(rms, rel=2e-3)
+
+
+def test_both_flanks_of_a_wedged_mesh_carry_as_in_statics():
+    scene = planar(
+        FLOWS[0],
+        {"sun": 0.0},
+        **PIN,
+        **{
+            "backlash": 2e-7,
+            "mesh.double_pair_ratio": 1.0,
+            "mesh.ramp": 0.0,
+            "lubrication.friction": False,
+        },
+    )
+    static = load_sharing(scene).mesh_force.mean(axis=0)
+    assert static[1].max() > 100.0
+    run = simulate(scene, 0.01, settling=0.03)
+    assert run.axes.flank_force.mean(axis=0) == pytest.approx(static, rel=2e-3, abs=1.0)
+
+
+@pytest.mark.parametrize("flow", [FLOWS[0], FLOWS[2]], ids=flow_name)
+def test_a_torque_that_turns_round_crosses_the_backlash_on_moving_axes(flow):
+    twin = Twin(planar(flow))
+    torque = twin.scene.operating_point.input_torque
+    twin.advance(0.01)
+    twin.set(input_torque=-torque)
+    twin.advance(0.04)
+    window = twin.advance(0.02)
+    assert (window.mesh["mesh_force_mean"] * torque < 0.0).all()
+    assert abs(window.residual_power) < 1e-5 * abs(window.input_power)
+
+
+@pytest.mark.parametrize(
+    ("changes", "said"),
+    [
+        ({"supports": None}, "supports: missing; with dynamics = 'planar'"),
+        ({"supports.sun.torsion": 1e6}, "supports.sun.torsion = 1000000.0: must be 0"),
+        ({"lubrication.friction_torque": "printed"}, "must be 'sliding' with dynamics = 'planar'"),
+        ({"mesh.backlash": "regulatory_factor"}, "must be 'dead_zone' with dynamics = 'planar'"),
+    ],
+)
+def test_what_moving_axes_do_not_hold_is_refused_in_one_line(changes, said):
+    with pytest.raises(SceneError, match=re.escape(said)):
+        planar(**changes)
+
+
+def test_offsets_of_axes_are_refused_where_the_carrier_turns():
+    offset = {"errors.ring_offset": {"size": 1e-5}}
+    with pytest.raises(SceneError, match="ring_offset and carrier_offset require"):
+        planar(FLOWS[2], **offset)
+    static = load_sharing(planar(FLOWS[0], {"sun": 0.0}, **offset))
+    run = simulate(planar(FLOWS[0], {"sun": 0.0}, **offset), 0.01, settling=0.03)
+    moved = static.displacement.mean(axis=0)
+    assert run.axes.displacement[:, :3].mean(axis=0) == pytest.approx(moved, rel=2e-2, abs=1e-7)
+
+
+def test_a_scene_with_supports_runs_in_torsion_as_without():
+    scene = load_scene("floating_sun")
+    one, other = (simulate(each, 0.005) for each in (scene, scene.replace(supports=None)))
+    assert one.axes is None
+    assert (one.dte == other.dte).all()

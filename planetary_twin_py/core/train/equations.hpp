@@ -20,15 +20,14 @@ namespace gearbox {
 
 // Add the friction torques of all meshes as forces on the bodies.
 inline void rub_bodies(const Train& train, const DragOfMeshes& drag, double* rubbing) {
-    for (std::int64_t i = 0; i < train.meshes; ++i)
+    for (std::int64_t i = 0; i < train.meshes; ++i) {
+        if (MOVING && drag.torque[0][i] == 0.0 && drag.torque[1][i] == 0.0) continue;
         for (int j = 0; j < GEARS; ++j) {
             double force = drag.torque[j][i] * train.lever[j][i];
             rubbing[train.body[i][j]] += train.copies[i] * force;
         }
-    if constexpr (MOVING) {
-        for (std::int64_t i = 0; i < train.meshes; ++i)
-            for (int j = GEARS; j < ENTRIES; ++j)
-                rubbing[train.body[i][j]] += drag.across[i] * train.moving.slide[i][j];
+        for (int j = GEARS; j < ENTRIES; ++j)
+            rubbing[train.body[i][j]] += drag.across[i] * train.moving.slide[i][j];
     }
 }
 
