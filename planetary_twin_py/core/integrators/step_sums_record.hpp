@@ -22,7 +22,7 @@ struct alignas(64) StepSums {
     Look look;
     bool unasked;  // no one asks for sums: steps have none
     bool known;    // `rates` are those of the end of the last step
-    bool stale;  // `rates` are not those of the start of the step
+    bool stale;    // `rates` are not those of the start of the step
     alignas(
         64) double rates[SUMS][MESHES];  // by which the integrals grow at the end of a stiff step
     alignas(64) double push[MESHES];     // there [N]
