@@ -3,7 +3,7 @@
 // Sweeps that come to rest where friction damps axes that move.
 //
 // Within the layer in which sliding reverses, friction is a strong damper on the displacements of
-// the axes: what a sweep takes anew overshoots by more than what was missing, though in few
+// the axes: what a sweep computes overshoots by more than what was missing, though in few
 // directions. The rest is mixed from two sweeps so that, were all linear in one direction, nothing
 // would be left (Anderson 1965, J. ACM 12, 547-560, of depth one).
 
