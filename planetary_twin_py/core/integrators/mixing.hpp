@@ -33,11 +33,10 @@ public:
         V weight = 1.0 / larger(V(run.motion.square), V(1.0 / (step * step)));
         V across(0.0), along(0.0), size(0.0);
         for (std::int64_t n = 0; n < run.nodes.count; ++n) {
-            V left = V(run.rest[n]) - V(used[n]), change = left - V(left_before[n]);
-            V own = left * weight;
+            V left = V(run.rest[n]) - V(used[n]), own = left * weight;
             size += own * own;
             if (swept == 0) continue;
-            change *= weight;
+            V change = (left - V(left_before[n])) * weight;
             across += own * change;
             along += change * change;
         }
@@ -64,7 +63,7 @@ public:
 private:
     alignas(64) double used[MOST_NODES][BODIES];
     alignas(64) double used_before[MOST_NODES][BODIES];
-    alignas(64) double left_before[MOST_NODES][BODIES] = {};
+    alignas(64) double left_before[MOST_NODES][BODIES];
     double size_before = 0.0, ratio = 0.0;
     int swept = 0;
 };

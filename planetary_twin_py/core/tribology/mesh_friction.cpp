@@ -82,26 +82,35 @@ LAW void store_register(Number* column, const Real& lanes) {
     std::memcpy(column, &lanes, sizeof lanes);
 }
 
-// Surface speeds of pairs of radii rho1 and rho2 at an instant.
+// How gears turn and slip at an instant, for the surface speeds of their pairs.
 template <int L>
-LAW SurfaceSpeeds<Row<L>> speeds_at(const FrictionInstant& instant, const Row<L>& rho1,
-                                    const Row<L>& rho2, const Row<L>& external) {
-    auto speeds =
-        surface_speeds(rho1, rho2, external, Row<L>(instant.spin[0]), Row<L>(instant.spin[1]));
-    if constexpr (MOVING) {
-        speeds.sliding += Row<L>(instant.slip);
-        speeds.sum += Row<L>(instant.slip);
+struct Turning {
+    Row<L> spin1, spin2, slip;
+
+    LAW explicit Turning(const FrictionInstant& instant)
+        : spin1(instant.spin[0]), spin2(instant.spin[1]), slip(0.0) {
+        if constexpr (MOVING) slip = Row<L>(instant.slip);
     }
-    return speeds;
-}
+
+    LAW SurfaceSpeeds<Row<L>> at(const Row<L>& rho1, const Row<L>& rho2,
+                                 const Row<L>& external) const {
+        auto speeds = surface_speeds(rho1, rho2, external, spin1, spin2);
+        if constexpr (MOVING) {
+            speeds.sliding += slip;
+            speeds.sum += slip;
+        }
+        return speeds;
+    }
+};
 
 template <int L, class Number>
 LAW void place_pairs(const Train& train, const StepConstants& step, const FrictionInstant& instant,
                      Columns<Number>& pairs, std::int64_t first) {
     Row<L> moved = way_on_path<L>(train, step, instant.meshes->advance), external(step.external);
+    const Turning<L> turning(instant);
     for (std::int64_t p = 0, k = first; p < train.slots; ++p, k += L) {
         auto [rho1, rho2] = flank_radii<L>(step, p, moved);
-        auto [sliding, sum] = speeds_at<L>(instant, rho1, rho2, external);
+        auto [sliding, sum] = turning.at(rho1, rho2, external);
         put(rho1, pairs.rho1 + k);
         put(rho2, pairs.rho2 + k);
         put(external, pairs.external + k);
@@ -155,9 +164,10 @@ LAW void add_up(const Train& train, const StepConstants& step, const Columns<Num
     V moved = way_on_path<L>(train, step, instant.meshes->advance), external(step.external);
     V torque1(0.0), torque2(0.0), lost(0.0), boundary(0.0), viscous(0.0), film(0.0);
     V across(0.0);
+    const Turning<L> turning(instant);
     for (std::int64_t p = 0, k = first; p < train.slots; ++p, k += L) {
         auto [rho1, rho2] = flank_radii<L>(step, p, moved);
-        auto [sliding, sum] = speeds_at<L>(instant, rho1, rho2, external);
+        auto [sliding, sum] = turning.at(rho1, rho2, external);
         V friction = get<L>(pairs.friction + k), resistance(0.0);
         lost += friction * sliding;
         if (rolling) {

@@ -184,10 +184,15 @@ LAW double fold(const Row<L>& a, Join&& join) {
     double part[L];
 #pragma GCC unroll 40
     for (int i = 0; i < L; ++i) part[i] = a[i];
-#pragma GCC unroll 6
-    for (int size = L; size > 1; size -= size / 2)
-#pragma GCC unroll 20
-        for (int i = 0; i < size / 2; ++i) part[i] = join(part[i], part[i + size - size / 2]);
+    if constexpr ((L & (L - 1)) == 0) {
+#pragma GCC unroll 4
+        for (int half = L / 2; half > 0; half /= 2)
+#pragma GCC unroll 8
+            for (int i = 0; i < half; ++i) part[i] = join(part[i], part[i + half]);
+    } else {  // the upper half may be one number shorter
+        for (int size = L; size > 1; size -= size / 2)
+            for (int i = 0; i < size / 2; ++i) part[i] = join(part[i], part[i + size - size / 2]);
+    }
     return part[0];
 }
 
