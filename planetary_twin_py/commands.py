@@ -11,6 +11,7 @@ import numpy as np
 
 from ._core import PortRanges, Train
 from .dynamics.bodies import LOAD_MACHINE, MOTOR
+from .dynamics.library import library
 from .dynamics.static_load import static_torques
 from .integrators.clock import TICKS
 from .scene import Scene
@@ -78,10 +79,11 @@ def port_ranges(scene: Scene, train: Train) -> PortRanges:
         Limits at input and output: those of the drive, carried to the output by the tooth numbers.
     """
     drive, bodies = scene.drive, train.coupling[[MOTOR, LOAD_MACHINE], 0]
-    return PortRanges(
+    ranges: PortRanges = library(scene).PortRanges(
         torque=drive.torque_limit * np.abs(static_torques(scene)[[MOTOR, LOAD_MACHINE]]),
         speed=drive.speed_limit * np.abs(train.ratio[bodies, 0]),
     )
+    return ranges
 
 
 @dataclass(frozen=True)

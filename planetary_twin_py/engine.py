@@ -9,7 +9,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 from fractions import Fraction
-from typing import NoReturn
+from typing import Any, NoReturn
 
 import numpy as np
 
@@ -31,27 +31,16 @@ from ._core import (
     Report,
     Train,
     WindowEnd,
-    advance,
-    begin_step,
-    cut,
-    give,
-    radau,
-    read_ports,
-    step_ports,
-    stored,
-    take_books,
-    take_ledger,
-    take_mesh_sums,
 )
-from ._core import MeshSums as MeshSumsRecord
 from .commands import Command, port_ranges
 from .dynamics.cycle import common_cycles, turns_per_cycle
+from .dynamics.library import library
 from .dynamics.mesh_sums import MeshSums, clear, mesh_sums
 from .dynamics.oil import build_oil
 from .dynamics.speed_loop import SpeedLoopCheck, bandwidth
 from .dynamics.start import LoadBuilder, begin_given, keep_given, start_state
 from .dynamics.static_load import mesh_force, static_torques
-from .dynamics.train import build_train, lightest_body
+from .dynamics.train import build_train, held_axes, lightest_body
 from .integrators.clock import (
     NEVER,
     TICKS,
@@ -123,10 +112,11 @@ class Engine:
         check_tolerance(tolerance)
         self.scene = scene
         self.tolerance = tolerance
-        self._may_repeat = method == "auto"
+        self._may_repeat = method == "auto" and not scene.moving_axes
         self.train = build_train(scene)
-        self.model = Model(train=self.train)
-        self.march = March()
+        self._core = library(scene)
+        self.model: Model = self._core.Model(train=self.train)
+        self.march: March = self._core.March()
         # Parts of the march that every window reads, because each look-up costs time.
         self._end, self._scratch = self.march.end, self.march.scratch
         self._periodic, self._last = self.march.periodic, self.march.last
@@ -139,7 +129,7 @@ class Engine:
         control.step = control.next_step = control.next_stiff = FIRST_STEP
         control.longest = LONGEST_STEP
         control.method = METHODS[method]
-        self._speed_loop = SpeedLoopCheck(scene, self.train)
+        self._speed_loop = SpeedLoopCheck(scene, build_train(held_axes(scene)))
         for speed in (scene.drive.speed_control.start_speed, scene.operating_point.input_speed):
             if speed is not None:
                 where = scene.operating_point.model_copy(update={"input_speed": speed})
@@ -155,19 +145,19 @@ class Engine:
 
     def _prepare(self) -> None:
         """Call all functions of a window once; at time zero this changes nothing."""
-        begin_step(self.model, self.march)
+        self._core.begin_step(self.model, self.march)
         self.march.end = self.march.begin  # tooth pairs may have started to stick
         self.advance(0.0, 1, 1.0, 0)
         self.stored()
         self.take_mesh_sums(0.0)
-        cut(self.model, self.march, instant(0.0))
+        self._core.cut(self.model, self.march, instant(0.0))
 
     def _load(self, point: OperatingPoint) -> None:
         """Put an operating point into the model, and scale the tolerances to its deflections."""
         oil_at = point.oil_temperature, point.lambda_ratio
         if self._oil_at != oil_at:
-            self.model.oil, self._oil_at = build_oil(self.scene, point), oil_at
-        load, ports = self._loads.build(point), self.scene.drive.ports
+            self.model.oil, self._oil_at = self._record(build_oil(self.scene, point)), oil_at
+        load, ports = self._record(self._loads.build(point)), self.scene.drive.ports
         if self._given:  # what is given stays, whatever the operating point
             keep_given(self.model.load, load)
         self.model.load, self._given = load, ports.given
@@ -178,9 +168,15 @@ class Engine:
         control.quickness = scale.quickness
         points = next(n for least, n in POINTS if self.tolerance > least)
         if self.march.run.nodes.count != points:
-            self.march.run.nodes = radau(points)
+            self.march.run.nodes = self._core.radau(points)
         control.changed = True
         self._allow_periodic()
+
+    def _record(self, record: Any) -> Any:
+        """A record of oil or load as the core of this scene has it; its memory is the same."""
+        own = getattr(self._core, type(record).__name__)()
+        own.raw()[:] = record.raw()
+        return own
 
     def _allow_periodic(self) -> None:
         """Set the number of mesh cycles after which everything repeats."""
@@ -264,7 +260,7 @@ class Engine:
 
     def stand(self, time: int, end: WindowEnd) -> None:
         """Begin a window at `time` [ticks], the end of the last one."""
-        take_books(self.model, self.march, end)
+        self._core.take_books(self.model, self.march, end)
         sample = self.sample(Fraction(time, TICKS))
         end.turns, end.angle = sample.turns[0], sample.angle[0]
 
@@ -281,7 +277,7 @@ class Engine:
         if self._failure is not None:
             raise self._failure
         try:
-            advance(self.model, self.march, instant(until), NEVER, at, samples)
+            self._core.advance(self.model, self.march, instant(until), NEVER, at, samples)
             self._check(samples)
         except ArithmeticError as reason:
             self._fail(reason)
@@ -319,7 +315,7 @@ class Engine:
 
     def _cut(self, time: float | Fraction) -> None:
         """End the last step at `time` [s], the end of the last window."""
-        cut(self.model, self.march, instant(time))
+        self._core.cut(self.model, self.march, instant(time))
         clear(self.march.sums.total)
         self.march.sums.taken = self.march.control.step  # what lies before `time`
         self._shown = None
@@ -341,10 +337,11 @@ class Engine:
         """
         if self._failure is not None:
             raise self._failure
-        speed_loop, loads = SpeedLoopCheck(scene, self.train), LoadBuilder(scene, self.train)
+        speed_loop = SpeedLoopCheck(scene, build_train(held_axes(scene)))
+        loads = LoadBuilder(scene, self.train)
         speed_loop.check(point)
-        shown = PortStates()
-        read_ports(self.model, self.march, instant(time), shown)
+        shown = self._core.PortStates()
+        self._core.read_ports(self.model, self.march, instant(time), shown)
         self._cut(time)
         self.scene, self._speed_loop, self._loads = scene, speed_loop, loads
         self._given = False
@@ -375,7 +372,7 @@ class Engine:
         if self._failure is not None:
             raise self._failure
         try:
-            give(self.model, self.march, instant_of_ticks(ticks), *command, reaching)
+            self._core.give(self.model, self.march, instant_of_ticks(ticks), *command, reaching)
         except ArithmeticError as reason:
             self._fail(reason)
         self._shown = None
@@ -400,7 +397,7 @@ class Engine:
         """
         if self._failure is not None:
             raise self._failure
-        outcome = step_ports(
+        outcome = self._core.step_ports(
             self.model, self.march, begin, end, *command, self._linear, self.port_ranges,
             self._limits.record, reached, out,
         )  # fmt: skip
@@ -437,7 +434,7 @@ class Engine:
         They restart at zero, so that rounding does not grow with the length of the run.
         """
         ledger = np.empty(LEDGER)
-        take_ledger(self.march, ledger)
+        self._core.take_ledger(self.march, ledger)
         return ledger
 
     def take_mesh_sums(self, time: float | Fraction) -> MeshSums:
@@ -445,13 +442,13 @@ class Engine:
 
         `time` is the end of the last window.
         """
-        taken = MeshSumsRecord()
-        take_mesh_sums(self.model, self.march, instant(time), taken)
+        taken = self._core.MeshSums()
+        self._core.take_mesh_sums(self.model, self.march, instant(time), taken)
         return mesh_sums(taken, int(self.train.meshes))
 
     def stored(self) -> tuple[float, float]:
         """Kinetic and elastic energy at `reached` [J]."""
-        moving, strained = stored(self.model, self._end, self._scratch)
+        moving, strained = self._core.stored(self.model, self._end, self._scratch)
         return float(moving), float(strained)
 
 

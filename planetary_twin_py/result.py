@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from .dynamics.bodies import LOAD_MACHINE, MOTOR, SECOND_MOTOR
+from .planar.motion import AxesMotion
 
 
 @dataclass(frozen=True)
@@ -134,6 +135,8 @@ class Result:
     """Of the sun-planet and of the planet-ring meshes: 1 - friction loss/transmitted power."""
     stats: Stats
     """Statistics of the integration."""
+    axes: AxesMotion | None = None
+    """Motion of the axes and forces on their bearings; None where the axes are held."""
 
     @property
     def total_power_loss(self) -> np.ndarray:

@@ -10,7 +10,7 @@ import numpy as np
 from ._core import Control, Report, Train, WindowEnd
 from .dynamics.mesh_sums import MeshSums
 from .dynamics.speed_loop import check_speed_loop
-from .dynamics.train import build_train
+from .dynamics.train import build_train, held_axes
 from .engine import Engine
 from .integrators.interpolant import Samples, Waves
 from .quasi_static.engine import QuasiStaticEngine
@@ -89,7 +89,7 @@ def start(scene: Scene, tolerance: float, method: str = "auto") -> Run:
     Raises:
         ValueError: an argument is out of range, or the scene cannot be built.
     """
-    if scene.dynamics == "torsional":
+    if scene.dynamics != "quasi_static":
         return Engine(scene, tolerance, method)
     if method not in ("auto", "march"):
         raise ValueError(
@@ -108,5 +108,5 @@ def check_point(scene: Scene, point: OperatingPoint) -> None:
     Raises:
         ValueError: the speed loop of the drive is not stable.
     """
-    if scene.dynamics == "torsional":
-        check_speed_loop(scene, build_train(scene), point)
+    if scene.dynamics != "quasi_static":
+        check_speed_loop(scene, build_train(held_axes(scene)), point)

@@ -13,7 +13,8 @@ import numpy as np
 
 from . import _core
 from ._core import DTE, IMPULSE, Load, Train, WindowEnd
-from .dynamics.bodies import MACHINE_NAMES, build_bodies, mesh_names
+from .dynamics.bodies import MACHINE_NAMES, MeshNames, build_bodies, mesh_names
+from .dynamics.library import library
 from .dynamics.static_load import static_torques
 from .integrators.interpolant import Samples
 from .scene import Scene
@@ -73,18 +74,19 @@ class Limits:
         self.squeeze = Limit(
             "squeeze",
             "m",
-            _names(dict(zip(meshes.names, meshes.place, strict=True)), int(train.meshes)),
+            _mesh_names(meshes, int(train.meshes)),
             np.full(train.meshes, train.base_pitch),
             "a base pitch, at which teeth break or jump; reduce the torques or increase the "
             "stiffness",
         )
         """Of the mesh deflection, see `check_squeeze`."""
+        ratios = np.abs(train.ratio[: train.bodies]).sum(axis=1)
         fastest = max(drive.speed_limit, abs(drive.speed_control.start_speed or 0.0))
         self.speed = Limit(
             "speed",
             "rad/s",
             _names(build_bodies(scene).place, int(train.bodies)),
-            EXCESS * fastest * np.abs(train.ratio[: train.bodies]).sum(axis=1),
+            np.where(_displaces(scene), np.inf, EXCESS * fastest * ratios),
             f"{EXCESS:g} times the speed at drive.speed_limit = {drive.speed_limit:g} rad/s",
         )
         """Of the speeds of the bodies."""
@@ -98,7 +100,7 @@ class Limits:
             f"drive.speed_control.slew_rate = {drive.speed_control.slew_rate:g} rad/s^2",
         )
         """Of the torques of the machines."""
-        self.record = _core.Limits(
+        self.record: _core.Limits = library(scene).Limits(
             squeeze=self.squeeze.largest,
             error=self._errors,
             speed=self.speed.largest,
@@ -144,6 +146,20 @@ def _inertia(train: Train) -> float:
     """Largest inertia of the whole train, referred to a motor [kg m^2]."""
     squares = train.mass * train.radius**2
     return float((squares[:, None] * train.ratio**2).sum(axis=0).max())
+
+
+def _displaces(scene: Scene) -> list[bool]:
+    """Whether a coordinate is a displacement of an axis, which has no speed of rotation."""
+    bodies = build_bodies(scene)
+    return ["." in name for name in _names(bodies.place, len(bodies.mass) - 1)]
+
+
+def _mesh_names(meshes: MeshNames, count: int) -> list[str]:
+    """Names of the entries of the meshes; where each flank has one, both have the same name."""
+    names, places = list(meshes.names), meshes.place.tolist()
+    named = {place % count: name for name, place in zip(names[::-1], places[::-1], strict=True)}
+    half = count // 2
+    return [named[at] if at in named else named[(at + half) % count] for at in range(count)]
 
 
 def _names(place: Mapping[str, int], count: int) -> list[str]:

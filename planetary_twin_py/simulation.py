@@ -34,6 +34,7 @@ from .dynamics.bodies import body_names, mesh_names
 from .dynamics.mesh_sums import MeshSums, in_order
 from .integrators.interpolant import Samples
 from .ledger_check import LedgerWarning, balance_of_run, ledger_warning
+from .planar.motion import axes_motion, joined_flanks
 from .result import Energy, Result, Stats
 from .run import Run, start
 from .scene import Scene
@@ -165,14 +166,16 @@ def _result(
     names, meshes = body_names(scene), mesh_names(scene)
     samples, mean_speed = found[:2]
     sums = in_order(found[2], meshes.place)
-    mesh, count = samples.mesh[:, :, meshes.place], engine.control
+    joined = joined_flanks if scene.moving_axes else _of_places
+    mesh, count = joined(samples.mesh, meshes.place), engine.control
     ground = np.zeros((len(mesh), 1))
+    angle = np.hstack([_angles(engine, samples), ground])[:, names.place]
     return Result(
         duration=float(engine.reached - before.reached),
         time=np.arange(before.samples + 1, before.samples + len(mesh) + 1) / sample_rate,
         bodies=names.names,
         meshes=meshes.names,
-        angle=np.hstack([_angles(engine, samples), ground])[:, names.place],
+        angle=angle,
         speed=np.hstack([samples.speed, ground])[:, names.place],
         mean_speed=np.append(mean_speed, 0.0)[names.place],
         dte=mesh[:, DTE],
@@ -188,6 +191,7 @@ def _result(
         energy=_energy(engine, before.stored),
         mesh=mesh_statistics(sums),
         mesh_efficiency=_mesh_efficiency(sums),
+        axes=axes_motion(scene, engine.train, samples, angle[:, -1]) if scene.moving_axes else None,
         stats=Stats(
             steps=int(count.steps),
             repeated_steps=int(count.repeated),
@@ -202,6 +206,11 @@ def _result(
             real_time_factor=float(engine.reached) / wall,
         ),
     )
+
+
+def _of_places(mesh: np.ndarray, place: np.ndarray) -> np.ndarray:
+    """Samples of the meshes at `place`."""
+    return mesh[:, :, place]
 
 
 def _mesh_efficiency(sums: MeshSums) -> tuple[float, float]:

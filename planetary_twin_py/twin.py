@@ -7,10 +7,11 @@ from fractions import Fraction
 from types import MappingProxyType
 from typing import NamedTuple
 
-from ._core import Figures, PortStates, WindowEnd, window_figures
+from ._core import Figures, PortStates
 from .accuracy import Course, Settling, course_so_far, unsettled
 from .commands import Command, Commands, course_of
 from .dynamics.bodies import body_names, build_report, machines, mesh_names
+from .dynamics.library import library
 from .engine import Engine
 from .gearset.kinematics import mesh_frequency
 from .integrators.clock import TICKS
@@ -75,16 +76,23 @@ class Twin:
         self._teeth, self._sun = scene.gearset.tooth_numbers, self._names.names.index("sun")
         members = [machine.member for machine in machines(scene).values()]
         self._members = tuple(self._names.names.index(member) for member in members)
-        self._report = build_report(self._names, self._mesh_names)
+        self._core = library(scene)
+        self._report = build_report(self._core, self._names, self._mesh_names)
         self._engine = start(scene, tolerance)
         self._figures = _FiguresOf(
-            len(self.bodies), len(self.meshes), int(self._engine.train.machines)
+            self._core.Figures(),
+            len(self.bodies),
+            len(self.meshes),
+            int(self._engine.train.machines),
         )
         self._ticks = 0
         first = Change(0.0, scene.operating_point, tolerance, float(sample_rate), scene.drive.ports)
         self.log = [first]
         """All changes. Applied at the same times, they reproduce the run and its samples."""
-        self._ends = WindowEnd(), WindowEnd()  # of the last window, and of the next one
+        self._ends = (
+            self._core.WindowEnd(),
+            self._core.WindowEnd(),
+        )  # of the last window, and of the next one
         self._stand()
         self._forgetting, self._settled = Settling(scene), 0.0
         self._settling = self._forgetting.rate(scene.operating_point)
@@ -93,7 +101,7 @@ class Twin:
         self._linear = scene.drive.interpolation == "linear"
         self._given = scene.drive.ports.given
         self._stepped = False  # since the last window, without sums of the meshes
-        self._shown, self._reached = PortStates(), WindowEnd()
+        self._shown, self._reached = self._core.PortStates(), self._core.WindowEnd()
 
     @property
     def bodies(self) -> tuple[str, ...]:
@@ -396,7 +404,9 @@ class Twin:
         begin, end = self._ends
         figures, names, rate = self._figures, self._names, self.sample_rate
         start_time, duration = self.time, (plan.end - self._ticks) / TICKS
-        window_figures(self._engine.train, self._report, begin, end, duration, figures.record)
+        self._core.window_figures(
+            self._engine.train, self._report, begin, end, duration, figures.record
+        )
         self._ticks, self._ends = plan.end, (end, begin)
         mean_speed, record = figures.mean_speed.copy(), figures.record
         sun, carrier = mean_speed[self._sun], mean_speed[-1]
@@ -446,8 +456,8 @@ class _Plan(NamedTuple):
 class _FiguresOf:
     """Figures of a window in the core, and views of them."""
 
-    def __init__(self, bodies: int, meshes: int, machines: int) -> None:
-        record = self.record = Figures()
+    def __init__(self, record: Figures, bodies: int, meshes: int, machines: int) -> None:
+        self.record = record
         self.angle, self.mean_speed = record.angle[:bodies], record.mean_speed[:bodies]
         self.machine_speed = record.machine_speed[:machines]
         self.machine_torque = record.machine_torque[:machines]

@@ -7,9 +7,11 @@ interpreter can be interrupted. `Run.window` yields each part as a job and is se
 from __future__ import annotations
 
 from collections.abc import Generator, Sequence
+from types import ModuleType
 from typing import NamedTuple
 
-from ._core import Limits, March, Model, Report, WindowEnd, run_window, run_windows
+from . import _core
+from ._core import Limits, March, Model, Report, WindowEnd
 from .integrators.clock import Instant, Sampling
 from .integrators.interpolant import Waves
 from .runaway import RunawayError
@@ -35,12 +37,17 @@ WindowJobs = Generator[WindowJob, int, None]
 """Jobs of a window, each answered by its outcome."""
 
 
+def _core_of(job: WindowJob) -> ModuleType:
+    """The build of the core that has made the records of a job."""
+    return _core.axes if isinstance(job.model, _core.axes.Model) else _core
+
+
 def run_alone(jobs: WindowJobs) -> None:
     """Compute the window of one run; its errors are raised."""
     job = next(jobs, None)
     while job is not None:
         try:
-            job = jobs.send(run_window(*job))
+            job = jobs.send(_core_of(job).run_window(*job))
         except StopIteration:
             return
 
@@ -63,6 +70,9 @@ def run_together(windows: Sequence[WindowJobs], workers: int) -> dict[int, Runaw
                 pass
             except RunawayError as error:
                 errors[place] = error
-        found = run_windows(list(pending.values()), workers) if pending else []
-        outcomes = dict(zip(pending, found, strict=True))
+        outcomes = {}
+        for core in (_core, _core.axes):
+            own = {place: job for place, job in pending.items() if _core_of(job) is core}
+            found = core.run_windows(list(own.values()), workers) if own else []
+            outcomes |= zip(own, found, strict=True)
     return errors

@@ -223,8 +223,12 @@ class Reference:
                 if len(run.t_events[i]):
                     flank_events += 1
                     d = self.rows[i] @ y[: self.bodies]
-                    side[i] = OPEN if side[i] != OPEN else (DRIVE if d > 0 else COAST)
+                    side[i] = OPEN if side[i] != OPEN else self.closed_side(i, d)
         return result, flank_events
+
+    def closed_side(self, i, d):
+        """Side on which mesh i closes at a transmission error d."""
+        return DRIVE if d > 0 else COAST
 
     @staticmethod
     def _with_arguments(events):

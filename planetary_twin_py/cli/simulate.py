@@ -28,6 +28,7 @@ if TYPE_CHECKING:
     from rich.console import Console
     from rich.table import Table
 
+    from ..planar.motion import AxesMotion
     from ..result import Result
     from ..scene import Scene
 
@@ -90,10 +91,13 @@ def simulate(
     if train["mean_mesh_force_N"] < 0.0:
         console.print("Forces and DTE are negative where the coast flanks carry the load.")
     console.print(_table(meshes))
+    axes = {} if result.axes is None else _axes(result.axes)
+    if result.axes is not None:
+        console.print(_axes_table(result.axes, axes))
     warned = [*without_effect(loaded, changes), *remarks(loaded, result, tolerance)]
     for line in warned:
         remark(f"warning: {line}")
-    put_figures(train | meshes | {"remarks": warned}, json_)
+    put_figures(train | meshes | axes | {"remarks": warned}, json_)
 
 
 def _check(out: Path) -> None:
@@ -183,6 +187,51 @@ def _table(meshes: dict[str, dict[str, float]]) -> Table:
     return table
 
 
+# Text and SI unit of what a run shows of each axis, by JSON name.
+_AXES = {
+    "displacement_mean_m": ("displacement, magnitude of its mean", "m"),
+    "displacement_peak_m": ("displacement, largest magnitude", "m"),
+    "bearing_force_mean_N": ("force on the bearing, magnitude of its mean", "N"),
+    "bearing_force_peak_N": ("force on the bearing, largest magnitude", "N"),
+}
+
+
+def _axes(motion: AxesMotion) -> dict[str, Any]:
+    """Displacements and bearing forces of all bodies by JSON name, and the shares of planets."""
+    import numpy as np
+
+    found: dict[str, Any] = {}
+    for name, values in (
+        ("displacement", motion.displacement),
+        ("bearing_force", motion.bearing_force),
+    ):
+        unit = "m" if name == "displacement" else "N"
+        mean = np.linalg.norm(values.mean(axis=0), axis=1)
+        peak = np.linalg.norm(values, axis=2).max(axis=0)
+        found[f"{name}_mean_{unit}"] = dict(zip(motion.bodies, mean.tolist(), strict=True))
+        found[f"{name}_peak_{unit}"] = dict(zip(motion.bodies, peak.tolist(), strict=True))
+    planets = motion.bodies[len(motion.bodies) - motion.load_share.shape[1] :]
+    shares = motion.mean_load_share.tolist()
+    if all(share == share for share in shares):  # there is a load to share
+        found["load_share"] = dict(zip(planets, shares, strict=True))
+        found["load_sharing_factor"] = motion.load_sharing_factor
+    return found
+
+
+def _axes_table(motion: AxesMotion, found: dict[str, Any]) -> Table:
+    from rich.table import Table
+
+    table = Table("", title="Axes, in the frame of the carrier")
+    for body in motion.bodies:
+        table.add_column(body, justify="right")
+    for key, (text, unit) in _AXES.items():
+        table.add_row(text, *(figure(value, unit) for value in found[key].values()))
+    share = found.get("load_share", {})
+    shares = (f"{share[body]:.4f}" if body in share else "" for body in motion.bodies)
+    table.add_row("share of the load, mean", *shares)
+    return table
+
+
 def _columns(result: Result) -> dict[str, Any]:
     """Every time series of a result, by column name."""
     columns: dict[str, Any] = {"time": result.time}
@@ -193,6 +242,21 @@ def _columns(result: Result) -> dict[str, Any]:
         for quantity in quantities:
             values = getattr(result, quantity)
             columns |= {f"{quantity}/{name}": values[:, k] for k, name in enumerate(names)}
+    return columns | ({} if result.axes is None else _axes_columns(result.axes))
+
+
+def _axes_columns(motion: AxesMotion) -> dict[str, Any]:
+    """Time series of the axes, by column name."""
+    columns: dict[str, Any] = {}
+    for k, body in enumerate(motion.bodies):
+        names = ("radial", "tangential") if body.startswith("planet") else ("x", "y")
+        for quantity in ("displacement", "bearing_force"):
+            values = getattr(motion, quantity)
+            columns |= {
+                f"{quantity}/{body}/{name}": values[:, k, n] for n, name in enumerate(names)
+            }
+    for k in range(motion.load_share.shape[1]):
+        columns[f"load_share/planet_{k + 1}"] = motion.load_share[:, k]
     return columns
 
 
@@ -215,6 +279,10 @@ def _write_npz(result: Result, scene: Scene, path: Path) -> None:
     arrays: dict[str, Any] = {
         name: getattr(result, name) for name in ("time", "angle", "speed", *_MESH_QUANTITIES)
     }
+    if result.axes is not None:
+        names = ("displacement", "bearing_force", "orbit", "flank_force", "load_share")
+        arrays |= {name: getattr(result.axes, name) for name in names}
+        arrays["axes"] = result.axes.bodies
     arrays |= {"bodies": result.bodies, "meshes": result.meshes, "scene_yaml": text}
     np.savez_compressed(path, **arrays)
 

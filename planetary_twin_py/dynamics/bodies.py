@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from fractions import Fraction
+from types import ModuleType
 from typing import NamedTuple
 
 import numpy as np
@@ -17,6 +18,7 @@ from .planet_groups import planet_groups
 # Indices of the machines. The motor of input 0 is machine 0, the motor of input 1 is machine 2.
 MOTOR, LOAD_MACHINE, SECOND_MOTOR = 0, 1, 2
 MACHINE_NAMES = ("motor", "load", "second_motor")
+CENTRAL = ("sun", "ring", "carrier")
 
 Ratios = tuple[Fraction, ...]  # speed per speed of each input
 
@@ -33,11 +35,16 @@ class MeshNames(NamedTuple):
     """Map from the reported meshes to the integrated meshes."""
 
     names: tuple[str, ...]  # ("sun_planet_1", ..., "planet_ring_1", ...)
-    place: np.ndarray  # (meshes,) index in the arrays of `Train`
+    place: np.ndarray  # (meshes,) index in the arrays of `Train`, of the flanks that carry
 
 
 class Bodies(NamedTuple):
-    """Arrays over the bodies that can turn; the last entry is the ground."""
+    """Arrays over the bodies that can turn; the last entry is the ground.
+
+    Where axes move, displacements follow the bodies, as coordinates of their own: "sun.x" and
+    "planet_1.xi" with r = 1, "planet_1.eta" with the radius of the planet centres, about which it
+    turns with the carrier.
+    """
 
     place: dict[str, int]  # index of every body; a held body is the ground
     copies: np.ndarray  # number of bodies with this motion
@@ -51,8 +58,10 @@ def rim_masses(scene: Scene) -> dict[str, float]:
     gearset = scene.gearset
     mass = gearset.rim_masses
     slant = 1.0 / math.cos(gearset.pressure_angle) ** 2  # (pitch radius/base radius)^2
-    # The mass of the planets turns with the carrier.
-    carried = mass.carrier + gearset.planets * gearset.planet_mass
+    # The mass of the planets turns with the carrier, unless they move on it.
+    carried = mass.carrier
+    if not scene.moving_axes:
+        carried += gearset.planets * gearset.planet_mass
     turned = 1.0 / math.cos(gearset.geometry.meshes[0].pressure_angle) ** 2
     return {
         "sun": mass.sun * slant,
@@ -104,14 +113,26 @@ def mesh_names(scene: Scene) -> MeshNames:
     numbers, groups = range(1, scene.gearset.planets + 1), planet_groups(scene)
     names = (*(f"sun_planet_{i}" for i in numbers), *(f"planet_ring_{i}" for i in numbers))
     place = np.array(groups.group)
-    return MeshNames(names, np.concatenate([place, place + len(groups.leaders)]))
+    places = np.concatenate([place, place + len(groups.leaders)])
+    if scene.moving_axes and _coasts(scene):
+        places += len(places)  # the coast flanks, which have entries of their own
+    return MeshNames(names, places)
 
 
-def build_report(names: BodyNames, meshes: MeshNames) -> Report:
-    """What the core reports of a train: all bodies and meshes, in the order of their names."""
+def _coasts(scene: Scene) -> bool:
+    """Whether the torque of the operating point loads the coast flanks."""
+    against = -1.0 if scene.drive.input.member == "carrier" else 1.0
+    return against * scene.operating_point.input_torque < 0.0
+
+
+def build_report(core: ModuleType, names: BodyNames, meshes: MeshNames) -> Report:
+    """What the core reports of a train: all bodies and meshes, in the order of their names.
+
+    `core` is that of the scene, see `library`.
+    """
     common = [math.lcm(*(ratio.denominator for ratio in ratios)) for ratios in names.ratio]
     whole = zip(names.ratio, common, strict=True)
-    return Report(
+    report: Report = core.Report(
         bodies=len(names.names),
         body=names.place,
         numerator=[[int(ratio * n) for ratio in ratios] for ratios, n in whole],
@@ -119,6 +140,7 @@ def build_report(names: BodyNames, meshes: MeshNames) -> Report:
         meshes=len(meshes.names),
         mesh=meshes.place,
     )
+    return report
 
 
 def build_bodies(scene: Scene) -> Bodies:
@@ -128,6 +150,11 @@ def build_bodies(scene: Scene) -> Bodies:
         radii[name] = radii[machine.member]
         masses[name] = machine.inertia / radii[name] ** 2
     kinds = [_kind(name) for name in _order(scene)]
+    for kind, mass in _displaced(scene):
+        masses[kind] = mass
+        across = kind == "planet.eta"
+        radii[kind] = scene.gearset.geometry.centre_distance if across else 1.0
+        ratios[kind] = tuple(ratio if across else Fraction(0) for ratio in ratios["carrier"])
     sizes = planet_groups(scene).sizes
     copies = np.array([*sizes, *[1] * (len(kinds) + 1 - len(sizes))])
     ratio = np.zeros((len(kinds) + 1, AXES))
@@ -147,22 +174,43 @@ def _planets(scene: Scene) -> list[str]:
 
 
 def _kind(name: str) -> str:
-    return "planet" if name.startswith("planet_") else name
+    body, *motion = name.split(".")
+    return ".".join(["planet" if body.startswith("planet_") else body, *motion])
+
+
+def _displaced(scene: Scene) -> list[tuple[str, float]]:
+    """Kinds of displacements, "sun.x" for instance, and their masses [kg]."""
+    supports = scene.supports if scene.moving_axes else None
+    if supports is None:
+        return []
+    return [
+        (f"{kind}.{motion}", getattr(supports, kind).mass)
+        for kind in (*CENTRAL, "planet")
+        for motion in (("xi", "eta") if kind == "planet" else ("x", "y"))
+    ]
+
+
+def _displacements(scene: Scene) -> list[str]:
+    """Names of the displacements of all axes that move."""
+    if not scene.moving_axes:
+        return []
+    planets = [f"{planet}.{motion}" for planet in _planets(scene) for motion in ("xi", "eta")]
+    return [*(f"{body}.{motion}" for body in CENTRAL for motion in ("x", "y")), *planets]
 
 
 def _order(scene: Scene) -> list[str]:
     """Bodies that can turn: planets, then members that are not held, then machines.
 
-    Of planets with the same motion, only the first is listed.
+    Of planets with the same motion, only the first is listed. Displacements of axes follow.
     """
     free = [member for member in ("sun", "ring", "carrier") if member != scene.gearset.held]
     planets = [_planets(scene)[leader] for leader in planet_groups(scene).leaders]
-    return [*planets, *free, *machines(scene)]
+    return [*planets, *free, *machines(scene), *_displacements(scene)]
 
 
 def _places(scene: Scene) -> dict[str, int]:
     order = _order(scene)
     place = dict(zip(_planets(scene), planet_groups(scene).group, strict=True))
     place |= {name: n for n, name in enumerate(order) if name not in place}
-    every = ["sun", *_planets(scene), "ring", "carrier", *machines(scene)]
+    every = ["sun", *_planets(scene), "ring", "carrier", *machines(scene), *_displacements(scene)]
     return {name: place.get(name, len(order)) for name in every}

@@ -6,7 +6,8 @@ direction; the radial part e_R moves both flanks away from the other gear and in
 backlash. Harmonics of the meshing frequency have e_T only. Runout repeats with each turn of a gear
 and has both parts, at the pressure angle, with opposite sign on the other flank. Errors of pins,
 planet teeth and axes have both parts, too, where the axes are held. All errors are sines of the
-mesh cycle, e_T = a sin(angle) and e_R = b cos(angle).
+mesh cycle, e_T = a sin(angle) and e_R = b cos(angle). Where axes move, errors of pins and axes are
+displacements of bearings instead.
 """
 
 from __future__ import annotations
@@ -114,6 +115,8 @@ def _positions(scene: Scene, kind: int, leaders: Sequence[int]) -> list[_Line]:
     """Lines of pins and axes off their places, and of thicker teeth; the axes are held there."""
     errors, angle = scene.errors, scene.gearset.geometry.meshes[kind].pressure_angle
     outwards, across, thicker, _ = np.array([errors.of_planet(i) for i in leaders]).T
+    if scene.moving_axes:
+        outwards, across = np.zeros((2, len(leaders)))
     lean = -1.0 if kind else 1.0
     tangential = math.cos(angle) * across
     radial = lean * math.sin(angle) * outwards - 0.5 * math.cos(angle) * thicker
@@ -128,6 +131,8 @@ def _positions(scene: Scene, kind: int, leaders: Sequence[int]) -> list[_Line]:
                 np.full(len(leaders), CONSTANT),
             )
         )
+    if scene.moving_axes:
+        return found
     carried, offset = errors.carrier_offset, errors.ring_offset
     moved = carried.size * np.exp(1j * carried.angle)
     if kind:

@@ -19,7 +19,7 @@ from .._core import PAIRS, StepConstants, share_force
 from ..scene import Scene
 from .bodies import mesh_names
 from .faults import FAULTS
-from .train import build_train
+from .train import build_train, held_axes
 
 Array = NDArray[np.float64]
 
@@ -46,6 +46,7 @@ def pair_loads(scene: Scene, mesh: int, angle: Mapping[str, Array], force: Array
     Returns:
         Positions [base pitches] and loads [N], (n, PAIRS) each.
     """
+    scene = held_axes(scene)
     train, count = build_train(scene), len(force)
     counted = np.zeros((count, FAULTS))
     for f, fault in enumerate(scene.faults):

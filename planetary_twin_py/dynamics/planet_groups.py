@@ -17,7 +17,7 @@ from ..gearset.phasing import mesh_phases
 from ..scene import Scene
 
 # What determines the motion of a planet: phases of both meshes, its number if faults or errors of
-# axes distinguish it, and its own errors.
+# axes distinguish it, and its own errors. Where axes move, every planet does.
 _Signature = tuple[Fraction, Fraction, int | None, tuple[float, ...]]
 
 
@@ -56,7 +56,7 @@ def _signatures(scene: Scene) -> list[_Signature]:
         (
             sun[i] % sun_cycles,
             ring[i] % ring_cycles,
-            i if i in faulty or scene.errors.of_axes else None,
+            i if i in faulty or scene.errors.of_axes or scene.moving_axes else None,
             scene.errors.of_planet(i),
         )
         for i in range(gearset.planets)

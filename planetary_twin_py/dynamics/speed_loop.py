@@ -29,7 +29,7 @@ from ..scene import OperatingPoint, Scene, SceneError
 from .bodies import LOAD_MACHINE, MOTOR, SECOND_MOTOR
 from .mean_stiffness import mean_stiffness
 from .static_load import static_torques
-from .train import TRAINS_KEPT, build_train, unloaded
+from .train import TRAINS_KEPT, build_train, held_axes, unloaded
 
 FIELD = "drive.speed_control.bandwidth"
 FASTEST_DEFAULT = 3.0  # [Hz]
@@ -112,7 +112,7 @@ def bandwidth(scene: Scene) -> float:
 
 @lru_cache(maxsize=TRAINS_KEPT)
 def _default(scene: Scene) -> float:
-    train, fastest = build_train(scene), scene.drive.speed_limit
+    train, fastest = build_train(held_axes(scene)), scene.drive.speed_limit
     loop = linear_loop(scene, train, float(np.abs(train.cycles).sum()) * fastest / (2.0 * math.pi))
     limit = loop.limit(DEFAULT_MARGIN * FASTEST_DEFAULT)
     return _rounded_down(limit / DEFAULT_MARGIN)

@@ -16,11 +16,11 @@ from .._core import (
     PortStates,
     State,
     Train,
-    initial_state,
 )
 from ..integrators.clock import Instant
 from ..scene import OperatingPoint, Scene
 from .bodies import MOTOR
+from .library import library
 from .speed_loop import bandwidth, speed_loop_gains
 from .static_load import mesh_force, static_torques
 
@@ -100,4 +100,6 @@ def start_state(scene: Scene, model: Model) -> State:
     speed = model.load.target_speed.copy()
     if scene.drive.speed_control.start_speed is not None:
         speed[0] = scene.drive.speed_control.start_speed
-    return initial_state(model, speed, mesh_force(scene, float(model.load.torque[MOTOR])))
+    force = mesh_force(scene, float(model.load.torque[MOTOR]))
+    state: State = library(scene).initial_state(model, speed, force)
+    return state

@@ -15,19 +15,27 @@ from typing import Any
 
 import numpy as np
 
-from .._core import AXES, REGISTER, Train
+from .._core import AXES, REGISTER, Train, axes
 from ..gearset.kinematics import mesh_cycles_per_turn
 from ..scene import OperatingPoint, Scene
 from .bodies import Bodies, base_radii, build_bodies, machines, rigid_ratios
 from .drag import build_drag
 from .meshes import build_meshes
+from .moving_axes import moving_fields
 from .stiffness_laws import stiffness_follows_load
 
 TRAINS_KEPT = 16
 
 
+def held_axes(scene: Scene) -> Scene:
+    """The scene with axes that are held, for what the motion of axes does not matter to."""
+    return scene.model_copy(update={"dynamics": "torsional"}) if scene.moving_axes else scene
+
+
 def build_train(scene: Scene) -> Train:
     """Translate a scene into arrays, which do not depend on quantities that may change in a run.
+
+    Where axes move, the record is that of `_core.axes`, see `moving_axes`.
 
     Raises:
         ValueError: there is an instant without contact of teeth (see `pair_table`).
@@ -48,27 +56,30 @@ def _built(scene: Scene) -> Train:
     radii = base_radii(scene)
     meshes = build_meshes(scene, bodies)
     pitch = meshes["base_pitch"]
-    return Train(
-        bodies=len(bodies.mass) - 1,
-        lanes=_whole_registers(max(len(bodies.mass) - 1, len(meshes["phase"]))),
-        axes=len(scene.drive.inputs),
-        body_copies=bodies.copies,
-        mass=bodies.copies * bodies.mass,
-        radius=bodies.radius,
-        inverse_radius=1.0 / bodies.radius,
-        ratio=bodies.ratio,
-        sun=bodies.place["sun"],
-        carrier=bodies.place["carrier"],
-        sun_advance=1.0 / pitch,
-        carrier_advance=-radii["sun"] / radii["carrier"] / pitch,
-        friction=scene.lubrication.friction,
-        printed_torque=scene.lubrication.friction_torque == "printed",
+    fields = {
+        "bodies": len(bodies.mass) - 1,
+        "axes": len(scene.drive.inputs),
+        "body_copies": bodies.copies,
+        "mass": bodies.copies * bodies.mass,
+        "radius": bodies.radius,
+        "inverse_radius": 1.0 / bodies.radius,
+        "ratio": bodies.ratio,
+        "sun": bodies.place["sun"],
+        "carrier": bodies.place["carrier"],
+        "sun_advance": 1.0 / pitch,
+        "carrier_advance": -radii["sun"] / radii["carrier"] / pitch,
+        "friction": scene.lubrication.friction,
+        "printed_torque": scene.lubrication.friction_torque == "printed",
         **_cycles(scene),
         **_couplings(scene, bodies),
-        lever=1.0 / bodies.radius[np.asarray(meshes["body"])].T,
+        "lever": 1.0 / bodies.radius[np.asarray(meshes["body"])].T,
         **meshes,
         **build_drag(scene, bodies),
-    )
+    }
+    if scene.moving_axes:
+        fields = moving_fields(scene, bodies, fields)
+        return axes.Train(**fields, lanes=_whole_registers(max(fields["bodies"], fields["meshes"])))
+    return Train(**fields, lanes=_whole_registers(max(fields["bodies"], fields["meshes"])))
 
 
 def lightest_body(train: Train) -> float:
@@ -84,12 +95,12 @@ def _whole_registers(count: int) -> int:
 def _cycles(scene: Scene) -> dict[str, Any]:
     """Mesh cycles per turn of each input, as fractions, so that whole turns add no error."""
     ratios = rigid_ratios(scene)
-    axes = range(len(ratios["sun"]))
+    inputs = range(len(ratios["sun"]))
     cycles = [
         mesh_cycles_per_turn(
             scene.gearset.tooth_numbers, {kind: ratio[axis] for kind, ratio in ratios.items()}
         )
-        for axis in axes
+        for axis in inputs
     ]
     denominators = np.ones(AXES, dtype=int)
     denominators[: len(cycles)] = [cycle.denominator for cycle in cycles]

@@ -25,7 +25,8 @@ def meaning_of_held_axes(scene: Scene) -> str:
         moving, held = load_sharing(scene), load_sharing(scene.replace(supports=None))
         return (
             f"{HELD}; the largest share of a planet is {held.factor:.3f} with held axes and "
-            f"{moving.factor:.3f} with the bearings of supports (command load-sharing)"
+            f"{moving.factor:.3f} with the bearings of supports (command load-sharing); "
+            "dynamics = planar lets the axes move"
         )
     if _in_balance(scene):
         return f"{HELD}; the forces of equal planets in phase would not move axes"

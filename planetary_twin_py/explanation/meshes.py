@@ -11,7 +11,7 @@ from ..dynamics.mesh_damping import natural_frequencies
 from ..dynamics.start import build_load
 from ..dynamics.static_load import mesh_force
 from ..dynamics.stiffness_laws import GEARS
-from ..dynamics.train import build_train
+from ..dynamics.train import build_train, held_axes
 from ..losses.ohlendorf import tooth_loss_factor
 from ..lubrication.hertz import contact_modulus
 from ..scene import Scene
@@ -60,6 +60,7 @@ def describe_meshes(scene: Scene) -> Meshes:
     Raises:
         ValueError: the tooth geometry is impossible, or the contact ratio is below 1.
     """
+    scene = held_axes(scene)
     point = scene.operating_point
     train = build_train(scene)
     load = build_load(scene, point, train)

@@ -48,12 +48,18 @@ HELIX = Limit(
 )
 
 
+TILTING = Limit(
+    "tilting of axes",
+    "axes move in the plane; directions and lengths of the lines of action stay nominal",
+)
+
+
 def limits(scene: Scene) -> tuple[Limit, ...]:
     """Limits of the model that apply to `scene`."""
     statics = (STATICS_ONLY,) if scene.dynamics == "quasi_static" else ()
     helix = (HELIX,) if scene.gearset.helix_angle != 0.0 else ()
     axes = Limit("translation of axes", meaning_of_held_axes(scene))
-    return (*statics, *helix, axes, *NOT_MODELLED)
+    return (*statics, *helix, TILTING if scene.moving_axes else axes, *NOT_MODELLED)
 
 
 def terms(scene: Scene) -> tuple[Term, ...]:
@@ -68,6 +74,9 @@ def _dynamics(scene: Scene) -> Term | None:
     jumps = scene.mesh.backlash == "regulatory_factor"
     if scene.dynamics == "quasi_static" or jumps or scene.drive.ports.given:
         return None
+    if scene.moving_axes:
+        law = "rotation and displacement of every body; elastic bearings, couplings and teeth"
+        return Term("planar dynamics", law, {"dynamics": "torsional"})
     law = "rotation of every body, elastic couplings and teeth"
     return Term("torsional dynamics", law, {"dynamics": "quasi_static"})
 

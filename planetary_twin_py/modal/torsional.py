@@ -9,6 +9,7 @@ from __future__ import annotations
 import numpy as np
 
 from ..dynamics.bodies import base_radii, build_bodies, machines
+from ..dynamics.train import held_axes
 from ..scene import Scene
 from .mesh_stiffness import MeshStiffness
 from .springs import Rows, Spring, SpringModel
@@ -25,6 +26,7 @@ def torsional_model(scene: Scene, mesh: MeshStiffness, with_machines: bool = Fal
     Returns:
         Masses and springs.
     """
+    scene = held_axes(scene)
     bodies, found = build_bodies(scene), machines(scene)
     ground = len(bodies.mass) - 1
     names = [name for name, place in bodies.place.items() if place != ground]

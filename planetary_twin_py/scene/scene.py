@@ -40,10 +40,11 @@ class Scene(Section):
 
     name: str = Field(description="name in recordings and pictures")
     description: str = Field("", description="description in words")
-    dynamics: Literal["torsional", "quasi_static"] = Field(
+    dynamics: Literal["torsional", "planar", "quasi_static"] = Field(
         "torsional",
-        description="torsional: all bodies vibrate; quasi_static: the train turns rigidly and its "
-        "loads are in static equilibrium at every time",
+        description="torsional: all bodies vibrate about axes that are held; planar: the axes move "
+        "in the plane, too, on the bearings of `supports`; quasi_static: the train turns rigidly "
+        "and its loads are in static equilibrium at every time",
     )
     gearset: Gearset = Field(description="teeth, dimensions and inertia of the gears")
     mesh: Mesh = Field(description="stiffness, damping and backlash of the meshes")
@@ -54,7 +55,9 @@ class Scene(Section):
     )
     losses: Losses = Field(Losses(), description="losses outside the tooth contacts")
     supports: Supports | None = Field(
-        None, description="masses and bearings, for planar and spatial natural modes"
+        None,
+        description="masses and bearings, for dynamics: planar, static load sharing, and planar "
+        "and spatial natural modes",
     )
     errors: Errors = Field(
         Errors(), description="deviations of gears and carrier, which make planets differ"
@@ -76,6 +79,7 @@ class Scene(Section):
         yield from self._play()
         yield from self._relief()
         yield from self._errors_of_planets()
+        yield from self._moving_axes()
 
     def _machines(self) -> Iterator[str]:
         """Errors of the drive: a machine on the fixed member, or a wrong number of inputs."""
@@ -128,6 +132,8 @@ class Scene(Section):
 
     def _play(self) -> Iterator[str]:
         """Error of a runout that presses both flanks of a tooth into their neighbours."""
+        if self.moving_axes:
+            return  # there both flanks have their forces
         runout, angle = self.mesh.runout, self.gearset.pressure_angle
         backlash = self.operating_point.backlash
         half = self.mesh.flanks(backlash, angle)[0]
@@ -168,6 +174,34 @@ class Scene(Section):
                 yield f"errors.{name}: has {count} entries: must have {planets}, one a planet"
         if self.errors.of_axes and self.gearset.held == "none":
             yield "errors: ring_offset and carrier_offset require a fixed member (gearset.held)"
+
+    def _moving_axes(self) -> Iterator[str]:
+        """Errors of a scene whose axes move: what its dynamics lack or do not hold."""
+        if not self.moving_axes:
+            return
+        held, supports = self.gearset.held, self.supports
+        why = "with dynamics = 'planar'"
+        if supports is None:
+            yield f"supports: missing; {why} all masses and bearings are required"
+        else:
+            for name in ("sun", "ring", "carrier"):
+                torsion = getattr(supports, name).torsion
+                if torsion != 0.0 and name != held:
+                    yield f"supports.{name}.torsion = {torsion!r}: must be 0 {why}, as {name} turns"
+        if self.lubrication.friction_torque == "printed":
+            yield f"lubrication.friction_torque = 'printed': must be 'sliding' {why}"
+        if self.mesh.backlash == "regulatory_factor":
+            yield f"mesh.backlash = 'regulatory_factor': must be 'dead_zone' {why}"
+        if self.errors.of_axes and held != "carrier":
+            yield (
+                "errors: ring_offset and carrier_offset require gearset.held = 'carrier' "
+                f"{why}; command load-sharing accepts them"
+            )
+
+    @property
+    def moving_axes(self) -> bool:
+        """Whether the axes move in a simulation."""
+        return self.dynamics == "planar"
 
     def _least_deflection(self) -> float:
         """Deflection [m] of the stiffer meshes under the least torque, all pairs in contact."""

@@ -1,4 +1,4 @@
-"""Masses and bearings of the gearset, for planar and spatial natural modes."""
+"""Masses and bearings of the gearset, for axes that move."""
 
 from __future__ import annotations
 
@@ -15,6 +15,10 @@ class Support(Section):
         "kg", "diametral inertia I/r^2; default: half of J/r^2", None, gt=0.0, le=1e7
     )
     bearing: float = quantity("N/m", "radial bearing stiffness", ge=0.0, le=1e14)
+    damping: float | None = quantity(
+        "N s/m", "radial damping of the bearing; default: 1.25e-5 s times its stiffness", None,
+        ge=0.0, le=1e10,
+    )  # fmt: skip
     clearance: float = quantity("m", "radial clearance of the bearing", 0.0, ge=0.0, le=1e-2)
     axial: float = quantity("N/m", "axial bearing stiffness", 0.0, ge=0.0, le=1e14)
     tilting: float = quantity("N/m", "tilting stiffness: moment/angle/r^2", 0.0, ge=0.0, le=1e14)

@@ -37,8 +37,11 @@ def not_in_use(scene: Scene, name: str) -> str | None:
         return f"lubrication.traction = {traction}; set lubrication.traction = table to use it"
     if plain == "second_input_speed" and scene.drive.second_input is None:
         return "the scene has no second input"
-    if plain.startswith("supports."):
-        return "runs hold the axes; see the commands load-sharing and modal"
+    if plain.startswith("supports.") and not scene.moving_axes:
+        return (
+            "runs hold the axes; set dynamics = planar to move them, or see the commands "
+            "load-sharing and modal"
+        )
     held = scene.gearset.held
     if plain.startswith((f"losses.{held}_bearing", f"losses.{held}_drag")):
         return f"this member is fixed (gearset.held = {held})"

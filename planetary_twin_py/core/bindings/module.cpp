@@ -1,6 +1,10 @@
 #include "bindings/parts.hpp"
 #include "bindings/records.hpp"
 
+namespace gearbox_axes {
+void bind_axes(nanobind::module_& core);
+}
+
 namespace gearbox {
 extern const char* const SOURCES;  // digest of the sources, of a file that the build writes
 }
@@ -21,4 +25,5 @@ NB_MODULE(CORE_MODULE, m) {
     gearbox::bind_run(m);
     gearbox::bind_ports(m);
     gearbox::bind_peers(m);
+    gearbox_axes::bind_axes(m);
 }

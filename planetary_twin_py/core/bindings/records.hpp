@@ -68,6 +68,20 @@ inline void bind_records(nb::module_& m) {
         .FIELD(Load, torque_rate)
         .FIELD(Load, speed)
         .FIELD(Load, acceleration);
+    record<MovingAxes>(m, "MovingAxes")
+        .FIELD(MovingAxes, bearings)
+        .FIELD(MovingAxes, frame)
+        .FIELD(MovingAxes, place)
+        .FIELD(MovingAxes, carrier)
+        .FIELD(MovingAxes, direction)
+        .FIELD(MovingAxes, carried)
+        .FIELD(MovingAxes, mass)
+        .FIELD(MovingAxes, stiffness)
+        .FIELD(MovingAxes, damping)
+        .FIELD(MovingAxes, clearance)
+        .FIELD(MovingAxes, centre)
+        .FIELD(MovingAxes, arm)
+        .FIELD(MovingAxes, slide);
     record<Train>(m, "Train")
         .FIELD(Train, bodies)
         .FIELD(Train, lanes)
@@ -140,7 +154,8 @@ inline void bind_records(nb::module_& m) {
         .FIELD(Train, disc_body)
         .FIELD(Train, disc_radius)
         .FIELD(Train, disc_gap)
-        .FIELD(Train, disc_fill);
+        .FIELD(Train, disc_fill)
+        .FIELD(Train, moving);
     record<Oil>(m, "Oil")
         .FIELD(Oil, film)
         .FIELD(Oil, asperities)
@@ -227,7 +242,10 @@ inline void bind_records(nb::module_& m) {
         .FIELD(ToothPairs, bristle_decay)
         .FIELD(ToothPairs, bristle_gain)
         .FIELD(ToothPairs, lost);
-    record<DragOfMeshes>(m, "DragOfMeshes").FIELD(DragOfMeshes, torque).FIELD(DragOfMeshes, power);
+    record<DragOfMeshes>(m, "DragOfMeshes")
+        .FIELD(DragOfMeshes, torque)
+        .FIELD(DragOfMeshes, power)
+        .FIELD(DragOfMeshes, across);
     record<Model>(m, "Model").FIELD(Model, train).FIELD(Model, oil).FIELD(Model, load);
     record<Evaluation>(m, "Evaluation")
         .FIELD(Evaluation, force)
@@ -297,6 +315,7 @@ inline void bind_records(nb::module_& m) {
         .FIELD(Node, d)
         .FIELD(Node, rate)
         .FIELD(Node, spin)
+        .FIELD(Node, slip)
         .FIELD(Node, rubbing)
         .FIELD(Node, power)
         .FIELD(Node, meshes)

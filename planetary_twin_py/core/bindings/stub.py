@@ -38,6 +38,8 @@ def main(folder: Path) -> None:
     text = text.replace("import numpy\n", "import numpy\nimport numpy.typing\n", 1)
     text = NUMBERS.sub(r"\1: dict[str, int] = ", text)
     out.write_text(CLASS.sub(with_fields, text))
+    # Its classes have the fields of those for axes that are held.
+    out.with_name("axes.pyi").write_text("from planetary_twin_py._core import *\n")
 
 
 if __name__ == "__main__":

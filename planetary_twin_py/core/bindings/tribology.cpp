@@ -142,7 +142,7 @@ void bind_pairs(nb::module_& m) {
         "friction_damping",
         [](const Train& train, const ToothPairs& pairs, const Vector& force, double h,
            const Square& out) {
-            double row[GEARS];
+            double row[ENTRIES];
             friction_damping(train, pairs, bodies(force), h, row, matrix(out));
         },
         "train"_a, "pairs"_a, "force"_a, "h"_a, "matrix"_a);

@@ -11,6 +11,7 @@
 #include <cmath>
 #include <limits>
 
+#include "integrators/mixing.hpp"
 #include "integrators/node_forces.hpp"
 #include "integrators/predictor.hpp"
 #include "integrators/propagation.hpp"
@@ -21,6 +22,7 @@ inline constexpr int MOST_SWEEPS = 6;
 inline constexpr double LEFT_OVER = 0.1;  // of the tolerance that a sweep not made may leave
 // Pull of a sweep beyond which a shorter step or another method is called for.
 inline constexpr double WEAKEST_PULL = 0.5;
+inline constexpr double WEAKEST_MIXED_PULL = 1.5;  // the same of sweeps that are mixed
 inline constexpr double CLOSE = 0.1;  // of that, below which the next passage is predicted too
 inline constexpr double TAIL = 4.0;   // by which the estimated error of the polynomial counts more
 inline constexpr double LEAST_DAMPED = 1e-6;  // c h below which errors last for ever
@@ -159,9 +161,12 @@ template <int L>
 Outcome settle_friction(const Model& model, March& march, double& known_pull) {
     Propagation& run = march.run;
     double change = ASTRAY, tail = 0.0, pull = known_pull * run.motion.step;
+    Mixing<L> mixing;
     for (int round = 0; round < MOST_SWEEPS; ++round) {
         double before = change;
+        if constexpr (MOVING) mixing.keep(run);
         sweep<L>(model, march, true);
+        if constexpr (MOVING) mixing.mix(run);
         march.control.evaluations += run.nodes.count;
         visit_last_node<L>(model, march);
         change = difference<L>(march);
@@ -169,12 +174,13 @@ Outcome settle_friction(const Model& model, March& march, double& known_pull) {
             tail = tail_error<L>(march);
         } else if (before > 0.0) {
             pull = change / before;
-            known_pull = pull / run.motion.step;
+            if (!MOVING || round == 1)
+                known_pull = (MOVING ? std::max(pull, mixing.pull()) : pull) / run.motion.step;
         }
         contacts_of(run).predictable = round == 0 && change * pull <= CLOSE * LEFT_OVER;
         if (!(tail <= 1.0) || change * pull <= LEFT_OVER)
             return {std::isfinite(tail + change) ? tail : ASTRAY, true};
-        if (round > 0 && !(pull <= WEAKEST_PULL)) break;
+        if (round > 0 && !(pull <= (MOVING ? WEAKEST_MIXED_PULL : WEAKEST_PULL))) break;
         visit_other_nodes<L>(model, march);
     }
     return {ASTRAY, false};

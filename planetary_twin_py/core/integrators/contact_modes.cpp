@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "mesh/cycle.hpp"
 #include "mesh/stiffness.hpp"
+#include "train/bearings.hpp"
 #include "vector/symmetric_eigen.hpp"
 
 namespace gearbox {
@@ -39,21 +41,47 @@ void add_spring(double (*matrix)[BODIES], const std::int64_t* place, const doubl
         }
 }
 
+// Bearings that move the axes; those with clearance are not linear, and part of the rest.
+std::int64_t linear_bearings(const Train& train) {
+    return MOVING ? train.moving.bearings : 0;
+}
+
 // K between the bodies and the ground, in coordinates of unit mass [1/s^2].
 void stiffness_matrix(const Train& train, const ContactState& modes, const double* scale,
                       double (*matrix)[BODIES]) {
     constexpr double ends[2] = {1.0, -1.0};
     for (std::int64_t i = 0; i < train.meshes; ++i)
-        add_spring(matrix, train.body[i], train.sign[i], GEARS, modes.stiffness[i], scale);
+        add_spring(matrix, train.body[i], train.sign[i], ENTRIES, modes.stiffness[i], scale);
     for (std::int64_t c = 0; c < train.machines; ++c)
         add_spring(matrix, train.coupling[c], ends, 2, train.coupling_stiffness[c], scale);
+    for (std::int64_t b = 0; b < linear_bearings(train); ++b) {
+        if (train.moving.clearance[b] > 0.0) continue;
+        BearingRows rows = rows_of_bearing(train, b);
+        for (const double* row : rows.row)
+            add_spring(matrix, rows.place, row, BearingRows::SIZE, train.moving.stiffness[b],
+                       scale);
+    }
+}
+
+// What mode m does to the bearings without clearance, which damp it.
+void damp_by_bearings(const Train& train, ContactState& modes, std::int64_t m) {
+    for (std::int64_t b = 0; b < linear_bearings(train); ++b) {
+        if (train.moving.clearance[b] > 0.0) continue;
+        BearingRows rows = rows_of_bearing(train, b);
+        for (const double* row : rows.row) {
+            double way = 0.0;
+            for (int e = 0; e < BearingRows::SIZE; ++e)
+                way += row[e] * modes.form[m][rows.place[e]];
+            modes.shaft_damping[m] += train.moving.damping[b] * way * way;
+        }
+    }
 }
 
 // What mode m does to the meshes, and what damps it.
 void spread_mode(const Train& train, ContactState& modes, std::int64_t m) {
     for (std::int64_t i = 0; i < train.meshes; ++i) {
         double motion = 0.0;
-        for (int a = 0; a < GEARS; ++a)
+        for (int a = 0; a < ENTRIES; ++a)
             motion += train.sign[i][a] * modes.form[m][train.body[i][a]];
         modes.motion[m][i] = motion;
         modes.reach[m][i] = std::fabs(motion);
@@ -70,6 +98,7 @@ void spread_mode(const Train& train, ContactState& modes, std::int64_t m) {
         double twist = modes.form[m][train.coupling[c][0]] - modes.form[m][train.coupling[c][1]];
         modes.shaft_damping[m] += train.coupling_damping[c] * twist * twist;
     }
+    damp_by_bearings(train, modes, m);
 }
 
 void solve_modes(const Model& model, const State& state, ContactState& modes) {
@@ -116,7 +145,10 @@ ContactKey contact_key(const Model& model, const State& state) {
         key.sun = 2 * key.sun + (model.load.port[c] == BY_MOTION ? 1 : 0);
     for (std::int64_t i = 0; i < train.meshes; ++i) {
         std::int64_t segment = state.side[i] != OPEN ? state.segment[i] + 1 : 0;
-        std::int64_t& own = train.kind[i] == 0 ? key.sun : key.ring;
+        bool coast = only_side(train, i) == COAST_SIDE;
+        std::int64_t& sun = coast ? key.sun_coast : key.sun;
+        std::int64_t& ring = coast ? key.ring_coast : key.ring;
+        std::int64_t& own = train.kind[i] == 0 ? sun : ring;
         own = own * (SEGMENTS + 1) + segment;
     }
     return key;

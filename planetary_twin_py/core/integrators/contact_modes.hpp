@@ -13,7 +13,7 @@
 
 namespace gearbox {
 
-inline constexpr std::int64_t CONTACT_STATES = 1024;  // kept at most
+inline constexpr std::int64_t CONTACT_STATES = MOVING ? 512 : 1024;  // kept at most
 
 // Contacts of `state`, and which shafts have a motion that is given.
 ContactKey contact_key(const Model& model, const State& state);

@@ -13,10 +13,13 @@ inline constexpr int MOST_NODES = 5;  // points of collocation in a step
 inline constexpr int KEPT_STEPS = 3;  // in a contact state, whose free waves are kept
 
 // Numbers for the stiffnesses of sun and ring meshes: their segments, 0 where they are open. That
-// of the sun begins with the shafts whose motion is given.
+// of the sun begins with the shafts whose motion is given. Where each flank has an entry, those of
+// the coast flanks have numbers of their own.
 struct ContactKey {
     std::int64_t sun;
     std::int64_t ring;
+    std::int64_t sun_coast = 0;
+    std::int64_t ring_coast = 0;
 
     bool operator==(const ContactKey&) const = default;
 };
@@ -27,6 +30,12 @@ struct HashOfContacts {
         auto mixed =
             (static_cast<std::uint64_t>(key.sun) * golden) ^ static_cast<std::uint64_t>(key.ring);
         mixed *= golden;
+        if constexpr (MOVING) {
+            mixed ^= static_cast<std::uint64_t>(key.sun_coast) + (mixed >> 29);
+            mixed *= golden;
+            mixed ^= static_cast<std::uint64_t>(key.ring_coast) + (mixed >> 31);
+            mixed *= golden;
+        }
         return static_cast<std::size_t>(mixed ^ (mixed >> 32));
     }
 };

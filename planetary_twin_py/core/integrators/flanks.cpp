@@ -59,7 +59,8 @@ double left_without_waves(const Model& model, const March& march, std::int64_t i
         LengthAndRate wide = widening(train, march.constants, i, side, now.advance, now.pace);
         wider = {wide.length, tau * wide.rate};
     }
-    double waves_add = d + tau * rate, left = play_left(model.load, side, own, wider, 0.0);
+    double waves_add = d + tau * rate;
+    double left = play_left(train, model.load, i, side, own, wider, 0.0);
     return left - (side != OPEN ? static_cast<double>(side) * waves_add : std::fabs(waves_add));
 }
 
@@ -103,6 +104,27 @@ bool loaded_throughout(const Model& model, const March& march, const Row<L>& bou
     return none(first_of_row<L>(train.meshes) & !(left > 0.0));
 }
 
+// The same where each flank has an entry: whether all of them keep the contact they have. Open
+// flanks come no closer than their squeeze, which damping holds back further.
+template <int L>
+bool contacts_stay(const Model& model, const March& march, const Row<L>& bound) {
+    using V = Row<L>;
+    const Train& train = model.train;
+    const Propagation& run = march.run;
+    if (train.lines[0] + train.lines[1] > 0) return false;
+    V own = select(first_of_row<L>(train.meshes / FLANKS), V(1.0), -1.0);
+    V reach = model.load.release * V(march.constants.damping);
+    const Mask<L> open = V(march.constants.side) == 0.0;
+    V least(std::numeric_limits<double>::infinity());
+    for (int n = 0; n < run.nodes.count; ++n) {
+        V d = own * V(run.node[n].d), push = d + reach * own * V(run.node[n].rate);
+        V half(model.load.half_backlash);
+        least = smaller(least, select(open, half - d, push - half));
+    }
+    V left = least - 2.0 * bound - march.control.tolerance_x;
+    return none(first_of_row<L>(train.meshes) & !(left > 0.0));
+}
+
 // Mark the meshes that may change their contact within the step; whether there are any.
 //
 // What a mesh has left before it changes is a polynomial, known at the nodes, and free waves, which
@@ -114,7 +136,8 @@ bool suspect_flanks(const Model& model, March& march) {
     Propagation& run = march.run;
     const ContactState& contacts = contacts_of(run);
     const Row<L> bound = wave_bounds<L>(run);
-    if (loaded_throughout<L>(model, march, bound)) return false;
+    if (MOVING ? contacts_stay<L>(model, march, bound) : loaded_throughout<L>(model, march, bound))
+        return false;
     double least[L];
     for (int i = 0; i < L; ++i) least[i] = std::numeric_limits<double>::infinity();
     for (int n = 0; n < run.nodes.count; ++n) {
@@ -163,7 +186,7 @@ int first_scanned(const Model& model, March& march, std::int64_t i, double end) 
         if (train.lines[train.kind[i]] > 0)
             play = departure_at(model, march, i, (k + 1) * end / SCANNED);
         else
-            play = play_left(model.load, march.begin.side[i],
+            play = play_left(train, model.load, i, march.begin.side[i],
                              {run.scan_d[k][i], tau * run.scan_rate[k][i]}, {0.0, 0.0},
                              slack_of(march));
         if (play < 0.0) return k;

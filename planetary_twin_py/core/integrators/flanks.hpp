@@ -41,7 +41,8 @@ double smooth_departure(const Model& model, March& march, std::int64_t i, double
         rate += motion[m][i] * p[m];
     }
     double tau = march.constants.tau[model.train.kind[i]];
-    return play_left(model.load, march.begin.side[i], {d, tau * rate}, {0.0, 0.0}, slack_of(march));
+    return play_left(model.train, model.load, i, march.begin.side[i], {d, tau * rate}, {0.0, 0.0},
+                     slack_of(march));
 }
 
 // `departure` of mesh i on the interpolant.

@@ -7,6 +7,7 @@
 
 #include "integrators/march_record.hpp"
 #include "run/clock.hpp"
+#include "train/bearings.hpp"
 #include "train/model.hpp"
 
 namespace gearbox {
@@ -32,6 +33,10 @@ inline void rebase(const Train& train, State& state) {
         }
         state.x[motor] = 0.0;
         state.v[motor] = 0.0;
+        if constexpr (MOVING) {
+            double frame = train.ratio[train.moving.frame][a];
+            if (frame != 0.0) turn_displacements(train, frame * angle, frame * rate, state);
+        }
         state.speed[a] += rate;
         turn_frame(state, a, angle / TURN);
     }

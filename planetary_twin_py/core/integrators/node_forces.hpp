@@ -43,7 +43,7 @@ LAW void rub_node(const Model& model, const March& march, const ContactState& co
     const Train& train = model.train;
     if (train.printed_torque) print_torques(train, march.constants, node.v, node.friction.drag);
     V rubbing(0.0);
-    if (train.printed_torque || train.joints + train.discs > 0) {
+    if (MOVING || train.printed_torque || train.joints + train.discs > 0) {
         alignas(64) double on_bodies[BODIES] = {};
         rub_bodies_at(model, march, node, on_bodies);
         rubbing = sum_rows<L>(contacts.share, V(on_bodies));
@@ -65,7 +65,7 @@ void rub_nodes(const Model& model, March& march) {
         for (int n = 0; n < count; ++n) {
             Node& node = run.node[n];
             share_pushes<L>(train, march.constants, node.meshes);
-            instants[n] = {&node.meshes, node.spin, &node.friction};
+            instants[n] = {&node.meshes, node.spin, &node.friction, node.slip};
         }
         find_friction(model, march.constants, instants, count,
                       march.control.tolerance >= SINGLE_PRECISION);
@@ -91,6 +91,12 @@ SHARED Row<L> node_force(const Model& model, const March& march, const ContactSt
         force += V(contacts.share[train.coupling[c][0]]) * forces.machine[c];
         force += V(contacts.share[train.coupling[c][1]]) * forces.member[c];
     }
+    if constexpr (MOVING) {
+        alignas(64) double on_axes[BODIES] = {};
+        apply_axes(train, march.constants.rigid[train.moving.frame], node.x, node.v, on_axes,
+                   node.power[DAMPING]);
+        force += sum_rows<L>(contacts.share, V(on_axes));
+    }
     return force;
 }
 
@@ -110,7 +116,7 @@ void show_friction(const Model& model, March& march, const double* delays, int c
         Node& node = march.run.shown[n];
         show_meshes<L>(model, march, delays[n], node);
         share_pushes<L>(model.train, march.constants, node.meshes);
-        instants[n] = {&node.meshes, node.spin, &node.friction};
+        instants[n] = {&node.meshes, node.spin, &node.friction, node.slip};
     }
     find_friction(model, march.constants, instants, count,
                   march.control.tolerance >= SINGLE_PRECISION_SHOWN);

@@ -12,17 +12,17 @@ namespace gearbox {
 
 struct alignas(64) Place {
     State state;
-    double after;                   // start of the cycle [s]
-    double turned;                  // by the motor since then [turns]
-    alignas(64) double energy[11];  // growth of the ledger since then [J], [N m s]
+    double after;                       // start of the cycle [s]
+    double turned;                      // by the motor since then [turns]
+    alignas(64) double energy[LEDGER];  // growth of the ledger since then [J], [N m s]
 };
 
 struct alignas(64) CycleStep {
     Place begin;
     Place end;
     bool collocated;
-    alignas(64) double power[11];  // at its end, see EVALUATION
-    alignas(64) double rubbing[16];
+    alignas(64) double power[LEDGER];  // at its end, see EVALUATION
+    alignas(64) double rubbing[BODIES];
     ModalMotion motion;
     MeshSums sums;
     SampleTable samples;

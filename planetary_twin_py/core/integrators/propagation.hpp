@@ -17,6 +17,7 @@
 #include "integrators/march_record.hpp"
 #include "integrators/oscillator.hpp"
 #include "train/model.hpp"
+#include "tribology/tooth_friction.hpp"
 #include "vector/rows.hpp"
 
 namespace gearbox {
@@ -283,6 +284,15 @@ inline void trim_at(const Model& model, const March& march, double delay, const 
     }
 }
 
+// How gears turn and slip at a node where the axes move, from the speeds of the bodies.
+inline void turn_gears(const Train& train, const StepConstants& constants, Node& node) {
+    for (std::int64_t i = 0; i < train.meshes; ++i) {
+        for (int g = 0; g < GEARS - 1; ++g)
+            node.spin[g][i] = constants.spin[g][i] + node.v[train.body[i][g]] * train.lever[g][i];
+        node.slip[i] = slip_of_axes(train, i, node.v);
+    }
+}
+
 // Bodies, meshes and gears of a node in the motion of the modes, and the trim of the speed loops.
 template <int L>
 SHARED void move_node(const Model& model, const March& march, double delay, const Row<L>& cosine,
@@ -300,9 +310,13 @@ SHARED void move_node(const Model& model, const March& march, double delay, cons
     bodies.first.store(node.x);
     bodies.second.store(node.v);
     move_given(model, march.begin, delay, node.x, node.v);
-    for (int g = 0; g < GEARS - 1; ++g)
-        (V(march.constants.spin[g]) + sum_rows<L>(contacts.spin[g], modes.second))
-            .store(node.spin[g]);
+    if constexpr (MOVING) {
+        turn_gears(model.train, march.constants, node);
+    } else {
+        for (int g = 0; g < GEARS - 1; ++g)
+            (V(march.constants.spin[g]) + sum_rows<L>(contacts.spin[g], modes.second))
+                .store(node.spin[g]);
+    }
     trim_at(model, march, delay, node.x, node.trim);
 }
 

@@ -9,42 +9,42 @@
 namespace gearbox {
 
 struct alignas(64) ModalMotion {
-    std::int64_t modes;              // place in `known`
-    double step;                     // [s]
-    double per_step;                 // its inverse
-    double pace;                     // of the fastest mode, w + c, but for free masses [1/s]
-    alignas(64) double square[16];   // w^2 [1/s^2]
-    alignas(64) double damping[16];  // c [1/s]
-    alignas(64) double rate[16];     // see `oscillator.decay_rates`
-    alignas(64) double slow[16];
-    alignas(64) double fast[16];
-    alignas(64) double particular[7][16];  // motion under the polynomial, of powers of t/h
-    alignas(64) double free[2][16];        // q and q' of the free motion at the start
+    std::int64_t modes;                  // place in `known`
+    double step;                         // [s]
+    double per_step;                     // its inverse
+    double pace;                         // of the fastest mode, w + c, but for free masses [1/s]
+    alignas(64) double square[BODIES];   // w^2 [1/s^2]
+    alignas(64) double damping[BODIES];  // c [1/s]
+    alignas(64) double rate[BODIES];     // see `oscillator.decay_rates`
+    alignas(64) double slow[BODIES];
+    alignas(64) double fast[BODIES];
+    alignas(64) double particular[7][BODIES];  // motion under the polynomial, of powers of t/h
+    alignas(64) double free[2][BODIES];        // q and q' of the free motion at the start
 };
 
 struct alignas(64) Propagation {
     Nodes nodes;
     ContactModes known;
     ModalMotion motion;
-    std::int64_t place;             // of the step since the contacts changed, 0: the first
-    alignas(64) double spring[16];  // w^2 and c, but 0 for what counts as a free mass
-    alignas(64) double damper[16];
+    std::int64_t place;                 // of the step since the contacts changed, 0: the first
+    alignas(64) double spring[BODIES];  // w^2 and c, but 0 for what counts as a free mass
+    alignas(64) double damper[BODIES];
     Node start;
-    alignas(64) double force[16];      // at the start, friction being as it was before
-    alignas(64) double rest[5][16];    // at the nodes
-    alignas(64) double cosine[5][16];  // `wave` at the nodes
-    alignas(64) double sine[5][16];
-    alignas(64) double end_cosine[16];  // at the end of the step
-    alignas(64) double end_sine[16];
+    alignas(64) double force[BODIES];      // at the start, friction being as it was before
+    alignas(64) double rest[5][BODIES];    // at the nodes
+    alignas(64) double cosine[5][BODIES];  // `wave` at the nodes
+    alignas(64) double sine[5][BODIES];
+    alignas(64) double end_cosine[BODIES];  // at the end of the step
+    alignas(64) double end_sine[BODIES];
     Node node[MOST_NODES];
-    Node shown[MOST_INSTANTS];        // where samples lie
-    alignas(64) double before_d[16];  // at the last node, one sweep earlier
-    alignas(64) double before_rate[16];
-    alignas(64) double before_v[16];
-    double weight[5];                  // of the nodes in the integral over the step that stands [s]
-    std::int8_t suspect[16];           // may change its contact within the step
-    alignas(64) double scan_d[8][16];  // at even times
-    alignas(64) double scan_rate[8][16];
+    Node shown[MOST_INSTANTS];            // where samples lie
+    alignas(64) double before_d[MESHES];  // at the last node, one sweep earlier
+    alignas(64) double before_rate[MESHES];
+    alignas(64) double before_v[BODIES];
+    double weight[5];             // of the nodes in the integral over the step that stands [s]
+    std::int8_t suspect[MESHES];  // may change its contact within the step
+    alignas(64) double scan_d[8][MESHES];  // at even times
+    alignas(64) double scan_rate[8][MESHES];
 };
 
 }  // namespace gearbox

@@ -7,6 +7,7 @@
 #include "mesh/cycle.hpp"
 #include "mesh/mesh_forces.hpp"
 #include "mesh/stiffness.hpp"
+#include "train/bearings.hpp"
 #include "train/body_speed.hpp"
 #include "train/equations.hpp"
 #include "tribology/tooth_friction.hpp"
@@ -39,12 +40,12 @@ void assemble_meshes(const Model& model, const State& state, const StepConstants
         std::int64_t kind = train.kind[i];
         double side = static_cast<double>(state.side[i]), copies = train.copies[i];
         double drift = copies * push_drift(model, state, constants, i, pace);
-        for (int j = 0; j < GEARS; ++j)
+        for (int j = 0; j < ENTRIES; ++j)
             work.drift[train.body[i][j]] -= side * drift * train.sign[i][j];
         double cycle = constants.start[i] + side * pace * 0.5 * h;
         double k = copies * mesh_stiffness(train, kind, state.segment[i], cycle);
-        add_outer(work.stiffness, train.body[i], train.sign[i], GEARS, k);
-        add_outer(work.system, train.body[i], train.sign[i], GEARS,
+        add_outer(work.stiffness, train.body[i], train.sign[i], ENTRIES, k);
+        add_outer(work.system, train.body[i], train.sign[i], ENTRIES,
                   k * (constants.tau[kind] + step));
     }
 }
@@ -58,6 +59,20 @@ void free_given(const Model& model, double h, Workspace& work) {
         work.stiffness[body][body] = work.stiffness[body][member] = 0.0;
         work.system[body][member] = work.system[member][body] = 0.0;
         work.system[body][body] = train.mass[body] / (GAMMA * h);
+    }
+}
+
+// The same of the bearings that press; the turning of the frame is left out.
+void assemble_bearings(const Train& train, const State& state, double step, Workspace& work) {
+    for (std::int64_t b = 0; b < train.moving.bearings; ++b) {
+        if (!presses(train, b, state.x)) continue;
+        double k = train.moving.stiffness[b];
+        BearingRows rows = rows_of_bearing(train, b);
+        for (const double* row : rows.row) {
+            add_outer(work.stiffness, rows.place, row, BearingRows::SIZE, k);
+            add_outer(work.system, rows.place, row, BearingRows::SIZE,
+                      train.moving.damping[b] + step * k);
+        }
     }
 }
 
@@ -75,6 +90,7 @@ void assemble(const Model& model, const State& state, const StepConstants& const
         add_outer(work.stiffness, train.coupling[c], ENDS, 2, k);
         add_outer(work.system, train.coupling[c], ENDS, 2, train.coupling_damping[c] + step * k);
     }
+    if constexpr (MOVING) assemble_bearings(train, state, step, work);
     if (train.friction) {
         if (first.pairs.held)
             bristle_damping(train, first.pairs, step, work.row, work.system);

@@ -8,10 +8,10 @@ namespace gearbox {
 
 struct alignas(64) Look {
     std::int64_t count;
-    alignas(64) double at[129];        // [s] since its start
-    alignas(64) double weight[129];    // of a quadrature [s]
-    alignas(64) double d[129][16];     // [m]
-    alignas(64) double push[129][16];  // [N]
+    alignas(64) double at[129];            // [s] since its start
+    alignas(64) double weight[129];        // of a quadrature [s]
+    alignas(64) double d[129][MESHES];     // [m]
+    alignas(64) double push[129][MESHES];  // [N]
 };
 
 struct alignas(64) StepSums {
@@ -20,11 +20,12 @@ struct alignas(64) StepSums {
     MeshSums total;  // since it was taken, up to the start of the last step
     double taken;    // of the last step [s]
     Look look;
-    bool unasked;                      // no one asks for sums: steps have none
-    bool known;                        // `rates` are those of the end of the last step
-    bool stale;                        // `rates` are not those of the start of the step
-    alignas(64) double rates[12][16];  // by which the integrals grow at the end of a stiff step
-    alignas(64) double push[16];       // there [N]
+    bool unasked;  // no one asks for sums: steps have none
+    bool known;    // `rates` are those of the end of the last step
+    bool stale;    // `rates` are not those of the start of the step
+    alignas(
+        64) double rates[SUMS][MESHES];  // by which the integrals grow at the end of a stiff step
+    alignas(64) double push[MESHES];     // there [N]
 };
 
 }  // namespace gearbox

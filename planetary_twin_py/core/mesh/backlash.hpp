@@ -31,14 +31,15 @@ inline LengthAndRate widening(const Train& train, const StepConstants& step, std
     return radial_error(train, i, step.line_angle, advance, pace);
 }
 
-// Play [m] left to a mesh on `side`, from its deflection and what widens its play; see `departure`.
-inline double play_left(const Load& load, std::int64_t side, LengthAndReach motion,
-                        LengthAndReach wider, double slack) {
+// Play [m] left to mesh i on `side`, from its deflection and what widens its play; see `departure`.
+inline double play_left(const Train& train, const Load& load, std::int64_t i, std::int64_t side,
+                        LengthAndReach motion, LengthAndReach wider, double slack) {
     double d = motion.length, half = load.half_backlash;
     double push = d + load.release * motion.reach;
     if (side != OPEN) return static_cast<double>(side) * push - half + slack;
     double gap = wider.length, slower = wider.length + load.release * wider.reach;
     double drive = at_most(d - gap, push - slower), coast = at_most(-d - gap, -push - slower);
+    if constexpr (MOVING) return slack - (only_side(train, i) == DRIVE_SIDE ? drive : coast) + half;
     return slack - at_least(drive, coast) + half;
 }
 
@@ -55,8 +56,8 @@ inline double departure(const Model& model, const State& state, const StepConsta
     auto [d, rate, error_rate] = deflection(train, step, i, x, v, advance, pace);
     double tau = damping_time(train, train.kind[i], passing_rate(train, step, v));
     LengthAndRate wider = widening(train, step, i, state.side[i], advance, pace);
-    return play_left(model.load, state.side[i], {d, tau * rate}, {wider.length, tau * wider.rate},
-                     slack);
+    return play_left(train, model.load, i, state.side[i], {d, tau * rate},
+                     {wider.length, tau * wider.rate}, slack);
 }
 
 }  // namespace gearbox

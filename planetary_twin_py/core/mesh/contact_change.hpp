@@ -50,6 +50,7 @@ inline void change_contact(const Model& model, State& state, StepConstants& step
                    frame_cycle(train, state, 1) + cycle_shift(train, state.x));
         double d = deflection(train, step, i, state.x, state.v, 0.0, 0.0).d;
         std::int64_t side = d > 0.0 ? DRIVE_SIDE : COAST_SIDE;
+        if constexpr (MOVING) side = only_side(train, i);
         state.segment[i] =
             find_segment(train, train.kind[i], mesh_cycle(train, state, i, side), 1.0);
         state.side[i] = side;

@@ -46,6 +46,18 @@ inline double cycle_on_side(const Train& train, std::int64_t i, std::int64_t sid
     return cycle - m * std::floor(cycle / m);
 }
 
+// The side on which an entry of the meshes may be closed: both (OPEN) where it stands for all of
+// its mesh, one where each flank has an entry.
+inline std::int64_t only_side(const Train& train, std::int64_t i) {
+    if constexpr (!MOVING) return OPEN;
+    return i < train.meshes / FLANKS ? DRIVE_SIDE : COAST_SIDE;
+}
+
+// Number of planets that are integrated.
+inline std::int64_t planets_of(const Train& train) {
+    return train.meshes / (KINDS * FLANKS);
+}
+
 // The same at a state.
 inline double counted_cycle(const Train& train, const State& state, std::int64_t i,
                             std::int64_t side, std::int64_t modulus) {

@@ -29,7 +29,7 @@ inline double line_order(const Train& train, std::int64_t kind, std::int64_t n) 
 // Fill angle[i] with where the sines of mesh i stand [rad].
 inline void place_lines(const Train& train, const State& state, std::int64_t i,
                         double (*angle)[LINES]) {
-    std::int64_t kind = train.kind[i], planets = train.meshes / 2;
+    std::int64_t kind = train.kind[i], planets = planets_of(train);
     for (std::int64_t n = 0; n < train.lines[kind]; ++n) {
         std::int64_t counter = train.line_of_planet[kind][n] ? i % planets : i;
         std::int64_t period = train.line_period[kind][n];

@@ -7,6 +7,7 @@
 #include "integrators/march.hpp"
 #include "integrators/step_control.hpp"
 #include "integrators/window_sums.hpp"
+#include "mesh/join_flanks.hpp"
 #include "run/samples.hpp"
 #include "train/energy.hpp"
 
@@ -18,9 +19,9 @@ constexpr Instant NEVER{0, std::numeric_limits<double>::infinity()};
 constexpr std::int64_t WAVES = VISCOUS + 1;  // quantities of `observe` that a waveform shows
 
 // Put samples of the meshes of the train (rows, WAVES, meshes) into the order of the report.
-void put_waveform(const Report& report, std::int64_t meshes, const double* mesh,
+void put_waveform(const Report& report, const Train& train, const double* mesh,
                   const Waveform& out) {
-    const std::int64_t n = report.meshes;
+    const std::int64_t n = report.meshes, meshes = train.meshes;
     for (std::int64_t row = 0; row < out.rows; ++row) {
         const double* shown = mesh + row * WAVES * meshes;
         out.time[row] = static_cast<double>(out.first + row) / out.rate;
@@ -29,6 +30,10 @@ void put_waveform(const Report& report, std::int64_t meshes, const double* mesh,
             out.dte[row * n + i] = at[DTE * meshes];
             out.mesh_force[row * n + i] = at[MESH_FORCE * meshes];
             out.friction[row * n + i] = at[BOUNDARY * meshes] + at[VISCOUS * meshes];
+            if constexpr (!MOVING) continue;
+            const double* other = shown + other_flank(train, report.mesh[i]);
+            out.mesh_force[row * n + i] += other[MESH_FORCE * meshes];
+            out.friction[row * n + i] += other[BOUNDARY * meshes] + other[VISCOUS * meshes];
         }
     }
 }
@@ -46,7 +51,7 @@ bool fill_waveform(const WindowJob& job) {
     Samples last{1,         QUANTITIES, train.meshes, train.bodies, AXES,      shown,
                  end.turns, end.angle,  speed,        drag,         &end.peaks};
     advance(job.model, job.march, job.until, NEVER, job.samples, waves, last);
-    put_waveform(job.report, train.meshes, mesh.get(), job.out);
+    put_waveform(job.report, train, mesh.get(), job.out);
     std::copy_n(job.march.last.power, LEDGER, end.power);
     return exceeds(job.limits, train, job.model.load, end.peaks, end.power);
 }
@@ -74,6 +79,7 @@ void take_ledger(March& march, double* ledger) {
 void take_mesh_sums(const Model& model, March& march, const Instant& until, MeshSums& sums) {
     count_until(model, march, delay(march.begin, until));
     sums = march.sums.total;
+    if constexpr (MOVING) join_flanks(model.train, sums);
     march.sums.total = {};
 }
 

@@ -6,6 +6,7 @@
 
 #include "losses/bearing.hpp"
 #include "losses/churning.hpp"
+#include "mesh/cycle.hpp"
 #include "train/body_speed.hpp"
 #include "train/evaluation.hpp"
 #include "train/model.hpp"
@@ -23,9 +24,11 @@ inline double drag_sense(double speed) {
 inline double pin_load(const Train& train, const State& state, const double* push,
                        std::int64_t planet) {
     if (planet == NO_PLANET) return 0.0;
-    std::int64_t ring = train.meshes / 2 + planet;
-    return train.pin_share * std::abs(static_cast<double>(state.side[planet]) * push[planet] +
-                                      static_cast<double>(state.side[ring]) * push[ring]);
+    std::int64_t planets = planets_of(train);
+    double sum = 0.0;
+    for (std::int64_t i = planet; i < train.meshes; i += planets)
+        sum += static_cast<double>(state.side[i]) * push[i];
+    return train.pin_share * std::abs(sum);
 }
 
 // Add the drag of joints and discs under the pushes of the meshes to `rubbing`; book it in `power`.

@@ -3,6 +3,7 @@
 // Energy stored in the train, the other side of the ledger.
 
 #include "mesh/contact_change.hpp"
+#include "train/bearings.hpp"
 #include "train/body_speed.hpp"
 #include "train/model.hpp"
 
@@ -21,6 +22,10 @@ inline double kinetic(const Model& model, const State& state) {
         double speed = body_speed(train, state, state.v, j) * train.radius[j];
         total += 0.5 * train.mass[j] * speed * speed;
     }
+    if constexpr (MOVING) {
+        double turning = body_speed(train, state, state.v, train.moving.frame);
+        total += centrifugal_energy(train, turning, state.x);
+    }
     return total;
 }
 
@@ -32,6 +37,10 @@ inline double elastic(const Model& model, const State& state, StepConstants& ste
     for (std::int64_t c = 0; c < train.machines; ++c) {
         double twist = state.x[train.coupling[c][0]] - state.x[train.coupling[c][1]];
         total += 0.5 * train.coupling_stiffness[c] * twist * twist;
+    }
+    if constexpr (MOVING) {
+        for (std::int64_t b = 0; b < train.moving.bearings; ++b)
+            total += bearing_energy(train, b, state.x);
     }
     return total;
 }

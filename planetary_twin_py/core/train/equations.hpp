@@ -10,6 +10,7 @@
 #include <numbers>
 
 #include "mesh/mesh_forces.hpp"
+#include "train/bearings.hpp"
 #include "train/body_speed.hpp"
 #include "train/drag.hpp"
 #include "tribology/tooth_friction.hpp"
@@ -19,11 +20,15 @@ namespace gearbox {
 
 // Add the friction torques of all meshes as forces on the bodies.
 inline void rub_bodies(const Train& train, const DragOfMeshes& drag, double* rubbing) {
-    for (std::int64_t i = 0; i < train.meshes; ++i)
+    for (std::int64_t i = 0; i < train.meshes; ++i) {
+        if (MOVING && drag.torque[0][i] == 0.0 && drag.torque[1][i] == 0.0) continue;
         for (int j = 0; j < GEARS; ++j) {
             double force = drag.torque[j][i] * train.lever[j][i];
             rubbing[train.body[i][j]] += train.copies[i] * force;
         }
+        for (int j = GEARS; j < ENTRIES; ++j)
+            rubbing[train.body[i][j]] += drag.across[i] * train.moving.slide[i][j];
+    }
 }
 
 // Power that the friction of all meshes takes [W].
@@ -120,7 +125,7 @@ inline void assemble_forces(const Model& model, const State& state, const StepCo
     for (int j = 0; j < BODIES; ++j) out.force[j] = out.rubbing[j];
     for (std::int64_t i = 0; i < train.meshes; ++i) {
         double push = train.copies[i] * static_cast<double>(state.side[i]) * out.now.push[i];
-        for (int j = 0; j < GEARS; ++j) out.force[train.body[i][j]] -= push * train.sign[i][j];
+        for (int j = 0; j < ENTRIES; ++j) out.force[train.body[i][j]] -= push * train.sign[i][j];
     }
     MachineForces forces;
     apply_couplings(train, x, v, forces, out.power);
@@ -129,6 +134,8 @@ inline void assemble_forces(const Model& model, const State& state, const StepCo
         out.force[train.coupling[c][0]] += forces.machine[c];
         out.force[train.coupling[c][1]] += forces.member[c];
     }
+    if constexpr (MOVING)
+        apply_axes(train, step.rigid[train.moving.frame], x, v, out.force, out.power[DAMPING]);
     out.force[train.bodies] = 0.0;  // the ground
 }
 

@@ -9,6 +9,7 @@
 #include "mesh/form_errors.hpp"
 #include "mesh/stiffness.hpp"
 #include "rooms.hpp"
+#include "train/bearings.hpp"
 #include "train/equations.hpp"
 #include "train/set_step_constants.hpp"
 #include "tribology/bristles.hpp"
@@ -22,8 +23,13 @@ namespace {
 constexpr double ENDS[2] = {1.0, -1.0};  // of a coupling
 constexpr int CYCLE_POINTS = 64;         // places in the mesh cycle over which friction is averaged
 constexpr int BALANCING_PASSES = 12;     // each leaves some per cent of what friction was off by
-constexpr int SETTLING_PASSES = 3;  // the first winds up the couplings, the others find the tooth
-                                    // pairs there
+// Of the stiffness of a tooth pair: holds what nothing else does.
+constexpr double LOOSE = 1e-9;
+constexpr int MOST_PASSES = 200;      // of finding which flanks and bearings touch
+constexpr int SHORTENED_PASSES = 30;  // after which steps are halved, as flanks might swap for ever
+constexpr double AT_REST = 1e-13;     // [m] by which a pass may still move the axes
+constexpr int SETTLING_PASSES = 3;    // the first winds up the couplings, the others find the tooth
+                                      // pairs there
 
 // A train that is brought into balance.
 struct Start {
@@ -56,6 +62,21 @@ void hold_body(Balance& balance, std::int64_t body) {
     balance.force[body] = 0.0;
 }
 
+// Add the stiffness of the bearings, as if none had clearance: so no step leads far away, at the
+// price of more of them. And a little of its own to every coordinate: what nothing holds, such as
+// an axis that floats without load, stays where it is.
+void hold_axes(Start& start) {
+    const Train& train = start.model.train;
+    double (*stiffness)[BODIES] = start.balance.stiffness;
+    for (std::int64_t b = 0; b < train.moving.bearings; ++b) {
+        BearingRows rows = rows_of_bearing(train, b);
+        for (const double* row : rows.row)
+            add_outer(stiffness, rows.place, row, BearingRows::SIZE, train.moving.stiffness[b]);
+    }
+    double loose = LOOSE * std::max(train.stiffness[0], train.stiffness[1]);
+    for (std::int64_t j = 0; j < train.bodies; ++j) stiffness[j][j] += loose;
+}
+
 // Move x by what springs of meshes and couplings yield to `balance.force`, the motors held.
 void yield_to_forces(Start& start) {
     const Train& train = start.model.train;
@@ -64,10 +85,12 @@ void yield_to_forces(Start& start) {
     for (std::int64_t i = 0; i < train.meshes; ++i) {
         double k =
             mesh_stiffness(train, train.kind[i], start.state.segment[i], start.step.start[i]);
-        add_outer(balance.stiffness, train.body[i], train.sign[i], GEARS, train.copies[i] * k);
+        if (MOVING && start.state.side[i] == OPEN) continue;
+        add_outer(balance.stiffness, train.body[i], train.sign[i], ENTRIES, train.copies[i] * k);
     }
     for (std::int64_t c = 0; c < train.machines; ++c)
         add_outer(balance.stiffness, train.coupling[c], ENDS, 2, train.coupling_stiffness[c]);
+    if constexpr (MOVING) hold_axes(start);
     for (std::int64_t a = 0; a < train.axes; ++a) hold_body(balance, train.coupling[2 * a][0]);
     factorise(balance.stiffness, train.bodies);
     solve(balance.stiffness, train.bodies, balance.force);
@@ -88,7 +111,7 @@ void balance_mean_forces(Start& start) {
         double k = mesh_stiffness(train, train.kind[i], state.segment[i], start.step.start[i]);
         double d = deflection(train, start.step, i, state.x, state.v, 0.0, 0.0).d;
         double push = start.force + k * (static_cast<double>(state.side[i]) * load.offset - d);
-        for (int g = 0; g < GEARS; ++g)
+        for (int g = 0; g < ENTRIES; ++g)
             force[train.body[i][g]] += train.copies[i] * train.sign[i][g] * push;
     }
     for (std::int64_t c = 0; c < train.machines; ++c) {
@@ -101,11 +124,75 @@ void balance_mean_forces(Start& start) {
     yield_to_forces(start);
 }
 
+// Let those flanks touch that are squeezed at x; whether any of them changes.
+bool touch_flanks(Start& start) {
+    const Train& train = start.model.train;
+    State& state = start.state;
+    bool changes = false;
+    for (std::int64_t i = 0; i < train.meshes; ++i) {
+        auto side = static_cast<double>(only_side(train, i));
+        double error = form_error(train, i, side, start.step.line_angle, 0.0, 0.0).length;
+        double squeeze = side * (mesh_motion(train, i, state.x) - error) - start.model.load.offset;
+        std::int64_t found = squeeze > 0.0 ? only_side(train, i) : OPEN;
+        changes |= found != state.side[i];
+        state.side[i] = found;
+    }
+    return changes;
+}
+
+// Forces on every body at x, at rest in the frame; into `balance.force`.
+void forces_at_rest(Start& start) {
+    const Train& train = start.model.train;
+    const Load& load = start.model.load;
+    const State& state = start.state;
+    double* force = start.balance.force;
+    std::fill(force, force + BODIES, 0.0);
+    for (std::int64_t i = 0; i < train.meshes; ++i) {
+        if (state.side[i] == OPEN) continue;
+        double k = mesh_stiffness(train, train.kind[i], state.segment[i], start.step.start[i]);
+        double d = deflection(train, start.step, i, state.x, state.v, 0.0, 0.0).d;
+        double push = k * (d - static_cast<double>(state.side[i]) * load.offset);
+        for (int j = 0; j < ENTRIES; ++j) force[train.body[i][j]] -= train.sign[i][j] * push;
+    }
+    for (std::int64_t c = 0; c < train.machines; ++c) {
+        std::int64_t machine = train.coupling[c][0], member = train.coupling[c][1];
+        double pull = train.coupling_stiffness[c] * (state.x[machine] - state.x[member]);
+        force[machine] += load.torque[c] / train.radius[machine] - pull;
+        force[member] += pull;
+    }
+    double lost = 0.0;
+    apply_axes(train, start.step.rigid[train.moving.frame], state.x, state.v, force, lost);
+    for (std::int64_t a = 0; a < train.axes; ++a) force[train.coupling[2 * a][0]] = 0.0;
+}
+
+// Move x to where flanks that only push, and bearings with clearance, balance the mean torques:
+// Newton's method, of which a pass is exact once it is known what touches (see planar/statics.py).
+void balance_axes(Start& start) {
+    const Train& train = start.model.train;
+    State& state = start.state;
+    for (int pass = 0; pass < MOST_PASSES; ++pass) {
+        place_pairs(start);
+        bool changes = pass > 0 && touch_flanks(start);
+        if (changes) place_pairs(start);
+        forces_at_rest(start);
+        State before = state;
+        yield_to_forces(start);
+        const double share = pass < SHORTENED_PASSES ? 1.0 : 0.5;
+        double moved = 0.0;
+        for (std::int64_t j = 0; j < train.bodies; ++j) {
+            moved = std::max(moved, std::fabs(state.x[j] - before.x[j]));
+            state.x[j] = before.x[j] + share * (state.x[j] - before.x[j]);
+        }
+        if (pass > 0 && !changes && moved < AT_REST) return;
+    }
+}
+
 // Choose x so that every mesh and coupling carries its mean load at the present motor angle.
 //
 // The couplings wind up by a good part of a mesh cycle, which moves the tooth pairs, whose
 // stiffness decides how far the meshes yield.
 void balance_at_angle(Start& start) {
+    if constexpr (MOVING) return balance_axes(start);
     for (int n = 0; n < SETTLING_PASSES; ++n) {
         place_pairs(start);
         balance_mean_forces(start);
@@ -201,7 +288,11 @@ State initial_state(const Model& model, const double* speed, double force) {
     State state{};
     std::copy(speed, speed + AXES, state.speed);
     std::copy(speed, speed + AXES, state.set_speed);
-    std::fill(state.side, state.side + train.meshes, force >= 0.0 ? DRIVE_SIDE : COAST_SIDE);
+    for (std::int64_t i = 0; i < train.meshes; ++i) {
+        const std::int64_t side = force >= 0.0 ? DRIVE_SIDE : COAST_SIDE,
+                           only = only_side(train, i);
+        state.side[i] = only == OPEN || only == side ? side : OPEN;
+    }
     auto steady = std::make_unique<Model>(model);
     steady->load.ripple = 0.0;
     std::fill(std::begin(steady->load.proportional), std::end(steady->load.proportional), 0.0);
@@ -209,7 +300,7 @@ State initial_state(const Model& model, const double* speed, double force) {
     double drags[AXES];
     mean_drag(*start, drags);
     balance_at_angle(*start);
-    choose_sides(*start);
+    if constexpr (!MOVING) choose_sides(*start);
     trim(model, drags, state);
     if (is_closed(train, state) && creeps(train, frame_cycle_rate(train, state))) {
         for (int n = 0; n < BALANCING_PASSES; ++n) {

@@ -3,6 +3,7 @@
 #include <cstdint>
 
 #include "rooms.hpp"
+#include "train/moving_axes.hpp"
 
 namespace gearbox {
 
@@ -30,9 +31,10 @@ struct alignas(64) Train {
     bool friction;
     bool printed_torque;  // friction torque P/w instead of -f dVs/dw
     std::int64_t meshes;
-    alignas(64) std::int64_t body[MESHES][GEARS];  // first gear, second gear, carrier
-    alignas(64) double sign[MESHES][GEARS];        // of their x in d
-    alignas(64) double copies[MESHES];             // number of equal meshes in one entry
+    alignas(64) std::int64_t body[MESHES][ENTRIES];  // first gear, second gear, carrier, and where
+                                                     // axes move the displacements of both gears
+    alignas(64) double sign[MESHES][ENTRIES];        // of their x in d
+    alignas(64) double copies[MESHES];               // number of equal meshes in one entry
     alignas(64) std::int64_t kind[MESHES];
     alignas(64) double phase[MESHES];  // delay in mesh cycles; whole cycles count teeth
     double coast_lead[KINDS];          // mesh cycles by which coast flanks follow drive flanks
@@ -82,6 +84,7 @@ struct alignas(64) Train {
     double disc_radius[MEMBERS];  // [m]
     double disc_gap;              // [m]
     double disc_fill;             // share of oil in what they turn in [-]
+    MovingAxes moving;
 };
 
 }  // namespace gearbox

@@ -82,14 +82,35 @@ LAW void store_register(Number* column, const Real& lanes) {
     std::memcpy(column, &lanes, sizeof lanes);
 }
 
+// How gears turn and slip at an instant, for the surface speeds of their pairs.
+template <int L>
+struct Turning {
+    Row<L> spin1, spin2, slip;
+
+    LAW explicit Turning(const FrictionInstant& instant)
+        : spin1(instant.spin[0]), spin2(instant.spin[1]), slip(0.0) {
+        if constexpr (MOVING) slip = Row<L>(instant.slip);
+    }
+
+    LAW SurfaceSpeeds<Row<L>> at(const Row<L>& rho1, const Row<L>& rho2,
+                                 const Row<L>& external) const {
+        auto speeds = surface_speeds(rho1, rho2, external, spin1, spin2);
+        if constexpr (MOVING) {
+            speeds.sliding += slip;
+            speeds.sum += slip;
+        }
+        return speeds;
+    }
+};
+
 template <int L, class Number>
 LAW void place_pairs(const Train& train, const StepConstants& step, const FrictionInstant& instant,
                      Columns<Number>& pairs, std::int64_t first) {
     Row<L> moved = way_on_path<L>(train, step, instant.meshes->advance), external(step.external);
-    Row<L> spin1(instant.spin[0]), spin2(instant.spin[1]);
+    const Turning<L> turning(instant);
     for (std::int64_t p = 0, k = first; p < train.slots; ++p, k += L) {
         auto [rho1, rho2] = flank_radii<L>(step, p, moved);
-        auto [sliding, sum] = surface_speeds(rho1, rho2, external, spin1, spin2);
+        auto [sliding, sum] = turning.at(rho1, rho2, external);
         put(rho1, pairs.rho1 + k);
         put(rho2, pairs.rho2 + k);
         put(external, pairs.external + k);
@@ -142,10 +163,11 @@ LAW void add_up(const Train& train, const StepConstants& step, const Columns<Num
     MeshFriction& out = *instant.found;
     V moved = way_on_path<L>(train, step, instant.meshes->advance), external(step.external);
     V torque1(0.0), torque2(0.0), lost(0.0), boundary(0.0), viscous(0.0), film(0.0);
-    V spin1(instant.spin[0]), spin2(instant.spin[1]);
+    V across(0.0);
+    const Turning<L> turning(instant);
     for (std::int64_t p = 0, k = first; p < train.slots; ++p, k += L) {
         auto [rho1, rho2] = flank_radii<L>(step, p, moved);
-        auto [sliding, sum] = surface_speeds(rho1, rho2, external, spin1, spin2);
+        auto [sliding, sum] = turning.at(rho1, rho2, external);
         V friction = get<L>(pairs.friction + k), resistance(0.0);
         lost += friction * sliding;
         if (rolling) {
@@ -154,6 +176,7 @@ LAW void add_up(const Train& train, const StepConstants& step, const Columns<Num
         }
         torque1 -= (friction + resistance) * rho1;
         torque2 -= (friction - resistance) * external * rho2;
+        if constexpr (MOVING) across -= friction + resistance;
         boundary += get<L>(pairs.boundary + k);
         viscous += get<L>(pairs.viscous + k);
         film += V(instant.meshes->share[p]) * get<L>(pairs.film + k);
@@ -166,6 +189,7 @@ LAW void add_up(const Train& train, const StepConstants& step, const Columns<Num
     torque2.store(out.drag.torque[1]);
     (V(0.0) - (torque1 + torque2)).store(out.drag.torque[2]);
     lost.store(out.drag.power);
+    if constexpr (MOVING) select(used, across, 0.0).store(out.drag.across);
     lost.store(out.lost);
     select(used, boundary, 0.0).store(out.boundary);
     select(used, viscous, 0.0).store(out.viscous);
@@ -190,16 +214,40 @@ void find(const Model& model, const StepConstants& step, const FrictionInstant* 
         add_up<L>(train, step, pairs, n * of_instant, oil.rolling, instants[n]);
 }
 
+// Call `function` with the number of lanes that the closed meshes need. Where each flank has an
+// entry, those of the flanks that carry are often the first ones.
+template <class Function>
+void with_closed_lanes(const Train& train, const StepConstants& step, Function&& function) {
+    constexpr int FIRST = 8;
+    if constexpr (MOVING) {
+        std::int64_t closed = train.meshes;
+        while (closed > 0 && step.side[closed - 1] == 0.0) --closed;
+        if (closed <= FIRST) return function(std::integral_constant<int, FIRST>{});
+    }
+    with_lanes(train, function);
+}
+
+// Let entries beyond the first `lanes` have no friction.
+void clear_beyond(const Train& train, int lanes, MeshFriction& found) {
+    for (std::int64_t i = lanes; i < train.lanes; ++i) {
+        found.drag.torque[0][i] = found.drag.torque[1][i] = found.drag.torque[2][i] = 0.0;
+        found.drag.power[i] = found.drag.across[i] = found.lost[i] = 0.0;
+        found.boundary[i] = found.viscous[i] = found.film[i] = 0.0;
+    }
+}
+
 }  // namespace
 
 void find_friction(const Model& model, const StepConstants& step, const FrictionInstant* instants,
                    int count, bool single_precision) {
     single_precision &= has_single_precision(static_cast<TractionLaw>(model.oil.traction_law));
-    with_lanes(model.train, [&]<int L>(std::integral_constant<int, L>) {
+    with_closed_lanes(model.train, step, [&]<int L>(std::integral_constant<int, L>) {
         if (single_precision)
             find<L, float>(model, step, instants, count);
         else
             find<L, double>(model, step, instants, count);
+        if constexpr (MOVING)
+            for (int n = 0; n < count; ++n) clear_beyond(model.train, L, *instants[n].found);
     });
 }
 

@@ -30,6 +30,7 @@ struct FrictionInstant {
     const MeshesNow* meshes;
     const double (*spin)[MESHES];
     MeshFriction* found;
+    const double* slip = nullptr;  // sliding by the motion of the axes, where they move [m/s]
 };
 
 // Fill what is found at so many instants, at most MOST_INSTANTS. Entries beyond the meshes are

@@ -30,7 +30,14 @@ inline double slowest_rolling(const Train& train, const StepConstants& step) {
     return at_least(rolling, SLOWEST_ROLLING);
 }
 
-// Speeds of the gears of all pairs.
+// Sliding [m/s] of the first on the second flank of mesh i by the motion of their axes, from v.
+inline double slip_of_axes(const Train& train, std::int64_t i, const double* v) {
+    double slip = 0.0;
+    for (int j = GEARS; j < ENTRIES; ++j) slip += train.moving.slide[i][j] * v[train.body[i][j]];
+    return slip;
+}
+
+// Speeds of the gears of all pairs. What their axes add to the sliding counts with the first one.
 inline void turn_pairs(const Train& train, const StepConstants& step, const double* v,
                        ToothPairs& pairs) {
     std::int64_t meshes = train.meshes;
@@ -43,6 +50,13 @@ inline void turn_pairs(const Train& train, const StepConstants& step, const doub
         for (std::int64_t p = 0; p < train.slots; ++p) {
             pairs.speed1[p * meshes + i] = speed1;
             pairs.speed2[p * meshes + i] = speed2;
+        }
+    }
+    if constexpr (MOVING) {
+        for (std::int64_t i = 0; i < meshes; ++i) {
+            double slip = slip_of_axes(train, i, v);
+            for (std::int64_t k = i; k < train.slots * meshes; k += meshes)
+                pairs.speed1[k] += slip / pairs.rho1[k];
         }
     }
 }
@@ -61,7 +75,7 @@ void evaluate(const Model& model, ToothPairs& pairs);
 // Add up what the pairs of each mesh do: -f dVs/dw and -F_R d(u1 + u2)/dw of both gears.
 inline void collect(const Train& train, const ToothPairs& pairs, DragOfMeshes& out) {
     for (std::int64_t i = 0; i < train.meshes; ++i)
-        out.torque[0][i] = out.torque[1][i] = out.power[i] = 0.0;
+        out.torque[0][i] = out.torque[1][i] = out.power[i] = out.across[i] = 0.0;
     for (std::int64_t p = 0; p < train.slots; ++p) {
         for (std::int64_t i = 0; i < train.meshes; ++i) {
             std::int64_t k = p * train.meshes + i;
@@ -69,6 +83,7 @@ inline void collect(const Train& train, const ToothPairs& pairs, DragOfMeshes& o
             out.torque[0][i] -= (f + rolling) * pairs.rho1[k];
             out.torque[1][i] -= (f - rolling) * pairs.external[k] * pairs.rho2[k];
             out.power[i] += f * pairs.sliding[k] + pairs.rolling_power[k];
+            if constexpr (MOVING) out.across[i] -= f + rolling;
         }
     }
     for (std::int64_t i = 0; i < train.meshes; ++i)
@@ -96,13 +111,14 @@ inline void print_torques(const Train& train, const StepConstants& step, const d
     }
 }
 
-// Fill dVs/dv (GEARS,) of pair k for the coordinates of its gears and the carrier.
+// Fill dVs/dv (ENTRIES,) of pair k for the coordinates of its mesh.
 inline void sliding_row(const Train& train, const ToothPairs& pairs, std::int64_t k, double* row) {
     std::int64_t i = k % train.meshes;
     double rho1 = pairs.rho1[k], rho2 = pairs.external[k] * pairs.rho2[k];
     row[0] = rho1 * train.lever[0][i];
     row[1] = rho2 * train.lever[1][i];
     row[2] = -(rho1 + rho2) * train.lever[2][i];
+    for (int j = GEARS; j < ENTRIES; ++j) row[j] = train.moving.slide[i][j];
 }
 
 // matrix[body, body] += factor * row row^T, of the `size` bodies.
@@ -117,19 +133,19 @@ inline void add_outer(Matrix matrix, const std::int64_t* body, const double* row
 // Large where little slides: at the pitch point, and for everything near standstill. Where the
 // forces on the bodies would turn the sliding round within h seconds, the slope is that of the
 // chord to rest: beside it the tangent is flat, and steps would reverse the sliding each time.
-// `row` (GEARS,) is room to work in.
+// `row` (ENTRIES,) is room to work in.
 inline void friction_damping(const Train& train, const ToothPairs& pairs, const double* force,
                              double h, double* row, Matrix matrix) {
     for (std::int64_t k = 0; k < pairs.count; ++k) {
         std::int64_t i = k % train.meshes;
         sliding_row(train, pairs, k, row);
         double sliding = pairs.sliding[k], slope = pairs.slope[k], gain = 0.0;
-        for (int j = 0; j < GEARS; ++j) {
+        for (int j = 0; j < ENTRIES; ++j) {
             std::int64_t body = train.body[i][j];
             gain += h * row[j] * force[body] / train.mass[body];
         }
         if (sliding * (sliding + gain) < 0.0) slope = at_least(slope, pairs.friction[k] / sliding);
-        add_outer(matrix, train.body[i], row, GEARS, train.copies[i] * slope);
+        add_outer(matrix, train.body[i], row, ENTRIES, train.copies[i] * slope);
     }
 }
 

@@ -37,6 +37,7 @@ struct alignas(64) ToothPairs {
 struct alignas(64) DragOfMeshes {
     alignas(64) double torque[GEARS][MESHES];  // [N m]
     alignas(64) double power[MESHES];          // lost [W]
+    alignas(64) double across[MESHES];         // force on the first flank, where axes move [N]
 };
 
 }  // namespace gearbox

@@ -116,12 +116,19 @@ LAW bool none(const Mask<L>& a) {
     return found == 0;
 }
 
+struct Places {
+    alignas(64) double number[BODIES];
+
+    constexpr Places() : number{} {
+        for (int i = 0; i < BODIES; ++i) number[i] = i;
+    }
+};
+inline constexpr Places PLACES;
+
 // The first numbers of a row.
 template <int L>
 LAW Mask<L> first_of_row(std::int64_t count) {
-    alignas(64) static constexpr double PLACE[16] = {0, 1, 2,  3,  4,  5,  6,  7,
-                                                     8, 9, 10, 11, 12, 13, 14, 15};
-    return Row<L>(PLACE) < static_cast<double>(count);
+    return Row<L>(PLACES.number) < static_cast<double>(count);
 }
 
 // `a` where the mask holds, else `b`.
@@ -175,12 +182,17 @@ LAW Row<L> square_root(const Row<L>& a) {
 template <int L, class Join>
 LAW double fold(const Row<L>& a, Join&& join) {
     double part[L];
-#pragma GCC unroll 16
+#pragma GCC unroll 40
     for (int i = 0; i < L; ++i) part[i] = a[i];
+    if constexpr ((L & (L - 1)) == 0) {
 #pragma GCC unroll 4
-    for (int half = L / 2; half > 0; half /= 2)
+        for (int half = L / 2; half > 0; half /= 2)
 #pragma GCC unroll 8
-        for (int i = 0; i < half; ++i) part[i] = join(part[i], part[i + half]);
+            for (int i = 0; i < half; ++i) part[i] = join(part[i], part[i + half]);
+    } else {  // the upper half may be one number shorter
+        for (int size = L; size > 1; size -= size / 2)
+            for (int i = 0; i < size / 2; ++i) part[i] = join(part[i], part[i + size - size / 2]);
+    }
     return part[0];
 }
 
@@ -195,13 +207,13 @@ LAW double largest(const Row<L>& a) {
     return fold(a, [](double x, double y) { return y > x ? y : x; });
 }
 
-// Numbers that are room for all bodies or meshes.
-inline constexpr int HALF_ROOM = BODIES / 2;
+// Lanes in which small trains have room: 3 planets, 4 planets where axes move.
+inline constexpr int FEW_LANES = MOVING ? 24 : 8;
 
 // Call `function` with the number of lanes as a constant; lanes beyond those in use are zero.
 template <class Function>
 inline decltype(auto) with_lanes(const Train& train, Function&& function) {
-    if (train.lanes <= HALF_ROOM) return function(std::integral_constant<int, HALF_ROOM>{});
+    if (train.lanes <= FEW_LANES) return function(std::integral_constant<int, FEW_LANES>{});
     return function(std::integral_constant<int, BODIES>{});
 }
 

@@ -1,0 +1,170 @@
+#pragma once
+
+// Forces of bearings, and of a frame that turns, on the displacements of the axes.
+//
+// A bearing pulls with k (r - c) along the displacement r beyond its clearance c, and is damped;
+// it never pushes the other way. Bearings of sun, ring and carrier are at rest in the housing, so
+// their damping sees the motion against the housing. Coriolis and centripetal terms are those of
+// Lin and Parker 1999, eq. (9), but that the centripetal force of a planet across its radius acts
+// on its displacement against the pin: with that on eta itself a wound-up carrier would be pushed
+// on, and torques would not balance.
+
+#include <cmath>
+
+#include "rooms.hpp"
+#include "train/body_speed.hpp"
+#include "train/state.hpp"
+#include "train/train.hpp"
+#include "vector/math.hpp"
+
+namespace gearbox {
+
+struct InPlane {
+    double along, across;  // x and y, or xi and eta
+};
+
+inline bool on_carrier(const MovingAxes& axes, std::int64_t b) {
+    return axes.carried[b] != 0.0;
+}
+
+// Displacement of what bearing b holds against what it is on, from x; its rate from v.
+inline InPlane across_bearing(const Train& train, std::int64_t b, const double* x) {
+    const MovingAxes& axes = train.moving;
+    auto [cosine, sine] = axes.direction[b];
+    double a = x[axes.carrier[0]], c = x[axes.carrier[1]];
+    return {x[axes.place[b][0]] - (cosine * a + sine * c),
+            x[axes.place[b][1]] + (sine * a - cosine * c) - axes.carried[b] * x[train.carrier]};
+}
+
+// Add a force on what bearing b holds to `force`, and its reaction on what it is on.
+inline void add_at_bearing(const Train& train, std::int64_t b, const InPlane& pull, double* force) {
+    const MovingAxes& axes = train.moving;
+    auto [cosine, sine] = axes.direction[b];
+    force[axes.place[b][0]] += pull.along;
+    force[axes.place[b][1]] += pull.across;
+    force[axes.carrier[0]] -= cosine * pull.along - sine * pull.across;
+    force[axes.carrier[1]] -= sine * pull.along + cosine * pull.across;
+    force[train.carrier] -= axes.carried[b] * pull.across;
+}
+
+struct BearingForce {
+    InPlane pull;  // on what the bearing holds [N]
+    double lost;   // to damping [W]
+};
+
+// Force of bearing b in a frame that turns at `turning` [rad/s].
+inline BearingForce bearing_force(const Train& train, std::int64_t b, double turning,
+                                  const double* x, const double* v) {
+    const MovingAxes& axes = train.moving;
+    InPlane r = across_bearing(train, b, x), rate = across_bearing(train, b, v), against = rate;
+    r.along -= axes.centre[b][0];
+    r.across -= axes.centre[b][1];
+    if (!on_carrier(axes, b)) {
+        against.along -= turning * r.across;
+        against.across += turning * r.along;
+    }
+    const double k = axes.stiffness[b], c = axes.damping[b], clearance = axes.clearance[b];
+    if (clearance == 0.0) {
+        InPlane damped{-c * against.along, -c * against.across};
+        return {{damped.along - k * r.along, damped.across - k * r.across},
+                -(damped.along * rate.along + damped.across * rate.across)};
+    }
+    double size = std::sqrt(r.along * r.along + r.across * r.across), pressed = size - clearance;
+    if (!(pressed > 0.0)) return {{0.0, 0.0}, 0.0};
+    double nx = r.along / size, ny = r.across / size;
+    double push = std::fmax(k * pressed + c * (nx * against.along + ny * against.across), 0.0);
+    return {{-push * nx, -push * ny}, (push - k * pressed) * (nx * rate.along + ny * rate.across)};
+}
+
+// Coriolis and centrifugal forces on what bearing b holds.
+inline void add_inertial(const Train& train, std::int64_t b, double turning, const double* x,
+                         const double* v, double* force) {
+    const MovingAxes& axes = train.moving;
+    const std::int64_t along = axes.place[b][0], across = axes.place[b][1];
+    const double m = axes.mass[b], square = turning * turning;
+    double arm = on_carrier(axes, b) ? axes.arm : 0.0;
+    double beside = x[across] - axes.carried[b] * x[train.carrier];
+    force[along] += m * (2.0 * turning * v[across] + square * (arm + x[along]));
+    force[across] += m * (square * beside - 2.0 * turning * v[along]);
+    force[train.carrier] -= axes.carried[b] * m * square * beside;
+}
+
+// Add what bearings and a frame that turns at `turning` [rad/s] do to the axes; the power that
+// damping takes to `lost` [W].
+inline void apply_axes(const Train& train, double turning, const double* x, const double* v,
+                       double* force, double& lost) {
+    for (std::int64_t b = 0; b < train.moving.bearings; ++b) {
+        BearingForce bearing = bearing_force(train, b, turning, x, v);
+        add_at_bearing(train, b, bearing.pull, force);
+        lost += bearing.lost;
+        if (turning != 0.0) add_inertial(train, b, turning, x, v, force);
+    }
+    force[train.bodies] = 0.0;  // the ground
+}
+
+// Rows of the displacement across bearing b, over the coordinates `place`.
+struct BearingRows {
+    static constexpr int SIZE = 5;
+    std::int64_t place[SIZE];
+    double row[2][SIZE];
+};
+
+inline BearingRows rows_of_bearing(const Train& train, std::int64_t b) {
+    const MovingAxes& axes = train.moving;
+    auto [cosine, sine] = axes.direction[b];
+    return {{axes.place[b][0], axes.place[b][1], axes.carrier[0], axes.carrier[1], train.carrier},
+            {{1.0, 0.0, -cosine, -sine, 0.0}, {0.0, 1.0, sine, -cosine, -axes.carried[b]}}};
+}
+
+// Elastic energy of bearing b [J].
+inline double bearing_energy(const Train& train, std::int64_t b, const double* x) {
+    const MovingAxes& axes = train.moving;
+    InPlane r = across_bearing(train, b, x);
+    double along = r.along - axes.centre[b][0], across = r.across - axes.centre[b][1];
+    double size = std::sqrt(along * along + across * across);
+    double pressed = std::fmax(size - axes.clearance[b], 0.0);
+    return 0.5 * axes.stiffness[b] * pressed * pressed;
+}
+
+// Whether bearing b, seen at x, is beyond its clearance.
+inline bool presses(const Train& train, std::int64_t b, const double* x) {
+    if (train.moving.clearance[b] == 0.0) return true;
+    return bearing_energy(train, b, x) > 0.0;
+}
+
+// Energy [J] of the centrifugal forces in the frame, which belongs to the kinetic energy: what the
+// rigid motion of the frame has beside the speeds of the bodies.
+inline double centrifugal_energy(const Train& train, double turning, const double* x) {
+    const MovingAxes& axes = train.moving;
+    double total = 0.0;
+    for (std::int64_t b = 0; b < axes.bearings; ++b) {
+        double along = x[axes.place[b][0]];
+        double beside = x[axes.place[b][1]] - axes.carried[b] * x[train.carrier];
+        double arm = on_carrier(axes, b) ? axes.arm : 0.0;
+        total += axes.mass[b] * (arm * along - 0.5 * (along * along + beside * beside));
+    }
+    return turning * turning * total;
+}
+
+// Let the displacements follow where the frame jumps ahead by `angle` [rad] and turns faster by
+// `rate` [rad/s], after the rigid motion has been taken out.
+inline void turn_displacements(const Train& train, double angle, double rate, State& state) {
+    const MovingAxes& axes = train.moving;
+    auto [sine, cosine] = sin_cos(angle);
+    for (std::int64_t b = 0; b < axes.bearings; ++b) {
+        const std::int64_t along = axes.place[b][0], across = axes.place[b][1];
+        double *x = state.x, *v = state.v;
+        double beside = x[across] - axes.carried[b] * x[train.carrier];
+        if (!on_carrier(axes, b)) {
+            double a = x[along], c = x[across], p = v[along], q = v[across];
+            x[along] = cosine * a + sine * c;
+            x[across] = beside = cosine * c - sine * a;
+            v[along] = cosine * p + sine * q;
+            v[across] = cosine * q - sine * p;
+        }
+        v[along] += rate * beside;
+        v[across] -= rate * x[along];
+    }
+}
+
+}  // namespace gearbox

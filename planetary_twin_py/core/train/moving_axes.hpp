@@ -1,0 +1,37 @@
+#pragma once
+
+// How the axes move: which coordinates are displacements, and the bearings that hold them.
+//
+// Sun, ring and carrier are displaced by x and y from the axis of the housing, in a frame that
+// turns as the carrier does without vibration. A planet is displaced by xi outwards and by eta
+// across its radius (Lin and Parker 1999, J. Vib. Acoust. 121, 316), eta in the frame, so that it
+// holds the way that the carrier turns it along.
+//
+// Order of the meshes: drive flanks of all sun meshes, then of all ring meshes, then the coast
+// flanks of both. Each is an entry of its own that is closed on its side or open, so that both
+// flanks of a mesh may touch at once. Its row is T + R on the drive side and T - R on the coast
+// side, T the transmission error and R what brings the flanks of both sides closer.
+
+#include <cstdint>
+
+#include "rooms.hpp"
+
+namespace gearbox {
+
+struct alignas(64) MovingAxes {
+    std::int64_t bearings;            // sun, ring, carrier, then planets
+    std::int64_t frame;               // coordinate without motion that turns with the frame
+    std::int64_t place[BEARINGS][2];  // coordinates of the displacements of what a bearing holds
+    std::int64_t carrier[2];          // those of the carrier, on which the bearings of planets are
+    double direction[BEARINGS][2];    // cosine and sine of the position of a planet; 0 in housing
+    double carried[BEARINGS];         // way of a pin per x of the carrier [-]; 0 in housing
+    double mass[BEARINGS];            // [kg]
+    double stiffness[BEARINGS];       // radial [N/m]
+    double damping[BEARINGS];         // [N s/m]
+    double clearance[BEARINGS];       // radial [m]
+    double centre[BEARINGS][2];       // displacement at which a bearing is centred [m]
+    double arm;                       // radius of the planet centres [m]
+    double slide[MESHES][ENTRIES];    // sliding of the first on the second flank per displacement
+};
+
+}  // namespace gearbox

@@ -1,0 +1,22 @@
+"""The build of the core that a scene runs on: for axes that are held, or that move."""
+
+from __future__ import annotations
+
+from types import ModuleType
+
+from .. import _core
+from ..scene import Scene
+
+
+def library(scene: Scene) -> ModuleType:
+    """Find the functions and records of the core for a scene.
+
+    Both builds have the same names; a record of one is none of the other.
+
+    Args:
+        scene: whose axes are held, or move.
+
+    Returns:
+        `_core` or `_core.axes`.
+    """
+    return _core.axes if scene.moving_axes else _core

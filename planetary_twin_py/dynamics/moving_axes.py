@@ -1,0 +1,163 @@
+"""Fields of a `Train` whose axes move: rows of meshes over displacements, and bearings.
+
+The rows are those of `planar.rows`, in the order that `core/train/moving_axes.hpp` describes.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import numpy as np
+
+from .._core import AXES, axes
+from ..planar.rows import COAST, DRIVE, PlanarRows, planar_rows
+from ..scene import Scene
+from ..scene.supports import Support
+from .bodies import CENTRAL, Bodies, rigid_ratios
+
+SIDES = (DRIVE, COAST)
+BEARING_DAMPING = 1.25e-5
+"""Damping of a bearing over its stiffness [s], where a scene gives none: the middle of the range
+0.25e-5 to 2.5e-5 s of Friswell, Penny, Garvey and Lees 2010, Dynamics of Rotating Machines."""
+
+
+def bearing_damping(support: Support) -> float:
+    """Damping of a bearing.
+
+    Args:
+        support: of the bearing.
+
+    Returns:
+        That of the scene, or its default [N s/m].
+    """
+    given = support.damping
+    return BEARING_DAMPING * support.bearing if given is None else given
+
+
+def moving_fields(scene: Scene, bodies: Bodies, fields: dict[str, Any]) -> dict[str, Any]:
+    """Extend a train by the motion of its axes.
+
+    Args:
+        scene: with supports.
+        bodies: with their displacements.
+        fields: of the train with one entry for each mesh.
+
+    Returns:
+        The fields of `_core.axes.Train`, with an entry for the drive flanks of each mesh and then
+        for the coast flanks of each.
+    """
+    meshes, frame = 2 * scene.gearset.planets, len(bodies.mass)
+    body, sign, slide = _entries(scene, bodies, frame)
+    doubled = {
+        name: np.concatenate([np.asarray(fields[name])[:meshes]] * 2)
+        for name in (
+            "copies", "kind", "phase", "line_tangential", "line_radial", "line_phase",
+        )
+    }  # fmt: skip
+    lever = np.zeros((3, 2 * meshes))
+    lever[:2] = 1.0 / bodies.radius[body[:, :2].T]
+    return (
+        fields
+        | doubled
+        | {
+            "body_copies": np.append(bodies.copies, 1),
+            "mass": np.append(bodies.mass, 0.0),
+            "radius": np.append(bodies.radius, 1.0),
+            "inverse_radius": np.append(1.0 / bodies.radius, 1.0),
+            "ratio": np.vstack([bodies.ratio, _turning(scene)]),
+            "lever": lever,
+            "meshes": 2 * meshes,
+            "body": body,
+            "sign": sign,
+            "fault_pair": np.concatenate([fields["fault_pair"][:, :meshes]] * 2, axis=1),
+            "moving": axes.MovingAxes(
+                frame=frame,
+                carrier=[bodies.place[f"carrier.{motion}"] for motion in "xy"],
+                arm=scene.gearset.geometry.centre_distance,
+                slide=slide,
+                **_bearings(scene, bodies),
+            ),
+        }
+    )
+
+
+def _turning(scene: Scene) -> np.ndarray:
+    """Speed of the carrier and of the frame per speed of each input, (AXES,)."""
+    ratios = rigid_ratios(scene)["carrier"]
+    return np.array([float(ratio) for ratio in ratios] + [0.0] * (AXES - len(ratios)))
+
+
+def _entries(scene: Scene, bodies: Bodies, frame: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Coordinates, row and sliding of each entry of the meshes, (entries, ENTRIES) each."""
+    angles = [mesh.pressure_angle for mesh in scene.gearset.geometry.meshes]
+    rows = planar_rows(scene.gearset.planet_angles, *angles)
+    count = scene.gearset.planets
+    body, sign, slide = [], [], []
+    for side in SIDES:
+        for i, name in enumerate((*("sun",) * count, *("ring",) * count)):
+            planet = f"planet_{i % count + 1}"
+            first, second = (planet, name) if name == "ring" else (name, planet)
+            turns = [f"{first}.u", f"{second}.u"]
+            moves = [f"{gear}.{motion}" for gear in (first, second) for motion in _motions(gear)]
+            places = [rows.place(coordinate) for coordinate in (*turns, *moves)]
+            row = rows.tangential[i, places] + side * rows.radial[i, places]
+            body.append(
+                [bodies.place[first], bodies.place[second], frame]
+                + [bodies.place[coordinate] for coordinate in moves]
+            )
+            sign.append([*row[:2], 0.0, *row[2:]])
+            slide.append(_sliding(rows, i, side, angles[i // count], moves))
+    return np.array(body), np.array(sign), np.array(slide)
+
+
+def _motions(body: str) -> tuple[str, str]:
+    return ("x", "y") if body in CENTRAL else ("xi", "eta")
+
+
+def _sliding(
+    rows: PlanarRows, mesh: int, side: float, angle: float, moves: list[str]
+) -> list[float]:
+    """Sliding of the first on the second flank per displacement of the gears, (ENTRIES,).
+
+    Along the normal n of the flanks the gears approach by T + side R per displacement, n being
+    side cos(angle) across and sin(angle) outwards from the sun. Turned by a right angle, n is the
+    tangent: what was the share of T becomes that of R and the other way round.
+    """
+    count = rows.tangential.shape[0] // 2
+    place = [rows.place(name) for name in moves]
+    across = rows.tangential[mesh, place] / math.cos(angle)
+    outwards = rows.radial[mesh, place] / math.sin(angle)
+    sense = 1.0 if mesh < count else -1.0  # the planet is the first gear at the ring
+    slide = sense * (math.sin(angle) * across - side * math.cos(angle) * outwards)
+    return [0.0, 0.0, 0.0, *slide.tolist()]
+
+
+def _bearings(scene: Scene, bodies: Bodies) -> dict[str, Any]:
+    """Fields of `MovingAxes` over the bearings of sun, ring, carrier and planets."""
+    supports, planets = scene.supports, scene.gearset.planets
+    assert supports is not None  # the scene has been checked
+    held = [getattr(supports, kind) for kind in CENTRAL] + [supports.planet] * planets
+    names = [*CENTRAL, *(f"planet_{i + 1}" for i in range(planets))]
+    angles, errors = scene.gearset.planet_angles, scene.errors
+    pin = 1.0 / math.cos(scene.gearset.geometry.meshes[0].pressure_angle)
+    return {
+        "bearings": len(names),
+        "place": [[bodies.place[f"{name}.{m}"] for m in _motions(name)] for name in names],
+        "direction": [[0.0, 0.0]] * 3 + [[math.cos(a), math.sin(a)] for a in angles],
+        "carried": [0.0] * 3 + [pin] * planets,
+        "mass": [support.mass for support in held],
+        "stiffness": [support.bearing for support in held],
+        "damping": [bearing_damping(support) for support in held],
+        "clearance": [support.clearance for support in held],
+        "centre": _centres(scene) + [errors.of_planet(i)[:2] for i in range(planets)],
+    }
+
+
+def _centres(scene: Scene) -> list[tuple[float, float]]:
+    """Displacements at which the bearings of sun, ring and carrier are centred [m]."""
+    offsets = (None, scene.errors.ring_offset, scene.errors.carrier_offset)
+    return [
+        (at.size * math.cos(at.angle), at.size * math.sin(at.angle)) if at else (0.0, 0.0)
+        for at in offsets
+    ]

@@ -1,0 +1,204 @@
+"""Runs with moving axes against torsion, statics, natural modes and balances."""
+
+import math
+import re
+
+import numpy as np
+import pytest
+from planar.moving_scenes import MASSES, evenly, planar
+from power_flows import DIFFERENTIALS, FLOWS, flow_name
+
+from planetary_twin_py import SceneError, Twin, load_scene, simulate
+from planetary_twin_py.planar.load_sharing import load_sharing
+
+RATTLE = {"input_torque": 0.3, "torque_ripple": 3.0}
+PIN = {"errors.pin_tangential": [-2e-5, 0.0, 0.0]}
+
+
+def imbalance(scene, tolerance, **options):
+    energy = simulate(scene, 0.03, tolerance=tolerance, **options).energy
+    return abs(energy.residual) / energy.put_in
+
+
+@pytest.mark.parametrize("flow", [FLOWS[0], FLOWS[2], FLOWS[5]], ids=flow_name)
+def test_very_stiff_bearings_leave_the_vibration_of_torsion(flow):
+    scenes = [planar(flow, {"bearing": stiffness}) for stiffness in (1e11, 1e12)]
+    held = scenes[0].replace(dynamics="torsional", supports=None)
+    stiff, stiffer, expected = (
+        simulate(scene, 0.02, tolerance=1e-5, settling=0.03).mesh for scene in (*scenes, held)
+    )
+    assert stiff["dte_mean"] == pytest.approx(expected["dte_mean"], rel=1e-4)
+    both = (mesh["dte_rms"].reshape(2, 3) for mesh in (stiff, expected))
+    found, wanted = (np.sqrt((rms**2).mean(axis=1)) for rms in both)
+    assert found == pytest.approx(wanted, rel=4e-3)
+    # What is left is the compliance of the bearings.
+    assert stiffer["dte_rms"] == pytest.approx(expected["dte_rms"], rel=1e-3)
+
+
+@pytest.mark.parametrize("flow", FLOWS + DIFFERENTIALS, ids=flow_name)
+def test_energy_balances_whatever_is_held_and_driven(flow):
+    assert imbalance(planar(flow), 1e-5) < 1e-6
+
+
+@pytest.mark.parametrize(
+    "changes",
+    [
+        RATTLE,
+        PIN | {"backlash": 2e-7},
+        PIN | {"supports.sun.clearance": 1e-5},
+        {"supports.planet.clearance": 5e-6, "input_torque": 5.0, "torque_ripple": 8.0},
+        {"supports.sun.bearing": 0.0, "mesh.runout.sun": 8e-6, "mesh.runout.planet": 4e-6},
+        {"mesh.ramp": 0.0, "lubrication.friction": False},
+        {"input_torque": -63.0},
+    ],
+    ids=str,
+)
+@pytest.mark.parametrize("flow", [FLOWS[0], FLOWS[2]], ids=flow_name)
+def test_energy_balances_with_gaps_clearance_errors_and_both_flanks(flow, changes):
+    given = dict(changes)
+    if "input_torque" in given and flow == FLOWS[2] and given["input_torque"] == -63.0:
+        given["input_speed"] = -100.0
+    assert imbalance(planar(flow, **given), 1e-5) < 1e-6
+
+
+@pytest.mark.parametrize("flow", [FLOWS[0], FLOWS[2], FLOWS[3]], ids=flow_name)
+def test_mean_torques_of_sun_ring_and_carrier_add_up_to_nothing(flow):
+    scene = planar(flow, **PIN, **{"lubrication.friction": False})
+    run = simulate(scene, 0.1, tolerance=1e-5, settling=0.05)
+    gears = load_scene("paper").gearset.geometry
+    net = run.mesh["mesh_force_mean"]
+    sun, ring = net[:3].sum() * gears.sun.base_radius, net[3:].sum() * gears.ring.base_radius
+    pins = run.axes.bearing_force[:, 3:, 1].sum(axis=1).mean() * gears.centre_distance
+    # Of that, what holds the planets beside their radius against centrifugal forces is the frame's.
+    beside = run.axes.displacement[:, 3:, 1].sum(axis=1).mean() * gears.centre_distance
+    pins -= MASSES["planet"] * run.mean_speed[-1] ** 2 * beside
+    assert abs(pins - sun - ring) < 1e-5 * abs(pins)
+
+
+@pytest.mark.parametrize("planets", [3, 4, 5])
+@pytest.mark.parametrize("sun", [1e8, 0.0])
+def test_mean_loads_are_shared_as_in_statics(planets, sun):
+    errors = [-1e-5] + [0.0] * (planets - 1)
+    scene = planar(
+        FLOWS[0],
+        {"sun": sun},
+        **{
+            "gearset.planet_angles": evenly(planets),
+            "errors.pin_tangential": errors,
+            "mesh.double_pair_ratio": 1.0,
+            "mesh.ramp": 0.0,
+            "lubrication.friction": False,
+        },
+    )
+    static = load_sharing(scene)
+    expected = static.share.mean(axis=0)
+    run = simulate(scene, 0.02, settling=0.03)
+    forces = run.mesh["mesh_force_mean"][:planets]
+    assert forces / forces.mean() == pytest.approx(expected, rel=5e-3)
+    assert run.axes.mean_load_share == pytest.approx(expected, rel=5e-3)
+    bearings = np.concatenate([static.bearing, static.planet_bearing], axis=1).mean(axis=0)
+    assert run.axes.bearing_force.mean(axis=0) == pytest.approx(bearings, rel=5e-3, abs=2.0)
+    moved = static.displacement.mean(axis=0)
+    assert run.axes.displacement[:, :3].mean(axis=0) == pytest.approx(moved, rel=5e-3, abs=2e-8)
+
+
+def test_windows_of_any_length_give_the_same_samples():
+    scene = planar(FLOWS[2], **RATTLE, **PIN)
+    whole = Twin(scene).advance(0.01).waveform
+    twin = Twin(scene)
+    parts = [twin.advance(length).waveform for length in (0.0013, 0.0047, 0.004)]
+    for name in ("dte", "mesh_force", "friction"):
+        pieces = np.concatenate([getattr(part, name) for part in parts])
+        assert (pieces == getattr(whole, name)).all()
+
+
+def test_turning_the_whole_set_turns_displacements_and_nothing_else():
+    angle = 0.7
+    scene = planar(FLOWS[0], **PIN)
+    turned = scene.replace(
+        **{"gearset.planet_angles": [a + angle for a in scene.gearset.planet_angles]}
+    )
+    one, other = (simulate(each, 0.01, tolerance=1e-6) for each in (scene, turned))
+    assert other.mesh_force == pytest.approx(one.mesh_force, rel=1e-6)
+    rotation = np.array([[math.cos(angle), math.sin(angle)], [-math.sin(angle), math.cos(angle)]])
+    assert other.axes.displacement[:, :3] == pytest.approx(
+        one.axes.displacement[:, :3] @ rotation, rel=1e-4, abs=1e-11
+    )
+    assert other.axes.displacement[:, 3:] == pytest.approx(
+        one.axes.displacement[:, 3:], rel=1e-4, abs=1e-11
+    )
+
+
+def test_renumbered_planets_are_the_same_planets():
+    scene = planar(FLOWS[0], **PIN)
+    order = [2, 0, 1]
+    angles = [scene.gearset.planet_angles[i] for i in order]
+    errors = [scene.errors.pin_tangential[i] for i in order]
+    other = scene.replace(**{"gearset.planet_angles": angles, "errors.pin_tangential": errors})
+    # Phases of meshes count from the first planet: compare what does not depend on the time.
+    one, same = (simulate(each, 0.02, settling=0.03) for each in (scene, other))
+    mean = one.mesh["mesh_force_mean"].reshape(2, 3)[:, order].ravel()
+    assert same.mesh["mesh_force_mean"] == pytest.approx(mean, rel=1e-4)
+    rms = one.mesh["dte_rms"].reshape(2, 3)[:, order].ravel()
+    assert same.mesh["dte_rms"] == pytest.approx(rms, rel=2e-3)
+
+
+def test_both_flanks_of_a_wedged_mesh_carry_as_in_statics():
+    scene = planar(
+        FLOWS[0],
+        {"sun": 0.0},
+        **PIN,
+        **{
+            "backlash": 2e-7,
+            "mesh.double_pair_ratio": 1.0,
+            "mesh.ramp": 0.0,
+            "lubrication.friction": False,
+        },
+    )
+    static = load_sharing(scene).mesh_force.mean(axis=0)
+    assert static[1].max() > 100.0
+    run = simulate(scene, 0.01, settling=0.03)
+    assert run.axes.flank_force.mean(axis=0) == pytest.approx(static, rel=2e-3, abs=1.0)
+
+
+@pytest.mark.parametrize("flow", [FLOWS[0], FLOWS[2]], ids=flow_name)
+def test_a_torque_that_turns_round_crosses_the_backlash_on_moving_axes(flow):
+    twin = Twin(planar(flow))
+    torque = twin.scene.operating_point.input_torque
+    twin.advance(0.01)
+    twin.set(input_torque=-torque)
+    twin.advance(0.04)
+    window = twin.advance(0.02)
+    assert (window.mesh["mesh_force_mean"] * torque < 0.0).all()
+    assert abs(window.residual_power) < 1e-5 * abs(window.input_power)
+
+
+@pytest.mark.parametrize(
+    ("changes", "said"),
+    [
+        ({"supports": None}, "supports: missing; with dynamics = 'planar'"),
+        ({"supports.sun.torsion": 1e6}, "supports.sun.torsion = 1000000.0: must be 0"),
+        ({"lubrication.friction_torque": "printed"}, "must be 'sliding' with dynamics = 'planar'"),
+        ({"mesh.backlash": "regulatory_factor"}, "must be 'dead_zone' with dynamics = 'planar'"),
+    ],
+)
+def test_what_moving_axes_do_not_hold_is_refused_in_one_line(changes, said):
+    with pytest.raises(SceneError, match=re.escape(said)):
+        planar(**changes)
+
+
+def test_offsets_of_axes_are_refused_where_the_carrier_turns():
+    offset = {"errors.ring_offset": {"size": 1e-5}}
+    with pytest.raises(SceneError, match="ring_offset and carrier_offset require"):
+        planar(FLOWS[2], **offset)
+    static = load_sharing(planar(FLOWS[0], {"sun": 0.0}, **offset))
+    run = simulate(planar(FLOWS[0], {"sun": 0.0}, **offset), 0.01, settling=0.03)
+    moved = static.displacement.mean(axis=0)
+    assert run.axes.displacement[:, :3].mean(axis=0) == pytest.approx(moved, rel=2e-2, abs=1e-7)
+
+
+def test_a_scene_with_supports_runs_in_torsion_as_without():
+    scene = load_scene("floating_sun")
+    one, other = (simulate(each, 0.005) for each in (scene, scene.replace(supports=None)))
+    assert one.axes is None
+    assert (one.dte == other.dte).all()

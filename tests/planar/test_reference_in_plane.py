@@ -1,0 +1,93 @@
+"""Runs with moving axes against a model of vectors and points, integrated by SciPy."""
+
+import math
+
+import numpy as np
+import pytest
+from planar.moving_scenes import planar
+from planar.reference_in_plane import PlanarReference
+from power_flows import FLOWS
+
+from planetary_twin_py._core import DTE
+from planetary_twin_py.dynamics.bodies import build_bodies
+from planetary_twin_py.engine import Engine
+
+RATE = 50_000.0
+
+
+def absolute(engine, reference):
+    """Coordinates, speeds and integral of the speed loop at the end of the last step, and sides."""
+    train, state = engine.train, engine.march.end
+    planets, place = engine.scene.gearset.planets, build_bodies(engine.scene).place
+    names = [
+        "sun",
+        *(f"planet_{i + 1}" for i in range(planets)),
+        "ring",
+        "carrier",
+        "motor",
+        "load",
+    ]
+    names += [f"{body}.{motion}" for body in ("sun", "ring", "carrier") for motion in "xy"]
+    names += [f"planet_{i + 1}.{motion}" for i in range(planets) for motion in ("xi", "eta")]
+    index = np.array([place[name] for name in names])
+    radius = np.where(train.radius > 0.0, train.radius, 1.0)
+    turned = 2.0 * math.pi * (state.turns + state.fraction)
+    angle = (train.ratio @ turned + state.x / radius)[index]
+    speed = (train.ratio @ state.speed + state.v / radius)[index]
+    for i in range(planets):  # along the circle, as a length
+        across = reference.at(3 + i) + 1
+        angle[across] *= reference.radius
+        speed[across] *= reference.radius
+    meshes = int(train.meshes)
+    return np.concatenate([angle, speed, state.trim[:1]]), state.side[:meshes].copy()
+
+
+def errors(scene, begin, duration, tolerances):
+    """Difference of the DTE of all flanks from the reference over their rms, per tolerance."""
+    source = Engine(scene, 1e-6)
+    source.advance(begin, 1, RATE, 0)
+    start = source.march.end.time
+    first, last = math.floor(start * RATE) + 1, round((begin + duration) * RATE)
+    times = np.arange(first, last + 1) / RATE
+    reference = PlanarReference(scene)
+    exact, flank_events = reference.transmission_errors(*absolute(source, reference), times - start)
+    found = []
+    for tolerance in tolerances:
+        engine = Engine(scene, tolerance)
+        engine.march.end = source.march.end
+        mine = engine.advance(times[-1], first, RATE, len(times)).mesh[:, DTE]
+        found.append(np.sqrt(np.mean((mine - exact) ** 2) / np.mean(exact**2)))
+    return found, flank_events
+
+
+@pytest.mark.parametrize(
+    "flow, changes",
+    [
+        (FLOWS[0], {}),
+        (FLOWS[0], {"errors.pin_tangential": [-2e-5, 0.0, 0.0], "supports.sun.bearing": 0.0,
+                    "backlash": 2e-7}),
+        (FLOWS[2], {"errors.pin_tangential": [-2e-5, 1e-5, 0.0]}),
+    ],
+    ids=["held carrier", "both flanks", "turning carrier"],
+)  # fmt: skip
+def test_steady_running_converges_to_the_reference(flow, changes):
+    found, _ = errors(planar(flow, **changes), 1e-3, 2e-3, [1e-4, 1e-6])
+    assert found[0] < 5e-4
+    assert found[1] < 2e-5
+
+
+def test_rattling_with_gaps_and_clearance_converges_to_the_reference():
+    scene = planar(
+        FLOWS[0],
+        **{
+            "input_torque": 0.3,
+            "torque_ripple": 3.0,
+            "drive.speed_control.ripple_order": 6,
+            "backlash": 5e-6,
+            "supports.sun.clearance": 2e-6,
+        },
+    )
+    found, flank_events = errors(scene, 0.0235, 4e-3, [1e-4, 1e-6])
+    assert flank_events >= 5
+    assert found[0] < 2e-3
+    assert found[1] < 1e-4

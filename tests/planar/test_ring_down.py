@@ -1,0 +1,137 @@
+"""Small motions of a run ring at the natural frequencies of the planar model."""
+
+import math
+
+import numpy as np
+import pytest
+from planar.moving_scenes import evenly, planar
+from power_flows import FLOWS
+
+from planetary_twin_py import natural_modes
+from planetary_twin_py._core import axes
+from planetary_twin_py.engine import Engine
+
+RATE = 200_000.0
+SOFT = {"coupling_stiffness": 1e-2, "coupling_damping": 0.0}  # leave the gears to themselves
+SMALL = 1e-9  # [m]
+
+
+def ringing(flow, planets, speed):
+    """A scene without damping or friction, whose teeth are equally stiff at all times."""
+    heavy = {"inertia": 1.0} | SOFT
+    return planar(
+        flow,
+        **{
+            "gearset.planet_angles": evenly(planets),
+            "mesh.double_pair_ratio": 1.0,
+            "mesh.ramp": 0.0,
+            "mesh.damping.law": "viscous",
+            "mesh.damping.damping_ratio": 0.0,
+            "lubrication.friction": False,
+            "drive.speed_control.bandwidth": 1e-3,
+            "input_torque": math.copysign(0.5, flow[3]),
+            "input_speed": speed,
+            "backlash": 1e-4,
+        }
+        | {f"drive.input.{name}": value for name, value in heavy.items()}
+        | {f"drive.output.{name}": value for name, value in heavy.items()}
+        | {f"supports.{body}.damping": 0.0 for body in ("sun", "planet", "ring", "carrier")},
+    )
+
+
+def expected(scene):
+    """Natural frequencies [Hz] of the gears and their axes alone, but the rigid rotation."""
+    speed = scene.operating_point.input_speed
+    if scene.gearset.held == "carrier":
+        found = natural_modes(scene, "planar").frequencies
+    else:
+        found = natural_modes(scene, "planar", input_speed=speed).frequencies
+    return found[found > 20.0]
+
+
+def equations(scene):
+    """Masses and derivatives of the forces by x and v, in the coordinates of the run."""
+    engine = Engine(scene, 1e-6)
+    model, state, train = engine.model, engine.march.end, engine.train
+    step, out, trim = axes.StepConstants(), axes.Evaluation(), np.zeros(2)
+    axes.set_step_constants(model, state, step)
+    count = int(train.bodies)
+
+    def force(x, v):
+        axes.forces(model, state, step, x, v, 0.0, trim, out)
+        return out.force[:count].copy()
+
+    slopes = []
+    for place in range(2):
+        columns = []
+        for j in range(count):
+            ends = []
+            for sign in (1.0, -1.0):
+                point = [state.x.copy(), state.v.copy()]
+                point[place][j] += sign * (SMALL if place == 0 else 1e-6)
+                ends.append(force(*point))
+            columns.append((ends[0] - ends[1]) / (2.0 * (SMALL if place == 0 else 1e-6)))
+        slopes.append(np.array(columns).T)
+    return train.mass[:count].copy(), *slopes
+
+
+@pytest.mark.parametrize("planets", [3, 4, 5])
+@pytest.mark.parametrize("flow, speed", [(FLOWS[0], 100.0), (FLOWS[2], 600.0)])
+def test_equations_have_the_frequencies_of_the_planar_modes(flow, speed, planets):
+    scene = ringing(flow, planets, speed)
+    mass, by_x, by_v = equations(scene)
+    n = len(mass)
+    system = np.block([[np.zeros((n, n)), np.eye(n)], [by_x / mass[:, None], by_v / mass[:, None]]])
+    found = np.linalg.eigvals(system)
+    found = np.sort(found.imag[found.imag > 0.0]) / (2.0 * math.pi)
+    wanted = expected(scene)
+    assert found[-len(wanted) :] == pytest.approx(wanted, rel=1e-6)
+
+
+def swing(scene, mode, size):
+    """Start of a run in which one mode swings: its frequency [Hz] and the state."""
+    mass, by_x, by_v = equations(scene)
+    n = len(mass)
+    system = np.block([[np.zeros((n, n)), np.eye(n)], [by_x / mass[:, None], by_v / mass[:, None]]])
+    values, vectors = np.linalg.eig(system)
+    order = np.argsort(values.imag)
+    place = order[values.imag[order] > 2.0 * math.pi * 20.0][mode]
+    shape = vectors[:, place] / np.abs(vectors[:n, place]).max() * size
+    return values[place].imag / (2.0 * math.pi), shape.real[:n], shape.real[n:]
+
+
+@pytest.mark.parametrize("mode", [0, 3, 9])
+@pytest.mark.parametrize("flow, speed", [(FLOWS[0], 100.0), (FLOWS[2], 600.0)])
+def test_a_run_rings_at_the_frequency_of_its_mode(flow, speed, mode):
+    scene = ringing(flow, 3, speed)
+    wanted, x, v = swing(scene, mode, 1e-9)
+    engine = Engine(scene, 1e-8, "collocation")
+    state = engine.march.end
+    state.x[: len(x)] += x
+    state.v[: len(v)] += v
+    engine.control.changed = True
+    periods = 40
+    samples = round(periods / wanted * RATE)
+    motion = engine.advance(samples / RATE, 1, RATE, samples)
+    axis = np.abs(engine.train.ratio[: len(x)]).sum(axis=1) == 0.0  # not what couplings wind up
+    k = np.argmax(np.where(axis, np.abs(x), 0.0))
+    values = motion.angle[:, k]
+    times = np.arange(1, samples + 1) / RATE
+    assert frequency(times, values, wanted) == pytest.approx(wanted, rel=1e-4)
+
+
+def frequency(times, values, guess):
+    """Of the sine that fits best, beside a parabola for what else moves."""
+
+    def left(trial):
+        phase = 2.0 * math.pi * trial * times
+        span = times / times[-1]
+        table = np.column_stack([np.sin(phase), np.cos(phase), span**0, span, span**2, span**3])
+        return values - table @ np.linalg.lstsq(table, values, rcond=None)[0]
+
+    trials = guess * (1.0 + np.linspace(-4e-3, 4e-3, 161))
+    rest = np.array([np.sum(left(trial) ** 2) for trial in trials])
+    best = int(np.argmin(rest))
+    assert 0 < best < len(trials) - 1
+    near = np.polyfit(trials[best - 1 : best + 2] / guess - 1.0, rest[best - 1 : best + 2], 2)
+    return guess * (1.0 - near[1] / (2.0 * near[0]))
