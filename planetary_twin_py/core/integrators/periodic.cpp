@@ -107,7 +107,7 @@ void record_step(March& march) {
     std::memcpy(step.rubbing, march.last.rubbing, sizeof step.rubbing);
     step.motion = march.run.motion;
     step.sums = march.sums.step;
-    step.samples = {};
+    step.samples.forget();
     periodic.steps = place + 1;
     periodic.known = known;
 }

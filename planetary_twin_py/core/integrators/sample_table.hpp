@@ -14,6 +14,14 @@ struct SampleTable {
     bool fits[MOST_PIECES] = {};  // whether those of a piece are accurate enough
     bool all_fit = false;
     std::vector<double> coefficient;  // (pieces, terms, columns)
+
+    // Begin as new, but keep the memory: in a process of many threads, giving it back and taking it
+    // again with every change of the operating point lets the heap grow for hours.
+    void forget() {
+        known = all_fit = false;
+        pieces = 0;
+        for (bool& fit : fits) fit = false;
+    }
 };
 
 }  // namespace gearbox
