@@ -354,8 +354,8 @@ class Engine:
 
     def port_states(self, ticks: int) -> PortStates:
         """What the ports show at the end of the last window, in ticks of the clock."""
-        shown = PortStates()
-        read_ports(self.model, self.march, instant_of_ticks(ticks), shown)
+        shown: PortStates = self._core.PortStates()
+        self._core.read_ports(self.model, self.march, instant_of_ticks(ticks), shown)
         return shown
 
     def give(self, command: Command, ticks: int, reaching: float) -> None:
