@@ -354,7 +354,7 @@ class Engine:
 
     def port_states(self, ticks: int) -> PortStates:
         """What the ports show at the end of the last window, in ticks of the clock."""
-        shown = self._core.PortStates()
+        shown: PortStates = self._core.PortStates()
         self._core.read_ports(self.model, self.march, instant_of_ticks(ticks), shown)
         return shown
 

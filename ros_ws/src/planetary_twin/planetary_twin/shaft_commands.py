@@ -62,7 +62,7 @@ class ShaftCommands:
 
     @property
     def qos(self) -> QoSProfile:
-        """QoS of the subscription."""
+        """Return the quality of service of the subscription."""
         return _QOS
 
     def receive(self, message: JointState) -> None:
