@@ -77,3 +77,18 @@ def test_work_at_a_port_is_the_integral_of_torque_times_speed():
         work += 0.5 * dt * (last + now)
         last = now
     assert work == pytest.approx(ledger(147.0), rel=1e-6)
+
+
+def test_the_ledger_closes_where_flanks_part_under_steep_straight_lines():
+    """In free flight steps are long, and what is given changes a lot within one."""
+    changes = {"input_speed": 300.0, "input_torque": 0.3, "backlash": 1e-5}
+    scene = driven("torque", "motion", **{"drive.interpolation": "linear"}, **changes)
+    time = np.arange(1, 17) * 3e-3
+    commands = pt.Commands(
+        time,
+        input_torque=25.0 * np.sin(2.1 * np.arange(16)),
+        output_speed=RATIO * 300.0 + 0.5 * np.cos(1.3 * np.arange(16)),
+    )
+    run = pt.simulate(scene, 0.05, 2e4, tolerance=1e-6, commands=commands)
+    assert run.stats.flank_events > 50
+    assert abs(run.energy.residual) < 1e-6 * turnover(run.energy)

@@ -170,7 +170,7 @@ std::int64_t make_step(const Model& model, March& march, double longest, const N
     control.next_step = h * std::min(GROW, std::max(SHRINK, factor));
     if (fresh) {
         contacts_of(run).step = control.next_step;
-        remember<L>(march);
+        remember<L>(model, march);
     }
     if (h < std::min(event.time, longest) && outdone(control, h, true, 0)) control.detour = DETOUR;
     control.collocated = true;

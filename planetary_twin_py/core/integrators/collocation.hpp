@@ -192,6 +192,7 @@ Outcome collocate(const Model& model, March& march, double h, bool fresh) {
     Propagation& run = march.run;
     set_step<L>(run, h);
     const bool recalled = fresh && recall<L>(march);
+    add_given<L>(model, march, 1.0, run.rest);
     visit_nodes<L>(model, march);
     ContactState& contacts = contacts_of(run);
     if (!contacts.varies) return settle_friction<L>(model, march, contacts.pull[1]);

@@ -1,7 +1,7 @@
 #pragma once
 
-// What shafts do whose motion is given, exactly: quadrature at the nodes of a step would miss the
-// waves of their members, which their torques follow.
+// The work of what is given at the ports, exactly: quadrature at the nodes of a step would miss the
+// waves of the members of shafts whose motion is given, which their torques follow.
 
 #include "integrators/given_motion.hpp"
 #include "integrators/propagation.hpp"
@@ -57,32 +57,58 @@ inline double damped_across(const Model& model, const Propagation& run, std::int
     return -2.0 * model.train.coupling_damping[c] * (across - at_nodes);
 }
 
-// Book impulse and work at the ends of shafts whose motion is given, h seconds into the step.
+// Impulse and work of a given torque on the shaft of machine c over h seconds. The torque is known;
+// what the nodes say of the speed lags by the last sweep.
 template <int L>
-void book_given_work(const Model& model, March& march, double h) {
+void book_given_torque(const Model& model, March& march, std::int64_t c, double h) {
+    const Train& train = model.train;
+    const Propagation& run = march.run;
+    const std::int64_t body = train.coupling[c][0];
+    const double torque = march.constants.torque[c], rate = model.load.torque_rate[c];
+    const double x = march.end.x[body], passed = march.constants.rigid[body] * h;
+    double turned = passed + (x - march.begin.x[body]) * train.inverse_radius[body];
+    double later = 0.0;  // integral of time times speed [rad s]
+    if (rate != 0.0) {
+        Moments way = moments<L>(run, body, h, run.end_cosine, run.end_sine);
+        later = 0.5 * passed * h + (h * x - way.zeroth) * train.inverse_radius[body];
+    }
+    double impulse = h * (torque + 0.5 * rate * h), work = torque * turned + rate * later;
+    march.end.energy[IMPULSE + c] = march.begin.energy[IMPULSE + c] + impulse;
+    march.end.energy[WORK + c] = march.begin.energy[WORK + c] + work;
+}
+
+// Impulse and work at the end of the shaft of machine c, whose motion is given, over h seconds.
+template <int L>
+void book_given_motion(const Model& model, March& march, std::int64_t c, double h) {
     const Train& train = model.train;
     const State& begin = march.begin;
     State& after = march.end;
     const Propagation& run = march.run;
-    for (std::int64_t c = 0; c < train.machines; ++c) {
-        if (model.load.port[c] != BY_MOTION) continue;
-        const std::int64_t body = train.coupling[c][0], member = train.coupling[c][1];
-        const GivenMotion end = given_motion(model, begin, c);
-        const double k = train.coupling_stiffness[c], damper = train.coupling_damping[c];
-        const double v = end.speed, a = end.acceleration, moved = after.x[member] - begin.x[member];
-        Moments own{h * (end.place + h * (v / 2.0 + h * a / 6.0)),
-                    h * h * (end.place / 2.0 + h * (v / 3.0 + h * a / 8.0))};
-        Moments its = moments<L>(run, member, h, run.end_cosine, run.end_sine);
-        Moments twist{own.zeroth - its.zeroth, own.first - its.first};
-        double twisted = end.x(h) - end.place - moved, last = end.x(h) - after.x[member];
-        double impulse = k * twist.zeroth + damper * twisted;
-        double moment = k * twist.first + damper * (h * last - twist.zeroth);
-        double r = train.radius[body], speed = body_speed(train, begin, begin.v, body);
-        after.energy[IMPULSE + c] = begin.energy[IMPULSE + c] + r * impulse;
-        after.energy[WORK + c] =
-            begin.energy[WORK + c] + r * (speed * impulse + model.load.acceleration[c] * moment);
-        double across = v * moved + a * (h * after.x[member] - its.zeroth);
-        after.energy[DAMPING] += damped_across(model, run, c, end, across);
+    const std::int64_t body = train.coupling[c][0], member = train.coupling[c][1];
+    const GivenMotion end = given_motion(model, begin, c);
+    const double k = train.coupling_stiffness[c], damper = train.coupling_damping[c];
+    const double v = end.speed, a = end.acceleration, moved = after.x[member] - begin.x[member];
+    Moments own{h * (end.place + h * (v / 2.0 + h * a / 6.0)),
+                h * h * (end.place / 2.0 + h * (v / 3.0 + h * a / 8.0))};
+    Moments its = moments<L>(run, member, h, run.end_cosine, run.end_sine);
+    Moments twist{own.zeroth - its.zeroth, own.first - its.first};
+    double twisted = end.x(h) - end.place - moved, last = end.x(h) - after.x[member];
+    double impulse = k * twist.zeroth + damper * twisted;
+    double moment = k * twist.first + damper * (h * last - twist.zeroth);
+    double r = train.radius[body], speed = body_speed(train, begin, begin.v, body);
+    after.energy[IMPULSE + c] = begin.energy[IMPULSE + c] + r * impulse;
+    after.energy[WORK + c] =
+        begin.energy[WORK + c] + r * (speed * impulse + model.load.acceleration[c] * moment);
+    double across = v * moved + a * (h * after.x[member] - its.zeroth);
+    after.energy[DAMPING] += damped_across(model, run, c, end, across);
+}
+
+// Book impulse and work at the ports at which torque or motion is given, h seconds into the step.
+template <int L>
+void book_given_work(const Model& model, March& march, double h) {
+    for (std::int64_t c = 0; c < model.train.machines; ++c) {
+        if (model.load.port[c] == BY_TORQUE) book_given_torque<L>(model, march, c, h);
+        if (model.load.port[c] == BY_MOTION) book_given_motion<L>(model, march, c, h);
     }
 }
 

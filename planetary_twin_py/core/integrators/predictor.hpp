@@ -15,6 +15,48 @@ namespace gearbox {
 inline constexpr double SIMILAR = 0.25;  // relative difference of the lengths of two steps compared
 inline constexpr int START = MOST_NODES;  // row of what was at the start
 
+// Whether what is given at the ports changes within a step.
+inline bool given_changes(const Model& model, const State& begin) {
+    bool changes = false;
+    for (std::int64_t c = 0; c < model.train.machines; ++c) {
+        changes |= model.load.torque_rate[c] != 0.0;
+        if (model.load.port[c] != BY_MOTION) continue;
+        GivenMotion end = given_motion(model, begin, c);
+        changes |= end.speed != 0.0 || end.acceleration != 0.0;
+    }
+    return changes;
+}
+
+// What the rest of all modes gains by that until `delay` seconds after the start of the step.
+template <int L>
+Row<L> gain_of_given(const Model& model, const March& march, double delay) {
+    const Train& train = model.train;
+    const ContactState& contacts = contacts_of(march.run);
+    Row<L> gain(0.0);
+    for (std::int64_t c = 0; c < train.machines; ++c) {
+        const std::int64_t body = train.coupling[c][0], member = train.coupling[c][1];
+        const double more = model.load.torque_rate[c] * delay * train.inverse_radius[body];
+        gain += Row<L>(contacts.share[body]) * more;
+        if (model.load.port[c] != BY_MOTION) continue;
+        const GivenMotion end = given_motion(model, march.begin, c);
+        const double pull = train.coupling_stiffness[c] * (end.x(delay) - end.place) +
+                            train.coupling_damping[c] * (end.v(delay) - end.speed);
+        gain += Row<L>(contacts.share[member]) * pull;
+    }
+    return gain;
+}
+
+// Add so many times this gain to a row for each node.
+template <int L>
+void add_given(const Model& model, const March& march, double times, double (*rest)[BODIES]) {
+    if (!given_changes(model, march.begin)) return;
+    const Propagation& run = march.run;
+    for (int n = 0; n < run.nodes.count; ++n) {
+        double delay = run.nodes.abscissa[n] * run.motion.step;
+        (Row<L>(rest[n]) + gain_of_given<L>(model, march, delay) * times).store(rest[n]);
+    }
+}
+
 // Let rest and friction grow over the step as they did when it was last made; whether that is
 // known.
 template <int L>
@@ -32,9 +74,9 @@ bool recall(March& march) {
     return true;
 }
 
-// Keep how rest and friction grew over the first step in a contact state.
+// Keep how rest and friction grew over the first step in a contact state, but for what was given.
 template <int L>
-void remember(March& march) {
+void remember(const Model& model, March& march) {
     Propagation& run = march.run;
     ContactState& past = contacts_of(run);
     past.past_step = run.motion.step;
@@ -46,6 +88,7 @@ void remember(March& march) {
         copy<L>(run.rest[n], past.past_rest[n]);
         copy<L>(run.node[n].rubbing, past.past_rubbing[n]);
     }
+    add_given<L>(model, march, -1.0, past.past_rest);
 }
 
 }  // namespace gearbox
