@@ -72,6 +72,15 @@ def test_nodes_are_radaus_points(points):
     assert product == pytest.approx(np.eye(points), abs=1e-12)
 
 
+@pytest.mark.parametrize("points", [2, 3, 4, 5])
+def test_nodes_give_legendre_coefficients_of_the_polynomial_through_their_values(points):
+    nodes = radau(points)
+    expected = np.random.default_rng(points).standard_normal(points)
+    values = Legendre(expected, domain=[0.0, 1.0])(nodes.abscissa[:points])
+    found = nodes.legendre[:points, :points] @ values
+    assert found == pytest.approx(expected, abs=1e-12)
+
+
 def test_no_more_nodes_than_there_is_room_for():
     with pytest.raises(ValueError, match="points"):
         radau(6)

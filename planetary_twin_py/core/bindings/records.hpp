@@ -267,6 +267,7 @@ inline void bind_records(nb::module_& m) {
         .FIELD(Nodes, count)
         .FIELD(Nodes, abscissa)
         .FIELD(Nodes, coefficient)
+        .FIELD(Nodes, legendre)
         .FIELD(Nodes, smallest);
     record<ModalMotion>(m, "ModalMotion")
         .FIELD(ModalMotion, modes)

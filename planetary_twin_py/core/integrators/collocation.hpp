@@ -11,6 +11,7 @@
 #include <cmath>
 #include <limits>
 
+#include "integrators/loss_error.hpp"
 #include "integrators/mixing.hpp"
 #include "integrators/node_forces.hpp"
 #include "integrators/predictor.hpp"
@@ -171,7 +172,7 @@ Outcome settle_friction(const Model& model, March& march, double& known_pull) {
         visit_last_node<L>(model, march);
         change = difference<L>(march);
         if (round == 0) {
-            tail = tail_error<L>(march);
+            tail = std::max(tail_error<L>(march), loss_error<L>(model.train, march));
         } else if (before > 0.0) {
             pull = change / before;
             if (!MOVING || round == 1)

@@ -14,15 +14,20 @@ constexpr int SCANNED_POINTS = 1001;  // at which the product of distances is lo
 constexpr int BISECTIONS = 200;
 constexpr int BRACKETS = 2000;  // parts of (0, 1) in which a root is looked for
 
-// Legendre's polynomials P_n - P_(n-1) at t in [0, 1], whose roots are the points.
-long double shape(int points, long double t) {
-    long double x = 2.0L * t - 1.0L, before = 1.0L, here = x;
-    for (int n = 1; n < points; ++n) {
-        long double next = ((2 * n + 1) * x * here - n * before) / (n + 1);
+// Legendre's polynomial P_n at t in [0, 1].
+long double legendre(int n, long double t) {
+    long double x = 2.0L * t - 1.0L, before = 0.0L, here = 1.0L;
+    for (int k = 0; k < n; ++k) {
+        long double next = ((2 * k + 1) * x * here - k * before) / (k + 1);
         before = here;
         here = next;
     }
-    return here - before;
+    return here;
+}
+
+// What has the points as its roots.
+long double shape(int points, long double t) {
+    return legendre(points, t) - legendre(points - 1, t);
 }
 
 // Root between two times at which the shape has different signs.
@@ -60,6 +65,19 @@ void invert_powers(int points, const long double* abscissa, double (*out)[MOST_N
         for (int j = 0; j < points; ++j) out[i][j] = static_cast<double>(rows[i][points + j]);
 }
 
+// Fill the coefficients of Legendre's polynomials from the values at the points: the quadrature at
+// the points is exact for the products of these polynomials with the one through the values.
+void fill_legendre(Nodes& nodes, const long double* abscissa) {
+    for (std::int64_t n = 0; n < nodes.count; ++n) {
+        long double weight = 0.0L;
+        for (std::int64_t k = 0; k < nodes.count; ++k)
+            weight += static_cast<long double>(nodes.coefficient[k][n]) / (k + 1);
+        for (int k = 0; k < static_cast<int>(nodes.count); ++k)
+            nodes.legendre[k][n] =
+                static_cast<double>((2 * k + 1) * weight * legendre(k, abscissa[n]));
+    }
+}
+
 }  // namespace
 
 void radau(int points, Nodes& nodes) {
@@ -76,6 +94,7 @@ void radau(int points, Nodes& nodes) {
     abscissa[points - 1] = 1.0L;
     for (int n = 0; n < points; ++n) nodes.abscissa[n] = static_cast<double>(abscissa[n]);
     invert_powers(points, abscissa, nodes.coefficient);
+    fill_legendre(nodes, abscissa);
     for (int k = 0; k < SCANNED_POINTS; ++k) {
         double t = static_cast<double>(k) / (SCANNED_POINTS - 1), product = 1.0;
         for (int n = 0; n < points; ++n) product *= t - nodes.abscissa[n];
