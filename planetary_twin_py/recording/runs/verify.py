@@ -49,7 +49,8 @@ class Comparison:
     values: int = 0
     first_difference: Difference | None = None
     largest: float = 0.0
-    """Largest difference, divided by the largest value of its array and by the tolerance."""
+    """Largest difference, divided by the largest value of its array (stored power: or of the input
+    power) and by the tolerance."""
     remarks: list[str] = field(default_factory=list)
     ledger: str | None = None
     """Warning if the energy ledger of the compared intervals does not balance."""
@@ -140,7 +141,9 @@ def _compare(
         result.values += recorded.size
         if recorded.tobytes() == simulated.tobytes():
             continue
-        result.largest = max(result.largest, _distance(recorded, simulated) / interval.tolerance)
+        size = _size_beside(message, name)
+        distance = _distance(recorded, simulated, size)
+        result.largest = max(result.largest, distance / interval.tolerance)
         if result.first_difference is None:
             result.first_difference = _first(topic, name, window.end, recorded, simulated)
 
@@ -155,14 +158,22 @@ def _expected(topic: str, message: Any, window: Window) -> Mapping[str, Any]:
     return joint_fields_like(window, message)
 
 
-def _distance(recorded: np.ndarray, simulated: np.ndarray) -> float:
-    """Largest difference/largest value; infinite if only one of two values is finite."""
+def _size_beside(message: Any, name: str) -> float:
+    """Size of what a field is a small difference of; 0 if it has a size of its own."""
+    return abs(float(message.input_power)) if name == "stored_power" else 0.0
+
+
+def _distance(recorded: np.ndarray, simulated: np.ndarray, least: float = 0.0) -> float:
+    """Largest difference over the largest value, or over `least` if that is more.
+
+    Infinite if only one of two values is finite.
+    """
     if recorded.shape != simulated.shape:
         return float("inf")
     if not np.array_equal(np.isfinite(recorded), np.isfinite(simulated)):
         return float("inf")
     sound = np.isfinite(simulated)
-    size = np.abs(simulated[sound]).max(initial=0.0)
+    size = np.abs(simulated[sound]).max(initial=least)
     apart = np.abs(recorded[sound] - simulated[sound]).max(initial=0.0)
     return float(apart / size) if size > 0.0 else float("inf") if apart > 0.0 else 0.0
 

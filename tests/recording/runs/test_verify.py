@@ -13,6 +13,7 @@ from typer.testing import CliRunner
 from planetary_twin_py.cli import build_app
 from planetary_twin_py.recording.container.records import RecordingError, sections_of
 from planetary_twin_py.recording.runs.origin import makers_here
+from planetary_twin_py.recording.runs.reader import read_recording
 from planetary_twin_py.recording.runs.verify import BOUND, verify
 
 
@@ -189,6 +190,16 @@ def test_other_machines_may_differ_within_the_bound(tmp_path):
         assert not verdict.same_makers and not verdict.identical
         assert verdict.largest == pytest.approx(share * BOUND, rel=0.2)
         assert invoke(file)[0] == code
+
+
+def test_stored_power_differs_in_relation_to_the_power_it_is_a_difference_of(tmp_path, sound):
+    state = read_recording(sound).state
+    power, stored = state["input_power"][4], state["stored_power"][4]
+    assert 0.0 < abs(stored) < 0.2 * power
+    shift = 0.1 * BOUND * 1e-3 * power
+    alter = altering("gearbox_state", 5, "stored_power", lambda value: value + shift)
+    verdict = verify(record(tmp_path / "bag", alter), NAMESPACE)
+    assert verdict.largest == pytest.approx(0.1 * BOUND, rel=0.01)
 
 
 def test_the_command_prints_its_findings(sound, tmp_path):
