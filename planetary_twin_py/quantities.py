@@ -119,6 +119,67 @@ TRAIN_PLOTS = {
 WAVEFORM = {"dte": Quantity("DTE", "m"), "mesh_force": Quantity("Mesh force", "N")}
 """Samples of every mesh: fields of MeshWaveform."""
 
+MEMBERS = ("sun", "ring", "carrier")
+"""Central bodies, by prefix of a field."""
+COMPONENTS = dict.fromkeys(MEMBERS, ("x", "y")) | {"planet": ("radial", "tangential")}
+"""Names of the components of a displacement or force, by kind of body."""
+
+BEARING = {
+    "displacement": Quantity("Displacement of the axis, mean", "m"),
+    "displacement_peak": Quantity("Displacement of the axis, largest magnitude", "m"),
+    "bearing_force": Quantity("Force on the bearing, mean", "N"),
+    "bearing_force_peak": Quantity("Force on the bearing, largest magnitude", "N"),
+}
+"""Statistics of an axis that moves, see `axes_statistics`: fields of AxesState after a prefix of
+`COMPONENTS` and, of a vector, before a component."""
+
+ORBIT = {"orbit": Quantity("Displacement of the axis in the housing", "m")}
+"""Of sun, ring and carrier only, in the same way."""
+
+SHARING = {
+    "load_sharing_factor": Quantity("Load sharing factor", "", "largest load share of a planet"),
+    "load_share": Quantity(
+        "Load share", "", "mean torque of a planet from the sun over that of all planets"
+    ),
+}
+"""How planets share the load: fields of AxesState."""
+
+FLANKS = {
+    "drive_force": Quantity("Force of drive flanks, mean", "N"),
+    "coast_force": Quantity("Force of coast flanks, mean", "N"),
+}
+"""Of both flanks of a mesh whose axes move: fields of AxesState after a prefix of `SIDES`."""
+
+AXES_WAVEFORM = {
+    "displacement": Quantity("Displacement of the axis", "m"),
+    "bearing_force": Quantity("Force on the bearing", "N"),
+    "orbit": Quantity("Displacement of the axis in the housing", "m"),
+}
+"""Samples of every axis: fields of AxesWaveform."""
+VECTORS = frozenset(AXES_WAVEFORM)
+"""Those of the quantities of an axis that have two components."""
+
+
+def axes_fields() -> dict[str, Quantity]:
+    """Quantities of AxesState by field, in the order of the message."""
+    found = dict(SHARING)
+    for side in SIDES:
+        for name, quantity in FLANKS.items():
+            found[f"{side}_{name}"] = _titled(quantity, side_title(side))
+    for body, components in COMPONENTS.items():
+        for name, quantity in (BEARING | (ORBIT if body in MEMBERS else {})).items():
+            if name not in VECTORS:
+                found[f"{body}_{name}"] = _titled(quantity, body)
+                continue
+            for component in components:
+                found[f"{body}_{name}_{component}"] = _titled(quantity, f"{body}, {component}")
+    return found
+
+
+def _titled(quantity: Quantity, of: str) -> Quantity:
+    return quantity._replace(title=f"{quantity.title}, {of}")
+
+
 OPERATING_POINT = {
     "backlash": Quantity("Backlash", "m"),
     "lambda_ratio": Quantity("Prescribed lambda ratio"),
@@ -183,3 +244,11 @@ COURSE = {
 """Counters of `accuracy.Course`, from which the accuracy of a point is estimated."""
 STUDY_RESULTS = _study()
 """Columns of the results of a study, in order."""
+STUDIED_OF_AXES = ("displacement_peak", "bearing_force_peak")
+"""Those of `BEARING` that a study stores, of planets the largest."""
+AXES_RESULTS = {"load_sharing_factor": SHARING["load_sharing_factor"]} | {
+    f"{body}_{name}": _titled(BEARING[name], "planets" if body == "planet" else body)
+    for body in COMPONENTS
+    for name in STUDIED_OF_AXES
+}
+"""Further columns of a study in which axes move."""

@@ -168,6 +168,7 @@ def _result(
     sums = in_order(found[2], meshes.place)
     joined = joined_flanks if scene.moving_axes else _of_places
     mesh, count = joined(samples.mesh, meshes.place), engine.control
+    statistics = mesh_statistics(sums)
     ground = np.zeros((len(mesh), 1))
     angle = np.hstack([_angles(engine, samples), ground])[:, names.place]
     return Result(
@@ -189,9 +190,11 @@ def _result(
         bearing_loss=samples.drag[:, 0],
         churning_loss=samples.drag[:, 1],
         energy=_energy(engine, before.stored),
-        mesh=mesh_statistics(sums),
+        mesh=statistics,
         mesh_efficiency=_mesh_efficiency(sums),
-        axes=axes_motion(scene, engine.train, samples, angle[:, -1]) if scene.moving_axes else None,
+        axes=axes_motion(scene, samples, angle[:, -1], statistics["mesh_force_mean"])
+        if scene.moving_axes
+        else None,
         stats=Stats(
             steps=int(count.steps),
             repeated_steps=int(count.repeated),

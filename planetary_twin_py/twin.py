@@ -15,7 +15,8 @@ from .dynamics.library import library
 from .engine import Engine
 from .gearset.kinematics import mesh_frequency
 from .integrators.clock import TICKS
-from .integrators.interpolant import Waves, new_waves
+from .integrators.interpolant import Waves, bearings_of, new_waves
+from .planar.motion import axes_of_waves
 from .run import start
 from .scene import TUNABLES, OperatingPoint, Scene, SceneError
 from .scene.drive import Causality, Ports
@@ -390,7 +391,8 @@ class Twin:
             raise ValueError(f"duration = {duration!r} s: must be at least 1e-12, the clock's step")
         end = self._ticks + ticks
         first = self._samples(self._ticks) + 1
-        waves = new_waves(self._samples(end) - first + 1, len(self.meshes))
+        rows = self._samples(end) - first + 1
+        waves = new_waves(rows, len(self.meshes), bearings_of(self._engine.train))
         return _Plan(end, first, waves, self._engine.repeats)
 
     def _samples(self, ticks: int) -> int:
@@ -410,6 +412,7 @@ class Twin:
         self._ticks, self._ends = plan.end, (end, begin)
         mean_speed, record = figures.mean_speed.copy(), figures.record
         sun, carrier = mean_speed[self._sun], mean_speed[-1]
+        mesh = by_name(figures.statistics.copy())
         return Window(
             start=start_time,
             end=self.time,
@@ -418,8 +421,8 @@ class Twin:
             repeated=plan.repeated,
             bodies=names.names,
             meshes=self.meshes,
-            waveform=Waveform(1.0 / rate, *plan.waves),
-            mesh=by_name(figures.statistics.copy()),
+            waveform=Waveform(1.0 / rate, *plan.waves[:4]),
+            mesh=mesh,
             angle=figures.angle.copy(),
             mean_speed=mean_speed,
             mesh_frequency=mesh_frequency(self._teeth, sun, carrier),
@@ -432,6 +435,7 @@ class Twin:
             residual_power=record.residual_power,
             course=self._follow(duration),
             given=dict(plan.given),
+            axes=axes_of_waves(plan.waves, self.scene.gearset.planets, mesh["mesh_force_mean"]),
             members=self._members,
         )
 

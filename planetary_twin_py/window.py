@@ -13,6 +13,7 @@ from ._core import STATISTICS
 from .accuracy import Course
 from .dynamics.bodies import LOAD_MACHINE, MOTOR, SECOND_MOTOR
 from .dynamics.mesh_sums import MeshSums
+from .planar.motion import AxesMotion
 
 # Rows of what the core computes of every mesh, by names of `quantities.MESH`.
 ROWS = {
@@ -98,6 +99,8 @@ class Window:
     """Counters from which the accuracy is estimated, see `accuracy`."""
     given: Mapping[str, float]
     """What was given at the ports from the start of the window on, by arguments of `advance`."""
+    axes: AxesMotion | None
+    """Motion of the axes and forces on their bearings; None where the axes are held."""
     members: tuple[int, ...]
     """Places in `bodies` of the members to which the machines are coupled, (machines,)."""
 

@@ -6,7 +6,15 @@ from pathlib import Path
 import pytest
 
 import planetary_twin_py as pt
-from planetary_twin_py.quantities import MESH, OPERATING_POINT, SIDES, TRAIN, WAVEFORM
+from planetary_twin_py.quantities import (
+    AXES_WAVEFORM,
+    MESH,
+    OPERATING_POINT,
+    SIDES,
+    TRAIN,
+    WAVEFORM,
+    axes_fields,
+)
 from planetary_twin_py.scene.quantity import unit_of
 
 MESSAGES = Path(__file__).parents[1] / "msgs_spec/msg"
@@ -39,6 +47,18 @@ def test_the_state_has_the_statistics_of_a_mesh_in_their_units_and_no_others(sid
 def test_the_waveform_has_its_quantities_in_their_units():
     recorded = units("MeshWaveform")
     assert all(recorded[name] == quantity.si for name, quantity in WAVEFORM.items())
+
+
+def test_the_state_of_axes_has_its_quantities_in_their_units_and_no_others():
+    general = {"simulated_time", "interval", "sample_rate", "planets"}
+    recorded = {name: unit for name, unit in units("AxesState").items() if name not in general}
+    assert recorded == {name: quantity.si for name, quantity in axes_fields().items()}
+    assert list(recorded) == list(axes_fields())
+
+
+def test_the_waveform_of_axes_has_its_quantities_in_their_units():
+    recorded = units("AxesWaveform")
+    assert all(recorded[name] == quantity.si for name, quantity in AXES_WAVEFORM.items())
 
 
 def test_set_points_have_the_units_of_the_scene():

@@ -6,11 +6,10 @@ from typing import NamedTuple
 
 import numpy as np
 
-from .._core import (
-    AXES,
-    QUANTITIES,
-    Train,
-)
+from .._core import AXES, QUANTITIES, Train
+
+MEMBERS = 3  # sun, ring, carrier
+SAMPLE_AXES = 4  # components of what a bearing shows
 
 
 class Samples(NamedTuple):
@@ -21,6 +20,7 @@ class Samples(NamedTuple):
     angle: np.ndarray  # (room, bodies) [rad]
     speed: np.ndarray  # (room, bodies) [rad/s]
     drag: np.ndarray  # (room, 2) power loss of bearings and of churning [W]
+    moved: np.ndarray  # (room, bearings, 4) displacement [m], force on the bearing [N]
 
 
 class Waves(NamedTuple):
@@ -30,12 +30,23 @@ class Waves(NamedTuple):
     dte: np.ndarray  # (rows, meshes) [m]
     mesh_force: np.ndarray  # (rows, meshes) [N]
     friction: np.ndarray  # (rows, meshes), magnitude [N]
+    displacement: np.ndarray  # (rows, 2 bearings) of axes that move [m]
+    bearing_force: np.ndarray  # (rows, 2 bearings), on the bearing [N]
+    orbit: np.ndarray  # (rows, 6) of sun, ring and carrier in the housing [m]
+    flank_force: np.ndarray  # (rows, 2 meshes) of drive, then of coast flanks [N]
 
 
-def new_waves(rows: int, meshes: int) -> Waves:
-    """Room for `rows` samples."""
-    size = (rows, meshes)
-    return Waves(np.empty(rows), np.empty(size), np.empty(size), np.empty(size))
+def new_waves(rows: int, meshes: int, bearings: int = 0) -> Waves:
+    """Room for `rows` samples; without bearings, axes are held and have no columns."""
+    of_axes = (2 * bearings, 2 * bearings, 2 * MEMBERS, 2 * meshes) if bearings else (0,) * 4
+    return Waves(
+        np.empty(rows), *(np.empty((rows, columns)) for columns in (*[meshes] * 3, *of_axes))
+    )
+
+
+def bearings_of(train: Train) -> int:
+    """Number of the bearings of axes that move; 0 if they are held."""
+    return int(train.moving.bearings)
 
 
 def new_samples(train: Train, room: int) -> Samples:
@@ -47,4 +58,5 @@ def new_samples(train: Train, room: int) -> Samples:
         np.zeros((room, bodies)),
         np.zeros((room, bodies)),
         np.zeros((room, 2)),
+        np.zeros((room, bearings_of(train), SAMPLE_AXES)),
     )

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
+from types import ModuleType
 
 import numpy as np
 
@@ -14,10 +16,10 @@ from .._core import (
     MESH_POWER,
     POWER_LOSS,
     VISCOUS,
-    Train,
 )
-from ..dynamics.bodies import CENTRAL, build_bodies
-from ..integrators.interpolant import Samples
+from ..dynamics.bodies import CENTRAL
+from ..dynamics.library import library
+from ..integrators.interpolant import Samples, Waves
 from ..scene import Scene
 
 SUMMED = (MESH_FORCE, BOUNDARY, VISCOUS, POWER_LOSS, MESH_POWER)  # of both flanks
@@ -45,16 +47,16 @@ class AxesMotion:
     flank_force: np.ndarray
     """Force of the drive flanks, then of the coast flanks of each mesh [N],
     (samples, 2, meshes)."""
-    load_share: np.ndarray
-    """Torque that each planet takes from the sun over the mean of all planets, NaN where that is
-    zero, (samples, planets)."""
+    mean_load_share: np.ndarray
+    """Mean torque that each planet takes from the sun over the mean of all planets, (planets,); an
+    integral over the time of the samples, NaN where the mean of all is zero."""
 
     @property
-    def mean_load_share(self) -> np.ndarray:
-        """Mean torque of each planet over the mean of all planets, (planets,)."""
-        planets = self.load_share.shape[1]
-        mean = self.flank_force[:, :, :planets].mean(axis=0)
-        return _shares(mean[0] - mean[1])
+    def load_share(self) -> np.ndarray:
+        """Torque that each planet takes from the sun over the mean of all planets, NaN where that
+        is zero, (samples, planets)."""
+        own = slice(len(self.mean_load_share))
+        return _shares(self.flank_force[:, 0, own] - self.flank_force[:, 1, own])
 
     @property
     def load_sharing_factor(self) -> float:
@@ -82,89 +84,72 @@ def joined_flanks(mesh: np.ndarray, place: np.ndarray) -> np.ndarray:
     return joined
 
 
-def axes_motion(scene: Scene, train: Train, samples: Samples, angle: np.ndarray) -> AxesMotion:
+def axes_motion(
+    scene: Scene, samples: Samples, angle: np.ndarray, mesh_force: np.ndarray
+) -> AxesMotion:
     """What samples of a run show of its axes.
 
     Args:
         scene: whose axes move.
-        train: of `build_train`.
-        samples: of its meshes and coordinates.
+        samples: of its meshes and bearings.
         angle: of the carrier [rad], (samples,).
+        mesh_force: mean force of each mesh over the time of the samples [N], (meshes,).
 
     Returns:
         Displacements, forces and shares.
     """
-    planets, place = scene.gearset.planets, build_bodies(scene).place
-    names = (*CENTRAL, *(f"planet_{i + 1}" for i in range(planets)))
-    own = slice(train.bodies)
-    moved, moving = (
-        _moved(train, len(names), values * train.radius[own])
-        for values in (samples.angle, samples.speed)
-    )
-    turning = _coordinate(samples.speed, place["carrier"])
-    count = 2 * planets
+    count = len(mesh_force)
+    moved = np.ascontiguousarray(samples.moved[:, :, :2])
     forces = np.abs(samples.mesh[:, MESH_FORCE])
-    flanks = np.stack([forces[:, :count], forces[:, count:]], axis=1)
+    return AxesMotion(
+        axes_names(scene.gearset.planets),
+        moved,
+        np.ascontiguousarray(samples.moved[:, :, 2:]),
+        _orbits(library(scene), moved, angle),
+        np.stack([forces[:, :count], forces[:, count:]], axis=1),
+        _shares(mesh_force[: scene.gearset.planets]),
+    )
+
+
+def axes_of_waves(waves: Waves, planets: int, mesh_force: np.ndarray) -> AxesMotion | None:
+    """What a window shows of its axes.
+
+    Args:
+        waves: its samples.
+        planets: their number.
+        mesh_force: mean force of each mesh over the window [N], (meshes,).
+
+    Returns:
+        Displacements, forces and shares; None if the axes are held.
+    """
+    if not waves.orbit.shape[1]:
+        return None
+    names, rows = axes_names(planets), len(waves.time)
     return AxesMotion(
         names,
-        moved,
-        _bearing_force(train, moved, moving, turning),
-        _in_housing(moved[:, : len(CENTRAL)], angle),
-        flanks,
-        _shares(flanks[:, 0, :planets] - flanks[:, 1, :planets]),
+        waves.displacement.reshape(rows, len(names), 2),
+        waves.bearing_force.reshape(rows, len(names), 2),
+        waves.orbit.reshape(rows, len(CENTRAL), 2),
+        waves.flank_force.reshape(rows, 2, len(mesh_force)),
+        _shares(mesh_force[:planets]),
     )
+
+
+def axes_names(planets: int) -> tuple[str, ...]:
+    """Names of the bodies in the order of arrays over bearings."""
+    return (*CENTRAL, *(f"planet_{i + 1}" for i in range(planets)))
 
 
 def _shares(force: np.ndarray) -> np.ndarray:
-    """Forces of the sun meshes over their mean, (..., planets)."""
+    """Forces of the sun meshes over their mean, NaN where that is zero, (..., planets)."""
     mean = force.mean(axis=-1, keepdims=True)
     return np.asarray(np.divide(force, mean, out=np.full_like(force, np.nan), where=mean != 0.0))
 
 
-def _moved(train: Train, bodies: int, x: np.ndarray) -> np.ndarray:
-    """Displacements of the axes from coordinates (samples, coordinates), (samples, bodies, 2).
-
-    The way that the carrier turns a planet along is taken out, with all of its rotation.
-    """
-    axes = train.moving
-    place, carried = axes.place[:bodies], axes.carried[:bodies]
-    turned = _coordinate(x, int(train.carrier))
-    across = x[:, place[:, 1]] - carried * turned[:, None]
-    return np.stack([x[:, place[:, 0]], across], axis=2)
-
-
-def _coordinate(values: np.ndarray, place: int) -> np.ndarray:
-    """A coordinate, zero if it is the ground, (samples,)."""
-    return values[:, place] if place < values.shape[1] else np.zeros(len(values))
-
-
-def _bearing_force(
-    train: Train, moved: np.ndarray, moving: np.ndarray, turning: np.ndarray
-) -> np.ndarray:
-    """Force of each body on its bearing [N], (samples, bodies, 2), see core/train/bearings.hpp."""
-    axes, bodies = train.moving, moved.shape[1]
-    cosine, sine = axes.direction[:bodies].T
-    across, rate = (
-        values - np.stack([cosine * a + sine * c, cosine * c - sine * a], axis=2)
-        for values, (a, c) in (
-            (each, (each[:, 2, 0, None], each[:, 2, 1, None])) for each in (moved, moving)
-        )
-    )
-    across = across - axes.centre[:bodies]
-    quarter = np.stack([-across[:, :, 1], across[:, :, 0]], axis=2)
-    in_housing = (axes.carried[:bodies] == 0.0)[:, None]
-    rate = rate + np.where(in_housing, quarter * turning[:, None, None], 0.0)
-    stiffness, damping = axes.stiffness[:bodies, None], axes.damping[:bodies, None]
-    clearance = axes.clearance[:bodies, None]
-    size = np.linalg.norm(across, axis=2, keepdims=True)
-    unit = across / np.where(size > 0.0, size, 1.0)
-    along = stiffness * (size - clearance) + damping * np.sum(unit * rate, axis=2, keepdims=True)
-    pressed = np.where(size > clearance, np.maximum(along, 0.0), 0.0) * unit
-    return np.where(clearance > 0.0, pressed, stiffness * across + damping * rate)
-
-
-def _in_housing(moved: np.ndarray, angle: np.ndarray) -> np.ndarray:
-    """Displacements turned by the angle of the carrier (samples,), (samples, bodies, 2)."""
-    cosine, sine = np.cos(angle)[:, None], np.sin(angle)[:, None]
-    x, y = moved[:, :, 0], moved[:, :, 1]
-    return np.stack([cosine * x - sine * y, sine * x + cosine * y], axis=2)
+def _orbits(core: ModuleType, displaced: np.ndarray, angle: np.ndarray) -> np.ndarray:
+    """Displacements of sun, ring and carrier in the housing, (samples, 3, 2)."""
+    rows = len(angle)
+    found = np.empty((rows, 2 * len(CENTRAL)))
+    within_one_turn = np.remainder(angle, 2.0 * math.pi)
+    core.orbits(displaced.reshape(rows, -1), within_one_turn, found)
+    return found.reshape(rows, len(CENTRAL), 2)

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 
 from ..quantities import (
+    AXES_RESULTS,
     OPERATING_POINT,
     SIDES,
     STUDY_RESULTS,
@@ -100,8 +101,9 @@ def _column(table: pa.Table, field: pa.Field) -> Column:
 
 def _known(name: str) -> Quantity | None:
     """Quantity of a result or a set-point; None for other columns."""
-    if found := STUDY_RESULTS.get(name) or OPERATING_POINT.get(name):
-        return found
+    for known in (STUDY_RESULTS, AXES_RESULTS, OPERATING_POINT):
+        if name in known:
+            return known[name]
     for side in SIDES:
         number, _, waveform = name.removeprefix(f"{side}_").partition("_")
         if name.startswith(f"{side}_") and waveform in WAVEFORM:

@@ -12,7 +12,7 @@ from matplotlib.axes import Axes
 from matplotlib.colors import to_hex
 from matplotlib.figure import Figure
 
-from ..quantities import STUDY_RESULTS
+from ..quantities import AXES_RESULTS, STUDY_RESULTS
 from ..studies.marks import BIFURCATION
 from .bifurcation import bifurcation_diagram
 from .clipped import LEGEND, clipped_points, mark
@@ -95,7 +95,7 @@ def plot_study(
 
 def fields(table: pa.Table) -> list[str]:
     """Names of the columns that the study varied."""
-    own = ("point", "failure", *STUDY_RESULTS)
+    own = ("point", "failure", *STUDY_RESULTS, *AXES_RESULTS)
     return [name for name in table.column_names if name not in own]
 
 

@@ -7,7 +7,18 @@ from typing import NamedTuple
 import numpy as np
 
 from ..ledger_check import balance_of_window
-from ..quantities import CLIPPED, COURSE, EXCESS, MESH, SIDES, STUDIED
+from ..planar.motion import AxesMotion
+from ..planar.statistics import axes_statistics
+from ..quantities import (
+    CLIPPED,
+    COURSE,
+    EXCESS,
+    MEMBERS,
+    MESH,
+    SIDES,
+    STUDIED,
+    STUDIED_OF_AXES,
+)
 from ..result import Result
 from ..scene import Scene
 from ..twin import Twin
@@ -25,7 +36,7 @@ def measure(scene: Scene, settings: Settings) -> Row:
         settings: of the run.
 
     Returns:
-        Values in SI by the names of `STUDY_RESULTS`.
+        Values in SI by the names of `STUDY_RESULTS`, and of `AXES_RESULTS` where axes move.
 
     Raises:
         ValueError: the scene is invalid.
@@ -57,14 +68,28 @@ def glance(result: Result) -> Glance:
 
 
 def row(scene: Scene, window: Window) -> Row:
-    """Values of `STUDY_RESULTS` over a window of a run of `scene`, in SI."""
+    """Values of `STUDY_RESULTS` over a window of a run of `scene`, in SI.
+
+    Where axes move, those of `AXES_RESULTS`, too.
+    """
     figures = {name: float(getattr(window, name)) for name in STUDIED}
     for side, values in mesh_rows(window.mesh).items():
         figures |= {f"{side}_{name}": value for name, value in values.items()}
     shares = clipped_friction(scene, window)
     figures |= {f"{side}_{CLIPPED}": share for side, share in shares.items()}
     figures |= {name: float(getattr(window.course, name)) for name in COURSE}
-    return figures | {EXCESS: balance_of_window(window).excess}
+    figures[EXCESS] = balance_of_window(window).excess
+    return figures if window.axes is None else figures | axes_row(window.axes)
+
+
+def axes_row(motion: AxesMotion) -> Row:
+    """Values of `AXES_RESULTS` of axes that move, in SI."""
+    found, members = axes_statistics(motion), len(MEMBERS)
+    figures = {"load_sharing_factor": motion.load_sharing_factor}
+    for name in STUDIED_OF_AXES:
+        figures |= {f"{body}_{name}": float(found[name][k]) for k, body in enumerate(MEMBERS)}
+        figures[f"planet_{name}"] = float(found[name][members:].max())
+    return figures
 
 
 def clipped_friction(scene: Scene, run: Result | Window) -> dict[str, float]:

@@ -6,7 +6,7 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from ..quantities import STUDY_RESULTS
+from ..quantities import AXES_RESULTS, STUDY_RESULTS
 from .journal import Journal
 from .plan import Study
 from .work import Evaluation, Executor, Failure, Found
@@ -41,7 +41,7 @@ def sweep(
     from .._core import SOURCES
     from .table import tabulate
 
-    makers = "/".join((SOURCES, *STUDY_RESULTS))  # others: new results
+    makers = "/".join((SOURCES, *STUDY_RESULTS, *AXES_RESULTS))  # others: new results
     keys = {point.place: study.key(point, makers) for point in study.points}
     book = Journal(journal) if journal else None
     known = book.done if book else {}

@@ -15,7 +15,7 @@ import pyarrow as pa
 import pyarrow.csv
 import pyarrow.parquet
 
-from ..quantities import STUDY_RESULTS
+from ..quantities import AXES_RESULTS, STUDY_RESULTS, Quantity
 from ..scene.quantity import unit_of
 from .axes import look_up
 from .marks import BIFURCATION
@@ -42,8 +42,8 @@ def tabulate(study: Study, found: Mapping[int, Found]) -> pa.Table:
         info, _ = look_up(first, field)
         values = [point.changes[field] for point in study.points]
         columns.append(column(field, values, unit_of(info) or "", info.description or ""))
-    for name, quantity in STUDY_RESULTS.items():
-        figures = [None if isinstance(row, Failure) else row[name] for row in rows]
+    for name, quantity in _results(rows).items():
+        figures = [None if isinstance(row, Failure) else row.get(name) for row in rows]
         columns.append(column(name, figures, quantity.si, quantity.text, "f8"))
     reasons = [row.reason if isinstance(row, Failure) else None for row in rows]
     columns.append(column("failure", reasons, "", "why there are no results", "str"))
@@ -53,6 +53,12 @@ def tabulate(study: Study, found: Mapping[int, Found]) -> pa.Table:
     }
     schema = pa.schema([field for field, _ in columns], about)
     return pa.table([array for _, array in columns], schema)
+
+
+def _results(rows: list[Found]) -> dict[str, Quantity]:
+    """Quantities of the results: those of axes only if they move somewhere in the study."""
+    moving = any(not isinstance(row, Failure) and AXES_RESULTS.keys() <= row.keys() for row in rows)
+    return STUDY_RESULTS | (AXES_RESULTS if moving else {})
 
 
 def write(table: pa.Table, path: Path) -> None:

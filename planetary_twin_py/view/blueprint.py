@@ -7,13 +7,24 @@ from typing import Literal, NamedTuple
 
 import rerun.blueprint as rrb
 
-from ..quantities import MESH, OPERATING_POINT, TRAIN_PLOTS, WAVEFORM
+from ..quantities import (
+    BEARING,
+    MEMBERS,
+    MESH,
+    OPERATING_POINT,
+    SHARING,
+    TRAIN_PLOTS,
+    WAVEFORM,
+)
 from ..robot.parts import carrier_radius
 from ..scene.gearset import Gearset
+from . import orbits as orbit
 from . import phase_portrait, spectra
+from .axes import Scales
 from .chart import bounds
 from .gears import MILLIMETRES
 from .overlay import DIFFERENCE
+from .plots import PLOTTED_OF_AXES
 from .timeline import SIMULATED_TIME
 
 PLAYBACK_SPEED = 0.02  # slow motion, because the eye cannot follow the teeth at full speed
@@ -34,7 +45,10 @@ LIVE = Mode("following", "expanded")
 
 
 def blueprint(
-    gearset: Gearset | None, mode: Mode = FILE, compared: str | None = None
+    gearset: Gearset | None,
+    mode: Mode = FILE,
+    compared: str | None = None,
+    axes: Scales | None = None,
 ) -> rrb.Blueprint:
     """Make the layout of a view.
 
@@ -42,6 +56,7 @@ def blueprint(
         gearset: of the gears to show; None shows no gears.
         mode: variant.
         compared: name of the reference recording, if there are several.
+        axes: how axes that move are drawn; None if they are held.
 
     Returns:
         The Rerun blueprint.
@@ -51,9 +66,11 @@ def blueprint(
         name="Changes of the operating point",
         columns=rrb.TextLogColumns(text_log_columns=["Body"]),
     )
-    left = changes if gearset is None else rrb.Vertical(_gears(gearset), changes, row_shares=[4, 1])
+    left: rrb.TextLogView | rrb.Vertical = changes
+    if gearset is not None:
+        left = rrb.Vertical(_gears(gearset, axes), changes, row_shares=[4, 1])
     return rrb.Blueprint(
-        rrb.Horizontal(left, _tabs(gearset, compared), column_shares=[5, 6]),
+        rrb.Horizontal(left, _tabs(gearset, compared, axes), column_shares=[5, 6]),
         rrb.TimePanel(
             state="collapsed",
             timeline=SIMULATED_TIME,
@@ -68,13 +85,14 @@ def blueprint(
     )
 
 
-def _gears(gearset: Gearset) -> rrb.Spatial3DView:
+def _gears(gearset: Gearset, axes: Scales | None) -> rrb.Spatial3DView:
     teeth = gearset.teeth
     held = "differential" if gearset.held == "none" else f"{gearset.held} held"
+    enlarged = f"; {axes.text}" if axes else ""
     reach = MILLIMETRES * gearset.module * (0.5 * teeth.ring + 4.0)
     return rrb.Spatial3DView(
         origin="gears",
-        name=f"Gears: {teeth.sun}, {teeth.planet} and {teeth.ring} teeth, {held}",
+        name=f"Gears: {teeth.sun}, {teeth.planet} and {teeth.ring} teeth, {held}{enlarged}",
         background=rrb.Background(color=BACKGROUND),
         line_grid=rrb.LineGrid3D(visible=False),
         eye_controls=rrb.EyeControls3D(
@@ -103,7 +121,7 @@ def _planet(gearset: Gearset) -> rrb.Spatial3DView:
     )
 
 
-def _tabs(gearset: Gearset | None, compared: str | None) -> rrb.Tabs:
+def _tabs(gearset: Gearset | None, compared: str | None, axes: Scales | None) -> rrb.Tabs:
     several = compared is not None
     difference = [] if compared is None else [_difference(compared)]
     contact = [] if gearset is None else [_contact(gearset)]
@@ -147,6 +165,7 @@ def _tabs(gearset: Gearset | None, compared: str | None) -> rrb.Tabs:
             ],
         ),
         *contact,
+        *([] if axes is None else [_axes()]),
         _spectra(gearset),
         _page("Power and speed", [_train(name, several) for name in TRAIN_PLOTS]),
         _page("Operating point", [_set_point(name, several) for name in OPERATING_POINT]),
@@ -158,6 +177,27 @@ def _tabs(gearset: Gearset | None, compared: str | None) -> rrb.Tabs:
 def _contact(gearset: Gearset) -> rrb.Vertical:
     curves = rrb.Horizontal(_zoom("mesh_force"), _zoom("dte"))
     return rrb.Vertical(_planet(gearset), curves, row_shares=[7, 3], name="Tooth contact")
+
+
+def _axes() -> rrb.Vertical:
+    """Load sharing, displacements and bearing forces, and orbits in the housing."""
+    orbits = [
+        _chart(
+            f"orbit/{member}",
+            f"Orbit of the {member} in the housing, around the time cursor [µm]",
+            bounds(orbit.SIZE, orbit.SIZE),
+        )
+        for member in MEMBERS
+    ]
+    shares = _plot("axes/load_share", SHARING["load_share"].heading, legend=True)
+    largest = [_plot(f"axes/{name}", BEARING[name].heading, True) for name in PLOTTED_OF_AXES]
+    return rrb.Vertical(
+        rrb.Horizontal(*orbits),
+        shares,
+        rrb.Horizontal(*largest),
+        row_shares=[4, 3, 3],
+        name="Axes and bearings",
+    )
 
 
 def _spectra(gearset: Gearset | None) -> rrb.Vertical:

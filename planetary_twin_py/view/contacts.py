@@ -25,6 +25,7 @@ from .colour_map import shade
 from .gears import MILLIMETRES
 from .layer import Layer
 from .motion import Motion
+from .newtons import newtons
 from .round_numbers import one_digit
 
 Array = NDArray[np.float64]
@@ -127,14 +128,6 @@ def _strips(gearset: Gearset, mesh: Contacts, full: float) -> rr.ComponentColumn
         colors=shade(level),
         radii=MILLIMETRES * _THICKEST * gearset.module * (0.3 + 0.7 * level),
     ).partition(carries.sum(axis=1))
-
-
-def newtons(force: float) -> str:
-    """A force with an SI prefix: 900 N, 20 kN, 3 MN."""
-    for size, unit in ((1e6, "MN"), (1e3, "kN")):
-        if force >= size:
-            return f"{force / size:g} {unit}"
-    return f"{force:g} N"
 
 
 def _log_scale(layer: Layer, gearset: Gearset, full: float) -> None:

@@ -26,7 +26,7 @@ _SHORTEST = 0.1  # [s] of a span: about a hundred mesh cycles
 _SUM = ("interval",)
 _LARGEST = ("_peak",)
 _SQUARE = ("_rms",)
-_LAST = ("_angle", "_time", "sequence", "planets")
+_LAST = ("_angle", "_time", "sequence", "planets", "_orbit_x", "_orbit_y")
 
 
 def detailed_spans(recording: Recording) -> list[TimeSpan]:
@@ -51,8 +51,12 @@ def detailed_spans(recording: Recording) -> list[TimeSpan]:
 
 def overview(recording: Recording, detail: list[TimeSpan]) -> Recording:
     """The same with fewer states: intervals outside `detail` are aggregated."""
-    begins = first_rows(recording.state.time, detail)
-    return replace(recording, state=_summed_up(recording.state, begins))
+    state, axes = (_fewer(series, detail) for series in (recording.state, recording.axes_state))
+    return replace(recording, state=state, axes_state=axes)
+
+
+def _fewer(series: Series, detail: list[TimeSpan]) -> Series:
+    return _summed_up(series, first_rows(series.time, detail)) if len(series) else series
 
 
 def first_rows(time: NDArray[np.float64], detail: list[TimeSpan]) -> NDArray[np.intp]:

@@ -8,6 +8,7 @@ pin. Lengths are in millimetres, because the camera of the viewer suits numbers 
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 
 import numpy as np
 import rerun as rr
@@ -51,15 +52,31 @@ def log_gears(layer: Layer, gearset: Gearset) -> None:
         _solid(layer, _planet(i), planet(gearset), PLANET, gears.planet)
 
 
-def log_motion(layer: Layer, gearset: Gearset, motion: Motion) -> None:
-    """Log the rotation of the solids."""
+Moved = Mapping[str, NDArray[np.float64]]
+"""Displacements as drawn, x and y [m] (n, 2), by name of the body."""
+
+
+def log_motion(layer: Layer, gearset: Gearset, motion: Motion, moved: Moved | None = None) -> None:
+    """Log the rotation of the solids, and their displacements if axes move.
+
+    Args:
+        layer: recording to draw into.
+        gearset: the gears.
+        motion: angles at n times.
+        moved: displacements at these times, of planets against the carrier.
+    """
     stand = gearset.mounted
     carrier = motion.angle["carrier"]
-    _turn(layer, "gears/sun", motion, stand.sun + motion.angle["sun"])
-    _turn(layer, "gears/ring", motion, stand.ring + motion.angle["ring"])
-    _turn(layer, "gears/carrier", motion, carrier)
-    for i, angle in enumerate(stand.planets):
-        _turn(layer, _planet(i), motion, angle + motion.angle[f"planet_{i + 1}"] - carrier)
+    angles = {
+        "gears/sun": stand.sun + motion.angle["sun"],
+        "gears/ring": stand.ring + motion.angle["ring"],
+        "gears/carrier": carrier,
+    }
+    for i, offset in enumerate(stand.planets):
+        angles[_planet(i)] = offset + motion.angle[f"planet_{i + 1}"] - carrier
+    for path, angle in angles.items():
+        body = path.rpartition("/")[2]
+        _turn(layer, path, motion, angle, None if moved is None else moved[body])
 
 
 def _pin(i: int) -> str:
@@ -99,10 +116,21 @@ def _of_tooth_zero(solid: TriangleMesh, gear: SpurGear) -> NDArray[np.bool_]:
     return np.repeat(inside.reshape(-1, 4).all(axis=1), 4)
 
 
-def _turn(layer: Layer, path: str, motion: Motion, angle: NDArray[np.float64]) -> None:
-    """Log rotations about z; for a member at rest, only the first."""
-    rows = slice(0, 1 if np.ptp(angle) == 0.0 else len(angle))
+def _turn(
+    layer: Layer,
+    path: str,
+    motion: Motion,
+    angle: NDArray[np.float64],
+    moved: NDArray[np.float64] | None,
+) -> None:
+    """Log rotations about z and displacements; for a member at rest, only the first."""
+    rows = slice(0, 1 if np.ptp(angle) == 0.0 and moved is None else len(angle))
     quaternions = np.zeros((len(angle[rows]), 4), dtype=np.float32)
     quaternions[:, 2], quaternions[:, 3] = np.sin(0.5 * angle[rows]), np.cos(0.5 * angle[rows])
     index = timeline.columns(motion.time[rows], motion.stamp[rows])
-    layer.send_columns(path, index, rr.Transform3D.columns(quaternion=quaternions))
+    where = None
+    if moved is not None:
+        where = np.zeros((len(moved), 3), dtype=np.float32)
+        where[:, :2] = MILLIMETRES * moved
+    columns = rr.Transform3D.columns(quaternion=quaternions, translation=where)
+    layer.send_columns(path, index, columns)

@@ -11,21 +11,29 @@ from numpy.typing import NDArray
 
 from ..recording.ros2.decode import Described, Topics
 from ..recording.ros2.layout import Layouts
-from ..recording.ros2.topics import ORIGIN, POINT, STATE, WAVEFORM
+from ..recording.ros2.topics import AXES_STATE, AXES_WAVEFORM, ORIGIN, POINT, STATE, WAVEFORM
+from ..recording.runs.axes_samples import AxesInMemory, axes_samples_of
 from ..recording.runs.origin import read_origin
-from ..recording.runs.reader import TOPICS, Recording, assemble
+from ..recording.runs.reader import TOPICS, Recording, assemble, axes_of
 from ..recording.runs.waveform import InMemory, waveform_of
 from ..scene import Scene
+from .axes import Scales, scales
 from .blueprint import LIVE
 from .events import log_events
-from .gears import log_gears, log_motion
+from .gears import log_gears
 from .layer import Layer
 from .motion import motion
-from .plots import log_plots
-from .show import check_scene, send_layout
+from .plots import log_plots, log_plots_of_axes
+from .show import check_scene, log_solids, send_layout
 from .waveform import log_waveform
 
-_TIME = {STATE: "simulated_time", WAVEFORM: "start_time", POINT: "simulated_time"}
+_TIME = {
+    STATE: "simulated_time",
+    WAVEFORM: "start_time",
+    POINT: "simulated_time",
+    AXES_STATE: "simulated_time",
+    AXES_WAVEFORM: "start_time",
+}
 Messages = dict[str, list[NDArray[Any]]]  # arrays of one row
 
 
@@ -86,9 +94,11 @@ class LiveView:
     def _draw(self, scene: Scene) -> bool:
         """Draw the messages of one run; return whether another run has started."""
         if self._run is None:
-            if not self._waiting[STATE]:
+            first = (STATE, AXES_STATE) if scene.moving_axes else (STATE,)
+            if not all(self._waiting[name] for name in first):
                 return False
-            self._run = _DrawnRun(self._namespace, self._begin(), scene)
+            drawn = scales(scene.gearset, axes_of(self._waiting[AXES_STATE]))
+            self._run = _DrawnRun(self._namespace, self._begin(), scene, drawn)
         now: Messages = {}
         for name, messages in self._waiting.items():
             cut = _cut(messages, _TIME[name], self._run.reached[name])
@@ -101,27 +111,34 @@ class LiveView:
 class _DrawnRun:
     """Draws one run of a twin."""
 
-    def __init__(self, namespace: str, stream: rr.RecordingStream, scene: Scene) -> None:
+    def __init__(
+        self, namespace: str, stream: rr.RecordingStream, scene: Scene, drawn: Scales | None
+    ) -> None:
         self.reached = dict.fromkeys(TOPICS, 0.0)
+        self._drawn = drawn
         self._namespace = namespace
         self._scene = scene
         self._layer = Layer(stream)
-        self._last: Messages = {STATE: [], POINT: []}
-        send_layout(stream, scene, LIVE)
+        self._last: Messages = {STATE: [], POINT: [], AXES_STATE: []}
+        send_layout(stream, scene, LIVE, axes=drawn)
         log_gears(self._layer, scene.gearset)
 
     def draw(self, new: Messages) -> None:
         """Draw further messages of the run."""
         known = len(self._last[POINT])
-        points, states = (self._last[name] + new[name] for name in (POINT, STATE))
-        shown = self._recording({**new, POINT: points, STATE: states})
+        shown = self._recording(
+            new | {name: before + new[name] for name, before in self._last.items()}
+        )
         check_scene(self._scene, shown)
-        log_motion(self._layer, self._scene.gearset, motion(shown))
+        log_solids(self._layer, shown, self._scene.gearset, motion(shown), self._drawn)
         log_events(self._layer, shown, known)
         if wave := shown.waveform:
             log_waveform(self._layer, shown, [(float(wave.time[0]), float(wave.time[-1]))])
         if new[STATE]:
             log_plots(self._layer, self._recording(new))
+        if new[AXES_STATE]:
+            states = {STATE: self._last[STATE] + new[STATE]}
+            log_plots_of_axes(self._layer, self._recording(new | states))
         for name, messages in new.items():
             if messages:
                 self.reached[name] = float(messages[-1][_TIME[name]][0])
@@ -135,7 +152,8 @@ class _DrawnRun:
 
     def _recording(self, messages: Messages) -> Recording:
         samples = InMemory(waveform_of(messages[WAVEFORM]))
-        return assemble(messages, samples, Path(self._namespace), self._namespace)
+        axes = AxesInMemory(axes_samples_of(messages[AXES_WAVEFORM]))
+        return assemble(messages, samples, axes, Path(self._namespace), self._namespace)
 
 
 def _cut(messages: list[NDArray[Any]], time: str, reached: float) -> int:

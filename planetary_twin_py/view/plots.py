@@ -9,12 +9,13 @@ import numpy as np
 import rerun as rr
 from numpy.typing import NDArray
 
-from ..quantities import MESH, TRAIN_PLOTS
+from ..quantities import BEARING, MEMBERS, MESH, TRAIN_PLOTS
 from ..recording.runs.reader import Recording
 from . import timeline
 from .layer import Colour, Layer
 
 _SUN_PLANET_HUE, _PLANET_RING_HUE = 0.58, 0.09  # blue and orange
+PLOTTED_OF_AXES = ("displacement_peak", "bearing_force_peak")
 TRAIN_COLOURS = ((236, 176, 64), (150, 158, 170), (205, 104, 86))
 
 
@@ -29,6 +30,24 @@ def log_plots(layer: Layer, recording: Recording) -> None:
     for name, (quantity, fields) in TRAIN_PLOTS.items():
         values = quantity.factor * np.column_stack([state[field] for field in fields])
         log_series(layer, f"train/{name}", index, values, fields, TRAIN_COLOURS)
+
+
+def log_plots_of_axes(layer: Layer, recording: Recording) -> None:
+    """Log the state of axes that move: /axes/NAME with one series per planet or body."""
+    axes, planets = recording.axes_state, recording.planets
+    if not len(axes):
+        return
+    index = timeline.columns(axes.time, axes.stamp)
+    numbered = [f"planet_{i + 1}" for i in range(planets)]
+    colours = mesh_colours(planets)[:planets]
+    shares = axes["load_share"][:, :planets]
+    log_series(layer, "axes/load_share", index, shares, numbered, colours)
+    for name in PLOTTED_OF_AXES:
+        members = [axes[f"{member}_{name}"] for member in MEMBERS]
+        of_planets = axes[f"planet_{name}"][:, :planets]
+        values = BEARING[name].factor * np.column_stack([*members, of_planets])
+        names = [*MEMBERS, *numbered]
+        log_series(layer, f"axes/{name}", index, values, names, [*TRAIN_COLOURS, *colours])
 
 
 def log_series(

@@ -16,6 +16,12 @@ def round_up(value: float) -> float:
     return next(step * power for step in (*_STEPS, 20.0) if step * power >= value * (1.0 - 1e-9))
 
 
+def round_down(value: float) -> float:
+    """The largest of ..., 1, 2, 5, 10, ... that is at most `value` > 0."""
+    power = 10.0 ** math.floor(math.log10(value))
+    return max(step * power for step in _STEPS if step * power <= value * (1.0 + 1e-9))
+
+
 def one_digit(value: float) -> float:
     """The smallest number with one significant digit that is at least `value` > 0."""
     power = 10.0 ** math.floor(math.log10(value))

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
@@ -12,6 +13,8 @@ from ..recording.container.records import RecordingError
 from ..recording.runs.reader import Recording
 from ..recording.runs.waveform import TimeSpan
 from ..scene import Scene, SceneError, parse_scene
+from ..scene.gearset import Gearset
+from .axes import Scales, log_axes, moved, scales
 from .blueprint import FILE, Mode, blueprint
 from .contacts import log_contacts
 from .detail import detailed_spans, overview
@@ -19,10 +22,11 @@ from .events import log_events
 from .frames import frames
 from .gears import log_gears, log_motion
 from .layer import Layer
-from .motion import motion
+from .motion import Motion, motion
+from .orbits import log_orbits
 from .overlay import DIFFERENCE, difference, names_of
 from .phase_portrait import log_phase_portrait
-from .plots import log_plots
+from .plots import log_plots, log_plots_of_axes
 from .spectra import log_spectra
 from .waveform import log_waveform
 
@@ -68,14 +72,15 @@ def save(
     stream = to_file(rrd)
     stream.send_recording_name(", ".join(name for name in names if name) or recording.path.stem)
     compared = names[0] if others else None
-    send_layout(stream, scene, mode, compared)
+    drawn = None if scene is None else scales(scene.gearset, recording.axes_state)
+    send_layout(stream, scene, mode, compared, drawn)
     layers = [Layer(stream, name, order) for order, name in enumerate(names)]
     in_detail = detailed_spans(recording) if detail is None else [detail]
     remarks = []
     for layer, shown in zip(layers, (recording, *others), strict=True):
         remarks += log_curves(layer, shown, in_detail)
     sampled = recording.within(in_detail)
-    remarks += _log_first(layers[0], sampled, scene)
+    remarks += _log_first(layers[0], sampled, scene, drawn)
     for layer, other in zip(layers[1:], others, strict=True):
         remarks += _log_difference(layer, sampled, other.within(in_detail), in_detail)
     stream.flush()
@@ -110,35 +115,57 @@ def check_scene(scene: Scene | None, recording: Recording) -> None:
 
 
 def send_layout(
-    stream: rr.RecordingStream, scene: Scene | None, mode: Mode, compared: str | None = None
+    stream: rr.RecordingStream,
+    scene: Scene | None,
+    mode: Mode,
+    compared: str | None = None,
+    axes: Scales | None = None,
 ) -> None:
-    """Send the layout; see `blueprint` for `mode` and `compared`."""
-    layout = blueprint(scene.gearset if scene else None, mode, compared)
+    """Send the layout; see `blueprint` for `mode`, `compared` and `axes`."""
+    layout = blueprint(scene.gearset if scene else None, mode, compared, axes)
     # Active, because the viewer would otherwise prefer a layout stored earlier.
     stream.send_blueprint(layout, make_active=True, make_default=True)
 
 
 def log_curves(layer: Layer, recording: Recording, detail: list[TimeSpan]) -> list[str]:
     """Log curves and changes, with samples in `detail`; return warnings."""
-    log_plots(layer, overview(recording, detail))
+    shown = overview(recording, detail)
+    log_plots(layer, shown)
+    log_plots_of_axes(layer, shown)
     log_events(layer, recording)
     remark = log_waveform(layer, recording, detail)
     return [remark] if remark else []
 
 
-def _log_first(layer: Layer, recording: Recording, scene: Scene | None) -> list[str]:
+def _log_first(
+    layer: Layer, recording: Recording, scene: Scene | None, drawn: Scales | None
+) -> list[str]:
     """Log what is drawn of the first recording only: gears, contacts, spectra; return warnings."""
     if scene is not None:
-        moved = motion(recording)
+        turned = motion(recording)
         log_gears(layer, scene.gearset)
-        log_motion(layer, scene.gearset, moved)
-        log_contacts(layer, scene, recording, moved)
+        log_solids(layer, recording, scene.gearset, turned, drawn)
+        log_contacts(layer, scene, recording, turned)
     windows = frames(recording)
     if windows is None:
         return []
     aliases = log_spectra(layer, windows, scene)
     log_phase_portrait(layer, windows)
+    samples = recording.axes_blocks.samples(-math.inf, math.inf) if drawn else None
+    if samples is not None:
+        log_orbits(layer, windows, samples)
     return [remark for remark in (windows.remark, aliases) if remark is not None]
+
+
+def log_solids(
+    layer: Layer, recording: Recording, gearset: Gearset, turned: Motion, drawn: Scales | None
+) -> None:
+    """Log the motion of the gears, and bearing forces and displacements if axes move."""
+    if drawn is None or not recording.moves_axes:
+        log_motion(layer, gearset, turned)
+        return
+    log_motion(layer, gearset, turned, moved(recording.axes_state, turned, gearset, drawn))
+    log_axes(layer, recording, gearset, turned, drawn)
 
 
 def _log_difference(

@@ -9,7 +9,8 @@ import pytest
 from .command import Ros2
 
 INTERFACES = (
-    *(f"msg/{name}" for name in ("GearboxState", "MeshWaveform", "OperatingPoint")),
+    *(f"msg/{name}" for name in ("AxesState", "AxesWaveform", "GearboxState", "MeshWaveform")),
+    "msg/OperatingPoint",
     *(f"srv/{name}" for name in ("NaturalModes", "Seek", "SetOperatingPoint", "Step")),
     "msg/RecorderStatus",
 )

@@ -53,12 +53,12 @@ inline Sampling sampling_of(const SamplingTuple& values) {
     return {std::get<0>(values), std::get<1>(values), std::get<2>(values), std::get<3>(values)};
 }
 
-// planetary_twin_py's Samples: mesh, turns, angle, speed, drag.
-using SamplesTuple = std::tuple<Array, Array, Array, Array, Array>;
+// planetary_twin_py's Samples: mesh, turns, angle, speed, drag, moved.
+using SamplesTuple = std::tuple<Array, Array, Array, Array, Array, Array>;
 
 inline Samples samples_of(const SamplesTuple& arrays) {
-    auto& [mesh, turns, angle, speed, drag] = arrays;
-    if (mesh.ndim() != 3 || turns.ndim() != 2 || angle.ndim() != 2)
+    auto& [mesh, turns, angle, speed, drag, moved] = arrays;
+    if (mesh.ndim() != 3 || turns.ndim() != 2 || angle.ndim() != 2 || moved.ndim() != 3)
         throw std::invalid_argument("samples: arrays of a wrong shape");
     Samples samples{static_cast<std::int64_t>(mesh.shape(0)),
                     static_cast<std::int64_t>(mesh.shape(1)),
@@ -69,12 +69,16 @@ inline Samples samples_of(const SamplesTuple& arrays) {
                     turns.data(),
                     angle.data(),
                     speed.data(),
-                    drag.data()};
+                    drag.data(),
+                    nullptr,
+                    static_cast<std::int64_t>(moved.shape(1)),
+                    moved.data()};
     std::size_t rows = mesh.shape(0);
     check_size("samples.turns", turns.size(), rows * turns.shape(1));
     check_size("samples.angle", angle.size(), rows * angle.shape(1));
     check_size("samples.speed", speed.size(), rows * angle.shape(1));
     check_size("samples.drag", drag.size(), rows * SAMPLE_DRAGS);
+    check_size("samples.moved", moved.size(), rows * moved.shape(1) * SAMPLE_AXES);
     return samples;
 }
 

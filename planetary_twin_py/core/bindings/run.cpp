@@ -9,6 +9,7 @@
 #include "bindings/unlocked.hpp"
 #include "bindings/vectors.hpp"
 #include "run/figures.hpp"
+#include "run/orbit.hpp"
 #include "run/statistics.hpp"
 #include "run/window.hpp"
 #include "run/windows.hpp"
@@ -19,23 +20,35 @@ using namespace nb::literals;
 
 namespace {
 
-// Arrays of a waveform: time, dte, mesh force, friction.
-using WaveformTuple = std::tuple<Values, Rows, Rows, Rows>;
+// Arrays of a waveform: time, dte, mesh force, friction; displacement, bearing force, orbit and
+// flank force, without columns where the axes are held.
+using WaveformTuple = std::tuple<Values, Rows, Rows, Rows, Rows, Rows, Rows, Rows>;
+
+bool fits(const Rows& values, std::size_t rows, std::size_t columns) {
+    return values.shape(0) == rows && values.shape(1) == columns;
+}
 
 Waveform waveform_of(const WaveformTuple& arrays, const Report& report, std::int64_t first,
-                     double rate) {
-    auto& [time, dte, mesh_force, friction] = arrays;
+                     double rate, const Train& train) {
+    auto& [time, dte, mesh_force, friction, displacement, bearing_force, orbit, flank_force] =
+        arrays;
     std::size_t rows = time.size(), meshes = static_cast<std::size_t>(report.meshes);
-    for (const Rows* values : {&dte, &mesh_force, &friction})
-        if (values->shape(0) != rows || values->shape(1) != meshes)
-            throw nb::value_error("waveform: arrays of a wrong shape");
+    bool sound = true;
+    for (const Rows* values : {&dte, &mesh_force, &friction}) sound &= fits(*values, rows, meshes);
+    if constexpr (MOVING) {
+        auto bearings = static_cast<std::size_t>(train.moving.bearings);
+        sound &= fits(displacement, rows, 2 * bearings) && fits(bearing_force, rows, 2 * bearings);
+        sound &= fits(orbit, rows, 2 * MEMBERS) && fits(flank_force, rows, FLANKS * meshes);
+    }
+    if (!sound) throw nb::value_error("waveform: arrays of a wrong shape");
     return {static_cast<std::int64_t>(rows),
             first,
             rate,
             time.data(),
             dte.data(),
             mesh_force.data(),
-            friction.data()};
+            friction.data(),
+            {displacement.data(), bearing_force.data(), orbit.data(), flank_force.data()}};
 }
 
 // Arguments of `run_window` in Python, in this order.
@@ -51,7 +64,7 @@ WindowJob job_of(const JobTuple& values) {
             sampling_of(samples),
             *limits,
             *report,
-            waveform_of(waveform, *report, first, rate),
+            waveform_of(waveform, *report, first, rate, model->train),
             *end,
             closes};
 }
@@ -66,7 +79,7 @@ int py_run_window(const Model& model, March& march, const InstantTuple& until,
                   sampling_of(samples),
                   limits,
                   report,
-                  waveform_of(out, report, first, rate),
+                  waveform_of(out, report, first, rate, model.train),
                   end,
                   closes};
     Unlocked unlocked;
@@ -153,6 +166,21 @@ void bind_run(nb::module_& m) {
         },
         "model"_a, "march"_a, "until"_a, "sums"_a,
         "Integrals and extremes of the meshes up to `until`, the end of the last window.");
+    m.def(
+        "orbits",
+        [](const Table& displaced, const Vector& angle, const Rows& out) {
+            std::size_t rows = angle.size(), columns = displaced.shape(1);
+            if (displaced.shape(0) != rows || columns < 2 * MEMBERS ||
+                !fits(out, rows, 2 * MEMBERS))
+                throw nb::value_error("orbits: arrays of a wrong shape");
+            for (std::size_t row = 0; row < rows; ++row) {
+                const double* x = displaced.data() + row * columns;
+                const double* const members[] = {x, x + 2, x + 4};
+                turn_to_housing(angle.data()[row], members, out.data() + row * 2 * MEMBERS);
+            }
+        },
+        "displaced"_a, "angle"_a, "out"_a,
+        "Displacements of sun, ring and carrier in the housing, from those on the carrier.");
     m.def("window_figures", &window_figures, "train"_a, "report"_a, "begin"_a, "end"_a,
           "duration"_a, "out"_a, "Figures of a window of so many seconds.");
     bind_statistics(m);

@@ -5,6 +5,7 @@
 
 #include "integrators/frame.hpp"
 #include "integrators/node_forces.hpp"
+#include "train/bearings.hpp"
 #include "train/body_speed.hpp"
 #include "train/drag.hpp"
 #include "train/observe.hpp"
@@ -49,6 +50,13 @@ void sample_bodies(const Train& train, const State& begin, const double* x, cons
     }
 }
 
+void sample_axes(const Train& train, const State& begin, const double* x, const double* v,
+                 const Samples& out, std::int64_t row) {
+    const double turning = body_speed(train, begin, v, train.moving.frame);
+    for (std::int64_t b = 0; b < out.bearings; ++b)
+        show_bearing(train, b, turning, x, v, out.moved + (row * out.bearings + b) * SAMPLE_AXES);
+}
+
 // Write a sample from what the meshes show and the motion of the bodies.
 void write_sample(const Model& model, March& march, const double (*shown)[MESHES], const double* x,
                   const double* v, double delay, const Samples& out, std::int64_t row) {
@@ -60,6 +68,7 @@ void write_sample(const Model& model, March& march, const double (*shown)[MESHES
     if (out.drag && train.joints + train.discs > 0)
         sample_drag(model, march, v, shown, out.drag + row * SAMPLE_DRAGS);
     if (out.turns) sample_bodies(train, march.begin, x, v, delay, out, row);
+    if constexpr (MOVING) sample_axes(train, march.begin, x, v, out, row);
 }
 
 // What `observe` fills, from a node and its friction.

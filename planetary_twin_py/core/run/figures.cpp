@@ -2,13 +2,12 @@
 
 #include <cmath>
 #include <limits>
-#include <numbers>
+
+#include "run/part_of_turn.hpp"
 
 namespace gearbox {
 
 namespace {
-
-constexpr double FULL_TURN = 2.0 * std::numbers::pi;  // [rad]
 
 // From one end of the ledger to another [s]: an exact difference, rounded once.
 double between(const WindowEnd& begin, const WindowEnd& end) {
@@ -17,22 +16,6 @@ double between(const WindowEnd& begin, const WindowEnd& end) {
     passed += static_cast<Exact>(end.time) - begin.time;
     passed += static_cast<Exact>(end.time_rest) - begin.time_rest;
     return static_cast<double>(passed);
-}
-
-// Remainder in [0, divisor).
-std::int64_t wrapped(std::int64_t value, std::int64_t divisor) {
-    std::int64_t rest = value % divisor;
-    return rest < 0 ? rest + divisor : rest;
-}
-
-// Fraction of a turn, in [0, 1), from whole turns of the motors.
-double part_of_turn(const Report& report, std::int64_t body, const double* turns) {
-    std::int64_t denominator = report.denominator[body], parts = 0;
-    for (int a = 0; a < AXES; ++a) {
-        auto whole = static_cast<std::int64_t>(turns[a]);
-        parts += wrapped(whole, denominator) * report.numerator[body][a];  // which cannot overflow
-    }
-    return static_cast<double>(wrapped(parts, denominator)) / static_cast<double>(denominator);
 }
 
 // Angle [rad] in [0, 2 pi).

@@ -7,6 +7,7 @@
 namespace gearbox {
 
 constexpr std::int64_t SAMPLE_DRAGS = 2;  // power that bearings and churning take
+constexpr std::int64_t SAMPLE_AXES = 4;   // displacement, then force on the bearing, two each
 
 // Samples of one window, in arrays that their owner keeps. Body j stands at turns @ ratio[j] turns
 // + angle[j]. All pointers but the first may be null: not asked for.
@@ -16,12 +17,14 @@ struct Samples {
     std::int64_t meshes;
     std::int64_t bodies;
     std::int64_t axes;
-    double* mesh;            // (rows, quantities, meshes)
-    double* turns;           // (rows, axes) whole turns of the motors
-    double* angle;           // (rows, bodies) [rad]
-    double* speed;           // (rows, bodies) [rad/s]
-    double* drag;            // (rows, SAMPLE_DRAGS) [W]
-    Peaks* peaks = nullptr;  // of the samples that are computed, not of those that repeat
+    double* mesh;               // (rows, quantities, meshes)
+    double* turns;              // (rows, axes) whole turns of the motors
+    double* angle;              // (rows, bodies) [rad]
+    double* speed;              // (rows, bodies) [rad/s]
+    double* drag;               // (rows, SAMPLE_DRAGS) [W]
+    Peaks* peaks = nullptr;     // of the samples that are computed, not of those that repeat
+    std::int64_t bearings = 0;  // the first of those of the train whose axes are shown
+    double* moved = nullptr;    // (rows, bearings, SAMPLE_AXES) [m] and [N]
 
     double* mesh_row(std::int64_t row) const { return mesh + row * quantities * meshes; }
 
@@ -37,7 +40,9 @@ struct Samples {
                 angle + row * bodies,
                 speed + row * bodies,
                 drag + row * SAMPLE_DRAGS,
-                peaks};
+                peaks,
+                bearings,
+                moved + row * bearings * SAMPLE_AXES};
     }
 };
 

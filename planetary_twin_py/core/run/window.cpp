@@ -1,13 +1,17 @@
 #include "run/window.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <memory>
+#include <vector>
 
 #include "integrators/march.hpp"
 #include "integrators/step_control.hpp"
 #include "integrators/window_sums.hpp"
 #include "mesh/join_flanks.hpp"
+#include "run/orbit.hpp"
+#include "run/part_of_turn.hpp"
 #include "run/samples.hpp"
 #include "train/energy.hpp"
 
@@ -38,10 +42,57 @@ void put_waveform(const Report& report, const Train& train, const double* mesh,
     }
 }
 
+// What samples need beside those of the meshes to show axes that move.
+struct RoomOfAxes {
+    std::vector<double> turns, angle, speed, moved;
+
+    void ask(const Train& train, Samples& waves) {
+        auto rows = static_cast<std::size_t>(waves.rows);
+        auto bodies = static_cast<std::size_t>(train.bodies);
+        turns.resize(rows * AXES);
+        angle.resize(rows * bodies);
+        speed.resize(rows * bodies);
+        waves.bearings = train.moving.bearings;
+        moved.resize(rows * static_cast<std::size_t>(waves.bearings) * SAMPLE_AXES);
+        waves.turns = turns.data();
+        waves.angle = angle.data();
+        waves.speed = speed.data();
+        waves.moved = moved.data();
+    }
+};
+
+// Angle of the carrier [rad], the last body that is reported.
+double carrier_angle(const Report& report, const Train& train, const Samples& waves,
+                     std::int64_t row) {
+    const std::int64_t last = report.bodies - 1, j = report.body[last];
+    double beside = j < train.bodies ? waves.angle[row * waves.bodies + j] : 0.0;
+    return FULL_TURN * part_of_turn(report, last, waves.turns + row * waves.axes) + beside;
+}
+
+void put_axes(const Report& report, const Train& train, const Samples& waves,
+              const AxesWaveform& out) {
+    const std::int64_t bearings = waves.bearings, n = report.meshes;
+    for (std::int64_t row = 0; row < waves.rows; ++row) {
+        const double* moved = waves.moved + row * bearings * SAMPLE_AXES;
+        for (std::int64_t b = 0; b < bearings; ++b) {
+            std::copy_n(moved + b * SAMPLE_AXES, 2, out.displacement + (row * bearings + b) * 2);
+            std::copy_n(moved + b * SAMPLE_AXES + 2, 2,
+                        out.bearing_force + (row * bearings + b) * 2);
+        }
+        const double* const members[] = {moved, moved + SAMPLE_AXES, moved + 2 * SAMPLE_AXES};
+        turn_to_housing(carrier_angle(report, train, waves, row), members,
+                        out.orbit + row * 2 * MEMBERS);
+        const double* force = waves.mesh_row(row) + MESH_FORCE * train.meshes;
+        for (std::int64_t i = 0; i < FLANKS * n; ++i)
+            out.flank_force[row * FLANKS * n + i] = std::fabs(force[i]);
+    }
+}
+
 // Whether a limit is exceeded. Throws NoFiniteState.
 bool fill_waveform(const WindowJob& job) {
     const Train& train = job.model.train;
     WindowEnd& end = job.end;
+    RoomOfAxes room;
     auto size = static_cast<std::size_t>(job.out.rows * WAVES * train.meshes);
     auto mesh = std::make_unique_for_overwrite<double[]>(size);
     end.peaks = {};
@@ -50,8 +101,10 @@ bool fill_waveform(const WindowJob& job) {
     double shown[QUANTITIES * MESHES], speed[BODIES], drag[SAMPLE_DRAGS];
     Samples last{1,         QUANTITIES, train.meshes, train.bodies, AXES,      shown,
                  end.turns, end.angle,  speed,        drag,         &end.peaks};
+    if constexpr (MOVING) room.ask(train, waves);
     advance(job.model, job.march, job.until, NEVER, job.samples, waves, last);
     put_waveform(job.report, train, mesh.get(), job.out);
+    if constexpr (MOVING) put_axes(job.report, train, waves, job.out.axes);
     std::copy_n(job.march.last.power, LEDGER, end.power);
     return exceeds(job.limits, train, job.model.load, end.peaks, end.power);
 }

@@ -13,6 +13,15 @@
 
 namespace gearbox {
 
+// Every sample of the axes that move. Displacements and forces of sun, ring, carrier and planets
+// are those of MovingAxes; orbits are those of the first three in the housing.
+struct AxesWaveform {
+    double* displacement;   // (rows, bearings, 2) [m]
+    double* bearing_force;  // (rows, bearings, 2), on the bearing [N]
+    double* orbit;          // (rows, MEMBERS, 2) [m]
+    double* flank_force;    // (rows, FLANKS, meshes), drive flanks first, magnitude [N]
+};
+
 // Every sample of every mesh that is reported, in arrays that their owner keeps.
 struct Waveform {
     std::int64_t rows;
@@ -22,6 +31,7 @@ struct Waveform {
     double* dte;         // (rows, meshes) [m]
     double* mesh_force;  // (rows, meshes) [N]
     double* friction;    // (rows, meshes), magnitude [N]
+    AxesWaveform axes;   // not asked for where the axes are held
 };
 
 // Where the train is at the end of a window, and what has been added up until then.

@@ -76,6 +76,18 @@ inline BearingForce bearing_force(const Train& train, std::int64_t b, double tur
     return {{-push * nx, -push * ny}, (push - k * pressed) * (nx * rate.along + ny * rate.across)};
 }
 
+// Displacement of what bearing b holds, without the way that the carrier turns it along, and its
+// force on the bearing, two components each.
+inline void show_bearing(const Train& train, std::int64_t b, double turning, const double* x,
+                         const double* v, double* out) {
+    const MovingAxes& axes = train.moving;
+    const InPlane pull = bearing_force(train, b, turning, x, v).pull;
+    out[0] = x[axes.place[b][0]];
+    out[1] = x[axes.place[b][1]] - axes.carried[b] * x[train.carrier];
+    out[2] = -pull.along;
+    out[3] = -pull.across;
+}
+
 // Coriolis and centrifugal forces on what bearing b holds.
 inline void add_inertial(const Train& train, std::int64_t b, double turning, const double* x,
                          const double* v, double* force) {

@@ -9,9 +9,18 @@ from rosbags.typesys import Stores, get_types_from_msg, get_typestore
 
 from .metadata import Topic
 from .schema import installed_definition, message_definition
-from .topics import DESCRIPTION, JOINTS, ORIGIN, POINT, STATE, WAVEFORM
+from .topics import (
+    AXES_STATE,
+    AXES_WAVEFORM,
+    DESCRIPTION,
+    JOINTS,
+    ORIGIN,
+    POINT,
+    STATE,
+    WAVEFORM,
+)
 
-KINDS = {
+EVERY = {
     ORIGIN: "std_msgs/msg/String",
     DESCRIPTION: "std_msgs/msg/String",
     POINT: "planetary_twin_msgs/msg/OperatingPoint",
@@ -19,13 +28,24 @@ KINDS = {
     JOINTS: "sensor_msgs/msg/JointState",
     WAVEFORM: "planetary_twin_msgs/msg/MeshWaveform",
 }
+OF_AXES = {
+    AXES_STATE: "planetary_twin_msgs/msg/AxesState",
+    AXES_WAVEFORM: "planetary_twin_msgs/msg/AxesWaveform",
+}
+KINDS = EVERY | OF_AXES
 _LATCHED = (ORIGIN, DESCRIPTION, POINT)
 _NEVER = {"sec": 9_223_372_036, "nsec": 854_775_807}
 
 
-def topics_of(namespace: str) -> list[Topic]:
-    """Topics of a twin in `namespace` whose messages follow from its windows."""
-    return [_topic(f"{namespace}/{name}", kind, name in _LATCHED) for name, kind in KINDS.items()]
+def topics_of(namespace: str, moving_axes: bool = False) -> list[Topic]:
+    """Topics of a twin in `namespace` whose messages follow from its windows.
+
+    Args:
+        namespace: of the twin.
+        moving_axes: whether its axes move.
+    """
+    kinds = EVERY | (OF_AXES if moving_axes else {})
+    return [_topic(f"{namespace}/{name}", kind, name in _LATCHED) for name, kind in kinds.items()]
 
 
 def _topic(name: str, kind: str, latched: bool) -> Topic:

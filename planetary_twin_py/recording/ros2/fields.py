@@ -6,10 +6,9 @@ from typing import Any
 
 import numpy as np
 
-from ...quantities import SIDES, TRAIN
+from ...quantities import MEMBERS, SIDES, TRAIN
 from ...window import Window
 
-MEMBERS = ("sun", "ring", "carrier")
 WAVES = ("dte", "mesh_force", "friction")
 ROOM = 7  # largest number of planets in a message
 TURN = 2.0 * np.pi  # [rad]
@@ -37,12 +36,12 @@ def state_fields(window: Window, names: list[str]) -> dict[str, Any]:
         found[f"{member}_angle"] = float(window.angle[body])
         found[f"{member}_speed"] = float(window.mean_speed[body])
     first = window.bodies.index("planet_1")
-    found["planet_angle"] = _with_room(window.angle[first : first + planets])
-    found["planet_speed"] = _with_room(window.mean_speed[first : first + planets])
+    found["planet_angle"] = with_room(window.angle[first : first + planets])
+    found["planet_speed"] = with_room(window.mean_speed[first : first + planets])
     for name in names:
         if shown := mesh_field(name, planets):
             statistic, mesh = shown
-            found[name] = _with_room(window.mesh[statistic][mesh : mesh + planets])
+            found[name] = with_room(window.mesh[statistic][mesh : mesh + planets])
     return found
 
 
@@ -86,5 +85,6 @@ def joint_fields_like(window: Window, message: Any) -> dict[str, Any]:
     return found
 
 
-def _with_room(values: np.ndarray) -> np.ndarray:
+def with_room(values: np.ndarray) -> np.ndarray:
+    """Values of planets, and NaN up to the length of arrays in messages."""
     return np.append(values, np.full(ROOM - len(values), np.nan))

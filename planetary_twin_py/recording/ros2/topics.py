@@ -2,6 +2,8 @@
 
 STATE = "gearbox_state"
 WAVEFORM = "mesh_waveform"
+AXES_STATE = "axes_state"  # only of a twin whose axes move
+AXES_WAVEFORM = "axes_waveform"  # likewise
 JOINTS = "joint_states"
 POINT = "operating_point"
 ORIGIN = "run_origin"

@@ -19,7 +19,8 @@ _MOST_FIELDS = 10_000  # of a message, including nested messages and array eleme
 _BOUNDED = (Nodetype.ARRAY, Nodetype.SEQUENCE)
 _IN_TIME = ("header", "sequence", "simulated_time", "interval", "planets", "planet_angle")
 _SAMPLES = ("start_time", "sample_period", "samples", "dte", "mesh_force", "friction")
-_NEEDED = frozenset((*_IN_TIME, *_SAMPLES, "data", "name", "position"))
+_OF_AXES = ("displacement", "bearing_force", "orbit")
+_NEEDED = frozenset((*_IN_TIME, *_SAMPLES, *_OF_AXES, "data", "name", "position"))
 """Fields without which nothing of a message can be placed; others a recording may lack."""
 
 

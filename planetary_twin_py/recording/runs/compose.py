@@ -12,12 +12,23 @@ from ...robot import robot_description
 from ...scene import TUNABLES, OperatingPoint
 from ...window import Window
 from ..container.records import RecordingError
+from ..ros2.axes_fields import axes_state_fields, axes_waveform_fields
 from ..ros2.bag import BagWriter
 from ..ros2.definitions import KINDS
 from ..ros2.fields import joint_fields, state_fields, waveform_fields
 from ..ros2.given import fields_of
 from ..ros2.metadata import Topic
-from ..ros2.topics import DESCRIPTION, GIVEN, JOINTS, ORIGIN, POINT, STATE, WAVEFORM
+from ..ros2.topics import (
+    AXES_STATE,
+    AXES_WAVEFORM,
+    DESCRIPTION,
+    GIVEN,
+    JOINTS,
+    ORIGIN,
+    POINT,
+    STATE,
+    WAVEFORM,
+)
 from .origin import Origin
 
 Row = dict[str, Any]
@@ -76,7 +87,12 @@ class Composer:
         names = [f"{body}_joint" for body in window.bodies]
         joints = {"name": names, **joint_fields(window)}
         self.write(JOINTS, joints, stamp, stamp)
-        if len(window.waveform.time):
+        axes, sampled = window.axes, len(window.waveform.time)
+        if axes is not None:
+            self.write(AXES_STATE, axes_state_fields(window, axes), stamp, stamp)
+            if sampled:
+                self.write(AXES_WAVEFORM, axes_waveform_fields(window, axes), first, stamp)
+        if sampled:
             self.write(WAVEFORM, waveform_fields(window), first, stamp)
 
     def write(self, topic: str, row: Row, stamp: int, sent: int) -> None:

@@ -58,7 +58,9 @@ def _record(plan: Plan, folder: Path, progress: Callable[[float], None]) -> Path
     try:
         scene = yaml.safe_dump(plan.scene.model_dump(mode="json"), sort_keys=False)
         bag.attach(SCENE_ATTACHMENT, scene.encode(), "application/yaml")
-        for reached in write_run(Composer(bag, topics_of(NAMESPACE), NAMESPACE), run):
+        for reached in write_run(
+            Composer(bag, topics_of(NAMESPACE, plan.scene.moving_axes), NAMESPACE), run
+        ):
             progress(reached)
     finally:  # an incomplete recording is valid, too
         bag.close()

@@ -20,13 +20,14 @@ from ..ros2.definitions import KINDS
 from ..ros2.layout import Layouts
 from ..ros2.namespaces import choose_namespace
 from ..ros2.repeats import Repeats
-from ..ros2.topics import ORIGIN, POINT, STATE, WAVEFORM
+from ..ros2.topics import AXES_STATE, AXES_WAVEFORM, ORIGIN, POINT, STATE, WAVEFORM
 from ..ros2.typestore import absent
+from .axes_samples import AxesBlocks, AxesInFile, AxesInMemory, joined_axes
 from .origin import scene_of_origin
 from .waveform import Blocks, InMemory, Ranges, Samples, Source, TimeSpan, Waveform, joined, stamps
 
 SCENE_ATTACHMENT = "scene.yaml"
-TOPICS = (STATE, WAVEFORM, POINT)
+TOPICS = (STATE, WAVEFORM, POINT, AXES_STATE, AXES_WAVEFORM)
 _LONGEST = 300  # characters of a remark
 
 
@@ -61,6 +62,9 @@ class Recording:
     state: Series
     operating_point: Series
     blocks: Samples
+    axes_state: Series
+    """Of axes that move; without rows where they are held."""
+    axes_blocks: AxesBlocks
     scene_yaml: str | None
     remarks: list[str] = field(default_factory=list)
 
@@ -95,7 +99,17 @@ class Recording:
     def within(self, spans: Sequence[TimeSpan]) -> Recording:
         """The same with only the samples of these time spans [s], in memory."""
         found = [self.samples(begin, end) for begin, end in spans]
-        return replace(self, blocks=InMemory(joined([part for part in found if part is not None])))
+        axes = [self.axes_blocks.samples(begin, end) for begin, end in spans]
+        return replace(
+            self,
+            blocks=InMemory(joined([part for part in found if part is not None])),
+            axes_blocks=AxesInMemory(joined_axes([part for part in axes if part is not None])),
+        )
+
+    @property
+    def moves_axes(self) -> bool:
+        """Whether axes move."""
+        return len(self.axes_state) > 0
 
     @property
     def meshes(self) -> tuple[str, ...]:
@@ -130,9 +144,10 @@ def read_recording(path: str | Path, namespace: str | None = None) -> Recording:
     for file in files_of(Path(path)):
         found.read(file)
     namespace = choose_namespace(found.rows, namespace, path)
-    rows = {name: found.rows.get(f"{namespace}/{name}", []) for name in (STATE, POINT)}
+    rows = {name: found.rows.get(f"{namespace}/{name}", []) for name in (STATE, POINT, AXES_STATE)}
     blocks = found.blocks.get(f"{namespace}/{WAVEFORM}", Blocks())
-    recording = assemble(rows, blocks, Path(path), namespace)
+    axes_blocks = found.axes_blocks.get(f"{namespace}/{AXES_WAVEFORM}", AxesInFile())
+    recording = assemble(rows, blocks, axes_blocks, Path(path), namespace)
     scene = found.scene_yaml or _scene(found.rows.get(f"{namespace}/{ORIGIN}", []), found.remarks)
     return replace(recording, scene_yaml=scene, remarks=found.remarks)
 
@@ -148,13 +163,18 @@ def _scene(origins: list[NDArray[Any]], remarks: list[str]) -> str | None:
 
 
 def assemble(
-    rows: Mapping[str, list[NDArray[Any]]], blocks: Samples, path: Path, namespace: str
+    rows: Mapping[str, list[NDArray[Any]]],
+    blocks: Samples,
+    axes_blocks: AxesBlocks,
+    path: Path,
+    namespace: str,
 ) -> Recording:
     """Make a recording from messages.
 
     Args:
         rows: structured arrays by topic, with at least one state.
         blocks: of the waveform.
+        axes_blocks: of the waveform of axes that move.
         path: of the recording, for error messages.
         namespace: of the gearbox.
 
@@ -177,8 +197,15 @@ def assemble(
         state=state,
         operating_point=_series(rows[POINT], KINDS[POINT]),
         blocks=blocks,
+        axes_state=axes_of(rows[AXES_STATE]),
+        axes_blocks=axes_blocks,
         scene_yaml=None,
     )
+
+
+def axes_of(rows: list[NDArray[Any]]) -> Series:
+    """States of axes that move, from structured arrays; without rows where they are held."""
+    return _series(rows, KINDS[AXES_STATE])
 
 
 class _Found:
@@ -187,6 +214,7 @@ class _Found:
     def __init__(self) -> None:
         self.rows: dict[str, list[NDArray[Any]]] = {}
         self.blocks: dict[str, Blocks] = {}
+        self.axes_blocks: dict[str, AxesInFile] = {}
         self.scene_yaml: str | None = None
         self.remarks: list[str] = []
         self._repeats = Repeats()
@@ -234,7 +262,10 @@ class _Found:
 
     def _take(self, source: Source, place: int, messages: list[bytes]) -> None:
         for rows in source.arrays(messages):
-            if source.topic.endswith(WAVEFORM):
+            topic = source.topic.rpartition("/")[2]
+            if topic == AXES_WAVEFORM:
+                self.axes_blocks.setdefault(source.topic, AxesInFile()).take(source, place, rows)
+            elif topic == WAVEFORM:
                 self.blocks.setdefault(source.topic, Blocks()).take(source, place, rows)
             else:
                 self.rows.setdefault(source.topic, []).append(rows)

@@ -12,7 +12,7 @@ from ...integrators.clock import TICKS
 from ...twin import Twin
 from ...window import Window
 from ..ros2.given import causality
-from ..ros2.topics import WAVEFORM
+from ..ros2.topics import AXES_WAVEFORM, WAVEFORM
 from .schedule import Change, Interval, RecordedRun, stamp_of, without_gaps
 
 KEPT = 1000  # intervals in memory
@@ -34,7 +34,7 @@ class Resimulation:
         place = bisect_left(self._stamps, stamp)
         if place == len(self._stamps) or stamp < self._begins[place]:
             return None
-        if topic == WAVEFORM:  # stamped with its first sample
+        if topic in (WAVEFORM, AXES_WAVEFORM):  # stamped with its first sample
             for candidate in (place, place + 1):  # it may be rounded to the end of the previous one
                 found = self._at(candidate)
                 if found and _holds(found[1], message):

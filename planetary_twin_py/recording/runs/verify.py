@@ -14,12 +14,16 @@ from ...accuracy import Course, course_warnings
 from ...ledger_check import Balance, balance_of_window, ledger_warning
 from ...window import Window
 from ..container.records import RecordingError
+from ..ros2.axes_fields import axes_state_fields, axes_waveform_fields, largest_alike
+from ..ros2.definitions import OF_AXES
 from ..ros2.fields import joint_fields_like, state_fields, waveform_fields
-from ..ros2.topics import JOINTS, STATE, WAVEFORM
+from ..ros2.topics import AXES_STATE, AXES_WAVEFORM, JOINTS, STATE, WAVEFORM
+from ..ros2.typestore import is_recorded
 from .origin import Measured, makers_here
 from .resimulation import Resimulation
 from .schedule import Interval, RecordedRun, messages_of, read_runs
 
+_COMPARED = (STATE, WAVEFORM, JOINTS, *OF_AXES)
 BOUND = 10.0  # allowed difference between machines in tolerances; each has errors of up to 3
 
 
@@ -93,7 +97,7 @@ def verify(
     again = Resimulation(runs, result.remarks)
     strays, balance, loosest = Counter[str](), Balance(), 0.0
     course = Course()
-    for topic, message in messages_of(path, namespace, (STATE, WAVEFORM, JOINTS), []):
+    for topic, message in messages_of(path, namespace, _COMPARED, []):
         if found := again.interval_of(topic, message):
             _compare(result, topic, message, *found)
             if topic == STATE:
@@ -141,7 +145,7 @@ def _compare(
         result.values += recorded.size
         if recorded.tobytes() == simulated.tobytes():
             continue
-        size = _size_beside(message, name)
+        size = _size_beside(topic, message, name)
         distance = _distance(recorded, simulated, size)
         result.largest = max(result.largest, distance / interval.tolerance)
         if result.first_difference is None:
@@ -155,11 +159,25 @@ def _expected(topic: str, message: Any, window: Window) -> Mapping[str, Any]:
         return {name: found[name] for name in names if name in found}
     if topic == WAVEFORM:
         return waveform_fields(window)
+    if topic in OF_AXES:
+        return _axes(topic, message, window)
     return joint_fields_like(window, message)
 
 
-def _size_beside(message: Any, name: str) -> float:
+def _axes(topic: str, message: Any, window: Window) -> Mapping[str, Any]:
+    """Fields of a message about axes; nothing of it is simulated where they are held."""
+    if window.axes is None:
+        raise RecordingError(f"{topic}: recorded of a scene whose axes are held")
+    if topic == AXES_WAVEFORM:
+        return axes_waveform_fields(window, window.axes)
+    found = axes_state_fields(window, window.axes)
+    return {name: value for name, value in found.items() if is_recorded(message, name)}
+
+
+def _size_beside(topic: str, message: Any, name: str) -> float:
     """Size of what a field is a small difference of; 0 if it has a size of its own."""
+    if topic == AXES_STATE:
+        return largest_alike(message, name)
     return abs(float(message.input_power)) if name == "stored_power" else 0.0
 
 

@@ -73,6 +73,26 @@ class Source(NamedTuple):
             raise RecordingError(f"{self.file}: {self.topic}: a message {reason}") from None
 
 
+class Stored(Protocol):
+    """Messages with samples in one section of a file."""
+
+    @property
+    def source(self) -> Source:
+        """Where they are."""
+
+    @property
+    def place(self) -> int:
+        """Position of the section in the file."""
+
+    @property
+    def begin(self) -> float:
+        """Simulated time of the first sample [s]."""
+
+    @property
+    def end(self) -> float:
+        """Simulated time of the last sample [s]."""
+
+
 class _Batch(NamedTuple):
     """Successive messages in one section: its position, and their times and ranges."""
 
@@ -185,21 +205,22 @@ class Blocks:
 
     def waveform(self, begin: float, end: float) -> Waveform | None:
         """Samples of all blocks that overlap the time span [s]; None if there are none."""
-        return waveform_of(list(self._read(begin, end)))
+        return waveform_of(list(read_stored(self._batches, begin, end)))
 
-    def _read(self, begin: float, end: float) -> Iterator[NDArray[Any]]:
-        """Read the messages whose blocks overlap the time span again."""
-        wanted = {
-            (batch.source, batch.place): None
-            for batch in self._batches
-            if batch.begin <= end and batch.end >= begin
-        }
-        for source, place in wanted:
-            records = section_at(source.file, place)
-            data = [r.data for r in records if getattr(r, "channel_id", None) == source.channel]
-            for rows in source.arrays(data):
-                last = rows["start_time"] + (rows["samples"] - 1.0) * rows["sample_period"]
-                yield rows[(rows["start_time"] <= end) & (last >= begin) & (rows["samples"] > 0)]
+
+def read_stored(batches: Iterable[Stored], begin: float, end: float) -> Iterator[NDArray[Any]]:
+    """Read the messages whose blocks overlap a time span [s] again."""
+    wanted = {
+        (batch.source, batch.place): None
+        for batch in batches
+        if batch.begin <= end and batch.end >= begin
+    }
+    for source, place in wanted:
+        records = section_at(source.file, place)
+        data = [r.data for r in records if getattr(r, "channel_id", None) == source.channel]
+        for rows in source.arrays(data):
+            last = rows["start_time"] + (rows["samples"] - 1.0) * rows["sample_period"]
+            yield rows[(rows["start_time"] <= end) & (last >= begin) & (rows["samples"] > 0)]
 
 
 def waveform_of(messages: Iterable[NDArray[Any]]) -> Waveform | None:
@@ -210,6 +231,19 @@ def waveform_of(messages: Iterable[NDArray[Any]]) -> Waveform | None:
         return None
     counts = np.concatenate([rows["samples"] for rows in found]).astype(np.int64)
     first = np.concatenate(([0], np.cumsum(counts)))
+    columns = {
+        name: np.concatenate(
+            [mesh.T for rows in found for mesh in _samples(rows, name)], dtype=np.float32
+        )
+        for name in QUANTITIES
+    }
+    time, stamp = times(found)
+    return Waveform(time, stamp, first[:-1], **columns)
+
+
+def times(found: Sequence[NDArray[Any]]) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
+    """Simulated time [s] and stamp [ns] of every sample of structured arrays of messages."""
+    counts = np.concatenate([rows["samples"] for rows in found]).astype(np.int64)
     offset = np.concatenate(
         [
             np.arange(count) * period
@@ -219,17 +253,9 @@ def waveform_of(messages: Iterable[NDArray[Any]]) -> Waveform | None:
     )
     start = np.concatenate([rows["start_time"] for rows in found])
     stamp = np.concatenate([stamps(rows) for rows in found])
-    columns = {
-        name: np.concatenate(
-            [mesh.T for rows in found for mesh in _samples(rows, name)], dtype=np.float32
-        )
-        for name in QUANTITIES
-    }
-    return Waveform(
+    return (
         np.repeat(start, counts) + offset,
         np.repeat(stamp, counts) + np.rint(offset * 1e9).astype(np.int64),
-        first[:-1],
-        **columns,
     )
 
 

@@ -11,6 +11,8 @@ import yaml
 from ...integrators.clock import TICKS
 from ...scene import Scene
 from ..ros2.bag import BagWriter
+from ..ros2.definitions import OF_AXES, topics_of
+from ..ros2.metadata import Topic
 from ..ros2.tape import Tape
 from ..ros2.topics import STATE
 from .branch import Branch, branched
@@ -76,12 +78,23 @@ def resimulate(
     end = run.intervals[-1].end / TICKS
     try:
         _attach(bag, path, run.origin.scene, branch, begins)
-        composer = Composer(bag, Tape(path).topics.values(), namespace, state.header.frame_id)
+        topics = _topics(path, namespace, run.origin.scene)
+        composer = Composer(bag, topics, namespace, state.header.frame_id)
         for time in write_run(composer, run):
             progress(time, end)
     finally:  # an incomplete recording is valid, too
         bag.close()
     return Made(bag.file, begins, end, run.origin.scene, remarks)
+
+
+def _topics(path: Path, namespace: str, scene: Scene) -> list[Topic]:
+    """Topics of a recording, and those that a changed scene has beside them."""
+    recorded = Tape(path).topics
+    if not scene.moving_axes:
+        return list(recorded.values())
+    of_axes = {f"{namespace}/{name}" for name in OF_AXES}
+    added = {topic.name: topic for topic in topics_of(namespace, True) if topic.name in of_axes}
+    return list((added | recorded).values())
 
 
 def _chosen(runs: list[RecordedRun], number: int | None, remarks: list[str]) -> RecordedRun:

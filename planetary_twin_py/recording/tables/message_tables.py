@@ -8,17 +8,19 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from ...quantities import AXES_WAVEFORM as AXES_SAMPLES
+from ...quantities import COMPONENTS, MEMBERS
 from ..container.records import RecordingError
 from ..ros2.fields import ROOM, WAVES
 from ..ros2.message_units import units_of
-from ..ros2.topics import POINT, STATE, WAVEFORM
+from ..ros2.topics import AXES_STATE, AXES_WAVEFORM, POINT, STATE, WAVEFORM
 from ..runs.schedule import stamp_of
 
 Batch = dict[str, np.ndarray]
 STAMP = "stamp"  # ROS time since the epoch [ns]; other columns are in SI
 MESSAGES = 4096  # per batch, at most
 ROWS = 2**17  # per batch, approximately
-TABLES = (STATE, POINT, WAVEFORM)
+TABLES = (STATE, POINT, WAVEFORM, AXES_STATE, AXES_WAVEFORM)
 """Topics that can be exported."""
 
 
@@ -34,13 +36,14 @@ class Column(NamedTuple):
 class Table:
     """Collects the messages of one topic in batches of columns.
 
-    GearboxState and OperatingPoint: one row per message; arrays have a column for each planet,
-    `name_1`, `name_2`, .... MeshWaveform: one row per sample, with `time` and a column for each
-    quantity and mesh, `dte_sun_planet_1`.
+    GearboxState, AxesState and OperatingPoint: one row per message; arrays have a column for each
+    planet, `name_1`, `name_2`, .... MeshWaveform and AxesWaveform: one row per sample, with `time`
+    and a column for each quantity and mesh, `dte_sun_planet_1`, or component of a body,
+    `bearing_force_sun_x`.
     """
 
     def __init__(self, topic: str, definition: str) -> None:
-        self._columns = _waves if topic == WAVEFORM else _rows
+        self._columns = _COLUMNS.get(topic, _rows)
         self._units = {STAMP: "ns", "time": "s", **units_of(definition)}
         self._waiting: list[Any] = []
         self._planets: int | None = None
@@ -96,19 +99,43 @@ def _rows(messages: list[Any]) -> Batch:
 
 
 def _waves(messages: list[Any]) -> Batch:
-    """One row per sample."""
+    """One row per sample, a column for each mesh."""
     planets = messages[0].planets
     meshes = [f"{kind}_{n + 1}" for kind in ("sun_planet", "planet_ring") for n in range(planets)]
+    return _sampled(messages, dict.fromkeys(WAVES, meshes))
+
+
+def _axes_waves(messages: list[Any]) -> Batch:
+    """One row per sample, a column for each component of a body."""
+    planets = [f"planet_{n + 1}" for n in range(messages[0].planets)]
+    names = {
+        body: [f"{body}_{component}" for component in COMPONENTS[kind]]
+        for kind, bodies in [*((m, [m]) for m in MEMBERS), ("planet", planets)]
+        for body in bodies
+    }
+    of_members, of_all = (
+        [name for body in bodies for name in names[body]] for bodies in (MEMBERS, names)
+    )
+    return _sampled(
+        messages, {name: of_members if name == "orbit" else of_all for name in AXES_SAMPLES}
+    )
+
+
+def _sampled(messages: list[Any], series: dict[str, list[str]]) -> Batch:
+    """One row per sample, with the columns of each quantity by their names."""
     counts = [message.samples for message in messages]
     offset = np.concatenate([np.arange(m.samples) * m.sample_period for m in messages])
     stamp = np.repeat(_stamps(messages), counts) + np.rint(offset * 1e9).astype(np.int64)
     start = np.repeat([message.start_time for message in messages], counts)
     batch = {STAMP: stamp, "time": start + offset}
-    for name in WAVES:
-        blocks = [getattr(message, name).reshape(len(meshes), -1) for message in messages]
+    for name, columns in series.items():
+        blocks = [getattr(message, name).reshape(len(columns), -1) for message in messages]
         samples = np.concatenate(blocks, axis=1)
-        batch |= {f"{name}_{mesh}": samples[m] for m, mesh in enumerate(meshes)}
+        batch |= {f"{name}_{column}": samples[n] for n, column in enumerate(columns)}
     return batch
+
+
+_COLUMNS = {WAVEFORM: _waves, AXES_WAVEFORM: _axes_waves}  # of other topics: _rows
 
 
 def _names(message: Any) -> list[str]:

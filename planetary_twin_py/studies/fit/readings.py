@@ -11,8 +11,8 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from ...quantities import MESH, SIDES, TRAIN
-from ...recording.ros2.fields import MEMBERS, state_fields
+from ...quantities import MEMBERS, MESH, SIDES, TRAIN
+from ...recording.ros2.fields import state_fields
 from ...window import Window
 from .excerpt import Excerpt
 

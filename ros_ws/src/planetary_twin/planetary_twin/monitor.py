@@ -9,12 +9,13 @@ from typing import NamedTuple
 
 import numpy as np
 from diagnostic_msgs.msg import DiagnosticArray
-from planetary_twin_msgs.msg import GearboxState
+from planetary_twin_msgs.msg import AxesState, GearboxState
 from rich.console import Console
 from rich.live import Live
 from rich.table import Table
 
-from planetary_twin_py.quantities import MESH, TRAIN, Quantity, side_title
+from planetary_twin_py.quantities import BEARING, MESH, SHARING, TRAIN, Quantity, side_title
+from planetary_twin_py.recording.ros2.topics import AXES_STATE
 from planetary_twin_py.terminal.console import make_console
 
 from .remote import Remote
@@ -28,13 +29,13 @@ _SILENCE = 10.0  # [s] longest wait for a state
 
 
 class Figure(NamedTuple):
-    """One row of the table: a field of GearboxState and its entry in the catalogue."""
+    """One row of the table: a field of a message and its entry in the catalogue."""
 
     field: str
     title: str
     quantity: Quantity
 
-    def value(self, state: GearboxState) -> float:
+    def value(self, state: GearboxState | AxesState) -> float:
         """Return the value in the unit of plots, of all meshes of one kind; NaN if unknown."""
         values = np.atleast_1d(np.asarray(getattr(state, self.field), dtype=float))
         known = values[np.isfinite(values)]  # entries beyond the number of planets are NaN
@@ -59,10 +60,21 @@ FIGURES = (
     _of_meshes("planet_ring", "dte_mean"),
     *map(_of_train, ("power_loss", "efficiency")),
 )
-
+OF_AXES = (
+    Figure("load_sharing_factor", "Load sharing factor", SHARING["load_sharing_factor"]),
+    *(
+        Figure(f"{body}_{name}", f"{title}, {body}", BEARING[name]._replace(over_meshes=np.max))
+        for name, title in (
+            ("displacement_peak", "Displacement, largest"),
+            ("bearing_force_peak", "Bearing force, largest"),
+        )
+        for body in ("sun", "planet")
+    ),
+)
+"""Further rows, if the axes of the twin move."""
 
 # Characters of a row beside its history: title, value, unit and the space between them.
-_BESIDE_HISTORY = max(len(figure.title) for figure in FIGURES) + 18
+_BESIDE_HISTORY = max(len(figure.title) for figure in (*FIGURES, *OF_AXES)) + 18
 
 
 def sparkline(values: list[float]) -> str:
@@ -86,9 +98,13 @@ class Monitor(Remote):
     def __init__(self, namespace: str) -> None:
         super().__init__(namespace)
         self.state: GearboxState | None = None
+        self.axes: AxesState | None = None
         self.report: dict[str, str] = {}
-        self._histories = [deque[float](maxlen=_HISTORY) for _ in FIGURES]
+        self._histories = {
+            figure.field: deque[float](maxlen=_HISTORY) for figure in (*FIGURES, *OF_AXES)
+        }
         self.node.create_subscription(GearboxState, "gearbox_state", self._on_state, 10)
+        self.node.create_subscription(AxesState, AXES_STATE, self._on_axes, 10)
         self.node.create_subscription(DiagnosticArray, "/diagnostics", self._on_diagnostics, 10)
 
     def table(self, width: int) -> Table:
@@ -109,8 +125,11 @@ class Monitor(Remote):
         table.add_column("value", justify="right")
         table.add_column("")
         table.add_column("history")
-        for figure, history in zip(FIGURES, self._histories, strict=True):
-            value = figure.value(state)
+        rows: list[tuple[Figure, GearboxState | AxesState]] = [(each, state) for each in FIGURES]
+        if self.axes is not None:
+            rows += [(each, self.axes) for each in OF_AXES]
+        for figure, message in rows:
+            value, history = figure.value(message), self._histories[figure.field]
             history.append(value)
             shown = "-" if math.isnan(value) else f"{value:.5g}"
             table.add_row(
@@ -133,6 +152,9 @@ class Monitor(Remote):
 
     def _on_state(self, message: GearboxState) -> None:
         self.state = message
+
+    def _on_axes(self, message: AxesState) -> None:
+        self.axes = message
 
     def _on_diagnostics(self, message: DiagnosticArray) -> None:
         self.report = real_time_figures(message, self.namespace) or self.report

@@ -17,10 +17,11 @@ from tf2_msgs.msg import TFMessage
 
 from planetary_twin_py import OperatingPoint, Scene, Window
 from planetary_twin_py.recording.ros2.given import fields_of, joint_names
-from planetary_twin_py.recording.ros2.topics import GIVEN
+from planetary_twin_py.recording.ros2.topics import AXES_STATE, AXES_WAVEFORM, GIVEN
 from planetary_twin_py.recording.runs.origin import Origin, makers_here
 from planetary_twin_py.robot import frames
 
+from .axes_messages import AxesStateMessage, AxesWaveformMessage
 from .messages import (
     JointsMessage,
     OperatingPointMessage,
@@ -33,6 +34,13 @@ from .stamps import Stamps, StrictClock
 from .transforms import TransformsMessage
 
 _DEPTH = 10
+_COUNTED = (
+    "_state_message",
+    "_waveform_message",
+    "_point_message",
+    "_axes_message",
+    "_axes_waveform_message",
+)
 STALL = 10.0
 """Simulated time [s] for which a reliable subscriber may stall without losing a message."""
 
@@ -53,6 +61,8 @@ class Telemetry:
         frame = given.frame_prefix + given.frame
         self._state_message = StateMessage(given.scene, frame)
         self._waveform_message = WaveformMessage(given.scene, frame)
+        self._axes_message = AxesStateMessage(frame)
+        self._axes_waveform_message = AxesWaveformMessage(frame)
         self._joints_message: JointsMessage | None = None
         self._continuous = given.continuous_joints
         self._point_message = OperatingPointMessage(frame)
@@ -84,6 +94,9 @@ class Telemetry:
         self._diagnostics = create(DiagnosticArray, "/diagnostics", _DEPTH)
         self._tf = create(TFMessage, "/tf", kept) if given.tf else None
         self._clock = create(Clock, "/clock", kept) if given.clock else None
+        moving = given.scene.moving_axes
+        self._axes = create(msg.AxesState, AXES_STATE, kept) if moving else None
+        self._axes_waveform = create(msg.AxesWaveform, AXES_WAVEFORM, kept) if moving else None
         driven = given.scene.drive.ports.given
         self._given = create(JointState, GIVEN, kept) if driven else None
         self._shafts = joint_names(given.scene)
@@ -98,15 +111,25 @@ class Telemetry:
             self._tf,
             self._clock,
             self._given,
+            self._axes,
+            self._axes_waveform,
         )
         self._topics = {p: p.topic_name for p in publishers if p is not None}
-        each = (self._clock, self._state, self._joints, self._waveform, self._tf)
+        each = (
+            self._clock,
+            self._axes,
+            self._axes_waveform,
+            self._state,
+            self._joints,
+            self._waveform,
+            self._tf,
+        )
         self._streams = [publisher for publisher in each if publisher is not None]
 
     def _continue(self, before: Telemetry) -> None:
         earlier = before._counts()
         self._published = {p: earlier.get(topic, 0) for p, topic in self._topics.items()}
-        for name in ("_state_message", "_waveform_message", "_point_message"):
+        for name in _COUNTED:
             getattr(self, name).message.sequence = getattr(before, name).message.sequence
 
     def close(self) -> None:
@@ -156,6 +179,7 @@ class Telemetry:
         if self._given is not None and window.given:
             given = JointState(**fields_of(window.given, self._shafts))
             self._prepared.append((self._given, given, [given.header.stamp], window.end))
+        self._prepare_axes(window)
         state, joints = self._state_message.fill(window), self._joints_message.fill(window)
         self._prepared.append((self._state, state, [state.header.stamp], window.end))
         self._prepared.append((self._joints, joints, [joints.header.stamp], window.end))
@@ -166,6 +190,19 @@ class Telemetry:
             transforms = self._transforms_message
             self._prepared.append(
                 (self._tf, transforms.fill(window), transforms.stamps, window.end)
+            )
+
+    def _prepare_axes(self, window: Window) -> None:
+        """Fill the messages about axes that move."""
+        axes = window.axes
+        if self._axes is None or self._axes_waveform is None or axes is None:
+            return
+        state = self._axes_message.fill(window, axes)
+        self._prepared.append((self._axes, state, [state.header.stamp], window.end))
+        if len(window.waveform.time):
+            wave = self._axes_waveform_message.fill(window, axes)
+            self._prepared.append(
+                (self._axes_waveform, wave, [wave.header.stamp], wave.start_time)
             )
 
     def publish(self) -> None:

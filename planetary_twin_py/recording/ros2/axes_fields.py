@@ -1,0 +1,89 @@
+"""Fields of the messages about axes that move, from the quantities of a window."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from ...planar.motion import AxesMotion
+from ...planar.statistics import axes_statistics
+from ...quantities import AXES_WAVEFORM, COMPONENTS, FLANKS, MEMBERS, SIDES, VECTORS
+from ...window import Window
+from .fields import with_room
+
+
+def axes_state_fields(window: Window, axes: AxesMotion) -> dict[str, Any]:
+    """Fields of AxesState of a window whose axes move as `axes`."""
+    planets, found = len(axes.mean_load_share), axes_statistics(axes)
+    fields: dict[str, Any] = {
+        "planets": planets,
+        "simulated_time": window.end,
+        "interval": window.end - window.start,
+        "sample_rate": window.sample_rate,
+        "load_sharing_factor": axes.load_sharing_factor,
+        "load_share": with_room(axes.mean_load_share),
+    }
+    for name in FLANKS:
+        of_sides = found.pop(name).reshape(len(SIDES), planets)
+        fields |= {f"{side}_{name}": with_room(of_sides[k]) for k, side in enumerate(SIDES)}
+    for name, values in found.items():
+        for body, member in enumerate(MEMBERS):
+            fields |= _named(member, name, values[body])
+        if len(values) > len(MEMBERS):
+            fields |= {
+                field: with_room(value)
+                for field, value in _named("planet", name, values[len(MEMBERS) :].T).items()
+            }
+    return fields
+
+
+def largest_alike(message: Any, name: str) -> float:
+    """Largest displacement or force of any body, beside which a component may be next to nothing.
+
+    Args:
+        message: AxesState.
+        name: of a field.
+
+    Returns:
+        Of all bodies and components of the same quantity [m] or [N]; 0 for other fields.
+    """
+    for kinds, largest in _ALIKE.items():
+        if any(f"_{kind}" in name for kind in kinds):
+            return max(float(np.nanmax(np.abs(getattr(message, field)))) for field in largest)
+    return 0.0
+
+
+_ALIKE = {
+    ("displacement", "orbit"): [f"{body}_displacement_peak" for body in COMPONENTS],
+    ("bearing_force",): [f"{body}_bearing_force_peak" for body in COMPONENTS],
+    tuple(FLANKS): [f"{side}_{name}" for side in SIDES for name in FLANKS],
+}
+"""By names of quantities, the fields whose largest value is theirs."""
+
+
+def axes_waveform_fields(window: Window, axes: AxesMotion) -> dict[str, Any]:
+    """Fields of AxesWaveform of a `window` whose waveform is not empty."""
+    wave = window.waveform
+    return {
+        "start_time": float(wave.time[0]),
+        "sample_period": wave.period,
+        "planets": len(axes.mean_load_share),
+        "samples": len(wave.time),
+        **{name: _samples(getattr(axes, name)) for name in AXES_WAVEFORM},
+    }
+
+
+def _named(body: str, name: str, values: np.ndarray) -> dict[str, Any]:
+    """A quantity of a kind of body, or both of its components."""
+    if name not in VECTORS:
+        return {f"{body}_{name}": values if values.ndim else float(values)}
+    return {
+        f"{body}_{name}_{component}": value if value.ndim else float(value)
+        for component, value in zip(COMPONENTS[body], values, strict=True)
+    }
+
+
+def _samples(values: np.ndarray) -> np.ndarray:
+    """Samples (samples, bodies, 2) in the order of the message."""
+    return np.ascontiguousarray(values.transpose(1, 2, 0), dtype=np.float32).ravel()

@@ -1,0 +1,122 @@
+"""A twin whose axes move publishes their motion, live and recorded."""
+
+from __future__ import annotations
+
+import signal
+from collections.abc import Iterator
+from pathlib import Path
+from typing import NamedTuple
+
+import numpy as np
+import pytest
+from domains import private_domain
+from planetary_twin.monitor import Monitor
+from planetary_twin_msgs.msg import AxesState, AxesWaveform, GearboxState
+from rclpy.serialization import serialize_message
+
+import planetary_twin_py as pt
+from planetary_twin_py.planar.load_sharing import load_sharing
+from planetary_twin_py.recording.runs.verify import verify
+
+from .conftest import _end
+from .peer import LONG, TWIN, Peer
+from .programs import Forked
+from .recordings import counts, read_all
+
+STATES = 100
+SLOWLY = ("rate_factor:=0.5", "sample_rate:=10000.0", "tolerance:=0.001")
+
+
+class Run(NamedTuple):
+    """What a twin whose axes move has published, and its recording."""
+
+    states: list[AxesState]
+    gearbox: list[GearboxState]
+    blocks: list[AxesWaveform]
+    folder: Path
+    table: str
+
+
+@pytest.fixture(scope="module")
+def run(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Run]:
+    """A second of a twin with a floating sun, received over DDS and recorded."""
+    place = tmp_path_factory.mktemp("axes")
+    scene = place / "moving.yaml"
+    scene.write_text("base: floating_sun\nname: moving\ndynamics: planar\n")
+    with private_domain() as domain, pytest.MonkeyPatch.context() as environment:
+        environment.setenv("ROS_DOMAIN_ID", str(domain))
+        user = Peer()
+        states = user.listen(AxesState, f"{TWIN}/axes_state", 1000)
+        blocks = user.listen(AxesWaveform, f"{TWIN}/axes_waveform", 1000)
+        gearbox = user.listen(GearboxState, f"{TWIN}/gearbox_state", 1000)
+        logger = Forked("planetary_twin.logger", "--ros-args", "-p", "name:=bag", cwd=place)
+        given = [
+            part
+            for option in (f"scene:={scene}", f"wait_for:={TWIN}/logger", *SLOWLY)
+            for part in ("-p", option)
+        ]
+        twin = Forked("planetary_twin.simulation", "--ros-args", *given, cwd=place)
+        with Monitor(TWIN) as monitor:
+            user.until(lambda: len(states) >= STATES and monitor.axes is not None, 120.0)
+            shown = [
+                [str(cell) for cell in column.cells] for column in monitor.table(120).columns[:2]
+            ]
+        twin.send_signal(signal.SIGINT)
+        twin.wait(LONG)
+        logger.send_signal(signal.SIGINT)
+        assert logger.wait(LONG) == 0
+        user.close()
+        _end([twin, logger])
+        table = "\n".join(f"{title}: {value}" for title, value in zip(*shown, strict=True))
+        yield Run(states, gearbox, blocks, place / "recordings/bag", table)
+
+
+def test_states_of_axes_have_no_gaps_and_the_stamps_of_the_gearbox(run: Run) -> None:
+    assert [state.sequence for state in run.states] == list(range(1, len(run.states) + 1))
+    stamps = {state.simulated_time: state.header.stamp for state in run.gearbox}
+    common = [state for state in run.states if state.simulated_time in stamps]
+    assert len(common) >= STATES - 1
+    assert all(state.header.stamp == stamps[state.simulated_time] for state in common)
+
+
+def test_the_sun_floats_and_planets_share_the_load_as_in_statics(run: Run) -> None:
+    scene = pt.load_scene("floating_sun")
+    expected = load_sharing(scene).share.mean(axis=0)
+    settled = run.states[STATES // 2 :]
+    share = np.mean([state.load_share[:4] for state in settled], axis=0)
+    assert share == pytest.approx(expected, rel=5e-3)
+    assert np.isnan(settled[0].load_share[4:]).all()
+    # The sun has no bearing, so nothing presses on it, but its axis is displaced.
+    assert {state.sun_bearing_force_peak for state in settled} == {0.0}
+    away = np.hypot(settled[-1].sun_displacement_x, settled[-1].sun_displacement_y)
+    moved = np.hypot(*load_sharing(scene).displacement.mean(axis=0)[0])
+    assert away == pytest.approx(moved, rel=5e-2)
+
+
+def test_blocks_of_axes_follow_one_another(run: Run) -> None:
+    rows = 4 + 3
+    for before, after in zip(run.blocks, run.blocks[1:], strict=False):
+        assert len(after.displacement) == len(after.bearing_force) == 2 * rows * after.samples
+        assert len(after.orbit) == 6 * after.samples
+        if after.sample_period != before.sample_period:  # under overload
+            continue
+        follows = before.start_time + before.samples * before.sample_period
+        assert after.start_time == pytest.approx(follows, abs=1e-9)
+
+
+def test_the_recording_has_what_was_published_and_is_verified_bit_for_bit(run: Run) -> None:
+    recorded = counts(run.folder)
+    states, blocks = (recorded[f"{TWIN}/{name}"] for name in ("axes_state", "axes_waveform"))
+    assert states == blocks == recorded[f"{TWIN}/gearbox_state"] >= STATES
+    received = read_all(run.folder)[f"{TWIN}/axes_state"].messages
+    assert received[0] == serialize_message(run.states[0])
+    found = verify(run.folder, TWIN)
+    assert found.identical
+    assert found.messages["axes_state"] == found.messages["axes_waveform"] == states
+
+
+def test_the_monitor_shows_load_sharing_and_bearing_forces(run: Run) -> None:
+    rows = dict(line.split(": ") for line in run.table.splitlines())
+    assert 1.1 < float(rows["Load sharing factor"]) < 1.2
+    assert float(rows["Bearing force, largest, planet"]) > 1000.0
+    assert float(rows["Displacement, largest, sun"]) > 1.0  # [um]
