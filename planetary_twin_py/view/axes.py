@@ -26,10 +26,10 @@ from .newtons import newtons
 from .round_numbers import round_down, round_up
 
 Array = NDArray[np.float64]
-_FAR = 0.6  # largest drawn displacement [modules]
+_FAR = 1.0  # largest drawn displacement [modules]
 _LONG = 0.35  # largest drawn arrow [radii of the planet centres]
 _COLOUR = (120, 220, 140)
-_THICK = 0.12  # radius of an arrow [modules]
+_THICK = 0.22  # radius of an arrow [modules]
 
 
 class Scales(NamedTuple):
@@ -149,14 +149,14 @@ def _log_scale(layer: Layer, gearset: Gearset, drawn: Scales, thick: float) -> N
     module = MILLIMETRES * gearset.module
     reach = 0.5 * gearset.teeth.ring * module
     length = MILLIMETRES * drawn.length
-    start, y = 1.12 * reach - length, -1.02 * reach
+    start, y = 1.05 * reach - length, -1.02 * reach
     arrow = rr.Arrows3D(
         origins=[(start, y, 0.0)], vectors=[(length, 0.0, 0.0)], colors=[_COLOUR], radii=[thick]
     )
     layer.log("gears/bearing_force/scale", arrow, static=True)
     texts = {
         f"Bearing force {newtons(drawn.force)}": y + 3.0 * module,
-        f"Displacement of axes x {drawn.magnification:g}": y - 3.0 * module,
+        f"Axes displaced x {drawn.magnification:g}": y - 3.0 * module,
     }
     points = rr.Points3D(
         [(start + 0.5 * length, height, 0.0) for height in texts.values()],

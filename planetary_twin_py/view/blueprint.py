@@ -184,7 +184,7 @@ def _axes() -> rrb.Vertical:
     orbits = [
         _chart(
             f"orbit/{member}",
-            f"Orbit of the {member} in the housing, around the time cursor [µm]",
+            f"Orbit of the {member} [µm]",
             bounds(orbit.SIZE, orbit.SIZE),
         )
         for member in MEMBERS

@@ -31,7 +31,7 @@ def log_orbits(layer: Layer, frames: Frames, samples: AxesSamples) -> None:
         colour = TRAIN_COLOURS[body]
         send_strips(
             layer, f"orbit/{name}/curve", frames.index, _strips(chart, frames, samples.time, orbit),
-            {"colors": [colour], "radii": [0.5]},
+            {"colors": [colour], "radii": [1.2]},
         )  # fmt: skip
 
 

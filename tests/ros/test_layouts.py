@@ -11,33 +11,42 @@ import math
 import re
 from collections.abc import Iterator
 from pathlib import Path
+from types import SimpleNamespace
 from typing import Any
 from xml.etree import ElementTree
 
 import numpy as np
 import pytest
 from mcap.reader import make_reader
-from planetary_twin_msgs.msg import GearboxState
+from planetary_twin_msgs.msg import AxesState, GearboxState
 from rclpy.serialization import deserialize_message
 
 import planetary_twin_py as pt
+from planetary_twin_py.recording.ros2.axes_fields import axes_state_fields
 from planetary_twin_py.robot.parts import gear_of, rim
 
 ROOT = Path(__file__).parents[2]
 LAYOUTS = ROOT / "ros_ws/src/planetary_twin/layouts"
 STATE = "/planetary_twin/gearbox_state"
-CURVE = re.compile(rf"^{STATE}[./](?P<field>\w+)(\[(?P<place>\d)\])?$")
+CURVE = re.compile(r"^/planetary_twin/(?P<topic>\w+)[./](?P<field>\w+)(\[(?P<place>\d)\])?$")
+MESSAGES = {"gearbox_state": GearboxState, "axes_state": AxesState}
 FIELD = re.compile(r"^float64\S*\s+(?P<name>\w+)\s+# \[(?P<unit>[^]]+)\]", re.MULTILINE)
-UNITS = dict(FIELD.findall((ROOT / "msgs_spec/msg/GearboxState.msg").read_text()))
+UNITS = {
+    field: unit
+    for message in ("GearboxState", "AxesState")
+    for field, unit in FIELD.findall((ROOT / f"msgs_spec/msg/{message}.msg").read_text())
+}
+PLOTS = {"": 12, "_axes": 4}
+"""Plots of both layouts by the ending of their names: for every twin, and for moving axes."""
 TITLES = ("lichtblickPanelTitle", "foxglovePanelTitle")
 LENGTH = re.compile(r"^[\d.e-]+$")  # of a path that is a horizontal line
 
 
 def field_of(curve: str) -> str:
-    """The field of GearboxState that a curve plots, which must have one value there."""
+    """The field of a message that a curve plots, which must have one value there."""
     match = CURVE.match(curve)
     assert match, curve
-    kind = GearboxState.get_fields_and_field_types()[match["field"]]
+    kind = MESSAGES[match["topic"]].get_fields_and_field_types()[match["field"]]
     if match["place"] is None:
         assert kind == "double", curve
     else:
@@ -45,20 +54,26 @@ def field_of(curve: str) -> str:
     return match["field"]
 
 
+@pytest.fixture(scope="module", params=PLOTS, ids=lambda ending: ending or "every twin")
+def ending(request: pytest.FixtureRequest) -> str:
+    return str(request.param)
+
+
 @pytest.fixture(scope="module")
-def panels() -> dict[str, Any]:
-    panels: dict[str, Any] = json.loads((LAYOUTS / "foxglove.json").read_text())["configById"]
+def panels(ending: str) -> dict[str, Any]:
+    text = (LAYOUTS / f"foxglove{ending}.json").read_text()
+    panels: dict[str, Any] = json.loads(text)["configById"]
     return panels
 
 
 @pytest.fixture(scope="module")
-def docks() -> list[ElementTree.Element]:
-    return list(ElementTree.parse(LAYOUTS / "plotjuggler.xml").iter("DockArea"))
+def docks(ending: str) -> list[ElementTree.Element]:
+    return list(ElementTree.parse(LAYOUTS / f"plotjuggler{ending}.xml").iter("DockArea"))
 
 
 def plots(panels: dict[str, Any]) -> Iterator[dict[str, Any]]:
     found = [panel for name, panel in panels.items() if name.startswith("Plot!")]
-    assert len(found) == 12
+    assert len(found) in PLOTS.values()
     yield from found
 
 
@@ -70,8 +85,8 @@ def lines(panel: dict[str, Any]) -> list[dict[str, Any]]:
     return [path for path in panel["paths"] if LENGTH.match(path["value"])]
 
 
-def test_every_panel_of_foxglove_is_shown_once(panels: dict[str, Any]) -> None:
-    layout = json.loads((LAYOUTS / "foxglove.json").read_text())
+def test_every_panel_of_foxglove_is_shown_once(panels: dict[str, Any], ending: str) -> None:
+    layout = json.loads((LAYOUTS / f"foxglove{ending}.json").read_text())
 
     def shown(part: str | dict[str, Any]) -> list[str]:
         if isinstance(part, dict):
@@ -83,7 +98,7 @@ def test_every_panel_of_foxglove_is_shown_once(panels: dict[str, Any]) -> None:
 
 
 def test_tabs_of_both_layouts_have_the_same_plots(
-    panels: dict[str, Any], docks: list[ElementTree.Element]
+    panels: dict[str, Any], docks: list[ElementTree.Element], ending: str
 ) -> None:
     def titles(part: str | dict[str, Any]) -> list[str]:
         if isinstance(part, str):
@@ -93,12 +108,12 @@ def test_tabs_of_both_layouts_have_the_same_plots(
     tabs = {tab["title"]: titles(tab["layout"]) for tab in panels["Tab!plots"]["tabs"]}
     others = {
         tab.attrib["tab_name"]: [dock.attrib["name"] for dock in tab.iter("DockArea")]
-        for tab in ElementTree.parse(LAYOUTS / "plotjuggler.xml").iter("Tab")
+        for tab in ElementTree.parse(LAYOUTS / f"plotjuggler{ending}.xml").iter("Tab")
     }
     in_metres = {
         name: [title.replace("[µm]", "[m]") for title in found] for name, found in others.items()
     }
-    assert tabs == in_metres and sum(map(len, tabs.values())) == len(docks)
+    assert tabs == in_metres and sum(map(len, tabs.values())) == len(docks) == PLOTS[ending]
 
 
 def test_every_panel_of_foxglove_has_a_title_of_its_own(panels: dict[str, Any]) -> None:
@@ -126,22 +141,36 @@ def test_foxglove_plots_over_the_time_that_its_time_bar_shows(panels: dict[str, 
         assert {path["timestampMethod"] for path in panel["paths"]} == {"receiveTime"}
 
 
-def test_plots_of_lengths_have_bounds_that_contain_the_sample_recording(
-    panels: dict[str, Any],
-) -> None:
-    """Ticks of Lichtblick's axes are at least 1e-3 apart: bounds are labelled, and a line."""
+def recorded_states() -> list[Any]:
+    """States in the sample recording."""
     (file,) = (ROOT / "recordings/sample").glob("*.mcap")
     with file.open("rb") as stream:
         found = make_reader(stream).iter_messages(topics=[STATE])
-        states = [deserialize_message(message.data, GearboxState) for *_, message in found]
+        return [deserialize_message(message.data, GearboxState) for *_, message in found]
+
+
+def states_of_axes() -> list[Any]:
+    """States of the axes of `floating_sun`."""
+    twin = pt.Twin(pt.load_scene("floating_sun").replace(dynamics="planar"), 10_000.0)
+    windows = [twin.advance(0.01) for _ in range(5)]
+    return [SimpleNamespace(**axes_state_fields(window, window.axes)) for window in windows]
+
+
+def test_plots_of_lengths_have_bounds_that_contain_a_run(
+    panels: dict[str, Any], ending: str
+) -> None:
+    """Ticks of Lichtblick's axes are at least 1e-3 apart: bounds are labelled, and a line."""
+    states = states_of_axes() if ending else recorded_states()
     for panel in plots(panels):
         fields = [field_of(path["value"]) for path in curves(panel)]
         if UNITS[fields[0]] != "m":
             assert "minYValue" not in panel and "maxYValue" not in panel and not lines(panel)
             continue
-        values = np.array([[getattr(state, name)[:3] for name in fields] for state in states])
+        values = np.concatenate(
+            [np.atleast_1d(getattr(state, name))[:3] for state in states for name in fields]
+        )
         low, high = panel["minYValue"], panel["maxYValue"]
-        assert low <= values.min() and 0.25 * high < values.max() < high
+        assert low <= values.min() and 0.25 * high < np.abs(values).max() < high
         (line,) = lines(panel)
         assert low < float(line["value"]) < high
         assert line["label"] == f"{1e6 * float(line['value']):g} µm"
@@ -166,7 +195,6 @@ def test_the_gears_of_foxglove_come_from_the_robot_description(panels: dict[str,
 def test_plotjuggler_plots_fields_scaled_to_the_unit_in_the_title_of_the_plot(
     docks: list[ElementTree.Element],
 ) -> None:
-    assert len(docks) == 12
     for dock in docks:
         curves = list(dock.iter("curve"))
         (unit,) = {UNITS[field_of(curve.attrib["name"])] for curve in curves}
@@ -180,8 +208,8 @@ def test_plotjuggler_plots_fields_scaled_to_the_unit_in_the_title_of_the_plot(
             assert {options.attrib[f"{of}_offset"] for of in ("time", "value")} == {"0"}
 
 
-def test_plots_of_plotjuggler_are_two_by_two_so_that_legends_are_whole() -> None:
-    for container in ElementTree.parse(LAYOUTS / "plotjuggler.xml").iter("Container"):
+def test_plots_of_plotjuggler_are_two_by_two_so_that_legends_are_whole(ending: str) -> None:
+    for container in ElementTree.parse(LAYOUTS / f"plotjuggler{ending}.xml").iter("Container"):
         (rows,) = container.findall("DockSplitter")
         pairs = rows.findall("DockSplitter")
         assert [len(pair.findall("DockArea")) for pair in pairs] == [2, 2]

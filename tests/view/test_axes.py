@@ -1,0 +1,134 @@
+"""Axes that move are drawn displaced, with bearing forces, orbits and the scales of both."""
+
+import numpy as np
+import pytest
+from planar.moving_scenes import planar
+from power_flows import FLOWS
+from rerun.chunk import RrdReader
+
+from planetary_twin_py.recording.container.records import records_of
+from planetary_twin_py.recording.runs.offline import NAMESPACE, Plan, record
+from planetary_twin_py.recording.runs.reader import read_recording
+from planetary_twin_py.view.axes import scales
+from planetary_twin_py.view.live import LiveView
+from planetary_twin_py.view.show import save, scene_of, to_file
+
+PIN = {"errors.pin_tangential": [-2e-5, 0.0, 0.0]}
+
+
+@pytest.fixture(scope="module")
+def file(tmp_path_factory):
+    """The ring is held, the carrier turns, the sun floats."""
+    scene = planar(FLOWS[2], {"sun": 0.0}, **PIN)
+    return record(Plan(scene, 0.2, 20_000.0, 1e-3), tmp_path_factory.mktemp("bag") / "axes")
+
+
+@pytest.fixture(scope="module")
+def recording(file):
+    return read_recording(file)
+
+
+@pytest.fixture(scope="module")
+def drawn(recording, tmp_path_factory):
+    rrd = tmp_path_factory.mktemp("rrd") / "axes.rrd"
+    save(recording, scene_of(recording)[0], rrd)
+    return rrd
+
+
+def rows(rrd, path, component):
+    """Times [s] and rows of a component of an entity."""
+    found = []
+    for chunk in RrdReader(rrd).stream():
+        batch = chunk.to_record_batch()
+        if chunk.entity_path == path and component in batch.schema.names and not chunk.is_static:
+            times = np.array(batch.column("simulated_time").cast("int64").to_pylist()) * 1e-9
+            found += zip(times, batch.column(component).to_pylist(), strict=True)
+    return found
+
+
+def test_the_sun_is_drawn_displaced_by_the_stated_multiple_and_turns_with_the_carrier(
+    recording, drawn
+):
+    scene = scene_of(recording)[0]
+    scale = scales(scene.gearset, recording.axes_state)
+    assert scale.magnification > 1.0
+    state = recording.axes_state
+    size = np.hypot(state["sun_displacement_x"], state["sun_displacement_y"]).mean()
+    moved = rows(drawn, "/gears/sun", "Transform3D:translation")
+    places = np.array([where[0][:2] for _, where in moved]) @ np.array([1.0, 1.0j])
+    assert np.abs(places).mean() == pytest.approx(1e3 * scale.magnification * size, rel=0.05)
+    time = np.array([time for time, _ in moved])
+    turned = np.polyfit(time, np.unwrap(np.angle(places)), 1)[0]
+    assert turned == pytest.approx(recording.state["carrier_speed"].mean(), rel=0.05)
+
+
+def test_planets_are_displaced_against_the_carrier(recording, drawn):
+    scene = scene_of(recording)[0]
+    scale = scales(scene.gearset, recording.axes_state)
+    state, psi = recording.axes_state, scene.gearset.planet_angles[0]
+    own = (
+        state["planet_displacement_radial"][:, 0]
+        + 1j * state["planet_displacement_tangential"][:, 0]
+    )
+    carrier = state["carrier_displacement_x"] + 1j * state["carrier_displacement_y"]
+    expected = 1e3 * scale.magnification * (own * np.exp(1j * psi) - carrier).mean()
+    moved = rows(drawn, "/gears/carrier/pin_1/planet_1", "Transform3D:translation")
+    places = np.array([where[0][:2] for _, where in moved]) @ np.array([1.0, 1.0j])
+    assert abs(places.mean() - expected) < 0.02 * abs(expected)
+
+
+def test_arrows_have_the_size_of_the_bearing_forces(recording, drawn):
+    scene = scene_of(recording)[0]
+    scale = scales(scene.gearset, recording.axes_state)
+    state = recording.axes_state
+    force = np.hypot(
+        state["planet_bearing_force_radial"][:, 0], state["planet_bearing_force_tangential"][:, 0]
+    )
+    arrows = rows(drawn, "/gears/carrier/bearing_force/planet_1", "Arrows3D:vectors")
+    lengths = np.array([np.linalg.norm(vector[0]) for _, vector in arrows])
+    drawn_force = lengths / (1e3 * scale.length) * scale.force
+    assert drawn_force.mean() == pytest.approx(force.mean(), rel=0.02)
+    assert force.max() <= scale.force
+    still = rows(drawn, "/gears/bearing_force/sun", "Arrows3D:vectors")
+    assert all(np.linalg.norm(vector[0]) == 0.0 for _, vector in still)  # it floats
+
+
+def test_the_scales_of_displacements_and_forces_are_written_in_the_view(recording, drawn):
+    scale = scales(scene_of(recording)[0].gearset, recording.axes_state)
+    texts = []
+    for chunk in RrdReader(drawn).stream():
+        batch = chunk.to_record_batch()
+        if chunk.entity_path == "/gears/bearing_force/texts":
+            texts += batch.column("Points3D:labels").to_pylist()[0]
+    assert f"Axes displaced x {scale.magnification:g}" in texts
+    assert any(text.startswith("Bearing force ") for text in texts)
+
+
+def test_the_orbit_of_the_floating_sun_is_drawn_and_load_shares_are_plotted(recording, drawn):
+    assert all(len(row) for _, row in rows(drawn, "/orbit/sun/curve", "LineStrips2D:strips"))
+    shares = rows(drawn, "/axes/load_share", "Scalars:scalars")
+    assert [len(row) for _, row in shares] == [3] * len(recording.axes_state)
+
+
+def test_a_torsional_recording_has_nothing_of_axes(tmp_path):
+    held = planar(FLOWS[2]).replace(dynamics="torsional")
+    recording = read_recording(record(Plan(held, 0.05, 20_000.0, 1e-3), tmp_path / "held"))
+    save(recording, scene_of(recording)[0], tmp_path / "held.rrd")
+    paths = {chunk.entity_path for chunk in RrdReader(tmp_path / "held.rrd").stream()}
+    assert "/gears/sun" in paths
+    assert not [path for path in paths if "bearing" in path or "orbit" in path or "/axes" in path]
+    assert scales(held.gearset, recording.axes_state) is None
+
+
+@pytest.mark.parametrize("batch", [1, 50])
+def test_a_live_view_draws_load_shares_and_arrows_of_the_recording(file, drawn, tmp_path, batch):
+    rrd = tmp_path / "live.rrd"
+    view = LiveView(NAMESPACE, lambda: to_file(rrd))
+    records = list(records_of(file, []))
+    for start in range(0, len(records), batch):
+        view.take(records[start : start + batch])
+    view.close()
+    live, whole = (rows(each, "/axes/load_share", "Scalars:scalars") for each in (rrd, drawn))
+    assert live == whole
+    arrows = rows(rrd, "/gears/carrier/bearing_force/planet_1", "Arrows3D:vectors")
+    assert {round(time, 6) for time, _ in arrows} == {round(time, 6) for time, _ in whole}
