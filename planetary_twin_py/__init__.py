@@ -32,6 +32,7 @@ if TYPE_CHECKING:
     )
     from .batch import Outcome, simulate_many
     from .commands import Commands
+    from .dynamics_choice import DynamicsChoice, choose_dynamics
     from .ledger_check import LedgerWarning
     from .modal.modes import NaturalModes
     from .modal.natural import natural_modes
@@ -67,6 +68,7 @@ _EXPORTS = {
     ),
     "accuracy": ("AccuracyWarning",),
     "_core": ("PortStates",),
+    "dynamics_choice": ("DynamicsChoice", "choose_dynamics"),
     "commands": ("Commands",),
     "batch": ("Outcome", "simulate_many"),
     "ledger_check": ("LedgerWarning",),
@@ -95,6 +97,7 @@ __all__ = [
     "ByAngle",
     "Change",
     "Commands",
+    "DynamicsChoice",
     "Energy",
     "LedgerWarning",
     "Line",
@@ -118,6 +121,7 @@ __all__ = [
     "Waveform",
     "Window",
     "amplitude_spectrum",
+    "choose_dynamics",
     "friction_table",
     "load_scene",
     "load_sharing",

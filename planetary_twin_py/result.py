@@ -3,11 +3,15 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from .dynamics.bodies import LOAD_MACHINE, MOTOR, SECOND_MOTOR
 from .planar.motion import AxesMotion
+
+if TYPE_CHECKING:
+    from .dynamics_choice import DynamicsChoice
 
 
 @dataclass(frozen=True)
@@ -135,6 +139,8 @@ class Result:
     """Of the sun-planet and of the planet-ring meshes: 1 - friction loss/transmitted power."""
     stats: Stats
     """Statistics of the integration."""
+    choice: DynamicsChoice | None = None
+    """What dynamics: auto has picked, and why; None if the scene gives its dynamics."""
     axes: AxesMotion | None = None
     """Motion of the axes and forces on their bearings; None where the axes are held."""
 

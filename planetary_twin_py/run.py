@@ -14,7 +14,7 @@ from .dynamics.train import build_train, held_axes
 from .engine import Engine
 from .integrators.interpolant import Samples, Waves
 from .quasi_static.engine import QuasiStaticEngine
-from .scene import OperatingPoint, Scene
+from .scene import OperatingPoint, Scene, SceneError
 from .window_jobs import WindowJobs
 
 
@@ -89,6 +89,12 @@ def start(scene: Scene, tolerance: float, method: str = "auto") -> Run:
     Raises:
         ValueError: an argument is out of range, or the scene cannot be built.
     """
+    if scene.dynamics == "auto":
+        raise SceneError(
+            "dynamics = 'auto': is to be picked before: use `choose_dynamics(scene).scene`, or "
+            f"give torsional, planar or quasi_static; `planetary-twin explain {scene.name}` "
+            "compares them"
+        )
     if scene.dynamics != "quasi_static":
         return Engine(scene, tolerance, method)
     if method not in ("auto", "march"):

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 import time
 import warnings
+from dataclasses import replace
 from fractions import Fraction
 from typing import NamedTuple
 
@@ -32,6 +33,7 @@ from .commands import Commands
 from .driven import DrivenRun
 from .dynamics.bodies import body_names, mesh_names
 from .dynamics.mesh_sums import MeshSums, in_order
+from .dynamics_choice import AUTO, choose_dynamics
 from .integrators.interpolant import Samples
 from .ledger_check import LedgerWarning, balance_of_run, ledger_warning
 from .planar.motion import axes_motion, joined_flanks
@@ -60,7 +62,7 @@ def simulate(
     of motion and their sources are in docs/model.md.
 
     Args:
-        scene: the scene.
+        scene: the scene; with dynamics: auto, `choose_dynamics` picks one, see `Result.choice`.
         duration: simulated time of the result [s].
         sample_rate: of the result [Hz]; sample times are integer multiples of the sample period.
         method: "collocation", "rosenbrock", "march" (collocation wherever it is applicable) or
@@ -85,6 +87,8 @@ def simulate(
         AccuracyWarning: results are less accurate than the tolerance, see `accuracy`.
     """
     check_run(duration, sample_rate, method, tolerance)
+    choice = choose_dynamics(scene) if scene.dynamics == AUTO else None
+    scene = scene if choice is None else choice.scene
     if not 0.0 <= settling < math.inf:
         raise ValueError(f"settling = {settling!r} s: must be finite and not negative")
     engine = start(scene, tolerance, method)
@@ -100,6 +104,7 @@ def simulate(
     speed = (_turned(engine, settling + duration) - before.turned) / duration
     sums = engine.take_mesh_sums(settling + duration)
     result = _result(scene, engine, (samples, speed, sums), sample_rate, before, wall)
+    result = replace(result, choice=choice)
     if text := ledger_warning(balance_of_run(result.energy), tolerance):
         warnings.warn(text, LedgerWarning, stacklevel=2)
     for text in accuracy_warnings(scene, result):

@@ -18,6 +18,7 @@ from ..terminal.messages import fail, remark
 if TYPE_CHECKING:
     from rich.table import Table
 
+    from ..dynamics_choice import DynamicsChoice
     from ..explanation.measure import Explanation
     from ..explanation.meshes import Meshes
     from ..scene import Scene
@@ -60,7 +61,11 @@ def explain(
     print_list(console, "gears", gears(loaded))
     console.print()
     console.print(_mesh_table(loaded, meshes))
+    if loaded.dynamics == "auto":
+        console.print(found.dynamics.text, highlight=False)
+        loaded = found.dynamics.scene
     console.print(_table(loaded, found))
+    console.print(_dynamics_table(found.dynamics))
     console.print(_limits(loaded))
     for line in found.remarks:
         remark(f"warning: {line}")
@@ -136,6 +141,29 @@ def _mesh_figures(meshes: Meshes) -> dict[str, Any]:
     }
 
 
+def _dynamics_table(found: DynamicsChoice) -> Table:
+    """What each dynamics leaves out, and costs."""
+    from rich.table import Table
+
+    from ..dynamics_choice import FIGURES
+
+    table = Table(
+        title=f"Dynamics: error of each against {found.reference} [%], in steady running",
+        caption=f"Within {100.0 * found.allowed:g} % (dynamics_error) is enough: "
+        f"{found.dynamics}.\n{found.reason}.\nOnly planar has bearing forces and orbits.",
+    )
+    table.add_column("dynamics")
+    for name in (*FIGURES, "computing time per second"):
+        table.add_column(name.replace("_", " "), justify="right")
+    for each in found.candidates:
+        if each.refused:
+            table.add_row(each.dynamics, *["-"] * (len(FIGURES) + 1))
+            continue
+        errors = (f"{100.0 * each.errors[name]:.3g}" for name in FIGURES)
+        table.add_row(each.dynamics, *errors, f"{each.cost:.3g} s")
+    return table
+
+
 def _table(scene: Scene, found: Explanation) -> Table:
     from rich.table import Table
 
@@ -198,5 +226,6 @@ def _as_figures(found: Explanation) -> dict[str, Any]:
             }
             for effect in found.effects
         ],
+        "dynamics": found.dynamics.figures(),
         "remarks": found.remarks,
     }

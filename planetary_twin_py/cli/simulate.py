@@ -75,12 +75,18 @@ def simulate(
             result = interruptible(
                 lambda: run(loaded, duration, sample_rate, tolerance=tolerance, settling=settling)
             )
+        if result.choice is not None:
+            loaded = result.choice.scene
         if out is not None and out.suffix in _RECORDINGS:
             _record(console, out, loaded, settling + duration, sample_rate, tolerance)
         elif out is not None:
             _WRITERS[out.suffix](result, loaded, out)
     except (ValueError, OSError) as error:
         fail(error)
+    chosen = {}
+    if result.choice is not None:
+        console.print(result.choice.text, highlight=False)
+        chosen = {"dynamics": result.choice.figures()}
     train = {"settling_s": settling} | _train(loaded, result)
     meshes = _meshes(result)
     print_list(console, "gears", gears(loaded))
@@ -97,7 +103,7 @@ def simulate(
     warned = [*without_effect(loaded, changes), *remarks(loaded, result, tolerance)]
     for line in warned:
         remark(f"warning: {line}")
-    put_figures(train | meshes | axes | {"remarks": warned}, json_)
+    put_figures(chosen | train | meshes | axes | {"remarks": warned}, json_)
 
 
 def _check(out: Path) -> None:

@@ -24,8 +24,8 @@ def meaning_of_held_axes(scene: Scene) -> str:
     if scene.supports is not None and scene.operating_point.input_torque != 0.0:
         moving, held = load_sharing(scene), load_sharing(scene.replace(supports=None))
         return (
-            f"{HELD}; the largest share of a planet is {held.factor:.3f} with held axes and "
-            f"{moving.factor:.3f} with the bearings of supports (command load-sharing); "
+            f"{HELD}; in statics the largest share of a planet is {held.factor:.3f} with held "
+            f"axes and {moving.factor:.3f} with the bearings of supports (command load-sharing); "
             "dynamics = planar lets the axes move"
         )
     if _in_balance(scene):

@@ -6,6 +6,7 @@ from collections.abc import Callable
 from statistics import median
 from typing import NamedTuple
 
+from ..dynamics_choice import AUTO, DynamicsChoice, choose_dynamics
 from ..result import Result
 from ..scene import Scene
 from ..simulation import TOLERANCE, simulate
@@ -29,6 +30,7 @@ class Explanation(NamedTuple):
 
     figures: Glance
     effects: tuple[Effect, ...]
+    dynamics: DynamicsChoice  # every dynamics that the scene can have, against one another
     remarks: tuple[str, ...]  # warnings about the results
 
 
@@ -38,7 +40,7 @@ def explain(
     """Simulate a scene as it is and without each of its terms.
 
     Args:
-        scene: the scene.
+        scene: the scene; with dynamics: auto, that which is picked is explained.
         duration: simulated time of each run [s].
         progress: called with the name of each term before its runs.
 
@@ -48,12 +50,17 @@ def explain(
     Raises:
         ValueError: the scene or the duration is invalid.
     """
+    progress("dynamics")
+    dynamics = choose_dynamics(scene)
+    if scene.dynamics == AUTO:
+        scene = dynamics.scene
     whole = simulate(scene, duration)
     effects = []
     for term in terms(scene):
         progress(term.name)
         effects.append(_effect(scene, term, duration))
-    return Explanation(glance(whole), tuple(effects), tuple(remarks(scene, whole, TOLERANCE)))
+    warned = tuple(remarks(scene, whole, TOLERANCE))
+    return Explanation(glance(whole), tuple(effects), dynamics, warned)
 
 
 def _effect(scene: Scene, term: Term, duration: float) -> Effect:

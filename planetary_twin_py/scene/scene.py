@@ -22,7 +22,7 @@ from .mesh import Mesh, TipReliefs
 from .names import did_you_mean, no_such_field
 from .operating_point import TUNABLES, OperatingPoint, Tunable
 from .paths import NoSuchPath, paths, put
-from .quantity import SceneError, Section, listed
+from .quantity import SceneError, Section, listed, quantity
 from .supports import Supports
 from .yaml_text import LONGEST, read_yaml
 
@@ -40,12 +40,17 @@ class Scene(Section):
 
     name: str = Field(description="name in recordings and pictures")
     description: str = Field("", description="description in words")
-    dynamics: Literal["torsional", "planar", "quasi_static"] = Field(
+    dynamics: Literal["torsional", "planar", "quasi_static", "auto"] = Field(
         "torsional",
         description="torsional: all bodies vibrate about axes that are held; planar: the axes move "
         "in the plane, too, on the bearings of `supports`; quasi_static: the train turns rigidly "
-        "and its loads are in static equilibrium at every time",
+        "and its loads are in static equilibrium at every time; auto: the least of these that "
+        "keeps to `dynamics_error` at the operating point",
     )
+    dynamics_error: float = quantity(
+        "", "largest relative error of forces, DTE and loss that dynamics: auto may make", 0.02,
+        gt=0.0, le=1.0,
+    )  # fmt: skip
     gearset: Gearset = Field(description="teeth, dimensions and inertia of the gears")
     mesh: Mesh = Field(description="stiffness, damping and backlash of the meshes")
     lubrication: Lubrication = Field(description="oil, surfaces and friction laws")
@@ -104,7 +109,7 @@ class Scene(Section):
             field = f"drive.{side}.port = {machine.port!r}"
             if self.drive.second_input is not None:
                 yield f"{field}: must be machine in a differential (gearset.held = 'none')"
-            elif self.dynamics != "torsional":
+            elif self.dynamics not in ("torsional", "auto"):
                 yield f"{field}: requires dynamics = torsional, not {self.dynamics!r}"
 
     def _limits(self) -> Iterator[str]:
@@ -132,8 +137,8 @@ class Scene(Section):
 
     def _play(self) -> Iterator[str]:
         """Error of a runout that presses both flanks of a tooth into their neighbours."""
-        if self.moving_axes:
-            return  # there both flanks have their forces
+        if self.moving_axes or self.dynamics == "auto":
+            return  # there both flanks have their forces, or dynamics without them is refused later
         runout, angle = self.mesh.runout, self.gearset.pressure_angle
         backlash = self.operating_point.backlash
         half = self.mesh.flanks(backlash, angle)[0]

@@ -9,19 +9,25 @@ from typing import NamedTuple
 
 import numpy as np
 import pytest
+from diagnostic_msgs.msg import DiagnosticStatus
 from domains import private_domain
+from planetary_twin.dynamics_report import DYNAMICS
 from planetary_twin.monitor import Monitor
 from planetary_twin_msgs.msg import AxesState, AxesWaveform, GearboxState
 from rclpy.serialization import serialize_message
+from std_msgs.msg import String
 
 import planetary_twin_py as pt
 from planetary_twin_py.planar.load_sharing import load_sharing
+from planetary_twin_py.recording.ros2.topics import is_status
+from planetary_twin_py.recording.runs.origin import read_origin
 from planetary_twin_py.recording.runs.verify import verify
 
-from .conftest import _end
-from .peer import LONG, TWIN, Peer
+from .conftest import Start, _end
+from .peer import LATCHED, LONG, TWIN, Peer
 from .programs import Forked
 from .recordings import counts, read_all
+from .reported import listen_to_reports
 
 STATES = 100
 SLOWLY = ("rate_factor:=0.5", "sample_rate:=10000.0", "tolerance:=0.001")
@@ -120,3 +126,42 @@ def test_the_monitor_shows_load_sharing_and_bearing_forces(run: Run) -> None:
     assert 1.1 < float(rows["Load sharing factor"]) < 1.2
     assert float(rows["Bearing force, largest, planet"]) > 1000.0
     assert float(rows["Displacement, largest, sun"]) > 1.0  # [um]
+
+
+def test_a_node_picks_the_dynamics_of_a_scene_that_leaves_them_open_and_reports_it(
+    peer: Peer, start: Start, tmp_path: Path
+) -> None:
+    scene = tmp_path / "open.yaml"
+    scene.write_text("base: floating_sun\nname: open\ndynamics: auto\n")
+    reports = listen_to_reports(peer)
+    states = peer.listen(AxesState, f"{TWIN}/axes_state", 1000)
+    origins = peer.listen(String, f"{TWIN}/run_origin", LATCHED)
+    start("planetary_twin.simulation", "--ros-args", "-p", f"scene:={scene}")
+
+    def report() -> DiagnosticStatus | None:
+        found = [
+            status
+            for message in reports[-1:]
+            for status in message.status
+            if is_status(status.name, DYNAMICS)
+        ]
+        return found[0] if found else None
+
+    peer.until(lambda: states and report() and origins, 120.0)
+    status = report()
+    assert status is not None and status.level == DiagnosticStatus.OK
+    assert status.message.startswith("dynamics = planar, picked by auto at 1000 rpm and 63 N m")
+    values = {pair.key: pair.value for pair in status.values}
+    assert values["dynamics"] == "planar"
+    assert float(values["error.torsional"]) > float(values["allowed_error"]) > 0.0
+    # What is recorded names the dynamics that ran, so that it can be simulated again.
+    assert read_origin(origins[-1].data).scene.dynamics == "planar"
+    assert peer.set(f"{TWIN}/simulation", input_torque=30.0).successful
+
+    def warned() -> bool:
+        now = report()
+        return now is not None and now.level == DiagnosticStatus.WARN
+
+    peer.until(warned)
+    now = report()
+    assert now is not None and now.message.startswith("input_torque changed since; dynamics =")

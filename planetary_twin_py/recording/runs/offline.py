@@ -45,7 +45,7 @@ def record(plan: Plan, out: Path, progress: Callable[[float], None] = lambda tim
         The file.
 
     Raises:
-        ValueError: a value of the plan is out of range.
+        ValueError: a value of the plan is out of range, or its scene leaves its dynamics open.
         FileExistsError: `out` exists.
         OSError: `out` cannot be written.
     """

@@ -26,6 +26,7 @@ from . import simulation_services
 from .accuracy_report import AccuracyReport
 from .audience import Audience
 from .backlog import Backlog
+from .dynamics_report import dynamics_status
 from .ledger_report import LedgerReport
 from .live import LiveTwin, Progress
 from .managed import ManagedNode, NodeError, run_node
@@ -78,6 +79,7 @@ class Simulation(ManagedNode):
     def configure(self) -> None:
         """Create the publishers, so that subscribers find them, and build the model."""
         self._given.read()
+        self._pick_dynamics()
         self._telemetry = Telemetry(self, self._given, self._before)
         self._commands = ShaftCommands(self._given, self.get_clock())
         self._subscription = self.create_subscription(
@@ -310,6 +312,11 @@ class Simulation(ManagedNode):
         def report_now(published: Mapping[str, int]) -> DiagnosticArray:
             message = report.message(live.progress, live.quality, published, last=last)
             message.status += [self._ledger.status(), self._accuracy.status()]
+            if self._given.choice is not None:
+                point = self._running_twin().operating_point
+                message.status.append(
+                    dynamics_status(self._given.choice, point, self.get_namespace())
+                )
             if self._given.scene.drive.ports.given:
                 message.status.append(self._commands.status(self.get_namespace()))
             return message
@@ -335,6 +342,14 @@ class Simulation(ManagedNode):
             self.get_logger().warning(status.message)
         else:
             self.get_logger().error(status.message)
+
+    def _pick_dynamics(self) -> None:
+        try:
+            self._given.pick_dynamics()
+        except RunawayError as reason:
+            raise ValueError(str(reason)) from None
+        if self._given.choice is not None:
+            self.get_logger().info(self._given.choice.text)
 
     def _new_twin(self) -> pt.Twin:
         try:

@@ -6,6 +6,7 @@ from rcl_interfaces.msg import SetParametersResult
 from rclpy.parameter import Parameter
 
 import planetary_twin_py as pt
+from planetary_twin_py.dynamics_choice import AUTO
 from planetary_twin_py.quality_control import QualityControl, Setting, settings_of
 from planetary_twin_py.run import check_point
 from planetary_twin_py.tolerance import AUTOMATIC, LIVE_TOLERANCE, TOLERANCES, ladder_of
@@ -70,6 +71,9 @@ class SimulationParameters:
         self.scene = self.scene_now()
         check_point(self.scene, self.scene.operating_point)
         self._wanted = self.scene
+        self._open = self.scene.dynamics == AUTO
+        self.choice: pt.DynamicsChoice | None = None
+        """What was picked for a scene that leaves its dynamics open; None for others."""
         self.read()
         node.add_on_set_parameters_callback(self._validate)
         node.add_post_set_parameters_callback(self._follow)
@@ -106,6 +110,14 @@ class SimulationParameters:
     def scene_now(self) -> pt.Scene:
         """Return the scene at that operating point."""
         return self.scene.replace(**self.point())
+
+    def pick_dynamics(self) -> None:
+        """Pick the dynamics at the present operating point, if the scene leaves them open."""
+        if not self._open:
+            self.choice = None
+            return
+        self.choice = pt.choose_dynamics(self.scene_now().replace(dynamics=AUTO))
+        self.scene = self.scene.replace(dynamics=self.choice.dynamics)
 
     def quality(self, twin: pt.Twin) -> QualityControl:
         """Return the quality control for the parameters, starting at the twin's setting."""
@@ -154,6 +166,7 @@ class SimulationParameters:
         for name in (*geometry, *pt.TUNABLES):
             node.undeclare_parameter(name)
         self.scene = scene.replace(**self._chosen)
+        self._open = scene.dynamics == AUTO
         self._declare_scene()
         node.add_on_set_parameters_callback(self._validate)
 
