@@ -16,14 +16,16 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Energy:
-    """Energy ledger of a run [J]: input = output + stored + lost - stiffness_work + residual."""
+    """Energy ledger of a run [J]: input = output + stored + lost - stiffness_work - weight +
+    residual."""
 
     machines: tuple[float, ...]
     """Work on the train by motor, load, and second motor of a differential [J], (machines,)."""
     kinetic: float
     """Increase of the kinetic energy [J]."""
     elastic: float
-    """Increase of the elastic energy of meshes and couplings [J]."""
+    """Increase of the elastic energy of meshes, couplings and bearings, and of the potential energy
+    of the weight [J]."""
     friction: float
     """Dissipated by tooth friction [J]."""
     damping: float
@@ -36,6 +38,8 @@ class Energy:
     """Work due to the change of mesh stiffness with the tooth pairs in contact [J]."""
     stored: float
     """Kinetic and elastic energy at the end [J]."""
+    weight: float = 0.0
+    """Work of the weight on displaced axes as they are turned with the carrier [J]."""
 
     @property
     def input(self) -> float:
@@ -55,7 +59,7 @@ class Energy:
     @property
     def residual(self) -> float:
         """Residual of the balance, an error of the integration [J]."""
-        lost = self.loss + self.damping - self.stiffness_work
+        lost = self.loss + self.damping - self.stiffness_work - self.weight
         return self.input - self.output - self.kinetic - self.elastic - lost
 
     @property

@@ -26,6 +26,7 @@ from ._core import (
     POWER_LOSS,
     STIFFNESS_WORK,
     VISCOUS,
+    WEIGHT,
     WORK,
 )
 from .accuracy import AccuracyWarning, accuracy_warnings
@@ -242,5 +243,6 @@ def _energy(engine: Run, stored: tuple[float, float]) -> Energy:
         bearing=float(ledger[BEARING]),
         churning=float(ledger[CHURNING]),
         stiffness_work=float(ledger[STIFFNESS_WORK]),
+        weight=float(ledger[WEIGHT]),
         stored=sum(now),
     )

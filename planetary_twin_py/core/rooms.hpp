@@ -50,11 +50,12 @@ constexpr std::int64_t BY_MACHINE = 0, BY_TORQUE = 1, BY_MOTION = 2;
 
 // Entries of `State.energy` and of the powers by which they grow: work [J] and angular impulse
 // [N m s] that each machine has put in, then what tooth friction, damping, bearings and churning
-// have taken and what the meshes have put in by changing their shape [J].
+// have taken, what the meshes have put in by changing their shape, and what weight has by being
+// turned with the frame [J].
 constexpr int WORK = 0, IMPULSE = MACHINES;
 constexpr int FRICTION = 2 * MACHINES, DAMPING = FRICTION + 1, BEARING = FRICTION + 2,
-              CHURNING = FRICTION + 3, STIFFNESS_WORK = FRICTION + 4;
-constexpr int LEDGER = 2 * MACHINES + 5;
+              CHURNING = FRICTION + 3, STIFFNESS_WORK = FRICTION + 4, WEIGHT = FRICTION + 5;
+constexpr int LEDGER = 2 * MACHINES + 6;
 
 // Rows of the answer of `observe`.
 constexpr int DTE = 0, MESH_FORCE = 1, BOUNDARY = 2, VISCOUS = 3, FILM = 4, LAMBDA = 5,

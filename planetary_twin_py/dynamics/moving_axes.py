@@ -6,6 +6,7 @@ The rows are those of `planar.rows`, in the order that `core/train/moving_axes.h
 from __future__ import annotations
 
 import math
+from fractions import Fraction
 from typing import Any
 
 import numpy as np
@@ -76,6 +77,7 @@ def moving_fields(scene: Scene, bodies: Bodies, fields: dict[str, Any]) -> dict[
                 carrier=[bodies.place[f"carrier.{motion}"] for motion in "xy"],
                 arm=scene.gearset.geometry.centre_distance,
                 slide=slide,
+                **_gravity(scene),
                 **_bearings(scene, bodies),
             ),
         }
@@ -151,6 +153,19 @@ def _bearings(scene: Scene, bodies: Bodies) -> dict[str, Any]:
         "damping": [bearing_damping(support) for support in held],
         "clearance": [support.clearance for support in held],
         "centre": _centres(scene) + [errors.of_planet(i)[:2] for i in range(planets)],
+    }
+
+
+def _gravity(scene: Scene) -> dict[str, Any]:
+    """Fields of `MovingAxes` for the weight of the bodies."""
+    supports, ratios = scene.supports, rigid_ratios(scene)["carrier"]
+    assert supports is not None  # the scene has been checked
+    per_turn = [*ratios, *[Fraction(0)] * (AXES - len(ratios))]
+    return {
+        "gravity": supports.gravity,
+        "downwards": supports.gravity_direction,
+        "turn_numerator": [ratio.numerator for ratio in per_turn],
+        "turn_denominator": [ratio.denominator for ratio in per_turn],
     }
 
 

@@ -24,6 +24,7 @@ from ..scene.supports import Supports
 from .errors import Displacements, displacements
 from .rows import CENTRAL, COAST, DRIVE, PlanarRows, planar_rows
 from .statics import Equilibrium, Springs, equilibrium
+from .weight import weight_forces
 
 POSITIONS = 64  # in a mesh cycle, where nothing lasts longer
 PER_CYCLE = 8  # where something does
@@ -85,11 +86,12 @@ def load_sharing(scene: Scene, turns: np.ndarray | None = None) -> LoadSharing:
     errors = displacements(scene, rows, turns)
     basis = _free(scene, rows)
     springs = _springs(scene, rows, errors, turns, basis)
-    force = np.tile(_input_force(scene, rows) @ basis, (len(turns), 1))
+    weight = weight_forces(scene, rows, turns)
+    force = (_input_force(scene, rows) + weight) @ basis
     driven = np.sign(mesh_force(scene, scene.operating_point.input_torque))
     closed = np.repeat([driven > 0.0, driven < 0.0], 2 * scene.gearset.planets)
     found = equilibrium(springs, force, closed)
-    return _result(scene, rows, turns, errors, basis, found)
+    return _result(scene, rows, turns, errors, basis, found, weight)
 
 
 def _positions(scene: Scene) -> np.ndarray:
@@ -99,7 +101,9 @@ def _positions(scene: Scene) -> np.ndarray:
     cycles = math.lcm(*(getattr(teeth, kind) for kind in uneven))
     ratios = {name: ratio[0] for name, ratio in rigid_ratios(scene).items()}
     per_turn = mesh_cycles_per_turn(teeth, ratios)
-    if (errors.ring_offset.size or errors.carrier_offset.size) and ratios["carrier"]:
+    heavy = scene.supports is not None and scene.supports.gravity > 0.0
+    turns_back = heavy or errors.ring_offset.size or errors.carrier_offset.size
+    if turns_back and ratios["carrier"]:
         cycles = math.lcm(cycles, abs((per_turn / ratios["carrier"]).numerator))
     cycles = min(cycles, MOST_CYCLES)
     count = POSITIONS if cycles == 1 else PER_CYCLE * cycles
@@ -251,13 +255,15 @@ def _result(
     errors: Displacements,
     basis: np.ndarray,
     found: Equilibrium,
+    weight: np.ndarray,
 ) -> LoadSharing:
     planets, count = scene.gearset.planets, len(turns)
     forces = found.contact_force.reshape(count, 2, 2 * planets)
     sun_mesh = forces[:, 0, :planets] - forces[:, 1, :planets]
     moved = (found.displacement @ basis.T)[:, : 3 * len(CENTRAL)].reshape(count, 3, 3)
     flanks = np.vstack([rows.flanks(side) for side in SIDES])
-    on_bodies = -found.contact_force @ flanks  # what the meshes push each coordinate by
+    # What meshes push each coordinate by, and weight.
+    on_bodies = weight - found.contact_force @ flanks
     pins = on_bodies[:, 3 * len(CENTRAL) :].reshape(count, planets, 3)[:, :, :2]
     bearing = on_bodies[:, : 3 * len(CENTRAL)].reshape(count, 3, 3)[:, :, :2]
     on_carrier = -np.einsum("pid,idn->pn", pins, rows.pin)

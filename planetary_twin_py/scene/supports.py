@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+
 from pydantic import Field
 
 from .quantity import Section, quantity
@@ -32,3 +34,11 @@ class Supports(Section):
     planet: Support = Field(description="support of every planet on the carrier")
     ring: Support = Field(description="support of the ring in the housing")
     carrier: Support = Field(description="support of the carrier in the housing")
+    gravity: float = quantity(
+        "m/s^2", "acceleration of gravity in the plane of the gears; 0: weight is left out", 0.0,
+        ge=0.0, le=100.0,
+    )  # fmt: skip
+    gravity_direction: float = quantity(
+        "rad", "direction of gravity, counter-clockwise from x of the housing", -0.5 * math.pi,
+        ge=-2.0 * math.pi, le=2.0 * math.pi,
+    )  # fmt: skip

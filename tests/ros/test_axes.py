@@ -13,8 +13,10 @@ from diagnostic_msgs.msg import DiagnosticStatus
 from domains import private_domain
 from planetary_twin.dynamics_report import DYNAMICS
 from planetary_twin.monitor import Monitor
+from planetary_twin.watching import follow
 from planetary_twin_msgs.msg import AxesState, AxesWaveform, GearboxState
 from rclpy.serialization import serialize_message
+from rerun.chunk import RrdReader
 from std_msgs.msg import String
 
 import planetary_twin_py as pt
@@ -22,6 +24,8 @@ from planetary_twin_py.planar.load_sharing import load_sharing
 from planetary_twin_py.recording.ros2.topics import is_status
 from planetary_twin_py.recording.runs.origin import read_origin
 from planetary_twin_py.recording.runs.verify import verify
+from planetary_twin_py.view.live import LiveView
+from planetary_twin_py.view.show import to_file
 
 from .conftest import Start, _end
 from .peer import LATCHED, LONG, TWIN, Peer
@@ -41,6 +45,7 @@ class Run(NamedTuple):
     blocks: list[AxesWaveform]
     folder: Path
     table: str
+    drawn: Path
 
 
 @pytest.fixture(scope="module")
@@ -67,6 +72,11 @@ def run(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Run]:
             shown = [
                 [str(cell) for cell in column.cells] for column in monitor.table(120).columns[:2]
             ]
+        drawn = place / "live.rrd"
+        view = LiveView(TWIN, lambda: to_file(drawn))
+        for records in follow(TWIN, 1.0):
+            view.take(records)
+        view.close()
         twin.send_signal(signal.SIGINT)
         twin.wait(LONG)
         logger.send_signal(signal.SIGINT)
@@ -74,7 +84,7 @@ def run(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Run]:
         user.close()
         _end([twin, logger])
         table = "\n".join(f"{title}: {value}" for title, value in zip(*shown, strict=True))
-        yield Run(states, gearbox, blocks, place / "recordings/bag", table)
+        yield Run(states, gearbox, blocks, place / "recordings/bag", table, drawn)
 
 
 def test_states_of_axes_have_no_gaps_and_the_stamps_of_the_gearbox(run: Run) -> None:
@@ -119,6 +129,11 @@ def test_the_recording_has_what_was_published_and_is_verified_bit_for_bit(run: R
     found = verify(run.folder, TWIN)
     assert found.identical
     assert found.messages["axes_state"] == found.messages["axes_waveform"] == states
+
+
+def test_a_live_view_draws_load_shares_and_bearing_forces(run: Run) -> None:
+    paths = {chunk.entity_path for chunk in RrdReader(run.drawn).stream() if not chunk.is_static}
+    assert {"/axes/load_share", "/gears/carrier/bearing_force/planet_4", "/gears/sun"} <= paths
 
 
 def test_the_monitor_shows_load_sharing_and_bearing_forces(run: Run) -> None:

@@ -81,6 +81,10 @@ inline void bind_records(nb::module_& m) {
         .FIELD(MovingAxes, clearance)
         .FIELD(MovingAxes, centre)
         .FIELD(MovingAxes, arm)
+        .FIELD(MovingAxes, gravity)
+        .FIELD(MovingAxes, downwards)
+        .FIELD(MovingAxes, turn_numerator)
+        .FIELD(MovingAxes, turn_denominator)
         .FIELD(MovingAxes, slide);
     record<Train>(m, "Train")
         .FIELD(Train, bodies)

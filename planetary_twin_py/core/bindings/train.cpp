@@ -37,6 +37,7 @@ void bind_places(nb::module_& m) {
     m.attr("BEARING") = BEARING;
     m.attr("CHURNING") = CHURNING;
     m.attr("STIFFNESS_WORK") = STIFFNESS_WORK;
+    m.attr("WEIGHT") = WEIGHT;
     m.attr("LEDGER") = LEDGER;
     m.attr("DTE") = DTE;
     m.attr("MESH_FORCE") = MESH_FORCE;

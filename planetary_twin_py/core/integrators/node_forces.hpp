@@ -81,7 +81,7 @@ SHARED Row<L> node_force(const Model& model, const March& march, const ContactSt
     using V = Row<L>;
     const Train& train = model.train;
     MachineForces forces;
-    node.power[DAMPING] = 0.0;
+    node.power[DAMPING] = node.power[WEIGHT] = 0.0;
     apply_couplings(train, node.x, node.v, forces, node.power);
     apply_machines(model, march.begin, march.constants, node.x, node.v, delay, node.trim, forces,
                    node.power);
@@ -93,8 +93,8 @@ SHARED Row<L> node_force(const Model& model, const March& march, const ContactSt
     }
     if constexpr (MOVING) {
         alignas(64) double on_axes[BODIES] = {};
-        apply_axes(train, march.constants.rigid[train.moving.frame], node.x, node.v, on_axes,
-                   node.power[DAMPING]);
+        apply_axes(train, march.begin, march.constants.rigid[train.moving.frame], delay, node.x,
+                   node.v, on_axes, node.power);
         force += sum_rows<L>(contacts.share, V(on_axes));
     }
     return force;

@@ -61,7 +61,7 @@ void put_powers(const Train& train, const WindowEnd& begin, const WindowEnd& end
     }
     out.power_loss = rate[FRICTION] + rate[BEARING] + rate[CHURNING];
     double lost = rate[FRICTION] + rate[DAMPING] + rate[BEARING] + rate[CHURNING];
-    out.residual_power = gained + rate[STIFFNESS_WORK] - lost - out.stored_power;
+    out.residual_power = gained + rate[STIFFNESS_WORK] + rate[WEIGHT] - lost - out.stored_power;
 }
 
 }  // namespace

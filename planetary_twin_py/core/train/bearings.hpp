@@ -15,13 +15,10 @@
 #include "train/body_speed.hpp"
 #include "train/state.hpp"
 #include "train/train.hpp"
+#include "train/weight.hpp"
 #include "vector/math.hpp"
 
 namespace gearbox {
-
-struct InPlane {
-    double along, across;  // x and y, or xi and eta
-};
 
 inline bool on_carrier(const MovingAxes& axes, std::int64_t b) {
     return axes.carried[b] != 0.0;
@@ -101,14 +98,18 @@ inline void add_inertial(const Train& train, std::int64_t b, double turning, con
     force[train.carrier] -= axes.carried[b] * m * square * beside;
 }
 
-// Add what bearings and a frame that turns at `turning` [rad/s] do to the axes; the power that
-// damping takes to `lost` [W].
-inline void apply_axes(const Train& train, double turning, const double* x, const double* v,
-                       double* force, double& lost) {
+// Add what bearings, weight and a frame that turns at `turning` [rad/s] do to the axes, `delay`
+// seconds after a state; what damping takes and weight puts in to `power` [W].
+inline void apply_axes(const Train& train, const State& state, double turning, double delay,
+                       const double* x, const double* v, double* force, double* power) {
+    if (train.moving.gravity != 0.0) {
+        const InPlane gravity = gravity_at(train, frame_angle(train, state, delay), x);
+        add_weight(train, turning, gravity, x, v, force, power[WEIGHT]);
+    }
     for (std::int64_t b = 0; b < train.moving.bearings; ++b) {
         BearingForce bearing = bearing_force(train, b, turning, x, v);
         add_at_bearing(train, b, bearing.pull, force);
-        lost += bearing.lost;
+        power[DAMPING] += bearing.lost;
         if (turning != 0.0) add_inertial(train, b, turning, x, v, force);
     }
     force[train.bodies] = 0.0;  // the ground

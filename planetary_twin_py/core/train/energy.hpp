@@ -29,7 +29,8 @@ inline double kinetic(const Model& model, const State& state) {
     return total;
 }
 
-// Elastic energy of meshes in contact and of the couplings [J]; `step` is room to work in.
+// Elastic energy of meshes in contact, couplings and bearings, and potential energy of weight [J];
+// `step` is room to work in.
 inline double elastic(const Model& model, const State& state, StepConstants& step) {
     const Train& train = model.train;
     double total = 0.0;
@@ -41,6 +42,7 @@ inline double elastic(const Model& model, const State& state, StepConstants& ste
     if constexpr (MOVING) {
         for (std::int64_t b = 0; b < train.moving.bearings; ++b)
             total += bearing_energy(train, b, state.x);
+        total += weight_energy(train, state);
     }
     return total;
 }

@@ -135,7 +135,7 @@ inline void assemble_forces(const Model& model, const State& state, const StepCo
         out.force[train.coupling[c][1]] += forces.member[c];
     }
     if constexpr (MOVING)
-        apply_axes(train, step.rigid[train.moving.frame], x, v, out.force, out.power[DAMPING]);
+        apply_axes(train, state, step.rigid[train.moving.frame], delay, x, v, out.force, out.power);
     out.force[train.bodies] = 0.0;  // the ground
 }
 

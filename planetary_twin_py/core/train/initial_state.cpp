@@ -160,8 +160,9 @@ void forces_at_rest(Start& start) {
         force[machine] += load.torque[c] / train.radius[machine] - pull;
         force[member] += pull;
     }
-    double lost = 0.0;
-    apply_axes(train, start.step.rigid[train.moving.frame], state.x, state.v, force, lost);
+    double power[LEDGER] = {};
+    apply_axes(train, state, start.step.rigid[train.moving.frame], 0.0, state.x, state.v, force,
+               power);
     for (std::int64_t a = 0; a < train.axes; ++a) force[train.coupling[2 * a][0]] = 0.0;
 }
 

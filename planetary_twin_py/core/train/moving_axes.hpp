@@ -31,7 +31,11 @@ struct alignas(64) MovingAxes {
     double clearance[BEARINGS];       // radial [m]
     double centre[BEARINGS][2];       // displacement at which a bearing is centred [m]
     double arm;                       // radius of the planet centres [m]
-    double slide[MESHES][ENTRIES];    // sliding of the first on the second flank per displacement
+    double gravity;                   // [m/s^2], 0 without weight
+    double downwards;                 // its direction from x of the housing [rad]
+    std::int64_t turn_numerator[AXES];  // turns of the frame per turn of each motor, as a fraction
+    std::int64_t turn_denominator[AXES];
+    double slide[MESHES][ENTRIES];  // sliding of the first on the second flank per displacement
 };
 
 }  // namespace gearbox

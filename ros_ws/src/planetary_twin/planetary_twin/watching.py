@@ -13,8 +13,16 @@ from mcap.records import Channel, Message, Schema
 from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
 
 from planetary_twin_py.recording.container.records import RecordingError
+from planetary_twin_py.recording.ros2.definitions import KINDS
 from planetary_twin_py.recording.ros2.schema import message_definition
-from planetary_twin_py.recording.ros2.topics import ORIGIN, POINT, STATE, WAVEFORM
+from planetary_twin_py.recording.ros2.topics import (
+    AXES_STATE,
+    AXES_WAVEFORM,
+    ORIGIN,
+    POINT,
+    STATE,
+    WAVEFORM,
+)
 
 from .client import Client
 from .network import stay_on_this_machine
@@ -24,10 +32,12 @@ from .topics import message_class
 _BEST_EFFORT = QoSProfile(depth=100, reliability=ReliabilityPolicy.BEST_EFFORT)
 _LATCHED = QoSProfile(depth=100, durability=DurabilityPolicy.TRANSIENT_LOCAL)
 _TOPICS = {
-    STATE: ("planetary_twin_msgs/msg/GearboxState", _BEST_EFFORT),
-    WAVEFORM: ("planetary_twin_msgs/msg/MeshWaveform", _BEST_EFFORT),
-    POINT: ("planetary_twin_msgs/msg/OperatingPoint", _LATCHED),
-    ORIGIN: ("std_msgs/msg/String", _LATCHED),
+    STATE: _BEST_EFFORT,
+    WAVEFORM: _BEST_EFFORT,
+    AXES_STATE: _BEST_EFFORT,
+    AXES_WAVEFORM: _BEST_EFFORT,
+    POINT: _LATCHED,
+    ORIGIN: _LATCHED,
 }
 _BATCH = 0.1  # [s] between two batches
 _MAX_MESSAGES = 2000  # in the next batch, some 100 MB
@@ -61,8 +71,8 @@ class _Watch(Client):
         self._received: set[int] = set()  # numbers of topics
         self._records: deque[Any] = deque(maxlen=_MAX_MESSAGES)
         self._definitions: list[Any] = []
-        for number, (name, (kind, qos)) in enumerate(_TOPICS.items(), start=1):
-            topic = self.node.resolve_topic_name(name)
+        for number, (name, qos) in enumerate(_TOPICS.items(), start=1):
+            kind, topic = KINDS[name], self.node.resolve_topic_name(name)
             text = message_definition(kind).encode()
             self._definitions += [
                 Schema(id=number, data=text, encoding="ros2msg", name=kind),
