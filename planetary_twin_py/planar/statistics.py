@@ -32,6 +32,7 @@ def axes_statistics(motion: AxesMotion) -> dict[str, np.ndarray]:
         ("bearing_force", motion.bearing_force),
     ):
         found[name] = vectors.mean(axis=0)
-        found[f"{name}_peak"] = np.sqrt((vectors**2).sum(axis=2)).max(axis=0)
+        x, y = vectors[:, :, 0], vectors[:, :, 1]
+        found[f"{name}_peak"] = np.sqrt((x * x + y * y).max(axis=0))
     drive, coast = motion.flank_force.mean(axis=0)
     return found | {"orbit": motion.orbit[-1], "drive_force": drive, "coast_force": coast}

@@ -40,5 +40,5 @@ class Supports(Section):
     )  # fmt: skip
     gravity_direction: float = quantity(
         "rad", "direction of gravity, counter-clockwise from x of the housing", -0.5 * math.pi,
-        ge=-2.0 * math.pi, le=2.0 * math.pi,
+        ge=-6.3, le=6.3,
     )  # fmt: skip

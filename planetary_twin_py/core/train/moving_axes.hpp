@@ -35,7 +35,7 @@ struct alignas(64) MovingAxes {
     double downwards;                 // its direction from x of the housing [rad]
     std::int64_t turn_numerator[AXES];  // turns of the frame per turn of each motor, as a fraction
     std::int64_t turn_denominator[AXES];
-    double slide[MESHES][ENTRIES];  // sliding of the first on the second flank per displacement
+    alignas(64) double slide[MESHES][ENTRIES];  // of the first on the second flank per displacement
 };
 
 }  // namespace gearbox
