@@ -38,7 +38,7 @@ def axes_state_fields(window: Window, axes: AxesMotion) -> dict[str, Any]:
     return fields
 
 
-def largest_alike(message: Any, name: str) -> float:
+def largest_of_kind(message: Any, name: str) -> float:
     """Largest displacement or force of any body, beside which a component may be next to nothing.
 
     Args:
@@ -48,13 +48,13 @@ def largest_alike(message: Any, name: str) -> float:
     Returns:
         Of all bodies and components of the same quantity [m] or [N]; 0 for other fields.
     """
-    for kinds, largest in _ALIKE.items():
+    for kinds, largest in _OF_KIND.items():
         if any(f"_{kind}" in name for kind in kinds):
             return max(float(np.nanmax(np.abs(getattr(message, field)))) for field in largest)
     return 0.0
 
 
-_ALIKE = {
+_OF_KIND = {
     ("displacement", "orbit"): [f"{body}_displacement_peak" for body in COMPONENTS],
     ("bearing_force",): [f"{body}_bearing_force_peak" for body in COMPONENTS],
     tuple(FLANKS): [f"{side}_{name}" for side in SIDES for name in FLANKS],

@@ -14,7 +14,7 @@ from ...accuracy import Course, course_warnings
 from ...ledger_check import Balance, balance_of_window, ledger_warning
 from ...window import Window
 from ..container.records import RecordingError
-from ..ros2.axes_fields import axes_state_fields, axes_waveform_fields, largest_alike
+from ..ros2.axes_fields import axes_state_fields, axes_waveform_fields, largest_of_kind
 from ..ros2.definitions import OF_AXES
 from ..ros2.fields import joint_fields_like, state_fields, waveform_fields
 from ..ros2.topics import AXES_STATE, AXES_WAVEFORM, JOINTS, STATE, WAVEFORM
@@ -177,7 +177,7 @@ def _axes(topic: str, message: Any, window: Window) -> Mapping[str, Any]:
 def _size_beside(topic: str, message: Any, name: str) -> float:
     """Size of what a field is a small difference of; 0 if it has a size of its own."""
     if topic == AXES_STATE:
-        return largest_alike(message, name)
+        return largest_of_kind(message, name)
     return abs(float(message.input_power)) if name == "stored_power" else 0.0
 
 

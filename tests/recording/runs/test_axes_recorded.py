@@ -12,6 +12,8 @@ from rosbags.typesys import Stores, get_types_from_msg, get_typestore
 
 from planetary_twin_py import simulate
 from planetary_twin_py.quantities import axes_fields
+from planetary_twin_py.recording.ros2.axes_fields import axes_state_fields, largest_of_kind
+from planetary_twin_py.recording.runs import compose
 from planetary_twin_py.recording.runs.branch import Branch
 from planetary_twin_py.recording.runs.offline import NAMESPACE, Plan, record
 from planetary_twin_py.recording.runs.reader import read_recording
@@ -153,3 +155,27 @@ def test_a_sweep_has_columns_of_axes_where_they_move(tmp_path, scene):
     held = measure(scene.replace(dynamics="torsional"), Settings(duration=0.01, settling=0.01))
     assert "load_sharing_factor" not in held
     assert json.dumps(axes_row(simulate(scene, 0.001).axes))
+
+
+def test_an_altered_displacement_is_found_and_small_ones_are_measured_by_large_ones(
+    scene, file, tmp_path, monkeypatch
+):
+    state = messages(file, "axes_state")[-1]
+    moved = [state.sun_displacement_peak, state.ring_displacement_peak]
+    moved += [state.carrier_displacement_peak, *state.planet_displacement_peak[:3]]
+    assert largest_of_kind(state, "ring_displacement_x") == max(moved)
+    assert (
+        largest_of_kind(state, "planet_ring_coast_force") == state.planet_ring_drive_force[:3].max()
+    )
+    assert largest_of_kind(state, "load_share") == 0.0
+
+    def altered(window, axes):
+        found = axes_state_fields(window, axes)
+        return found | {"ring_displacement_x": found["ring_displacement_x"] + 1e-6 * max(moved)}
+
+    monkeypatch.setattr(compose, "axes_state_fields", altered)
+    other = record(Plan(scene, 0.02, RATE, 1e-4), tmp_path / "altered")
+    found = verify(other, NAMESPACE)
+    assert found.first_difference.topic == "axes_state"
+    assert found.first_difference.field == "ring_displacement_x"
+    assert 1e-3 < found.largest < 1.0 and found.within_bound  # in tolerances
