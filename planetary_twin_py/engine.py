@@ -112,7 +112,7 @@ class Engine:
         check_tolerance(tolerance)
         self.scene = scene
         self.tolerance = tolerance
-        self._may_repeat = method == "auto" and not scene.moving_axes
+        self._may_repeat = method == "auto"
         self.train = build_train(scene)
         self._core = library(scene)
         self.model: Model = self._core.Model(train=self.train)

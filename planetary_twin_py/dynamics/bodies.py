@@ -13,7 +13,7 @@ from .._core import AXES, Report
 from ..gearset.kinematics import speeds_per_input
 from ..scene import Scene
 from ..scene.drive import Machine
-from .planet_groups import planet_groups
+from .planet_groups import axes_stand, planet_groups
 
 # Indices of the machines. The motor of input 0 is machine 0, the motor of input 1 is machine 2.
 MOTOR, LOAD_MACHINE, SECOND_MOTOR = 0, 1, 2
@@ -43,7 +43,7 @@ class Bodies(NamedTuple):
 
     Where axes move, displacements follow the bodies, as coordinates of their own: "sun.x" and
     "planet_1.xi" with r = 1, "planet_1.eta" with the radius of the planet centres, about which it
-    turns with the carrier.
+    turns with the carrier. Those that cannot change are the ground.
     """
 
     place: dict[str, int]  # index of every body; a held body is the ground
@@ -115,7 +115,7 @@ def mesh_names(scene: Scene) -> MeshNames:
     place = np.array(groups.group)
     places = np.concatenate([place, place + len(groups.leaders)])
     if scene.moving_axes and _coasts(scene):
-        places += len(places)  # the coast flanks, which have entries of their own
+        places += 2 * len(groups.leaders)  # the coast flanks, which have entries of their own
     return MeshNames(names, places)
 
 
@@ -149,14 +149,15 @@ def build_bodies(scene: Scene) -> Bodies:
     for name, machine in machines(scene).items():
         radii[name] = radii[machine.member]
         masses[name] = machine.inertia / radii[name] ** 2
-    kinds = [_kind(name) for name in _order(scene)]
+    order = _order(scene)
+    kinds = [_kind(name) for name in order]
     for kind, mass in _displaced(scene):
         masses[kind] = mass
         across = kind == "planet.eta"
         radii[kind] = scene.gearset.geometry.centre_distance if across else 1.0
         ratios[kind] = tuple(ratio if across else Fraction(0) for ratio in ratios["carrier"])
-    sizes = planet_groups(scene).sizes
-    copies = np.array([*sizes, *[1] * (len(kinds) + 1 - len(sizes))])
+    sizes = {_planets(scene)[i]: n for i, n in zip(*planet_groups(scene)[:2], strict=True)}
+    copies = np.array([*(sizes.get(name.split(".")[0], 1) for name in order), 1])
     ratio = np.zeros((len(kinds) + 1, AXES))
     axes = len(ratios["motor"])
     ratio[:-1, :axes] = [[float(r) for r in ratios[kind]] for kind in kinds]
@@ -191,11 +192,15 @@ def _displaced(scene: Scene) -> list[tuple[str, float]]:
 
 
 def _displacements(scene: Scene) -> list[str]:
-    """Names of the displacements of all axes that move."""
+    """Names of the displacements that can change, see `planet_groups`."""
     if not scene.moving_axes:
         return []
-    planets = [f"{planet}.{motion}" for planet in _planets(scene) for motion in ("xi", "eta")]
-    return [*(f"{body}.{motion}" for body in CENTRAL for motion in ("x", "y")), *planets]
+    central = () if axes_stand(scene) else CENTRAL
+    leaders = [_planets(scene)[leader] for leader in planet_groups(scene).leaders]
+    return [
+        *(f"{body}.{motion}" for body in central for motion in ("x", "y")),
+        *(f"{planet}.{motion}" for planet in leaders for motion in ("xi", "eta")),
+    ]
 
 
 def _order(scene: Scene) -> list[str]:
@@ -209,8 +214,14 @@ def _order(scene: Scene) -> list[str]:
 
 
 def _places(scene: Scene) -> dict[str, int]:
-    order = _order(scene)
-    place = dict(zip(_planets(scene), planet_groups(scene).group, strict=True))
-    place |= {name: n for n, name in enumerate(order) if name not in place}
-    every = ["sun", *_planets(scene), "ring", "carrier", *machines(scene), *_displacements(scene)]
-    return {name: place.get(name, len(order)) for name in every}
+    order, planets, groups = _order(scene), _planets(scene), planet_groups(scene)
+    place = {name: n for n, name in enumerate(order)}
+    place |= dict.fromkeys(("sun", "ring", "carrier"), len(order)) | place
+    if scene.moving_axes:
+        displaced = [f"{body}.{motion}" for body in CENTRAL for motion in ("x", "y")]
+        place |= dict.fromkeys(displaced, len(order)) | place
+    for planet, group in zip(planets, groups.group, strict=True):
+        leader = planets[groups.leaders[group]]
+        for motion in ("", ".xi", ".eta") if scene.moving_axes else ("",):
+            place[planet + motion] = place[leader + motion]
+    return place

@@ -16,6 +16,7 @@ from ..planar.rows import COAST, DRIVE, PlanarRows, planar_rows
 from ..scene import Scene
 from ..scene.supports import Support
 from .bodies import CENTRAL, Bodies, rigid_ratios
+from .planet_groups import planet_groups
 
 SIDES = (DRIVE, COAST)
 BEARING_DAMPING = 1.25e-5
@@ -48,7 +49,7 @@ def moving_fields(scene: Scene, bodies: Bodies, fields: dict[str, Any]) -> dict[
         The fields of `_core.axes.Train`, with an entry for the drive flanks of each mesh and then
         for the coast flanks of each.
     """
-    meshes, frame = 2 * scene.gearset.planets, len(bodies.mass)
+    meshes, frame = int(fields["meshes"]), len(bodies.mass)
     body, sign, slide = _entries(scene, bodies, frame)
     doubled = {
         name: np.concatenate([np.asarray(fields[name])[:meshes]] * 2)
@@ -63,7 +64,7 @@ def moving_fields(scene: Scene, bodies: Bodies, fields: dict[str, Any]) -> dict[
         | doubled
         | {
             "body_copies": np.append(bodies.copies, 1),
-            "mass": np.append(bodies.mass, 0.0),
+            "mass": np.append(bodies.copies * bodies.mass, 0.0),
             "radius": np.append(bodies.radius, 1.0),
             "inverse_radius": np.append(1.0 / bodies.radius, 1.0),
             "ratio": np.vstack([bodies.ratio, _turning(scene)]),
@@ -94,11 +95,12 @@ def _entries(scene: Scene, bodies: Bodies, frame: int) -> tuple[np.ndarray, np.n
     """Coordinates, row and sliding of each entry of the meshes, (entries, ENTRIES) each."""
     angles = [mesh.pressure_angle for mesh in scene.gearset.geometry.meshes]
     rows = planar_rows(scene.gearset.planet_angles, *angles)
-    count = scene.gearset.planets
+    count, leaders = scene.gearset.planets, planet_groups(scene).leaders
+    meshes = [*(("sun", i) for i in leaders), *(("ring", i) for i in leaders)]
     body, sign, slide = [], [], []
     for side in SIDES:
-        for i, name in enumerate((*("sun",) * count, *("ring",) * count)):
-            planet = f"planet_{i % count + 1}"
+        for name, number in meshes:
+            i, planet = number + count * (name == "ring"), f"planet_{number + 1}"
             first, second = (planet, name) if name == "ring" else (name, planet)
             turns = [f"{first}.u", f"{second}.u"]
             moves = [f"{gear}.{motion}" for gear in (first, second) for motion in _motions(gear)]
@@ -136,7 +138,10 @@ def _sliding(
 
 
 def _bearings(scene: Scene, bodies: Bodies) -> dict[str, Any]:
-    """Fields of `MovingAxes` over the bearings of sun, ring, carrier and planets."""
+    """Fields of `MovingAxes` over the bearings of sun, ring, carrier and planets.
+
+    Every planet has its own bearing, also where planets that move alike share displacements.
+    """
     supports, planets = scene.supports, scene.gearset.planets
     assert supports is not None  # the scene has been checked
     held = [getattr(supports, kind) for kind in CENTRAL] + [supports.planet] * planets
@@ -145,6 +150,7 @@ def _bearings(scene: Scene, bodies: Bodies) -> dict[str, Any]:
     pin = 1.0 / math.cos(scene.gearset.geometry.meshes[0].pressure_angle)
     return {
         "bearings": len(names),
+        "leads": [True] * 3 + [i in planet_groups(scene).leaders for i in range(planets)],
         "place": [[bodies.place[f"{name}.{m}"] for m in _motions(name)] for name in names],
         "direction": [[0.0, 0.0]] * 3 + [[math.cos(a), math.sin(a)] for a in angles],
         "carried": [0.0] * 3 + [pin] * planets,

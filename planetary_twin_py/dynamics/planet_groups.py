@@ -5,19 +5,26 @@ their meshes have different phases, if they have errors of their own or, where t
 teeth in contact. Mesh phases are exact fractions, so the comparison is exact. Other differences
 between real planets must be given in the scene. (Planets in phase: Kahraman 1994, Planetary gear
 train dynamics; Parker and Lin 2004.)
+
+Where axes move, the forces of every group on sun, ring and carrier must cancel as well. Then these
+three are never displaced, and the planets of a group move alike on their pins.
 """
 
 from __future__ import annotations
 
+import cmath
 import math
+from collections import defaultdict
 from fractions import Fraction
 from typing import NamedTuple
 
 from ..gearset.phasing import mesh_phases
 from ..scene import Scene
 
+ROUNDING = 1e-9
+
 # What determines the motion of a planet: phases of both meshes, its number if faults or errors of
-# axes distinguish it, and its own errors. Where axes move, every planet does.
+# axes distinguish it, and its own errors.
 _Signature = tuple[Fraction, Fraction, int | None, tuple[float, ...]]
 
 
@@ -32,6 +39,9 @@ class PlanetGroups(NamedTuple):
 def planet_groups(scene: Scene) -> PlanetGroups:
     """Groups of a scene, in the order of their first planets."""
     signatures = _signatures(scene)
+    if scene.moving_axes and not _cancel(scene, signatures):
+        each = tuple(range(len(signatures)))
+        return PlanetGroups(each, (1,) * len(each), each)
     distinct = list(dict.fromkeys(signatures))
     return PlanetGroups(
         tuple(signatures.index(signature) for signature in distinct),
@@ -40,11 +50,24 @@ def planet_groups(scene: Scene) -> PlanetGroups:
     )
 
 
+def axes_stand(scene: Scene) -> bool:
+    """Whether the axes of sun, ring and carrier cannot be displaced, as the forces on them cancel."""
+    return _cancel(scene, _signatures(scene))
+
+
 def scene_phases(scene: Scene) -> tuple[list[Fraction], list[Fraction]]:
     """Phases of sun and ring meshes [cycles], (planets,) each, see `mesh_phases`."""
     gearset = scene.gearset
     first, second = (mesh.coast_lead for mesh in gearset.geometry.meshes)
     return mesh_phases(gearset.tooth_numbers, gearset.planet_angles, (first, second))
+
+
+def _cancel(scene: Scene, signatures: list[_Signature]) -> bool:
+    """Whether the directions of the planets with each signature have no resultant."""
+    resultant: dict[_Signature, complex] = defaultdict(complex)
+    for signature, angle in zip(signatures, scene.gearset.planet_angles, strict=True):
+        resultant[signature] += cmath.rect(1.0, angle)
+    return all(abs(sum_) < ROUNDING for sum_ in resultant.values())
 
 
 def _signatures(scene: Scene) -> list[_Signature]:
@@ -56,7 +79,7 @@ def _signatures(scene: Scene) -> list[_Signature]:
         (
             sun[i] % sun_cycles,
             ring[i] % ring_cycles,
-            i if i in faulty or scene.errors.of_axes or scene.moving_axes else None,
+            i if i in faulty or scene.errors.of_axes else None,
             scene.errors.of_planet(i),
         )
         for i in range(gearset.planets)

@@ -75,7 +75,7 @@ def joined_flanks(mesh: np.ndarray, place: np.ndarray) -> np.ndarray:
         Transmission errors of those flanks, forces and losses of both, (samples, QUANTITIES,
         meshes).
     """
-    other = mesh[:, :, (place + len(place)) % mesh.shape[2]]
+    other = mesh[:, :, _other_flanks(place, mesh.shape[2])]
     joined: np.ndarray = mesh[:, :, place]
     for row in SUMMED:
         joined[:, row] += other[:, row]
@@ -84,21 +84,32 @@ def joined_flanks(mesh: np.ndarray, place: np.ndarray) -> np.ndarray:
     return joined
 
 
+def _other_flanks(place: np.ndarray, flanks: int) -> np.ndarray:
+    """Places of the other flanks of the same meshes, (meshes,)."""
+    return (place + flanks // 2) % flanks
+
+
 def axes_motion(
-    scene: Scene, samples: Samples, angle: np.ndarray, mesh_force: np.ndarray
+    scene: Scene,
+    samples: Samples,
+    place: np.ndarray,
+    angle: np.ndarray,
+    mesh_force: np.ndarray,
 ) -> AxesMotion:
     """What samples of a run show of its axes.
 
     Args:
         scene: whose axes move.
         samples: of its meshes and bearings.
+        place: of the flanks that carry, (meshes,).
         angle: of the carrier [rad], (samples,).
         mesh_force: mean force of each mesh over the time of the samples [N], (meshes,).
 
     Returns:
         Displacements, forces and shares.
     """
-    count = len(mesh_force)
+    flanks = samples.mesh.shape[2]
+    drive = place % (flanks // 2)
     moved = np.ascontiguousarray(samples.moved[:, :, :2])
     forces = np.abs(samples.mesh[:, MESH_FORCE])
     return AxesMotion(
@@ -106,7 +117,7 @@ def axes_motion(
         moved,
         np.ascontiguousarray(samples.moved[:, :, 2:]),
         _orbits(library(scene), moved, angle),
-        np.stack([forces[:, :count], forces[:, count:]], axis=1),
+        np.stack([forces[:, drive], forces[:, _other_flanks(drive, flanks)]], axis=1),
         _shares(mesh_force[: scene.gearset.planets]),
     )
 

@@ -72,6 +72,7 @@ inline void bind_records(nb::module_& m) {
         .FIELD(MovingAxes, bearings)
         .FIELD(MovingAxes, frame)
         .FIELD(MovingAxes, place)
+        .FIELD(MovingAxes, leads)
         .FIELD(MovingAxes, carrier)
         .FIELD(MovingAxes, direction)
         .FIELD(MovingAxes, carried)

@@ -83,8 +83,12 @@ void put_axes(const Report& report, const Train& train, const Samples& waves,
         turn_to_housing(carrier_angle(report, train, waves, row), members,
                         out.orbit + row * 2 * MEMBERS);
         const double* force = waves.mesh_row(row) + MESH_FORCE * train.meshes;
-        for (std::int64_t i = 0; i < FLANKS * n; ++i)
-            out.flank_force[row * FLANKS * n + i] = std::fabs(force[i]);
+        for (std::int64_t i = 0; i < n; ++i) {
+            const std::int64_t drive = report.mesh[i] % (train.meshes / 2);
+            double* flank = out.flank_force + row * FLANKS * n + i;
+            flank[0] = std::fabs(force[drive]);
+            flank[n] = std::fabs(force[other_flank(train, drive)]);
+        }
     }
 }
 

@@ -165,6 +165,7 @@ inline void turn_displacements(const Train& train, double angle, double rate, St
     const MovingAxes& axes = train.moving;
     auto [sine, cosine] = sin_cos(angle);
     for (std::int64_t b = 0; b < axes.bearings; ++b) {
+        if (axes.leads[b] == 0) continue;
         const std::int64_t along = axes.place[b][0], across = axes.place[b][1];
         double *x = state.x, *v = state.v;
         double beside = x[across] - axes.carried[b] * x[train.carrier];

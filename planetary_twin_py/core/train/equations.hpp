@@ -27,7 +27,8 @@ inline void rub_bodies(const Train& train, const DragOfMeshes& drag, double* rub
             rubbing[train.body[i][j]] += train.copies[i] * force;
         }
         for (int j = GEARS; j < ENTRIES; ++j)
-            rubbing[train.body[i][j]] += drag.across[i] * train.moving.slide[i][j];
+            rubbing[train.body[i][j]] +=
+                train.copies[i] * drag.across[i] * train.moving.slide[i][j];
     }
 }
 

@@ -152,7 +152,8 @@ void forces_at_rest(Start& start) {
         double k = mesh_stiffness(train, train.kind[i], state.segment[i], start.step.start[i]);
         double d = deflection(train, start.step, i, state.x, state.v, 0.0, 0.0).d;
         double push = k * (d - static_cast<double>(state.side[i]) * load.offset);
-        for (int j = 0; j < ENTRIES; ++j) force[train.body[i][j]] -= train.sign[i][j] * push;
+        for (int j = 0; j < ENTRIES; ++j)
+            force[train.body[i][j]] -= train.copies[i] * train.sign[i][j] * push;
     }
     for (std::int64_t c = 0; c < train.machines; ++c) {
         std::int64_t machine = train.coupling[c][0], member = train.coupling[c][1];

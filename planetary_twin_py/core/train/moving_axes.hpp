@@ -22,6 +22,7 @@ struct alignas(64) MovingAxes {
     std::int64_t bearings;            // sun, ring, carrier, then planets
     std::int64_t frame;               // coordinate without motion that turns with the frame
     std::int64_t place[BEARINGS][2];  // coordinates of the displacements of what a bearing holds
+    std::int64_t leads[BEARINGS];     // 1: the first of those that share coordinates, else 0
     std::int64_t carrier[2];          // those of the carrier, on which the bearings of planets are
     double direction[BEARINGS][2];    // cosine and sine of the position of a planet; 0 in housing
     double carried[BEARINGS];         // way of a pin per x of the carrier [-]; 0 in housing

@@ -207,13 +207,16 @@ LAW double largest(const Row<L>& a) {
     return fold(a, [](double x, double y) { return y > x ? y : x; });
 }
 
-// Lanes in which small trains have room: 3 planets, 4 planets where axes move.
-inline constexpr int FEW_LANES = MOVING ? 24 : 8;
+// Lanes in which small trains have room: 3 planets, or planets that move alike where axes move; then
+// 4 planets whose axes move.
+inline constexpr int FEW_LANES = 8, MORE_LANES = 24;
 
 // Call `function` with the number of lanes as a constant; lanes beyond those in use are zero.
 template <class Function>
 inline decltype(auto) with_lanes(const Train& train, Function&& function) {
     if (train.lanes <= FEW_LANES) return function(std::integral_constant<int, FEW_LANES>{});
+    if constexpr (MOVING)
+        if (train.lanes <= MORE_LANES) return function(std::integral_constant<int, MORE_LANES>{});
     return function(std::integral_constant<int, BODIES>{});
 }
 
