@@ -28,7 +28,7 @@ from .standard_error import never_waiting
 NAMESPACE = "planetary_twin"
 _SOON = 1e-3  # [s]
 _LOG_PERIOD = 1.0  # [s] between two log lines that a client can cause
-_TRIM_PERIOD = 10.0  # [s] between two returns of freed memory
+_TRIM_PERIOD = 1.0  # [s] between two returns of freed memory
 
 
 class NodeError(Exception):
