@@ -26,6 +26,7 @@ os.environ["ROS_DOMAIN_ID"] = str(_HELD.enter_context(private_domain()))
 os.environ["ROS_AUTOMATIC_DISCOVERY_RANGE"] = "SYSTEM_DEFAULT"
 profile = ROOT / "ros_ws/src/planetary_twin/config/loopback.xml"
 os.environ["FASTRTPS_DEFAULT_PROFILES_FILE"] = str(profile)
+os.environ["RMW_FASTRTPS_USE_QOS_FROM_XML"] = "1"
 os.environ["ROS_PYTHON_CHECK_FIELDS"] = "1"
 
 

@@ -37,6 +37,7 @@ def twin(
     """`planetary-twin run` with the discovery range of the environment, or without one."""
     monkeypatch.delenv("ROS_AUTOMATIC_DISCOVERY_RANGE")
     monkeypatch.delenv("FASTRTPS_DEFAULT_PROFILES_FILE")
+    monkeypatch.delenv("RMW_FASTRTPS_USE_QOS_FROM_XML")
     if request.param is not None:
         monkeypatch.setenv("ROS_AUTOMATIC_DISCOVERY_RANGE", request.param)
     process = subprocess.Popen([sys.executable, "-c", COMMAND, "run"], cwd=tmp_path)

@@ -19,7 +19,8 @@ class Ros2:
         self.folder = folder
         self.started: list[subprocess.Popen[str]] = []
         # As a user has it, shared memory included.
-        given = {k: v for k, v in os.environ.items() if k != "FASTRTPS_DEFAULT_PROFILES_FILE"}
+        own = ("FASTRTPS_DEFAULT_PROFILES_FILE", "RMW_FASTRTPS_USE_QOS_FROM_XML")
+        given = {k: v for k, v in os.environ.items() if k not in own}
         self._environment = {
             **given,
             "ROS_DOMAIN_ID": str(domain),

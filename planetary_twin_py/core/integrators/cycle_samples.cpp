@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "integrators/frame.hpp"
 #include "integrators/interpolant.hpp"
@@ -152,13 +153,14 @@ void fit(const Rows& rows, double* table) {
 // them they fit.
 int fit_pieces(const Model& model, March& march, int pieces, SampleTable& table) {
     std::int64_t size = TERMS_OF_TIME * columns_of(model.train);
-    table.coefficient.resize(static_cast<std::size_t>(pieces * size));
+    std::vector<double>& coefficients = march.periodic.coefficients;
+    coefficients.resize(table.begin + static_cast<std::size_t>(pieces * size));
     table.pieces = pieces;
     double length = march.control.step / pieces;
     int fitting = 0;
     for (int n = 0; n < pieces; ++n) {
         Rows rows;
-        double* own = table.coefficient.data() + n * size;
+        double* own = coefficients.data() + table.begin + n * size;
         compute_rows(model, march, {n * length, length}, rows);
         fit(rows, own);
         table.fits[n] = is_accurate(model, march, rows, own);
@@ -184,6 +186,7 @@ void need_table(const Model& model, March& march, CycleStep& step) {
     if (table.known) return;
     table.known = true;
     if (!step.collocated) return;
+    table.begin = march.periodic.coefficients.size();
     State begin = march.begin;
     StepConstants constants = march.constants;
     ModalMotion motion = march.run.motion;
@@ -234,7 +237,8 @@ void read_table(const Model& model, const Periodic& periodic, const CycleStep& s
                 const Samples& out, std::int64_t row) {
     const Train& train = model.train;
     std::int64_t shown = out.quantities * train.meshes, columns = columns_of(train);
-    const double* table = step.samples.coefficient.data() + at.number * TERMS_OF_TIME * columns;
+    const double* table =
+        periodic.coefficients.data() + step.samples.begin + at.number * TERMS_OF_TIME * columns;
     if (!out.turns) {
         evaluate_columns(table, columns, shown, at.s, out.mesh_row(row));
         return;

@@ -97,7 +97,10 @@ void record_step(March& march) {
         periodic.recording = false;
         return;
     }
-    if (place == 0) periodic.start = march.begin;
+    if (place == 0) {
+        periodic.start = march.begin;
+        periodic.coefficients.clear();
+    }
     if (place == static_cast<std::int64_t>(periodic.tape.size())) periodic.tape.emplace_back();
     CycleStep& step = periodic.tape[place];
     keep(periodic.start, march.begin, step.begin);
@@ -107,7 +110,7 @@ void record_step(March& march) {
     std::memcpy(step.rubbing, march.last.rubbing, sizeof step.rubbing);
     step.motion = march.run.motion;
     step.sums = march.sums.step;
-    step.samples.forget();
+    step.samples = {};
     periodic.steps = place + 1;
     periodic.known = known;
 }

@@ -46,6 +46,9 @@ struct alignas(64) Periodic {
     std::int64_t part;  // ... turn is that of the first cycle, and this many denominators
     Place whole;        // end of the cycle
     std::vector<CycleStep> tape;
+    // Of all sample tables of the tape, one after another. Tables with memory of their own would
+    // keep the largest that each place on the tape has ever had, and grow for hours with changes.
+    std::vector<double> coefficients;
     MeshSums sums;  // of the whole cycle
 };
 

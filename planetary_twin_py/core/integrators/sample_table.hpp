@@ -1,6 +1,6 @@
 #pragma once
 
-#include <vector>
+#include <cstddef>
 
 namespace gearbox {
 
@@ -13,15 +13,7 @@ struct SampleTable {
     int pieces = 0;               // equal parts of the step; 0: there are no polynomials
     bool fits[MOST_PIECES] = {};  // whether those of a piece are accurate enough
     bool all_fit = false;
-    std::vector<double> coefficient;  // (pieces, terms, columns)
-
-    // Begin as new, but keep the memory: in a process of many threads, giving it back and taking it
-    // again with every change of the operating point lets the heap grow for hours.
-    void forget() {
-        known = all_fit = false;
-        pieces = 0;
-        for (bool& fit : fits) fit = false;
-    }
+    std::size_t begin = 0;  // of its (pieces, terms, columns) in `Periodic::coefficients`
 };
 
 }  // namespace gearbox

@@ -1,9 +1,10 @@
-"""Limits heap fragmentation in a process that allocates large blocks of varying size."""
+"""Returns memory that a process has freed to the system."""
 
 from __future__ import annotations
 
 import ctypes
 
+_C = ctypes.CDLL(None)
 _M_TRIM_THRESHOLD, _M_MMAP_THRESHOLD = -1, -3  # of glibc's malloc.h
 _LARGE = 128 * 1024  # bytes; the initial value of glibc
 
@@ -16,7 +17,20 @@ def return_large_blocks() -> None:
     (mallopt(3)). The chunks of a recording, whose sizes differ, then fragment the heap, which
     grows for hours. Setting the limit disables this. Without glibc, the function does nothing.
     """
-    mallopt = getattr(ctypes.CDLL(None), "mallopt", None)
+    mallopt = getattr(_C, "mallopt", None)
     if mallopt is not None:
         mallopt(_M_TRIM_THRESHOLD, _LARGE)
         mallopt(_M_MMAP_THRESHOLD, _LARGE)
+
+
+def return_freed_memory() -> None:
+    """
+    Return all free pages of the heap to the system (malloc_trim(3)).
+
+    glibc itself returns freed smaller blocks only from the end of a heap. Messages that waited for
+    a subscriber lie below blocks that stay. Takes 0.1 ms, and 1.5 ms if 14 MB have been freed.
+    Without glibc, the function does nothing.
+    """
+    malloc_trim = getattr(_C, "malloc_trim", None)
+    if malloc_trim is not None:
+        malloc_trim(0)

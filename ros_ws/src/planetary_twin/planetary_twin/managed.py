@@ -17,15 +17,18 @@ from rclpy.lifecycle import LifecycleState, TransitionCallbackReturn
 
 from planetary_twin_py.scene.names import did_you_mean
 
+from .heap import return_freed_memory
 from .namesakes import Namesakes
 from .parameter_node import ParameterNode
 from .parameters import brief, declare_at_start
 from .signals import SIGNALS
+from .stamps import STEADY
 from .standard_error import never_waiting
 
 NAMESPACE = "planetary_twin"
 _SOON = 1e-3  # [s]
 _LOG_PERIOD = 1.0  # [s] between two log lines that a client can cause
+_TRIM_PERIOD = 1.0  # [s] between two returns of freed memory
 
 
 class NodeError(Exception):
@@ -54,6 +57,7 @@ class ManagedNode(ParameterNode):
             declare_at_start(self, "autostart", True, "configure and activate at the start")
         )
         self._namesakes = Namesakes(self)
+        self.create_timer(_TRIM_PERIOD, return_freed_memory, clock=STEADY)
 
     def configure(self) -> None:
         """Acquire the resources of a run."""

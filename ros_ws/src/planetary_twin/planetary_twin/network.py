@@ -9,6 +9,7 @@ from ament_index_python import get_package_share_directory
 
 _RANGE = "ROS_AUTOMATIC_DISCOVERY_RANGE"
 _PROFILE = "FASTRTPS_DEFAULT_PROFILES_FILE"
+_POLICIES = "RMW_FASTRTPS_USE_QOS_FROM_XML"  # "1": those of memory, too, are the profile's
 _MIDDLEWARE = "RMW_IMPLEMENTATION"
 
 
@@ -26,6 +27,7 @@ def stay_on_this_machine() -> None:
         return
     os.environ[_RANGE] = "SYSTEM_DEFAULT"
     os.environ[_PROFILE] = str(loopback_profile())
+    os.environ[_POLICIES] = "1"
 
 
 def loopback_profile() -> Path:

@@ -24,13 +24,25 @@ class Quantiles(NamedTuple):
 
 
 class Slope(NamedTuple):
-    """Slope of a line through samples, by least squares."""
+    """
+    Slope of a line through samples, by least squares.
+
+    Its standard error takes into account that a deviation resembles the one before, as memory that
+    grows in steps has it: the number of independent samples is n (1 - r)/(1 + r), with the lag-1
+    autocorrelation r of the deviations (Santer et al. 2000, J. Geophys. Res. 105, 7337, eq. 6).
+    """
 
     value: float
-    error: float  # standard error of `value`, as if the deviations were independent
+    error: float
 
     @classmethod
     def of(cls, time: Sequence[float], values: Sequence[float]) -> Self:
         """Return the slope of `values` over `time`, at least three of them."""
-        (slope, _), covariance = np.polyfit(time, values, 1, cov=True)
-        return cls(float(slope), float(np.sqrt(covariance[0, 0])))
+        at = np.asarray(time) - np.mean(time)
+        value, mean = np.polyfit(at, values, 1)
+        off = np.asarray(values) - mean - value * at
+        deviance = off @ off
+        alike = max(float(off[1:] @ off[:-1] / deviance), 0.0) if deviance else 0.0
+        # Not below three: two samples have no deviations from a line.
+        independent = max(len(at) * (1.0 - alike) / (1.0 + alike), 3.0)
+        return cls(float(value), float(np.sqrt(deviance / (independent - 2.0) / (at @ at))))
