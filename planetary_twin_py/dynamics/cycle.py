@@ -18,7 +18,7 @@ def turns_per_cycle(train: Train) -> Fraction:
 
 
 def common_cycles(train: Train, load: Load) -> int:
-    """Mesh cycles after which faults, errors of form and torque ripple repeat together.
+    """Mesh cycles after which faults, errors of form, torque ripple and weight repeat together.
 
     0 for a train with two motors, which never repeats.
     """
@@ -29,4 +29,7 @@ def common_cycles(train: Train, load: Load) -> int:
         periods += [int(period) for period in train.line_period[kind, :lines]]
     if load.ripple != 0.0:
         periods.append((int(load.ripple_order) * turns_per_cycle(train)).denominator)
+    if train.moving.gravity != 0.0:
+        ratio = Fraction(int(train.moving.turn_numerator[0]), int(train.moving.turn_denominator[0]))
+        periods.append((ratio * turns_per_cycle(train)).denominator)  # whole turns of the carrier
     return math.lcm(*periods)

@@ -23,8 +23,8 @@ from ..scene import Scene
 
 ROUNDING = 1e-9
 
-# What determines the motion of a planet: phases of both meshes, its number if faults or errors of
-# axes distinguish it, and its own errors.
+# What determines the motion of a planet: phases of both meshes, its number if faults, errors of
+# axes or weight distinguish it, and its own errors.
 _Signature = tuple[Fraction, Fraction, int | None, tuple[float, ...]]
 
 
@@ -73,13 +73,15 @@ def _cancel(scene: Scene, signatures: list[_Signature]) -> bool:
 def _signatures(scene: Scene) -> list[_Signature]:
     gearset = scene.gearset
     sun, ring = scene_phases(scene)
+    heavy = scene.moving_axes and scene.supports is not None and scene.supports.gravity != 0.0
+    apart = scene.errors.of_axes or heavy
     faulty = {fault.planet - 1 for fault in scene.faults if fault.gear == "planet"}
     sun_cycles, ring_cycles = _period(scene, "sun"), _period(scene, "ring")
     return [
         (
             sun[i] % sun_cycles,
             ring[i] % ring_cycles,
-            i if i in faulty or scene.errors.of_axes else None,
+            i if i in faulty or apart else None,
             scene.errors.of_planet(i),
         )
         for i in range(gearset.planets)

@@ -22,7 +22,8 @@ constexpr double POINTS[TERMS_OF_TIME] = {-0.98078528, -0.83146961, -0.55557023,
 constexpr int TRIALS = 3;
 constexpr double TRIAL[TRIALS] = {-1.0, 0.0, 1.0};
 constexpr double ERROR_SHARE = 0.01;  // of the tolerance, that interpolation may add
-constexpr int MOST_COLUMNS = QUANTITIES * MESHES + 2 * BODIES + SAMPLE_DRAGS;
+constexpr int MOST_COLUMNS =
+    QUANTITIES * MESHES + 2 * BODIES + SAMPLE_DRAGS + (MOVING ? BEARINGS * SAMPLE_AXES : 0);
 
 // Coefficients of polynomials from their values at POINTS, (terms, points).
 struct FromValues {
@@ -60,8 +61,17 @@ struct Rows {
     std::int64_t columns;
 };
 
-std::int64_t columns_of(const Train& train) {
+// Place of the columns of axes that move, the last ones.
+std::int64_t place_of_axes(const Train& train) {
     return QUANTITIES * train.meshes + 2 * train.bodies + SAMPLE_DRAGS;
+}
+
+std::int64_t columns_of_axes(const Train& train) {
+    return MOVING ? train.moving.bearings * SAMPLE_AXES : 0;
+}
+
+std::int64_t columns_of(const Train& train) {
+    return place_of_axes(train) + columns_of_axes(train);
 }
 
 // What an empty `Samples` of one row needs, a column after the other.
@@ -71,6 +81,10 @@ Samples row_in(const Train& train, double* turns, double* columns) {
     out.angle = out.mesh + QUANTITIES * train.meshes;
     out.speed = out.angle + train.bodies;
     out.drag = out.speed + train.bodies;
+    if constexpr (MOVING) {
+        out.bearings = train.moving.bearings;
+        out.moved = columns + place_of_axes(train);
+    }
     return out;
 }
 
@@ -123,7 +137,11 @@ void set_allowed(const Model& model, const March& march, const Rows& rows, doubl
         allowed[bodies + j] = yields;
         allowed[bodies + train.bodies + j] = yields * control.quickness;
     }
-    for (std::int64_t c = drags; c < rows.columns; ++c) allowed[c] = share * largest(c, c + 1);
+    const std::int64_t axes = place_of_axes(train);
+    for (std::int64_t c = drags; c < axes; ++c) allowed[c] = share * largest(c, c + 1);
+    double force = control.deflection * std::max(train.stiffness[0], train.stiffness[1]);
+    for (std::int64_t c = axes; c < rows.columns; ++c)
+        allowed[c] = share * ((c - axes) % SAMPLE_AXES < 2 ? control.deflection : force);
 }
 
 // Whether polynomials show at all trials what was computed there.
@@ -239,12 +257,15 @@ void read_table(const Model& model, const Periodic& periodic, const CycleStep& s
     std::int64_t shown = out.quantities * train.meshes, columns = columns_of(train);
     const double* table =
         periodic.coefficients.data() + step.samples.begin + at.number * TERMS_OF_TIME * columns;
+    if (MOVING && out.bearings > 0)
+        evaluate_columns(table + place_of_axes(train), columns, columns_of_axes(train), at.s,
+                         out.moved + row * columns_of_axes(train));
     if (!out.turns) {
         evaluate_columns(table, columns, shown, at.s, out.mesh_row(row));
         return;
     }
     double values[MOST_COLUMNS];
-    evaluate_columns(table, columns, columns, at.s, values);
+    evaluate_columns(table, columns, place_of_axes(train), at.s, values);
     std::copy_n(values, shown, out.mesh_row(row));
     Turns turns = turns_at(periodic, step.begin);
     put_bodies(train, turns, values + QUANTITIES * train.meshes, out, row);
