@@ -25,8 +25,8 @@ DURATION = float(os.environ.get("SOAK_DURATION", "60"))  # [s]
 SETTLING = 120.0  # [s] after which everything that is loaded or allocated once has been
 NODE = f"{TWIN}/simulation"
 PERIOD = 10  # [s] of the parameter
-# [MB] of what is filled once: histories of 1000 parameter events and operating points, 0.3 kB each,
-# and the steps of a repeated mesh cycle, of which a tighter tolerance needs more.
+# [MB] of what is filled once: histories of 1000 parameter events, operating points and log lines,
+# 0.3 kB per entry, and the steps of a repeated mesh cycle: a tighter tolerance needs more of them.
 GROWTH = 1.0
 SLOPE = 1.0  # [MB/h]
 
