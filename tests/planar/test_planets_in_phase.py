@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from moving_scenes import planar
+from planar.moving_scenes import planar
 from power_flows import FLOWS, flow_name
 
 import planetary_twin_py as pt
