@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import copy
 import math
+from collections import deque
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field, replace
 
@@ -26,8 +27,10 @@ from .train import followed_train
 
 Array = NDArray[np.float64]
 
+KEPT = 36_000  # bins whose torque is kept for the teeth
 PERIOD = 0.1  # [s] of a bin; longer ones let innovations correlate where the duty reverses
 TELLING = 0.5  # of the prior standard deviation, below which a parameter is told
+NOISY = 1.25  # standard deviation of innovations over the expected one, that is remarked upon
 REFUSED = 1.0  # [s] of gated balances that are an event
 UNITS = {"friction_level": "", "drag": "N m", "torque_zero": "N m", "torque_gain": "",
          "inertia": "kg m^2"}  # fmt: skip
@@ -103,8 +106,7 @@ class BalanceFollower:
         self._scatter = math.nan  # mean square deviation of a speed reading
         self._oil = self.train.oil_temperature
         self._operating = (0.0, self.train.oil_temperature)
-        self.torques: list[tuple[float, float]] = []
-        """End of each bin [s] and input torque [N m], for the teeth; cleared by `forget_before`."""
+        self._torques: deque[tuple[float, float]] = deque(maxlen=KEPT)  # end of bin, torque
 
     @property
     def counters(self) -> Counters:
@@ -135,20 +137,12 @@ class BalanceFollower:
             self._take(found)
         self._checks.check()
 
-    def forget_before(self, time: float) -> None:
-        """Drop torques up to a time.
-
-        Args:
-            time: [s].
-        """
-        self.torques = [pair for pair in self.torques if pair[0] > time]
-
     def _take(self, found: Bin) -> None:
         self._checks.add(found)
         self.time = (found.number + 1) * self.period
         read = self._measured(found)
         if math.isfinite(read.input_torque):
-            self.torques.append((self.time, read.input_torque))
+            self._torques.append((self.time, read.input_torque))
         if math.isfinite(read.speed):
             self._operating = read.speed, read.oil_temperature
         innovation = self._wide.update(read)
@@ -254,7 +248,7 @@ class BalanceFollower:
             begin: of the interval [s].
             end: of the interval [s].
         """
-        inside = [torque for time, torque in self.torques if begin < time <= end]
+        inside = [torque for time, torque in self._torques if begin < time <= end]
         return float(np.mean(inside)) if inside else math.nan
 
     def estimates(self) -> tuple[Estimate, ...]:
@@ -281,6 +275,22 @@ class BalanceFollower:
             return
         value, sd = wide.loss_torque(speed, oil)
         yield told("loss_torque", value, sd, "N m")
+
+    def remarks(self) -> Iterator[str]:
+        """What makes the estimates less certain, a line each."""
+        excess = math.sqrt(self._wide.excess)
+        if excess > NOISY:
+            yield (
+                f"the balance scatters {excess:.1f} times as much as the noise of the torque "
+                "sensors; intervals are widened accordingly"
+            )
+        if self._cusum.held:
+            yield (
+                f"successive innovations correlate by {self._cusum.correlation:.2f}: steps of the "
+                "loss are not told"
+            )
+        if self.gated:
+            yield f"{self.gated} bins are too far off the balance and are not used"
 
     def _parameter(self, state: int) -> Estimate:
         wide, name = self._wide, STATES[state]

@@ -39,7 +39,7 @@ PARAMETERS = slice(F, None)
 WANDER = 0.025  # of the torque of the scene per sqrt(s)
 RATE_WANDER = 0.24  # likewise of its rate, in 1/s
 INERTIA = 0.1  # standard deviation over the inertia of the scene
-DRAG = 2e-3  # standard deviation over the torque of the scene
+DRAG = 1e-3  # standard deviation over the torque of the scene
 LAW = 0.2, 0.3  # standard deviations of f_T and f_w
 STANDSTILL = 0.01  # of the speed of the scene, below which the sign of the loss is not known
 LEAST = 0.02  # of torque and speed of the scene, to which the logarithms are limited
@@ -47,8 +47,9 @@ GATE = 5.0  # standard deviations of the innovation
 NOISE_MEMORY = 60.0  # [s]
 GAP = 2.0  # [s] without a bin, after which nothing is known of the torque
 FAR = 10.0  # standard deviation of a torque of which nothing is known, over that of the scene
-FALL = 600.0  # [s] in which friction falls back to its prior by 1/e
-SLOW_FALL = 3600.0  # [s], of zero, gain, drag and inertia
+FALL = 600.0  # [s] in which the law of friction falls back to its prior by 1/e
+SLOW_FALL = 3600.0  # [s], of friction level, zero, gain, drag and inertia
+CLEAR = 5.0  # standard deviations above which an acceleration tells of the inertia
 
 
 class Measured(NamedTuple):
@@ -95,7 +96,7 @@ class Memory:
 
 def interval_memory() -> Memory:
     """Parameters that fall back, so that information does not pile up beyond what a law is worth."""
-    fall = np.array([FALL, SLOW_FALL, SLOW_FALL, SLOW_FALL, SLOW_FALL, FALL, FALL])
+    fall = np.array([SLOW_FALL, SLOW_FALL, SLOW_FALL, SLOW_FALL, SLOW_FALL, FALL, FALL])
     return Memory(fall, np.zeros(7))
 
 
@@ -179,7 +180,9 @@ class BalanceFilter:
         if math.isfinite(read.input_torque) and turning:
             noise = self._noise[0] / read.counts[0]
             slope = np.zeros(len(STATES))
-            slope[T], slope[J] = 1.0, read.acceleration
+            slope[T] = 1.0
+            if abs(read.acceleration) > CLEAR * read.acceleration_noise:
+                slope[J] = read.acceleration  # a regressor whose noise would bias J otherwise
             expected = float(self.x[T] + self.x[J] * read.acceleration)
             noise += (float(self.x[J]) * read.acceleration_noise) ** 2
             self._take(slope, read.input_torque - expected, noise)
