@@ -14,8 +14,21 @@ from numpy.typing import NDArray
 from ..scene import Scene
 from .attribution import Attribution
 from .balance_filter import (
-    F_T, F_W, STANDSTILL, STATES, B, BalanceFilter, D, F, G, Innovation, J,
-    Measured, T, alarm_memory, interval_memory,
+    F_T,
+    F_W,
+    STANDSTILL,
+    STATES,
+    B,
+    BalanceFilter,
+    D,
+    F,
+    G,
+    Innovation,
+    J,
+    Measured,
+    T,
+    alarm_memory,
+    interval_memory,
 )  # fmt: skip
 from .bins import Bin, Bins, Counters
 from .checks import Checks
@@ -39,7 +52,7 @@ REMEDIES = {
     D: "a reversal of the rotation",
     G: "a reversal of the torque",
     J: "a change of speed",
-    F: "a higher torque",
+    F: "running at several torques",
     F_T: "running at several torques",
     F_W: "running at several speeds",
 }
@@ -181,7 +194,7 @@ class BalanceFollower:
             time=time,
             input_torque=nan if first is None else first.value,
             output_torque=nan if second is None else second.value,
-            counts=(first.count if first else 1, second.count if second else 1),
+            counts=(first.readings if first else 1, second.readings if second else 1),
             speed=speed,
             acceleration=acceleration,
             acceleration_noise=noise,
@@ -199,7 +212,7 @@ class BalanceFollower:
                 own = (mean.scatter * factor) ** 2
                 known = math.isfinite(self._scatter)
                 self._scatter = self._scatter + 0.02 * (own - self._scatter) if known else own
-            spread = self.period * math.sqrt(mean.count / 12.0)
+            spread = self.period * math.sqrt(mean.readings / 12.0)
             noise = math.sqrt(self._scatter) / spread if math.isfinite(self._scatter) else 0.0
             return mean.slope * factor, noise
         if before is None or time - before[0] > 10.0 * self.period:
@@ -302,16 +315,16 @@ class BalanceFollower:
         return told(name, float(wide.x[state]), sd, UNITS[name], remedy)
 
     def _remedy(self, state: int) -> str:
-        """What would tell a parameter: what separates it from that with which it correlates most."""
+        """What would separate a parameter from that with which it correlates most."""
         p = self._wide.p
         sd = np.sqrt(np.maximum(np.diag(p), 1e-300))
         correlation = np.abs(p[state] / (sd * sd[state]))
         correlation[[T, 1, state]] = 0.0
         most = int(np.argmax(correlation))
+        if state in (B, D):
+            return REMEDIES[D]
         if state == J or float(correlation[most]) < 0.3:
             return OWN.get(state, REMEDIES[state])
         if state == G:
             return REMEDIES[G]
-        if state in (B, D) and most in (B, D):
-            return REMEDIES[D]
         return REMEDIES[most]

@@ -95,7 +95,7 @@ class Memory:
 
 
 def interval_memory() -> Memory:
-    """Parameters that fall back, so that information does not pile up beyond what a law is worth."""
+    """Parameters that fall back: information must not pile up beyond what a law is worth."""
     fall = np.array([SLOW_FALL, SLOW_FALL, SLOW_FALL, SLOW_FALL, SLOW_FALL, FALL, FALL])
     return Memory(fall, np.zeros(7))
 

@@ -49,8 +49,8 @@ class Baseline:
             segment: of the encoders.
         """
         near = abs(torque - self.torque) <= CELL * abs(self.torque)
-        return near and abs(speed - self.speed) <= CELL * abs(self.speed) and (
-            segment == self.segment
+        return (
+            near and abs(speed - self.speed) <= CELL * abs(self.speed) and (segment == self.segment)
         )
 
     @property
@@ -83,7 +83,9 @@ class Baseline:
         for one, there in zip(deviations, measured, strict=True):
             both = there & (counts > 1)
             others = np.where(both, (total - one) / np.maximum(counts - 1, 1), 0.0)
-            product, square = self.bank.score(without_common(np.where(both, one - others, 0), both), both)
+            product, square = self.bank.score(
+                without_common(np.where(both, one - others, 0), both), both
+            )
             losses.append(product / square)
         variance = np.mean(np.square(losses), axis=0) / (1.0 + 1.0 / (self.needed - 1))
         gears = range(len(self.bank.gears))

@@ -36,8 +36,8 @@ class Mean(NamedTuple):
     """Readings of a channel in one bin."""
 
     value: float
-    """Their mean."""
-    count: int
+    """At the middle of the bin, of the line through them; their mean below three."""
+    readings: int
     """Their number."""
     slope: float
     """Of the line through them [1/s]; NaN below three readings."""
@@ -123,9 +123,7 @@ class Bins:
         if np.isfinite(self._latest):
             yield from self._close(self._number(self._latest) + 1)
 
-    def _in_turn(
-        self, time: Array, columns: Mapping[str, Array]
-    ) -> tuple[Array, dict[str, Array]]:
+    def _in_turn(self, time: Array, columns: Mapping[str, Array]) -> tuple[Array, dict[str, Array]]:
         """The rows without single stamps far ahead; a last row that may be one waits."""
         time = np.asarray(time, dtype=float)
         rows = {name: np.asarray(values, dtype=float) for name, values in columns.items()}
@@ -183,37 +181,40 @@ class Bins:
             number = np.floor(pending.time / self.length + 1e-9).astype(np.int64)
             done = number < until
             order = np.argsort(pending.time[done], kind="stable")
-            time, value, own = (a[done][order] for a in (pending.time, pending.value, number))
+            time, value = pending.time[done][order], pending.value[done][order]
+            own = number[done][order]
             if len(time):
                 cuts = np.flatnonzero(np.diff(own)) + 1
                 parts = zip(np.split(time, cuts), np.split(value, cuts), strict=True)
                 for k, (at, read) in zip(own[np.r_[0, cuts]], parts, strict=True):
-                    means.setdefault(int(k), {})[name] = self._mean(name, at, read)
+                    middle = (int(k) + 0.5) * self.length
+                    means.setdefault(int(k), {})[name] = self._mean(name, middle, at, read)
             pending.time, pending.value = pending.time[~done], pending.value[~done]
         self._closed = until
         for k in sorted(means):
             yield Bin(k, means[k])
 
-    def _mean(self, name: str, time: Array, value: Array) -> Mean:
-        """Of the readings of a bin, in the order of their stamps."""
+    def _mean(self, name: str, middle: float, time: Array, value: Array) -> Mean:
+        """Of the readings of a bin around `middle`, in the order of their stamps."""
         single = np.concatenate([[True], np.diff(time) > 0.0])
         self.counters.doubled += int(np.sum(~single))
         time, value = time[single], value[single]
         if len(value) >= ENOUGH:
-            middle = float(np.median(value))
-            off = np.abs(value - middle)
+            off = np.abs(value - float(np.median(value)))
             spread = max(self._noise.get(name, 0.0), NORMAL * float(np.median(off)))
             inside = off <= OUTLIER * spread if spread > 0.0 else off == 0.0
             self.counters.outlying += int(np.sum(~inside))
             time, value = time[inside], value[inside]
         n = len(value)
         self.counters.used += n
-        mean = float(np.mean(value))
+        mean, centre = float(np.mean(value)), float(np.mean(time))
         if n < 3:
             return Mean(mean, n, np.nan, np.nan)
-        along = time - np.mean(time)
+        along = time - centre
         slope = float(along @ value / (along @ along))
         left = value - mean - slope * along
+        # Where readings are missing, their mean is not that of the bin while the torque changes.
+        mean += slope * (middle - centre)
         return Mean(mean, n, slope, float(np.sqrt(left @ left / (n - 2))) if n > 3 else np.nan)
 
 

@@ -16,6 +16,7 @@ RPM = 30.0 / math.pi
 NEAR = 0.02  # relative deviation of a speed ratio
 EFFICIENCY = 0.3, 1.15  # of what may be a torque ratio over that without loss
 LOADED = 0.2  # of the torque of the scene, below which torques are not compared
+SMALL = 0.05  # of the torque of the scene, below which a unit may be a thousand times too large
 MOVING = 0.05  # of the speed of the scene, below which speeds are not compared
 CELSIUS = 200.0  # below this, a temperature is not in kelvin
 
@@ -93,12 +94,13 @@ class Checks:
         if moving.any():
             ratio = float(np.median(speed_out[moving] / speed_in[moving]))
             yield from self._speeds(ratio)
-        loaded = (np.abs(columns["input_torque"]) > LOADED * train.torque) & np.isfinite(
-            columns["output_torque"]
-        )
+        first, second = columns["input_torque"], columns["output_torque"]
+        least = LOADED * train.torque
+        loaded = (np.abs(first) > least) | (np.abs(train.ratio * second) > least)
+        loaded &= np.isfinite(first) & np.isfinite(second) & (first != 0.0)
         if loaded.any():
-            ratio = columns["output_torque"][loaded] / columns["input_torque"][loaded]
-            yield from self._torques(float(np.median(ratio)))
+            ratio = float(np.median(second[loaded] / first[loaded]))
+            yield from self._torques(ratio, float(np.median(np.abs(first[loaded]))))
 
     def _speeds(self, ratio: float) -> Iterator[str]:
         """Fault of a measured speed ratio."""
@@ -127,25 +129,27 @@ class Checks:
             return
         yield f"{said}; no unit explains it: are these the shafts of this scene?"
 
-    def _torques(self, ratio: float) -> Iterator[str]:
-        """Fault of a measured torque ratio."""
+    def _torques(self, ratio: float, size: float) -> Iterator[str]:
+        """Fault of a measured torque ratio; `size` is the magnitude of the input torque."""
         expected = -1.0 / self.train.ratio
         share = ratio / expected
         low, high = EFFICIENCY
-        if low <= share <= 1.0 / low and share > 0.0:
+        if low <= share <= 1.0 / low:
             return
         said = f"output_torque/input_torque = {ratio:.4g}: without loss it is {expected:.4g}"
-        if low <= -share <= high:
+        if low <= -share <= 1.0 / low:
             yield f"{said}; the sign of one torque is reversed: scale output_torque by -1"
             return
+        sign = int(math.copysign(1.0, share))
         for factor, name, unit, scale in (
-            (1e3, "output_torque", "N mm", 1e-3),
-            (1e-3, "output_torque", "kN m", 1e3),
-            (1e-3, "input_torque", "N mm", 1e-3),
-            (1e3, "input_torque", "kN m", 1e3),
+            (1e3, "output_torque", "N mm", 1e-3)
+            if size > SMALL * self.train.torque
+            else (1e3, "input_torque", "kN m", 1e3),
+            (1e-3, "output_torque", "kN m", 1e3)
+            if size < self.train.torque / SMALL
+            else (1e-3, "input_torque", "N mm", 1e-3),
         ):
             if low <= abs(share) / factor <= high:
-                sign = math.copysign(1.0, share)
                 yield f"{said}; {name} is probably in {unit}: scale {name} by {sign * scale:g}"
                 return
         if abs(share * expected**2 - 1.0) < 0.5:

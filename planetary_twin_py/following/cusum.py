@@ -34,14 +34,15 @@ class _Sum:
     sign: float
     value: float = 0.0
     since: float = math.nan
+    held: bool = False
     total: float = 0.0
     weight: float = 0.0
 
-    def add(self, term: float, time: float, weighted: tuple[float, float]) -> None:
+    def add(self, term: float, time: float, weighted: tuple[float, float], held: bool) -> None:
         self.value += self.sign * term - KAPPA
         if self.value <= 0.0:
             self.value, self.total, self.weight = 0.0, 0.0, 0.0
-            self.since = time
+            self.since, self.held = time, held
             return
         self.total += weighted[0]
         self.weight += weighted[1]
@@ -85,7 +86,10 @@ class Cusum:
 
     @property
     def held(self) -> bool:
-        """Whether innovations correlate so much that there is no alarm."""
+        """Whether innovations correlate so much that a sum that leaves zero now gives no alarm.
+
+        A step lets them correlate, too, so those before it count.
+        """
         return self._known >= TRUSTED and self.correlation > CORRELATED
 
     def _end_term(self, time: float) -> Step | None:
@@ -94,14 +98,10 @@ class Cusum:
         total = sum(w * value for w, (_, value, _) in zip(weights, self._term, strict=True))
         self._term.clear()
         for one in self._sums:
-            one.add(term, time, (total, sum(weights)))
-        if self.held:
-            return None
+            one.add(term, time, (total, sum(weights)), self.held)
         for one in self._sums:
-            if one.value > LIMIT:
-                step = Step(
-                    one.since, time, one.total / one.weight, 1.0 / math.sqrt(one.weight)
-                )
+            if one.value > LIMIT and not one.held:
+                step = Step(one.since, time, one.total / one.weight, 1.0 / math.sqrt(one.weight))
                 self._sums = (_Sum(1.0, since=time), _Sum(-1.0, since=time))
                 return step
         return None

@@ -1,9 +1,9 @@
 """Averages the transmission error by the sun's angle, one block for each hunting period.
 
 The waveform that all mesh cycles have in common, known from the blocks before, is taken off every
-sample at its own angle: then means over few samples do not scatter with their places in a bin. Means
-over bins follow, less a running mean over 7 mesh cycles, which takes out swings of the load and
-errors of the encoders that are long compared with a tooth, and less the mean over all cycles.
+sample at its own angle: then means over few samples do not scatter with their places in a bin.
+Means over bins follow, less a running mean over 7 mesh cycles, which takes out swings of the load
+and errors of the encoders that are long compared with a tooth, and less the mean over all cycles.
 """
 
 from __future__ import annotations
@@ -25,6 +25,7 @@ SMOOTHED = 7  # mesh cycles of the running mean
 MARGIN = 4  # mesh cycles beyond a block that its running mean needs
 PRESENT = 0.95  # share of the usual bins within the running mean, below which there is a hole
 COMPLETE = 0.7  # share of the bins of a block, below which it is dropped
+WHOLE = 0.95  # share of its cycles, below which it has no mean
 FRESH = 0.5  # weight of the last block in the common waveform
 SLIP = 0.5  # tooth pitches by which the error may jump across a hole
 DELAY = 0.2  # [s] by which packets may be out of order
@@ -47,7 +48,7 @@ class HuntingBlock(NamedTuple):
     measured: NDArray[np.bool_]
     """Where it is, (cycles, BINS)."""
     mean: float
-    """Mean transmission error [m]; NaN if the block has holes."""
+    """Mean transmission error [m]; NaN if much of the block is missing."""
     segment: int
     """Counts the losses of the turns; zeros of the encoders hold within one segment."""
 
@@ -137,8 +138,8 @@ class HuntingBlocks:
         self._waiting = [(sample[rest], counts[rest])]
         sample, counts = sample[ready], counts[ready]
         if len(sample):
-            if self._zero is not None:
-                self.counters.lost += int(sample[-1] + 1 - self._released - len(sample))
+            expected = int(sample[0]) if self._zero is None else self._released
+            self.counters.lost += int(sample[-1]) + 1 - expected - len(sample)
             self._released = int(sample[-1]) + 1
             self.counters.used += len(sample)
             yield from self._segments(sample, counts)
@@ -222,17 +223,16 @@ class HuntingBlocks:
         shown = found.error - np.interp(fine, np.arange(-1, FINE + 1), np.pad(waveform, 1, "wrap"))
         cell = cycle * BINS + (found.part * BINS).astype(np.int64)
         count = np.bincount(cell, minlength=many * BINS)
-        total = np.bincount(cell, shown, minlength=many * BINS)
-        deviation, measured = _smoothed(total, count)
-        rows = slice(MARGIN * BINS, -MARGIN * BINS)
-        deviation, measured = (
-            values[rows].reshape(self._cycles, BINS) for values in (deviation, measured)
-        )
-        whole = bool((inside > 0.5 * usual).all())
+        total = np.bincount(cell, shown, minlength=many * BINS).astype(float)
+        rows, shape = slice(MARGIN * BINS, -MARGIN * BINS), (self._cycles, BINS)
+        smooth, present = _smoothed(total, count)
+        deviation, measured = smooth[rows].reshape(shape), present[rows].reshape(shape)
         own = (cycle >= MARGIN) & (cycle < many - MARGIN)
         times = sample[own][[0, -1]] * self.period
         place = (found.cycle + found.part)[own][[0, -1]]
-        means = np.bincount(cycle, found.error, minlength=many)[MARGIN:-MARGIN]
+        there = inside > 0.5 * usual
+        means = np.bincount(cycle, found.error, minlength=many)[MARGIN:-MARGIN][there]
+        whole = float(np.mean(there)) >= WHOLE
         return HuntingBlock(
             number=number,
             begin=float(times[0]),
@@ -240,7 +240,7 @@ class HuntingBlocks:
             rate=float(abs(place[1] - place[0]) / (times[1] - times[0])),
             deviation=without_common(deviation, measured),
             measured=measured,
-            mean=float(np.mean(means / inside)) if whole else float("nan"),
+            mean=float(np.mean(means / inside[there])) if whole else float("nan"),
             segment=self.counters.segments,
         )
 
@@ -272,10 +272,10 @@ def _rows(found: ErrorSamples, rows: slice | NDArray[np.bool_]) -> ErrorSamples:
     return ErrorSamples(found.cycle[rows], found.part[rows], found.error[rows])
 
 
-def _smoothed(total: Array, count: Counts) -> tuple[Array, NDArray[np.bool_]]:
+def _smoothed(total: Array, count: NDArray[np.intp]) -> tuple[Array, NDArray[np.bool_]]:
     """Means of bins less their running mean, and where both are measured."""
     present = count > 0
-    mean = np.where(present, total / np.maximum(count, 1), 0.0)
+    mean = np.asarray(np.where(present, total / np.maximum(count, 1), 0.0))
     mean -= mean[present].mean()  # no large numbers in the sums
     mean[~present] = 0.0
     window = np.ones(SMOOTHED * BINS + 1)

@@ -37,26 +37,27 @@ class Loss(NamedTuple):
 
 
 class LossMap:
-    """Loss torque between the points of a table, linear in the logarithms of torque and speed.
+    """Loss torque between the points of a table that is filled where it is needed.
 
-    Tooth friction is tabulated as loss torque over torque, which changes little. Below the smallest
-    torque and speed of the table this coefficient is that at its edge.
+    Tooth friction over torque is linear in the logarithms of torque and speed, the rest in torque
+    and speed themselves. Beyond the table, the coefficient of friction is that at its edge.
 
     Args:
-        torques: magnitudes [N m], (n,).
-        speeds: magnitudes [rad/s], (m,).
-        temperatures: of the oil [K], (k,).
-        teeth: loss torque of tooth friction over torque; first where the input drives, then where
-            it is driven, (2, k, m, n).
-        rest: other loss torque [N m], (2, k, m, n).
+        scene: of the gearbox, with one input.
+
+    Raises:
+        SceneError: the scene has two inputs.
     """
 
-    def __init__(
-        self, torques: Array, speeds: Array, temperatures: Array, teeth: Array, rest: Array
-    ) -> None:
-        self._torques, self._speeds = np.log(torques), np.log(speeds)
-        self._temperatures = temperatures
-        self._tables = np.stack([teeth, rest], axis=-1)
+    def __init__(self, scene: Scene) -> None:
+        train = followed_train(scene)
+        self._scene, self._cycles = _plain(scene), abs(float(train.cycles))
+        torques = np.minimum(train.torque * np.array(TORQUES), scene.drive.torque_limit)
+        speeds = np.minimum(train.speed * np.array(SPEEDS), train.speed_limit)
+        heat = np.clip(train.oil_temperature + np.array(HEATING), COLDEST, HOTTEST)
+        self._torques, self._speeds, self._heat = map(np.unique, (torques, speeds, heat))
+        self._logarithms = np.log(self._torques), np.log(self._speeds)
+        self._tables: dict[tuple[bool, int], tuple[Array, Array]] = {}
 
     def __call__(self, torque: float, speed: float, temperature: float) -> Loss:
         """Loss at an operating point.
@@ -68,72 +69,86 @@ class LossMap:
 
         Returns:
             The loss torques.
+
+        Raises:
+            RunawayError: a point of the table that is needed has no equilibrium.
         """
-        size = max(abs(torque), 1e-9)
-        at_torque, u = _place(self._torques, math.log(size))
-        at_speed, v = _place(self._speeds, math.log(max(abs(speed), 1e-9)))
-        at_heat, h = _place(self._temperatures, temperature)
-        table = self._tables[0 if torque * speed >= 0.0 else 1]
-        corner = table[at_heat : at_heat + 2, at_speed : at_speed + 2, at_torque : at_torque + 2]
-        over_torque = np.array([1.0 - v, v]) @ (np.array([1.0 - h, h]) @ corner.reshape(2, -1)).reshape(
-            2, -1
-        )
-        low, low_rest, high, high_rest = over_torque.tolist()
+        k, h = _place(self._heat, temperature)
+        drives = torque * speed >= 0.0
+        cold = self._at(self._table(drives, k), torque, speed)
+        if h == 0.0:
+            return cold
+        warm = self._at(self._table(drives, k + 1), torque, speed)
+        return Loss(*(one + h * (other - one) for one, other in zip(cold, warm, strict=True)))
+
+    def _at(self, tables: tuple[Array, Array], torque: float, speed: float) -> Loss:
+        """Loss at a temperature of the table."""
+        size, rate = max(abs(torque), 1e-9), max(abs(speed), 1e-9)
+        m, v = _place(self._logarithms[1], math.log(rate))
+        n, u = _place(self._logarithms[0], math.log(size))
+        (a, b), (c, d) = tables[0][m : m + 2, n : n + 2].tolist()
+        low, high = a + v * (c - a), b + v * (d - b)
         part = low + u * (high - low)
-        step = float(self._torques[at_torque + 1] - self._torques[at_torque])
-        inside = 0.0 < u < 1.0
-        return Loss(
-            teeth=part * size,
-            slope=part + ((high - low) / step if inside else 0.0),
-            rest=low_rest + u * (high_rest - low_rest),
+        bend = (high - low) / float(self._logarithms[0][n + 1] - self._logarithms[0][n])
+        (a, b), (c, d) = tables[1][m : m + 2, n : n + 2].tolist()
+        v = _share(self._speeds, m, rate)
+        low, high = a + v * (c - a), b + v * (d - b)
+        rest = low + _share(self._torques, n, size) * (high - low)
+        return Loss(part * size, part + (bend if 0.0 < u < 1.0 else 0.0), rest)
+
+    def _table(self, drives: bool, k: int) -> tuple[Array, Array]:
+        """Loss torque of tooth friction over torque, and of the rest, (speeds, torques) each."""
+        if (drives, k) not in self._tables:
+            shape = len(self._speeds), len(self._torques)
+            teeth, rest = np.empty(shape), np.empty(shape)
+            for m, n in np.ndindex(shape):
+                torque = float(self._torques[n])
+                found = self._run(torque if drives else -torque, float(self._speeds[m]), k)
+                teeth[m, n], rest[m, n] = found[0] / torque, found[1]
+            self._tables[drives, k] = teeth, rest
+        return self._tables[drives, k]
+
+    def _run(self, torque: float, speed: float, k: int) -> tuple[float, float]:
+        """Loss torques of tooth friction and of the rest [N m]."""
+        there = self._scene.replace(
+            input_torque=torque, input_speed=speed, oil_temperature=float(self._heat[k])
         )
+        duration = CYCLES * 2.0 * math.pi / (self._cycles * speed)
+        run = simulate(there, duration, 4.0 / duration, tolerance=TOLERANCE)
+        turned = run.duration * speed
+        energy = run.energy
+        return energy.friction / turned, (energy.bearing + energy.churning) / turned
 
 
 def _place(knots: Array, value: float) -> tuple[int, float]:
     """Index of the interval of a value, and its place within it from 0 to 1."""
-    n = min(max(int(np.searchsorted(knots, value)) - 1, 0), len(knots) - 2)
-    return n, min(max((value - float(knots[n])) / float(knots[n + 1] - knots[n]), 0.0), 1.0)
+    n = min(max(int(np.searchsorted(knots, value, "right")) - 1, 0), len(knots) - 2)
+    return n, min(max(_share(knots, n, value), 0.0), 1.0)
+
+
+def _share(knots: Array, n: int, value: float) -> float:
+    low = float(knots[n])
+    return (value - low) / (float(knots[n + 1]) - low)
 
 
 def loss_map(scene: Scene) -> LossMap:
-    """Tabulate the losses of a scene, without its faults, runouts and errors.
+    """Losses of a scene, without its faults, runouts and errors.
 
     Args:
         scene: of the gearbox; dynamics play no role.
 
     Returns:
-        The map.
+        The map, one for all that follow the same scene.
 
     Raises:
         SceneError: the scene has two inputs.
-        RunawayError: a point of the table has no equilibrium.
     """
-    return _tabulated(scene.model_dump_json())
+    return _map_of(scene.model_dump_json())
 
 
-@lru_cache(maxsize=8)
-def _tabulated(text: str) -> LossMap:
-    scene = Scene.model_validate_json(text)
-    train = followed_train(scene)
-    torques = np.minimum(train.torque * np.array(TORQUES), scene.drive.torque_limit)
-    speeds = np.minimum(train.speed * np.array(SPEEDS), train.speed_limit)
-    heat = np.clip(train.oil_temperature + np.array(HEATING), COLDEST, HOTTEST)
-    torques, speeds, heat = (np.unique(values) for values in (torques, speeds, heat))
-    teeth, rest = np.empty((2, 2, len(heat), len(speeds), len(torques)))
-    for place in np.ndindex(teeth.shape):
-        drives, k, m, n = place
-        torque, speed = float(torques[n]), float(speeds[m])
-        there = _plain(scene).replace(
-            input_torque=torque if drives == 0 else -torque,
-            input_speed=speed,
-            oil_temperature=float(heat[k]),
-        )
-        duration = CYCLES * 2.0 * math.pi / (abs(float(train.cycles)) * speed)
-        run = simulate(there, duration, 4.0 / duration, tolerance=TOLERANCE)
-        turned = run.duration * speed
-        teeth[place] = run.energy.friction / turned / torque
-        rest[place] = (run.energy.bearing + run.energy.churning) / turned
-    return LossMap(torques, speeds, heat, teeth, rest)
+@lru_cache(maxsize=16)
+def _map_of(text: str) -> LossMap:
+    return LossMap(Scene.model_validate_json(text))
 
 
 def _plain(scene: Scene) -> Scene:

@@ -117,5 +117,3 @@ def torque_gain(sensors: Sensors) -> float:
 def _full_scales(train: FollowedTrain) -> tuple[float, float]:
     full = FULL_SCALE * train.torque
     return full, full / abs(train.ratio)
-
-

@@ -6,6 +6,7 @@ follow by shifts of whole mesh cycles: tooth t of a gear meets t cycles later th
 
 from __future__ import annotations
 
+from functools import lru_cache
 from typing import NamedTuple
 
 import numpy as np
@@ -21,7 +22,7 @@ Array = NDArray[np.float64]
 LOSS = 0.05  # of stiffness, for which a signature is computed
 CYCLES = 280  # mesh cycles at least that are averaged
 POINTS = 80  # samples in a mesh cycle
-SETTLING = 0.25  # [s]
+SETTLING = 1.0  # [s], in which vibration of the couplings decays
 TOLERANCE = 1e-5
 STEP = 0.05  # relative change of the torque for the compliance
 
@@ -52,6 +53,12 @@ def signatures(scene: Scene, torque: float, speed: float) -> Signatures:
         SceneError: torque or speed exceed the limits of the scene.
         RunawayError: the scene cannot run at this point.
     """
+    return _signatures(scene.model_dump_json(), torque, speed)
+
+
+@lru_cache(maxsize=16)
+def _signatures(text: str, torque: float, speed: float) -> Signatures:
+    scene = Scene.model_validate_json(text)
     train = followed_train(scene)
     plain = scene.replace(
         faults=(), input_torque=torque, input_speed=speed, torque_ripple=0.0,
@@ -71,19 +78,23 @@ def _signature(scene: Scene, train: FollowedTrain, gear: str) -> Array:
     fault = {"kind": "crack", "gear": kind, "tooth": 0, "stiffness_loss": LOSS}
     if planet:
         fault["planet"] = int(planet)
-    teeth = train.teeth[gear]
-    cycles, error = _error(scene.replace(faults=[fault]), teeth * -(-CYCLES // teeth))
-    cell = np.floor(np.mod(cycles, teeth) * BINS).astype(np.int64) % (teeth * BINS)
-    count = np.bincount(cell, minlength=teeth * BINS)
-    mean = np.bincount(cell, error - error.mean(), minlength=teeth * BINS) / count
+    return _deviation(scene.replace(faults=[fault]), train.teeth[gear]) / LOSS
+
+
+def _deviation(scene: Scene, teeth: int) -> Array:
+    """Mean deviation over the turns of a gear [m], (teeth, BINS)."""
+    first, error = _error(scene, teeth * -(-CYCLES // teeth))
+    turns = error.reshape(-1, teeth * POINTS).mean(axis=0)
+    turn = np.roll(turns, first % (teeth * POINTS))
+    mean = (turn - turn.mean()).reshape(teeth * BINS, -1).mean(axis=1)
     window = np.zeros(teeth * BINS)
     reach = SMOOTHED * BINS // 2
     for step in range(-reach, reach + 1):
         window[step % len(window)] += 0.5 if abs(step) == reach else 1.0
     slow = np.fft.irfft(np.fft.rfft(mean) * np.fft.rfft(window), len(mean)) / window.sum()
     deviation = (mean - slow).reshape(teeth, BINS)
-    return without_common(deviation, np.ones(deviation.shape, dtype=bool)) / LOSS
+    return without_common(deviation, np.ones(deviation.shape, dtype=bool))
 
 
-def _error(scene: Scene, cycles: int) -> tuple[Array, Array]:
+def _error(scene: Scene, cycles: int) -> tuple[int, Array]:
     return model_error(scene, cycles, POINTS, SETTLING, TOLERANCE)

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from ..scene import Scene, SceneError
 from .baseline import Baseline
 from .compliance import Compliance
-from .estimate import CONFIDENT, Estimate, Event, told, untold
+from .estimate import CONFIDENT, Estimate, Event, Status, told, untold
 from .hunting_blocks import EncoderCounters, HuntingBlock, HuntingBlocks
 from .signatures import signatures
 from .tooth_kind import ToothKind
@@ -28,7 +28,7 @@ Array = NDArray[np.float64]
 WINDOWS = 1, 4, 16, 64  # blocks that are judged together
 UNCERTAIN = 0.15  # relative standard deviation of a size: runouts move load between teeth
 UNSCALED = 0.35  # likewise while the compliance is not told
-SPEED_RANGE = 0.2  # relative distance of speeds that share a bank
+SPEED_STEP = 0.3  # relative distance of the speeds for which signatures are computed
 
 
 class ToothState(NamedTuple):
@@ -89,7 +89,7 @@ class TeethFollower:
         self.train = followed_train(self.scene)
         self._hunting = HuntingBlocks(self.train, self.counts_per_turn, self.period)
         self._pending: deque[HuntingBlock] = deque()
-        self._banks: list[tuple[float, Bank]] = []
+        self._banks: dict[tuple[float, float], Bank] = {}  # by torque and speed
         self._cells: list[Baseline] = []
         self._recent: deque[_Judged] = deque(maxlen=WINDOWS[-1])
         self._cell: int | None = None
@@ -163,13 +163,13 @@ class TeethFollower:
 
     def _bank(self, torque: float, speed: float) -> Bank:
         """Signatures at a similar speed; they grow with the torque, whose sign chooses flanks."""
-        for known, bank in self._banks:
-            if abs(speed - known) <= SPEED_RANGE * known and bank.torque * torque > 0.0:
-                return bank
-        forwards = math.copysign(speed, self.scene.operating_point.input_speed or 1.0)
-        bank = Bank(signatures(self.scene, torque, forwards))
-        self._banks.append((speed, bank))
-        return bank
+        train, point = self.train, self.scene.operating_point
+        step = round(math.log(speed / train.speed) / math.log1p(SPEED_STEP))
+        near = min(train.speed * (1.0 + SPEED_STEP) ** step, train.speed_limit)
+        key = math.copysign(train.torque, torque), math.copysign(near, point.input_speed or 1.0)
+        if key not in self._banks:
+            self._banks[key] = Bank(signatures(self.scene, *key))
+        return self._banks[key]
 
     def _decide(self, block: HuntingBlock, cell: Baseline) -> None:
         """Look for teeth that stand out in any window."""
@@ -196,9 +196,7 @@ class TeethFollower:
         found = find_teeth(cell.bank, Residual(total, count, sd))
         self._name(found, cell.bank, block, torque)
 
-    def _name(
-        self, found: list[Found], bank: Bank, block: HuntingBlock, torque: float
-    ) -> None:
+    def _name(self, found: list[Found], bank: Bank, block: HuntingBlock, torque: float) -> None:
         """Take the teeth of a search as the state; a new one is an event."""
         scale, uncertain = self._scale(bank, torque)
         states = []
@@ -306,7 +304,8 @@ class TeethFollower:
             most = max(cell.count for cell in self._cells)
             yield f"teeth: {most} of {self.learning} hunting periods of a baseline are learned"
         if self.counters.dropped_blocks:
-            yield f"encoders: {self.counters.dropped_blocks} hunting periods have holes or reversals"
+            dropped = self.counters.dropped_blocks
+            yield f"encoders: {dropped} hunting periods have holes or reversals"
 
     def estimates(self) -> tuple[Estimate, ...]:
         """Compliance, and changes of compliance and play since the baseline."""
@@ -328,7 +327,7 @@ class TeethFollower:
             else untold("compliance", sd, "rad/(N m)", remedy)
         ]
         if both is None or not (both[0].told and both[1].told):
-            status = "LEARNING" if both is None else "NOT_TOLD"
+            status: Status = "LEARNING" if both is None else "NOT_TOLD"
             names = (("compliance_change", ""), ("play_change", "m"))
             return (*found, *(untold(name, math.nan, unit, remedy, status) for name, unit in names))
         first, last = both

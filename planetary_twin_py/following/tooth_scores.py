@@ -47,17 +47,18 @@ class Bank:
             for gear, s in self.gears.items()
         }
 
-    def score(self, deviation: Array, measured: NDArray[np.bool_]) -> tuple[Array, Array]:
+    def score(self, deviation: Array, measured: Array | NDArray[np.bool_]) -> tuple[Array, Array]:
         """Products of a deviation with the signatures, and of these with themselves.
 
         Args:
             deviation: by mesh cycle and bin [m], (cycles, BINS); 0 where it is not measured.
-            measured: where it is, (cycles, BINS).
+            measured: where it is, or in how many blocks, (cycles, BINS).
 
         Returns:
             s_j r and s_j s_j over what is measured [m^2], (teeth,) each.
         """
-        products, squares = [], []
+        products: list[Array] = []
+        squares: list[Array] = []
         weight = measured.astype(float)
         for gear, signature in self.gears.items():
             count = len(signature)

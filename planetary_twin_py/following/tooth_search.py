@@ -29,7 +29,7 @@ class Residual(NamedTuple):
 
     total: Array
     """[m], (cycles, BINS)."""
-    count: Array
+    blocks: Array
     """Blocks in it, (cycles, BINS)."""
     sd: Array
     """Standard deviation of the loss of each tooth alone, at the torque of the bank, (teeth,)."""
@@ -91,7 +91,7 @@ def _named(bank: Bank, residual: Residual, active: list[int]) -> list[Found]:
     left = _left(bank, residual, active, amounts)
     found = []
     for tooth, amount, sd in zip(active, amounts, sds, strict=True):
-        own = left + residual.count * amount * bank.deviation(tooth, cycles)
+        own = left + residual.blocks * amount * bank.deviation(tooth, cycles)
         z = _z(bank, own, residual)
         z[[other for other in active if other != tooth]] = -np.inf
         order = np.argsort(-z, kind="stable")
@@ -102,14 +102,14 @@ def _named(bank: Bank, residual: Residual, active: list[int]) -> list[Found]:
 
 
 def _z(bank: Bank, left: Array, residual: Residual) -> Array:
-    product, square = bank.score(left, residual.count)
+    product, square = bank.score(left, residual.blocks)
     return np.asarray(product / np.maximum(square, 1e-300) / residual.sd)
 
 
 def _fit(bank: Bank, residual: Residual, active: list[int]) -> tuple[Array, Array]:
     """Joint least squares: amounts and their standard deviations, (active,) each."""
     rows = np.array([bank.deviation(t, len(residual.total)).ravel() for t in active])
-    weighted = rows * residual.count.ravel()
+    weighted = rows * residual.blocks.ravel()
     square = weighted @ rows.T
     inverse = np.linalg.inv(square)
     wider = np.sqrt(np.diag(inverse) * np.diag(square))
@@ -121,4 +121,4 @@ def _left(bank: Bank, residual: Residual, active: list[int], amounts: Array) -> 
         amount * bank.deviation(t, len(residual.total))
         for t, amount in zip(active, amounts, strict=True)
     )
-    return np.asarray(residual.total - residual.count * shown)
+    return np.asarray(residual.total - residual.blocks * shown)

@@ -20,6 +20,8 @@ from .train import FollowedTrain, followed_train
 Array = NDArray[np.float64]
 Counts = NDArray[np.int64]
 
+MORE = 2.0  # mesh cycles beyond those that are used, as vibration moves the angles
+
 
 class ErrorSamples(NamedTuple):
     """Transmission error at successive samples."""
@@ -62,18 +64,18 @@ class ErrorOfCounts:
         numerator, denominator = self._position
         place = counts[:, 0] * numerator
         cycle = place // denominator
-        part = (place - cycle * denominator) / denominator
+        part = np.asarray((place - cycle * denominator) / denominator)
         a, b = self._factors
         anchor = int(counts[0, 0]), int(counts[0, 1])
         base = (anchor[0] - zero[0]) * a - (anchor[1] - zero[1]) * b  # exact at any age
         steps = (counts[:, 0] - anchor[0]) * a - (counts[:, 1] - anchor[1]) * b
-        return ErrorSamples(cycle, part, self._size * (float(base) + steps))
+        return ErrorSamples(cycle, part, np.asarray(self._size * (float(base) + steps)))
 
 
 def model_error(
     scene: Scene, cycles: int, points: int, settling: float, tolerance: float
-) -> tuple[Array, Array]:
-    """Transmission error of a scene in steady running.
+) -> tuple[int, Array]:
+    """Transmission error of a scene in steady running, at equal steps of the sun's angle.
 
     Args:
         scene: its operating point is used; a quasi-static one runs with dynamics.
@@ -83,18 +85,21 @@ def model_error(
         tolerance: of the integrator.
 
     Returns:
-        Mesh cycles since the start, (cycles * points,), and transmission error [m], of the same
-        shape.
+        Number of the first step of 1/points mesh cycles since the start, and transmission error
+        [m], (cycles * points,), from there on; steps are counted backwards where the sun turns so.
     """
     train = followed_train(scene)
     if scene.dynamics == "quasi_static":
         scene = scene.replace(dynamics="torsional")
-    rate = abs(float(train.cycles)) * abs(scene.operating_point.input_speed) / (2.0 * math.pi)
+    rate = abs(float(train.cycles) * scene.operating_point.input_speed) / (2.0 * math.pi)
     run = simulate(
-        scene, (cycles + 0.5 / points) / rate, points * rate, tolerance=tolerance, settling=settling
+        scene, (cycles + MORE) / rate, points * rate, tolerance=tolerance, settling=settling
     )
     input_, output = (run.angle[:, run.bodies.index(member)] for member in train.members)
     a, b = (float(turns) for turns in train.twist)
-    place = float(train.cycles) * input_ / (2.0 * math.pi)
-    rows = slice(0, cycles * points)
-    return place[rows], (train.lever * (a * input_ - b * output))[rows]
+    place = abs(float(train.cycles)) * np.abs(input_) / (2.0 * math.pi)
+    first = math.ceil(float(place[0]) * points)
+    steps = (first + np.arange(cycles * points)) / points
+    error = np.interp(steps, place, train.lever * (a * input_ - b * output))
+    ahead = float(train.cycles) * float(input_[-1]) > 0.0
+    return (first, error) if ahead else (-(first + cycles * points - 1), error[::-1])

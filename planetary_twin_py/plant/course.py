@@ -115,9 +115,7 @@ def draw_course(
             torque[knots >= change.at] = torque[knots >= change.at] * change.load
     speed = speed * train.speed
     steps = 0.5 * (speed[1:] + speed[:-1]) * np.diff(knots)
-    return Course(
-        knots, torque * train.torque, speed, np.concatenate([[0.0], np.cumsum(steps)])
-    )
+    return Course(knots, torque * train.torque, speed, np.concatenate([[0.0], np.cumsum(steps)]))
 
 
 def _between(knots: Array, targets: Array) -> Array:

@@ -27,7 +27,7 @@ POINTS = 100  # of the transmission error in a mesh cycle
 BESIDE = 0.15  # relative distance of the torques of two runs from that of a load
 CHUNK = 20_000  # samples computed at once
 TOLERANCE = 1e-5
-SETTLING = 0.4  # [s] before a run is used
+SETTLING = 1.0  # [s] before a run is used
 
 
 class EncoderCounts(NamedTuple):
@@ -128,20 +128,11 @@ def _patterns(plant: Plant, train: FollowedTrain) -> list[tuple[float, float, _P
 def _pattern(
     scene: Scene, faults: tuple[Fault, ...], torques: Array, train: FollowedTrain
 ) -> _Pattern:
-    grid = np.arange(POINTS * train.hunting_cycles) / POINTS
     rows = []
     for torque in torques:
         there = scene.replace(
             faults=[fault.model_dump() for fault in faults], input_torque=float(torque)
         )
-        cycles, error = model_error(
-            there, train.hunting_cycles, POINTS, settling=SETTLING, tolerance=TOLERANCE
-        )
-        place = np.mod(cycles, train.hunting_cycles)
-        rows.append(np.interp(grid, *_sorted(place, error), period=train.hunting_cycles))
+        first, error = model_error(there, train.hunting_cycles, POINTS, SETTLING, TOLERANCE)
+        rows.append(np.roll(error, first % len(error)))
     return _Pattern(torques, np.array(rows))
-
-
-def _sorted(place: Array, error: Array) -> tuple[Array, Array]:
-    order = np.argsort(place, kind="stable")
-    return place[order], error[order]
