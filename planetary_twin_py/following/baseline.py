@@ -12,7 +12,7 @@ from .tooth_scores import Bank
 
 Array = NDArray[np.float64]
 
-CELL = 0.05  # relative distance of torque and speed within which blocks share a baseline
+CELL = 0.1  # relative distance of torque and speed within which blocks share a baseline
 
 
 @dataclass

@@ -26,7 +26,8 @@ MARGIN = 4  # mesh cycles beyond a block that its running mean needs
 PRESENT = 0.95  # share of the usual bins within the running mean, below which there is a hole
 COMPLETE = 0.7  # share of the bins of a block, below which it is dropped
 WHOLE = 0.95  # share of its cycles, below which it has no mean
-FRESH = 0.5  # weight of the last block in the common waveform
+KEPT = 0.9  # of the common waveform from block to block
+CHANGED = 0.1  # relative change of that waveform, from which on it is learned anew
 SLIP = 0.5  # tooth pitches by which the error may jump across a hole
 DELAY = 0.2  # [s] by which packets may be out of order
 
@@ -93,6 +94,7 @@ class HuntingBlocks:
         self._range: tuple[int, int] | None = None  # of the cycles of the block and its margins
         self._last_error = np.nan
         self._waveform: Array | None = None
+        self._sums: Array | None = None  # of the waveform and of the samples, by fine bin
 
     def add(self, sample: Counts, counts: Counts) -> Iterator[HuntingBlock]:
         """Take samples in the order of their arrival.
@@ -160,7 +162,8 @@ class HuntingBlocks:
         if cut:
             yield from self._segments(sample[:cut], counts[:cut])
         yield from self._blocks(last=True)
-        self._zero, self._last_error, self._waveform = None, np.nan, None
+        self._zero, self._last_error = None, np.nan
+        self._waveform = self._sums = None
         self.counters.segments += 1
         yield from self._segments(sample[cut:], counts[cut:])
 
@@ -245,18 +248,32 @@ class HuntingBlocks:
         )
 
     def _learned(self, found: ErrorSamples, cycle: Counts, per_cycle: Counts) -> Array:
-        """The waveform common to all cycles, with that of this block."""
+        """The waveform common to all cycles, with that of this block.
+
+        Where the sample rate is a multiple of the mesh frequency, a block knows the waveform at few
+        angles only: the others are remembered, unless the waveform has changed.
+        """
         there = np.flatnonzero(per_cycle)
         means = np.bincount(cycle, found.error)[there] / per_cycle[there]
         slow = np.interp(cycle + found.part, there + 0.5, means)
         fine = (found.part * FINE).astype(np.int64)
-        count = np.bincount(fine, minlength=FINE)
-        total = np.bincount(fine, found.error - slow, minlength=FINE)
-        places = np.flatnonzero(count)
-        own = np.interp(np.arange(FINE), places, total[places] / count[places], period=FINE)
-        own -= own.mean()
-        before = self._waveform
-        return own if before is None else before + FRESH * (own - before)
+        own = np.stack([
+            np.bincount(fine, found.error - slow, minlength=FINE),
+            np.bincount(fine, minlength=FINE).astype(float),
+        ])  # fmt: skip
+        if self._sums is not None and _alike(own, self._sums):
+            own += KEPT * self._sums
+        self._sums = own
+        places = np.flatnonzero(own[1])
+        waveform = np.interp(np.arange(FINE), places, own[0, places] / own[1, places], period=FINE)
+        return np.asarray(waveform - waveform.mean())
+
+
+def _alike(own: Array, before: Array) -> bool:
+    """Whether two waveforms, as sums and counts by fine bin, agree where both are known."""
+    both = (own[1] > 0.0) & (before[1] > 0.0)
+    one, other = (sums[0, both] / sums[1, both] for sums in (own, before))
+    return bool(np.mean((one - other) ** 2) < CHANGED**2 * np.mean(other**2))
 
 
 def _number(cycle: Counts, cycles: int) -> int | None:

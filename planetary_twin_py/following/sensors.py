@@ -28,6 +28,22 @@ class TorqueSensor(Section):
     gain: float = quantity("", "standard deviation of the gain", CLASS, gt=0.0, le=1.0)
 
 
+class Encoders(Section):
+    """Two encoders on the members of input and output, read by one device."""
+
+    input_counts: int = Field(2**20, ge=1, le=2**32, description="per turn of the input")
+    output_counts: int = Field(2**20, ge=1, le=2**32, description="per turn of the output")
+    rate: float = quantity("Hz", "samples per second", 20_000.0, gt=0.0, le=1e7)
+
+
+class JointNames(Section):
+    """Where measured joint states are in a recording."""
+
+    input: str = Field("input_joint", description="joint of the input shaft")
+    output: str = Field("output_joint", description="joint of the output shaft")
+    topics: str = Field("joint_states", description="ending of the topics that are read")
+
+
 class Sensors(Section):
     """What is known of the sensors, and of the inertia between them."""
 
@@ -52,6 +68,10 @@ class Sensors(Section):
         gt=0.0,
         le=1e8,
     )
+    encoders: Encoders = Field(Encoders(), description="on the input and the output member")
+    joints: JointNames = Field(JointNames(), description="in recordings")
+    columns: dict[str, str] = Field({}, description="heading of a channel in tables, by channel")
+    scale: dict[str, float] = Field({}, description="factor on readings, by channel")
     learning: int = Field(
         24, ge=8, le=10_000, description="hunting periods from which a baseline is learned"
     )

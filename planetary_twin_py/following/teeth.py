@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 
 from ..scene import Scene, SceneError
 from .baseline import Baseline
+from .bins import NORMAL
 from .compliance import Compliance
 from .estimate import CONFIDENT, Estimate, Event, Status, told, untold
 from .hunting_blocks import EncoderCounters, HuntingBlock, HuntingBlocks
@@ -177,21 +178,22 @@ class TeethFollower:
         own = cell.sd[cell.bank.gear_of]
         products = np.array([one.products for one in self._recent])[::-1].cumsum(axis=0)
         squares = np.array([one.squares for one in self._recent])[::-1].cumsum(axis=0)
-        best, window = -math.inf, 1
+        best, window, noise = -math.inf, 1, 1.0
         for count in WINDOWS:
             if count > len(self._recent):
                 break
             sd = own * math.sqrt(1.0 / count + 1.0 / self.learning)
-            z = float(np.max(products[count - 1] / squares[count - 1] / sd))
-            if z > best:
-                best, window = z, count
+            z = products[count - 1] / squares[count - 1] / sd
+            spread = max(1.0, NORMAL * float(np.median(np.abs(z))))  # few teeth have changed
+            if float(z.max()) / spread > best:
+                best, window, noise = float(z.max()) / spread, count, spread
         if best < ALARM:
             self._forget()
             return
         recent = list(self._recent)[-window:]
         total = np.sum([one.residual for one in recent], axis=0)
         count = np.sum([one.measured for one in recent], axis=0, dtype=float)
-        sd = own * math.sqrt(1.0 / window + 1.0 / self.learning)
+        sd = noise * own * math.sqrt(1.0 / window + 1.0 / self.learning)
         torque = float(np.mean([one.torque for one in recent]))
         found = find_teeth(cell.bank, Residual(total, count, sd))
         self._name(found, cell.bank, block, torque)

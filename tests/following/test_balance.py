@@ -15,7 +15,7 @@ def named(follower):
 
 @pytest.mark.parametrize("kind", DELAYS)
 def test_a_step_of_friction_by_five_percent_is_found(kind):
-    plant, follower = balance_of(
+    _, follower = balance_of(
         kind, LAWS["with bearings"], 90.0, 3, ({"at": 60.0, "friction": 1.05},)
     )
     (event,) = follower.events
@@ -58,14 +58,14 @@ def test_steady_running_tells_neither_drag_nor_zero_nor_gain_nor_inertia():
 
 
 def test_changing_speed_tells_inertia():
-    plant, follower = balance_of("varied", {}, 60.0, 5)
+    _, follower = balance_of("varied", {}, 60.0, 5)
     inertia = named(follower)["inertia"]
     assert inertia.status == "TOLD" and inertia.sd < 0.03 * follower.train.inertia
     assert inertia.low < follower.train.inertia < inertia.high
 
 
 def test_inertia_is_not_told_from_the_noise_of_a_steady_speed():
-    plant, follower = balance_of("reversing", {}, 200.0, 5)
+    _, follower = balance_of("reversing", {}, 200.0, 5)
     inertia = named(follower)["inertia"]
     assert inertia.status == "NOT_TOLD"
     assert inertia.sd > 0.9 * 0.1 * follower.train.inertia
@@ -73,7 +73,6 @@ def test_inertia_is_not_told_from_the_noise_of_a_steady_speed():
 
 def test_the_loss_torque_is_that_of_the_plant():
     plant, follower = balance_of("steady", LAWS["another friction"], 30.0, 2)
-    _, time, columns = played("steady", LAWS["another friction"], 30.0, 2)
     loss = named(follower)["loss_torque"]
     true = friction_level(plant) * 0.967  # [N m], of scene `paper` with load_sharing, 63 N m
     assert loss.low < true < loss.high and loss.sd < 0.2

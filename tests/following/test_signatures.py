@@ -47,7 +47,9 @@ def test_it_is_linear_in_the_loss(found):
 
 def test_it_grows_with_the_torque(found):
     heavy = of_tooth("sun", 0, scene=SCENE.replace(input_torque=1.3 * 63.0))
-    assert np.linalg.norm(heavy) == pytest.approx(1.3 * np.linalg.norm(found.gears["sun"]), rel=0.01)
+    assert np.linalg.norm(heavy) == pytest.approx(
+        1.3 * np.linalg.norm(found.gears["sun"]), rel=0.01
+    )
 
 
 def test_the_bank_scores_all_teeth_as_products_with_their_signatures(found):

@@ -13,7 +13,9 @@ def test_inertia_is_that_of_the_kinetic_energy(name):
     scene = pt.load_scene(name).replace(dynamics="quasi_static")
     run = pt.simulate(scene, 0.01)
     speed = scene.operating_point.input_speed
-    assert followed_train(scene).inertia == pytest.approx(2.0 * run.energy.stored / speed**2, rel=1e-6)
+    assert followed_train(scene).inertia == pytest.approx(
+        2.0 * run.energy.stored / speed**2, rel=1e-6
+    )
 
 
 def test_ratio_and_mesh_cycles_are_those_of_a_run():

@@ -45,7 +45,9 @@ def test_the_error_of_the_model_grows_with_the_torque_as_the_teeth_yield():
         for t in (40.0, 80.0)
     )
     radius = followed_train(scene).lever
-    force = 40.0 / radius / 3.0  # more on each of three sun meshes, and on the ring meshes in series
+    force = (
+        40.0 / radius / 3.0
+    )  # more on each of three sun meshes, and on the ring meshes in series
     stiff, soft = 2e8 * 1.75, 2e8
     assert 2.0 * force / stiff < heavy - light < 2.0 * force / soft
 
@@ -60,11 +62,12 @@ def test_the_model_is_sampled_by_the_angle_of_its_sun():
     twisted = 63.0 / 500.0 / (2.0 * np.pi)  # turns by which the coupling lets the sun lag
     assert len(error) == 200
     assert first == pytest.approx(50 * 30 * (0.1 * 1000 / 60 - twisted), abs=3)
-    assert error == pytest.approx(followed_train(scene).lever * own, abs=1e-7)  # linear between points
+    lever = followed_train(scene).lever
+    assert error == pytest.approx(lever * own, abs=1e-7)  # linear between points
 
 
 def test_where_the_sun_turns_back_cycles_are_negative():
     scene = pt.load_scene("paper").replace(input_speed=-104.72, input_torque=-63.0)
-    first, error = model_error(scene, 4, 50, 0.1, 1e-4)
+    first, _ = model_error(scene, 4, 50, 0.1, 1e-4)
     ahead, _ = model_error(pt.load_scene("paper"), 4, 50, 0.1, 1e-4)
     assert first + 199 == pytest.approx(-ahead, abs=1)

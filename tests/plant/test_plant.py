@@ -49,7 +49,7 @@ def test_readings_balance_with_inertia_while_the_speed_changes():
 
 
 def test_changes_come_at_their_time():
-    plant, time, columns = play(
+    _, time, columns = play(
         {"duty": STILL, "changes": [{"at": 1.0, "friction": 1.2}, {"at": 1.5, "torque_zero": 0.5}]}
     )
     lost = columns["input_torque"] + followed_train(SCENE).ratio * columns["output_torque"]
