@@ -1,4 +1,4 @@
-"""`planetary-twin follow`: tells from readings what has become of a gearbox."""
+"""`planetary-twin follow`: estimates the state of a gearbox from readings."""
 
 from __future__ import annotations
 
@@ -59,7 +59,7 @@ def follow(
         Path | None,
         typer.Option(
             metavar="FILE",
-            help="Write what is told every second to a .csv, .parquet or .npz table.",
+            help="Write the estimates of every second to a .csv, .parquet or .npz table.",
             callback=output_file,
         ),
     ] = None,
@@ -149,19 +149,19 @@ def _show(console: Console, follower: Follower, said: Following) -> None:
     for heading in ("quantity", "estimate", "95 % interval", "unit", "status", "what would tell"):
         table.add_column(heading, justify="left" if heading == "what would tell" else "right")
     for one in said.estimates:
-        shown = one.status in ("TOLD", "STALE")
+        shown = one.status in ("ESTIMATED", "STALE")
         value = f"{one.value:.4g}" if shown else "-"
         span = f"{one.low:.4g} to {one.high:.4g}" if shown else "-"
-        status = {"NOT_TOLD": "NOT IDENTIFIABLE"}.get(one.status, one.status)
+        status = {"NOT_IDENTIFIABLE": "NOT IDENTIFIABLE"}.get(one.status, one.status)
         table.add_row(one.name, value, span, one.unit or "-", status, one.remedy)
     console.print(table)
-    for line in _told(said):
+    for line in _in_words(said):
         console.print(line, highlight=False, markup=False, soft_wrap=True)
     for line in said.remarks:
         remark(f"warning: {line}")
 
 
-def _told(said: Following) -> Iterator[str]:
+def _in_words(said: Following) -> Iterator[str]:
     """Events and teeth, a line each."""
     if not said.events:
         yield "no change found"
@@ -204,7 +204,7 @@ def _figures(said: Following) -> dict[str, Any]:
                 "high": tooth.loss.high,
                 "z": tooth.z,
                 "kinds": tooth.kinds,
-                "alike": tooth.alike,
+                "candidates": tooth.candidates,
             }
             for tooth in said.teeth
         ],

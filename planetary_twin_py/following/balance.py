@@ -33,7 +33,7 @@ from .balance_filter import (
 from .bins import Bin, Bins, Counters
 from .checks import Checks
 from .cusum import Cusum, Step
-from .estimate import CONFIDENT, Estimate, Event, told, untold
+from .estimate import CONFIDENT, Estimate, Event, estimated, not_identifiable
 from .loss_map import loss_map
 from .sensors import Sensors, torque_noise
 from .train import followed_train
@@ -42,7 +42,7 @@ Array = NDArray[np.float64]
 
 KEPT = 36_000  # bins whose torque is kept for the teeth
 PERIOD = 0.1  # [s] of a bin; longer ones let innovations correlate where the duty reverses
-TELLING = 0.5  # of the prior standard deviation, below which a parameter is told
+TELLING = 0.5  # of the prior standard deviation, below which a parameter is estimated
 NOISY = 1.25  # standard deviation of innovations over the expected one, that is remarked upon
 REFUSED = 1.0  # [s] of gated balances that are an event
 UNITS = {"friction_level": "", "drag": "N m", "torque_zero": "N m", "torque_gain": "",
@@ -64,17 +64,17 @@ class _Refusals:
     """Gated balances in a row."""
 
     begin: float = math.nan
-    told: bool = False
+    noted: bool = False
 
     def add(self, time: float, gated: bool) -> float | None:
         """Return the time at which they began, once they have lasted."""
         if not gated:
-            self.begin, self.told = math.nan, False
+            self.begin, self.noted = math.nan, False
             return None
         if math.isnan(self.begin):
             self.begin = time
-        if not self.told and time - self.begin >= REFUSED:
-            self.told = True
+        if not self.noted and time - self.begin >= REFUSED:
+            self.noted = True
             return self.begin
         return None
 
@@ -170,7 +170,7 @@ class BalanceFollower:
         if (step := self._cusum.add(read.time, slow.value, slow.sd)) is not None:
             self._alarm(step)
         elif began is not None:
-            size = untold("loss_torque_step", innovation.sd, "N m", "")
+            size = not_identifiable("loss_torque_step", innovation.sd, "N m", "")
             self.events.append(
                 Event("readings do not fit the gearbox", began, read.time, size, (),
                       f"balance off by {innovation.value:.3g} N m")
@@ -222,7 +222,7 @@ class BalanceFollower:
 
     def _alarm(self, step: Step) -> None:
         sense = math.copysign(1.0, self._operating[0])
-        size = told("loss_torque_step", sense * step.size, step.sd, "N m")
+        size = estimated("loss_torque_step", sense * step.size, step.sd, "N m")
         loss = self._losses(float(self._slow.x[T]), *self._operating).teeth
         share = f", {100.0 * size.value / loss:.3g} % of the scene's tooth friction" if loss else ""
         evidence = f"{size.value:+.3g} +- {CONFIDENT * size.sd:.2g} N m{share}"
@@ -251,7 +251,7 @@ class BalanceFollower:
 
     @property
     def friction_level(self) -> float:
-        """Friction level, told or not."""
+        """Friction level, identifiable or not."""
         return float(self._wide.x[F])
 
     def torque_between(self, begin: float, end: float) -> float:
@@ -270,7 +270,8 @@ class BalanceFollower:
             remedy = "readings of input_torque, output_torque and a speed"
             names = ["input_torque", "loss_torque", *UNITS]
             return tuple(
-                untold(name, math.nan, UNITS.get(name, "N m"), remedy, "LEARNING") for name in names
+                not_identifiable(name, math.nan, UNITS.get(name, "N m"), remedy, "LEARNING")
+                for name in names
             )
         return (*self._of_now(), *(self._parameter(n) for n in (F, D, B, G, J)))
 
@@ -278,16 +279,18 @@ class BalanceFollower:
         wide = self._wide
         sd = math.sqrt(max(float(wide.p[T, T]), 0.0))
         if not sd < self.train.torque:
-            yield untold("input_torque", sd, "N m", "readings of input_torque")
-            yield untold("loss_torque", sd, "N m", "readings of both torques")
+            yield not_identifiable("input_torque", sd, "N m", "readings of input_torque")
+            yield not_identifiable("loss_torque", sd, "N m", "readings of both torques")
             return
-        yield told("input_torque", float(wide.x[T]), sd, "N m")
+        yield estimated("input_torque", float(wide.x[T]), sd, "N m")
         speed, oil = self._operating
         if self.innovation is None or abs(speed) <= STANDSTILL * self.train.speed:
-            yield untold("loss_torque", math.nan, "N m", "both torques while the train turns")
+            yield not_identifiable(
+                "loss_torque", math.nan, "N m", "both torques while the train turns"
+            )
             return
         value, sd = wide.loss_torque(speed, oil)
-        yield told("loss_torque", value, sd, "N m")
+        yield estimated("loss_torque", value, sd, "N m")
 
     def remarks(self) -> Iterator[str]:
         """What makes the estimates less certain, a line each."""
@@ -300,7 +303,7 @@ class BalanceFollower:
         if self._cusum.held:
             yield (
                 f"successive innovations correlate by {self._cusum.correlation:.2f}: steps of the "
-                "loss are not told"
+                "loss are not reported"
             )
         if self.gated:
             yield f"{self.gated} bins are too far off the balance and are not used"
@@ -311,8 +314,8 @@ class BalanceFollower:
         prior = float(wide.prior[1][state - F])
         remedy = self._remedy(state)
         if not sd < TELLING * prior:
-            return untold(name, sd, UNITS[name], remedy)
-        return told(name, float(wide.x[state]), sd, UNITS[name], remedy)
+            return not_identifiable(name, sd, UNITS[name], remedy)
+        return estimated(name, float(wide.x[state]), sd, UNITS[name], remedy)
 
     def _remedy(self, state: int) -> str:
         """What would separate a parameter from that with which it correlates most."""

@@ -49,7 +49,7 @@ GAP = 2.0  # [s] without a bin, after which nothing is known of the torque
 FAR = 10.0  # standard deviation of a torque of which nothing is known, over that of the scene
 FALL = 600.0  # [s] in which the law of friction falls back to its prior by 1/e
 SLOW_FALL = 3600.0  # [s], of friction level, zero, gain, drag and inertia
-CLEAR = 5.0  # standard deviations above which an acceleration tells of the inertia
+CLEAR = 5.0  # standard deviations above which an acceleration is used for the inertia
 
 
 class Measured(NamedTuple):

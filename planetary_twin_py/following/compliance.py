@@ -14,7 +14,7 @@ import numpy as np
 
 FEWEST = 8  # hunting periods
 RECENT = 32  # hunting periods of the present line
-TOLD = 0.05  # relative standard deviation, above which the slope is not told
+LARGEST_SD = 0.05  # relative standard deviation of a slope that is reported
 
 
 class Line(NamedTuple):
@@ -32,9 +32,9 @@ class Line(NamedTuple):
     """Mean torque [N m] and speed [rad/s]."""
 
     @property
-    def told(self) -> bool:
+    def significant(self) -> bool:
         """Whether the torque has varied enough."""
-        return self.sd < TOLD * abs(self.slope)
+        return self.sd < LARGEST_SD * abs(self.slope)
 
     def at(self, torque: float, speed: float) -> tuple[float, float]:
         """Transmission error at an operating point.

@@ -69,7 +69,7 @@ class Cusum:
             sd: its expected standard deviation [N m].
 
         Returns:
-            A step, if one is found now; the sums then begin anew.
+            A step, if one is found now; the sums then start from zero.
         """
         score = max(-CLIP, min(CLIP, value / sd))
         self._correlate(time, score)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Literal, NamedTuple
 
-Status = Literal["TOLD", "NOT_TOLD", "LEARNING", "STALE"]
+Status = Literal["ESTIMATED", "NOT_IDENTIFIABLE", "LEARNING", "STALE"]
 CONFIDENT = 1.96  # standard deviations of a two-sided interval of 95 %
 
 
@@ -15,22 +15,22 @@ class Estimate(NamedTuple):
     name: str
     """Of the quantity."""
     value: float
-    """In SI; NaN unless the status is TOLD."""
+    """In SI; NaN unless the status is ESTIMATED."""
     sd: float
     """Standard deviation, in SI."""
     low: float
-    """Low end of the 95 % interval, in SI; NaN unless the status is TOLD."""
+    """Low end of the 95 % interval, in SI; NaN unless the status is ESTIMATED."""
     high: float
     """High end, likewise."""
     unit: str
     """SI unit; empty for a dimensionless number."""
     status: Status
-    """TOLD; NOT_TOLD: the readings do not determine it; LEARNING; STALE: no readings."""
+    """ESTIMATED; NOT_IDENTIFIABLE from these readings; LEARNING; STALE: no readings any more."""
     remedy: str
     """What would tell it, or tell it better; empty if that is not known."""
 
 
-def told(name: str, value: float, sd: float, unit: str, remedy: str = "") -> Estimate:
+def estimated(name: str, value: float, sd: float, unit: str, remedy: str = "") -> Estimate:
     """An estimate that the readings determine.
 
     Args:
@@ -41,10 +41,12 @@ def told(name: str, value: float, sd: float, unit: str, remedy: str = "") -> Est
         remedy: what would tell it better.
     """
     reach = CONFIDENT * sd
-    return Estimate(name, value, sd, value - reach, value + reach, unit, "TOLD", remedy)
+    return Estimate(name, value, sd, value - reach, value + reach, unit, "ESTIMATED", remedy)
 
 
-def untold(name: str, sd: float, unit: str, remedy: str, status: Status = "NOT_TOLD") -> Estimate:
+def not_identifiable(
+    name: str, sd: float, unit: str, remedy: str, status: Status = "NOT_IDENTIFIABLE"
+) -> Estimate:
     """A quantity that the readings do not determine, or not yet.
 
     Args:
@@ -52,7 +54,7 @@ def untold(name: str, sd: float, unit: str, remedy: str, status: Status = "NOT_T
         sd: standard deviation that is left, in SI.
         unit: SI unit.
         remedy: what would tell it.
-        status: NOT_TOLD, LEARNING or STALE.
+        status: NOT_IDENTIFIABLE, LEARNING or STALE.
     """
     nan = float("nan")
     return Estimate(name, nan, sd, nan, nan, unit, status, remedy)
@@ -65,7 +67,7 @@ class Event:
     what: str
     """In words."""
     since: float
-    """Earliest time at which it may have begun [s]."""
+    """Earliest time at which it may have started [s]."""
     found: float
     """Time of the last reading that was needed [s]."""
     size: Estimate

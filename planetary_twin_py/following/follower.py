@@ -62,7 +62,7 @@ class Following:
     time: float
     """Stamp of the last reading in it [s]; NaN before the first."""
     estimates: tuple[Estimate, ...]
-    """Quantities, each told with its interval or not told."""
+    """Quantities, each with its interval or NOT_IDENTIFIABLE."""
     teeth: tuple[ToothState, ...]
     """Teeth that have changed."""
     events: tuple[Event, ...]
@@ -79,7 +79,7 @@ class Following:
 
 @dataclass
 class Follower:
-    """Estimates what can be told of a gearbox from its readings.
+    """Estimates what the readings of a gearbox determine.
 
     The same readings in the same order give the same estimates to the last bit, however they are
     cut into blocks: nothing depends on the clock of the computer.
@@ -163,7 +163,8 @@ class Follower:
             counters["hunting_periods"] = teeth.blocks
         if now is not None and not now - balance.time <= TIMEOUT:
             estimates = tuple(
-                one._replace(status="STALE") if one.status == "TOLD" else one for one in estimates
+                one._replace(status="STALE") if one.status == "ESTIMATED" else one
+                for one in estimates
             )
         return Following(
             balance.time, estimates, () if teeth is None else teeth.teeth,
@@ -188,7 +189,7 @@ class Follower:
         counters = self._teeth.counters
         if counters.segments > 1:
             yield (
-                f"encoders: the count of turns began anew {counters.segments - 1} times; teeth are "
+                f"encoders: the count of turns restarted {counters.segments - 1} times; teeth are "
                 "numbered from each new start, and baselines are learned again"
             )
         yield from self._teeth.remarks()

@@ -27,7 +27,7 @@ PRESENT = 0.95  # share of the usual bins within the running mean, below which t
 COMPLETE = 0.7  # share of the bins of a block, below which it is dropped
 WHOLE = 0.95  # share of its cycles, below which it has no mean
 KEPT = 0.9  # of the common waveform from block to block
-CHANGED = 0.1  # relative change of that waveform, from which on it is learned anew
+CHANGED = 0.1  # relative change of that waveform, from which on it is learned again
 SLIP = 0.5  # tooth pitches by which the error may jump across a hole
 DELAY = 0.2  # [s] by which packets may be out of order
 
@@ -67,7 +67,7 @@ class EncoderCounters:
         self.dropped_blocks = 0
         """Hunting periods with too many holes, or in which the train reversed."""
         self.segments = 1
-        """Times that the count of turns began anew."""
+        """Times that the count of turns restarted."""
 
 
 class HuntingBlocks:
@@ -261,7 +261,7 @@ class HuntingBlocks:
             np.bincount(fine, found.error - slow, minlength=FINE),
             np.bincount(fine, minlength=FINE).astype(float),
         ])  # fmt: skip
-        if self._sums is not None and _alike(own, self._sums):
+        if self._sums is not None and _agree(own, self._sums):
             own += KEPT * self._sums
         self._sums = own
         places = np.flatnonzero(own[1])
@@ -269,7 +269,7 @@ class HuntingBlocks:
         return np.asarray(waveform - waveform.mean())
 
 
-def _alike(own: Array, before: Array) -> bool:
+def _agree(own: Array, before: Array) -> bool:
     """Whether two waveforms, as sums and counts by fine bin, agree where both are known."""
     both = (own[1] > 0.0) & (before[1] > 0.0)
     one, other = (sums[0, both] / sums[1, both] for sums in (own, before))

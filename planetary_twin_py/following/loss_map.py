@@ -20,7 +20,7 @@ Array = NDArray[np.float64]
 TORQUES = 0.02, 0.08, 0.25, 0.5, 1.0, 1.6  # of the torque of the scene
 SPEEDS = 0.03, 0.12, 0.35, 0.7, 1.0, 1.5  # of the speed of the scene
 HEATING = -20.0, 0.0, 20.0  # [K] from the temperature of the scene
-CYCLES = 2  # mesh cycles of a run; all are alike
+CYCLES = 2  # mesh cycles of a run; all are equal
 TOLERANCE = 1e-4
 COLDEST, HOTTEST = 233.15, 433.15  # [K] of a scene
 
@@ -152,7 +152,7 @@ def _map_of(text: str) -> LossMap:
 
 
 def _plain(scene: Scene) -> Scene:
-    """The scene as a steady quasi-static train whose mesh cycles are all alike."""
+    """The scene as a steady quasi-static train whose mesh cycles are all equal."""
     return scene.replace(
         **{
             "dynamics": "quasi_static",

@@ -19,6 +19,7 @@ JOINTS = ("sensor_msgs/msg/JointState", "control_msgs/msg/DynamicJointState")
 TEMPERATURE = "sensor_msgs/msg/Temperature"
 ZERO_CELSIUS = 273.15  # [K]
 _INTERFACES = {"velocity": "speed", "effort": "torque"}
+_QUANTITIES = {f"{side}_{name}" for side in ("input", "output") for name in _INTERFACES.values()}
 
 
 def read_recording(path: Path, joints: JointNames) -> list[Readings]:
@@ -44,10 +45,10 @@ def read_recording(path: Path, joints: JointNames) -> list[Readings]:
     rows: list[tuple[str, float, float, dict[str, float]]] = []
     for file in files:
         rows += _rows(file, joints)
-    if not rows:
+    if not any(name in values for *_, values in rows for name in _QUANTITIES):
         raise ValueError(
-            f"{path}: no JointState, DynamicJointState or Temperature with joints "
-            f"{joints.input!r} and {joints.output!r}"
+            f"{path}: no JointState or DynamicJointState with the joints {joints.input!r} and "
+            f"{joints.output!r} on a topic that ends in {joints.topics!r}"
         )
     return list(_in_rows(rows))
 

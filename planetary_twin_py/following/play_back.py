@@ -17,7 +17,7 @@ def play_back(
     """Feed a follower second by second.
 
     Args:
-        follower: that has not heard anything.
+        follower: without any readings so far.
         readings: in the order of their arrival.
         samples: of the encoders; None: there are none.
 

@@ -13,9 +13,8 @@ from numpy.typing import NDArray
 
 from ..scene import Scene, SceneError
 from .baseline import Baseline
-from .bins import NORMAL
 from .compliance import Compliance
-from .estimate import CONFIDENT, Estimate, Event, Status, told, untold
+from .estimate import CONFIDENT, Estimate, Event, Status, estimated, not_identifiable
 from .hunting_blocks import EncoderCounters, HuntingBlock, HuntingBlocks
 from .signatures import signatures
 from .tooth_kind import ToothKind
@@ -28,7 +27,7 @@ Array = NDArray[np.float64]
 
 WINDOWS = 1, 4, 16, 64  # blocks that are judged together
 UNCERTAIN = 0.15  # relative standard deviation of a size: runouts move load between teeth
-UNSCALED = 0.35  # likewise while the compliance is not told
+UNSCALED = 0.35  # likewise without a compliance, or at a load learned with a change
 SPEED_STEP = 0.3  # relative distance of the speeds for which signatures are computed
 
 
@@ -44,8 +43,8 @@ class ToothState(NamedTuple):
     z: float
     """Standard deviations that it stands out with."""
     kinds: tuple[str, ...]
-    """What it may be; one if the load has told."""
-    alike: tuple[str, ...]
+    """What it may be; one if the load has decided."""
+    candidates: tuple[str, ...]
     """Teeth that explain the readings as well, itself included."""
 
 
@@ -142,12 +141,12 @@ class TeethFollower:
             self._recent.clear()
         if not cell.learned:
             self._follow_known(block, torque, place)
-            cell.learn(block)
+            cell.learn(block, torque)
             if cell.learned:
                 self._take_off_known(cell, place)
             return
         assert cell.bank is not None  # set with the cell
-        residual, measured = cell.residual(block)
+        residual, measured = cell.residual(block, torque)
         products, squares = cell.bank.score(residual, measured)
         self._recent.append(_Judged(residual, measured, products, squares, torque))
         self._note_amounts(residual, measured, (cell, place), torque)
@@ -178,43 +177,53 @@ class TeethFollower:
         own = cell.sd[cell.bank.gear_of]
         products = np.array([one.products for one in self._recent])[::-1].cumsum(axis=0)
         squares = np.array([one.squares for one in self._recent])[::-1].cumsum(axis=0)
-        best, window, noise = -math.inf, 1, 1.0
+        torques = np.array([one.torque for one in self._recent])
+        best, window = -math.inf, 1
         for count in WINDOWS:
             if count > len(self._recent):
                 break
-            sd = own * math.sqrt(1.0 / count + 1.0 / self.learning)
-            z = products[count - 1] / squares[count - 1] / sd
-            spread = max(1.0, NORMAL * float(np.median(np.abs(z))))  # few teeth have changed
-            if float(z.max()) / spread > best:
-                best, window, noise = float(z.max()) / spread, count, spread
+            sd = own * cell.noise(torques[-count:])
+            z = float(np.max(products[count - 1] / squares[count - 1] / sd))
+            if z > best:
+                best, window = z, count
         if best < ALARM:
             self._forget()
             return
         recent = list(self._recent)[-window:]
         total = np.sum([one.residual for one in recent], axis=0)
-        count = np.sum([one.measured for one in recent], axis=0, dtype=float)
-        sd = noise * own * math.sqrt(1.0 / window + 1.0 / self.learning)
-        torque = float(np.mean([one.torque for one in recent]))
-        found = find_teeth(cell.bank, Residual(total, count, sd))
-        self._name(found, cell.bank, block, torque)
+        blocks = np.sum([one.measured for one in recent], axis=0, dtype=float)
+        sd = own * cell.noise(torques[-window:])
+        found = find_teeth(cell.bank, Residual(total, blocks, sd))
+        if found:
+            self._name(found, cell, block, float(np.mean(torques[-window:])))
+        else:
+            self._forget()
 
-    def _name(self, found: list[Found], bank: Bank, block: HuntingBlock, torque: float) -> None:
+    def _name(self, found: list[Found], cell: Baseline, block: HuntingBlock, torque: float) -> None:
         """Take the teeth of a search as the state; a new one is an event."""
+        bank = cell.bank
+        assert bank is not None  # set with the cell
         scale, uncertain = self._scale(bank, torque)
+        if cell.taken_off:
+            uncertain = UNSCALED
         states = []
         before = dict(self._amounts)
         self._amounts = {}
         for one in found:
-            named = next((t for t in before if t in one.alike), one.tooth)
+            named = next((t for t in before if t in one.candidates), one.tooth)
             tooth = bank.teeth[named]
             self._amounts[named] = one.amount
             loss = one.amount / scale
             sd = math.hypot(one.sd / scale, uncertain * loss)
             kind = self._kinds.setdefault(named, ToothKind(self.learning))
             state = ToothState(
-                tooth.gear, tooth.number, told("stiffness_loss", loss, sd, ""), one.z, kind.kinds,
-                tuple(str(bank.teeth[t]) for t in (named, *(a for a in one.alike if a != named))),
-            )  # fmt: skip
+                tooth.gear,
+                tooth.number,
+                estimated("stiffness_loss", loss, sd, ""),
+                one.z,
+                kind.kinds,
+                _names(bank, (named, *(other for other in one.candidates if other != named))),
+            )
             states.append(state)
             self._tell(named, state, block)
         self.teeth = tuple(states)
@@ -222,7 +231,9 @@ class TeethFollower:
     def _tell(self, tooth: int, state: ToothState, block: HuntingBlock) -> None:
         size = state.loss
         reach = CONFIDENT * size.sd
-        others = f"; as likely: {', '.join(state.alike[1:])}" if len(state.alike) > 1 else ""
+        others = (
+            f"; as likely: {', '.join(state.candidates[1:])}" if len(state.candidates) > 1 else ""
+        )
         evidence = f"z = {state.z:.1f}, loss {100 * size.value:.2g} +- {100 * reach:.2g} %{others}"
         what = f"{state.gear} tooth {state.tooth} changed"
         if tooth not in self._place:
@@ -243,7 +254,7 @@ class TeethFollower:
         """Signatures of unit loss per that of the bank, and the uncertainty of a size."""
         line = self.compliance.present
         grown = torque / bank.torque
-        if line is None or not line.told:
+        if line is None or not line.significant:
             return grown, UNSCALED
         return grown * line.slope / bank.compliance, UNCERTAIN
 
@@ -257,7 +268,7 @@ class TeethFollower:
         if not near or not self._amounts:
             return
         cell = min(near, key=lambda one: abs(one.torque - torque))
-        residual, measured = cell.residual(block)
+        residual, measured = cell.residual(block, torque)
         self._note_amounts(residual, measured, (cell, place), torque)
 
     def _note_amounts(
@@ -296,6 +307,7 @@ class TeethFollower:
         assert cell.bank is not None and cell.mean is not None  # it has been learned
         for tooth, kind in self._kinds.items():
             if tooth in self._amounts:
+                cell.taken_off = True
                 cell.mean -= kind.amount(place) * cell.bank.deviation(tooth, len(cell.mean))
 
     def remarks(self) -> Iterator[str]:
@@ -317,26 +329,35 @@ class TeethFollower:
         if line is None:
             wait = "hunting periods with the torque measured"
             return tuple(
-                untold(name, math.nan, unit, wait, "LEARNING")
+                not_identifiable(name, math.nan, unit, wait, "LEARNING")
                 for name, unit in (
                     ("compliance", "rad/(N m)"), ("compliance_change", ""), ("play_change", "m"),
                 )
             )  # fmt: skip
         slope, sd = abs(line.slope) * per_input, line.sd * per_input
         found = [
-            told("compliance", slope, sd, "rad/(N m)", remedy)
-            if line.told
-            else untold("compliance", sd, "rad/(N m)", remedy)
+            estimated("compliance", slope, sd, "rad/(N m)", remedy)
+            if line.significant
+            else not_identifiable("compliance", sd, "rad/(N m)", remedy)
         ]
-        if both is None or not (both[0].told and both[1].told):
-            status: Status = "LEARNING" if both is None else "NOT_TOLD"
+        if both is None or not (both[0].significant and both[1].significant):
+            status: Status = "LEARNING" if both is None else "NOT_IDENTIFIABLE"
             names = (("compliance_change", ""), ("play_change", "m"))
-            return (*found, *(untold(name, math.nan, unit, remedy, status) for name, unit in names))
+            return (
+                *found,
+                *(not_identifiable(name, math.nan, unit, remedy, status) for name, unit in names),
+            )
         first, last = both
         change = last.slope / first.slope - 1.0
         width = math.hypot(last.sd, first.sd) / abs(first.slope)
-        found.append(told("compliance_change", change, width, ""))
+        found.append(estimated("compliance_change", change, width, ""))
         now, here = last.at(*last.centre)
         then, there = first.at(*last.centre)
-        found.append(told("play_change", 2.0 * (now - then), 2.0 * math.hypot(here, there), "m"))
+        found.append(
+            estimated("play_change", 2.0 * (now - then), 2.0 * math.hypot(here, there), "m")
+        )
         return tuple(found)
+
+
+def _names(bank: Bank, teeth: tuple[int, ...]) -> tuple[str, ...]:
+    return tuple(str(bank.teeth[tooth]) for tooth in teeth)

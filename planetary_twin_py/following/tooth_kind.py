@@ -1,6 +1,6 @@
 """Tells a crack from wear of the same tooth, by the load.
 
-At one load their signatures are alike. That of a crack grows with the torque, that of wear does
+At one load their signatures are similar. That of a crack grows with the torque, that of wear does
 not: mean amounts at different loads are compared with both courses.
 """
 

@@ -11,6 +11,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from .bins import NORMAL
 from .tooth_scores import Bank
 
 Array = NDArray[np.float64]
@@ -20,7 +21,7 @@ FURTHER = 5.0  # of a further one
 SHARE = 0.3  # of the first one, below which a further one may be its misfit: the signatures of wear
 # and of a crack correlate by 0.97, so a quarter of the one is left over by the other
 KEPT = 3.0  # of any in the joint fit
-ALIKE = 3.0  # units of log-likelihood within which teeth cannot be told apart
+SIMILAR = 3.0  # units of log-likelihood within which teeth cannot be distinguished
 MOST = 6  # teeth
 
 
@@ -47,7 +48,7 @@ class Found(NamedTuple):
     z: float
     """Standard deviations that it alone stands out with, the other teeth that are found taken
     off."""
-    alike: tuple[int, ...]
+    candidates: tuple[int, ...]
     """Teeth that explain it as well, itself included, the best first."""
 
 
@@ -61,6 +62,7 @@ def find_teeth(bank: Bank, residual: Residual) -> list[Found]:
     Returns:
         The teeth, the most certain one first; empty if none stands out.
     """
+    residual = _with_noise(bank, residual)
     active: list[int] = []
     left, limit = residual.total, ALARM
     while len(active) < MOST:
@@ -84,6 +86,18 @@ def find_teeth(bank: Bank, residual: Residual) -> list[Found]:
     return sorted(_named(bank, residual, active), key=lambda found: -found.z)
 
 
+def _with_noise(bank: Bank, residual: Residual) -> Residual:
+    """The residual with the scatter that its teeth have once the best one is taken off.
+
+    Few teeth change, so the median of all gives the noise: blocks may be noisier than those of the
+    baseline.
+    """
+    best = int(np.argmax(_z(bank, residual.total, residual)))
+    left = _left(bank, residual, [best], _fit(bank, residual, [best])[0])
+    spread = NORMAL * float(np.median(np.abs(_z(bank, left, residual))))
+    return residual._replace(sd=residual.sd * max(1.0, spread))
+
+
 def _named(bank: Bank, residual: Residual, active: list[int]) -> list[Found]:
     """Each tooth with those like it; of these the best one replaces it."""
     cycles = len(residual.total)
@@ -96,8 +110,8 @@ def _named(bank: Bank, residual: Residual, active: list[int]) -> list[Found]:
         z[[other for other in active if other != tooth]] = -np.inf
         order = np.argsort(-z, kind="stable")
         gains = 0.5 * np.maximum(z[order], 0.0) ** 2
-        alike = tuple(int(t) for t in order[gains >= gains[0] - ALIKE])
-        found.append(Found(alike[0], float(amount), float(sd), float(z[alike[0]]), alike))
+        similar = tuple(int(t) for t in order[gains >= gains[0] - SIMILAR])
+        found.append(Found(similar[0], float(amount), float(sd), float(z[similar[0]]), similar))
     return found
 
 

@@ -83,7 +83,7 @@ class SensorErrors(Section):
 
 
 class Hidden(Section):
-    """Everything that a follower is not told."""
+    """Everything that a follower does not know."""
 
     scene: dict[str, Any] = Field(
         {}, description="fields in which the plant differs from the scene, by dotted name"

@@ -22,8 +22,8 @@ class Plant:
     """A gearbox that plays a duty and changes on the way.
 
     Args:
-        scene: that a follower is told.
-        hidden: what it is not told.
+        scene: that a follower knows.
+        hidden: what it does not know.
         duration: of the play [s].
     """
 

@@ -75,8 +75,8 @@ def friction_level(plant):
     scene = paper()
     point = scene.operating_point
     at = point.input_torque, point.input_speed, point.oil_temperature
-    true, told = loss_map(plant.true_scene)(*at), loss_map(scene)(*at)
-    return (true.teeth + true.rest - told.rest) / told.teeth
+    true, nominal = loss_map(plant.true_scene)(*at), loss_map(scene)(*at)
+    return (true.teeth + true.rest - nominal.rest) / nominal.teeth
 
 
 def toothed(laws, changes, duration, seed=0, encoders=None, wander=0.02):

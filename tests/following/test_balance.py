@@ -35,7 +35,7 @@ def test_steady_running_does_not_tell_the_cause_of_a_step():
     assert set(follower.events[0].causes) == {"friction", "drag", "zero of a torque sensor"}
 
 
-def test_a_moved_zero_is_told_from_friction_where_the_torque_reverses():
+def test_a_moved_zero_is_distinguished_from_friction_where_the_torque_reverses():
     _, follower = balance_of("reversing", {}, 90.0, 1, ({"at": 40.0, "torque_zero": 0.3},))
     assert "friction" not in follower.events[0].causes
 
@@ -44,7 +44,7 @@ def test_a_moved_zero_is_told_from_friction_where_the_torque_reverses():
 def test_reversing_duty_tells_friction_to_some_percent(law):
     plant, follower = balance_of("reversing", LAWS[law], 60.0, 5)
     friction = named(follower)["friction_level"]
-    assert friction.status == "TOLD" and friction.sd < 0.04
+    assert friction.status == "ESTIMATED" and friction.sd < 0.04
     assert friction.low < friction_level(plant) < friction.high
 
 
@@ -52,7 +52,7 @@ def test_steady_running_tells_neither_drag_nor_zero_nor_gain_nor_inertia():
     _, follower = balance_of("steady", {}, 60.0, 5)
     found = named(follower)
     for name in ("drag", "torque_zero", "torque_gain", "inertia"):
-        assert found[name].status == "NOT_TOLD" and np.isnan(found[name].value)
+        assert found[name].status == "NOT_IDENTIFIABLE" and np.isnan(found[name].value)
         assert found[name].remedy.startswith("a ")
     assert "reversal" in found["drag"].remedy and "speed" in found["inertia"].remedy
 
@@ -60,14 +60,14 @@ def test_steady_running_tells_neither_drag_nor_zero_nor_gain_nor_inertia():
 def test_changing_speed_tells_inertia():
     _, follower = balance_of("varied", {}, 60.0, 5)
     inertia = named(follower)["inertia"]
-    assert inertia.status == "TOLD" and inertia.sd < 0.03 * follower.train.inertia
+    assert inertia.status == "ESTIMATED" and inertia.sd < 0.03 * follower.train.inertia
     assert inertia.low < follower.train.inertia < inertia.high
 
 
-def test_inertia_is_not_told_from_the_noise_of_a_steady_speed():
+def test_inertia_is_not_distinguished_from_the_noise_of_a_steady_speed():
     _, follower = balance_of("reversing", {}, 200.0, 5)
     inertia = named(follower)["inertia"]
-    assert inertia.status == "NOT_TOLD"
+    assert inertia.status == "NOT_IDENTIFIABLE"
     assert inertia.sd > 0.9 * 0.1 * follower.train.inertia
 
 
@@ -107,7 +107,7 @@ def test_wild_readings_and_gaps_do_no_harm():
 @pytest.mark.exhaustive
 @pytest.mark.parametrize("kind", DELAYS)
 def test_stated_intervals_hold_the_truth_with_other_laws(kind):
-    inside, told = {}, {}
+    inside, found = {}, {}
     for seed in range(24):
         law = LAWS[[*LAWS][seed % 4]]
         plant, follower = balance_of(kind, law, 45.0, 100 + seed)
@@ -120,11 +120,11 @@ def test_stated_intervals_hold_the_truth_with_other_laws(kind):
         )
         for name, value in truth.items():
             one = named(follower)[name]
-            if one.status == "TOLD":
-                told[name] = told.get(name, 0) + 1
+            if one.status == "ESTIMATED":
+                found[name] = found.get(name, 0) + 1
                 inside[name] = inside.get(name, 0) + (one.low < value < one.high)
-    assert told["friction_level"] == 24
-    for name, count in told.items():
+    assert found["friction_level"] == 24
+    for name, count in found.items():
         assert inside[name] >= 0.9 * count - 1.0, (name, inside[name], count)
 
 

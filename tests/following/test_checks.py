@@ -46,7 +46,7 @@ def test_the_remedy_mends_it(readings, what):
     name, factor = said.removeprefix("scale ").split(" by ")
     mended = Follower(paper(), scale={name: float(factor)})
     mended.add(Readings(time, wrong))
-    assert mended.estimate()["input_torque"].status == "TOLD"
+    assert mended.estimate()["input_torque"].status == "ESTIMATED"
 
 
 def test_a_recording_shorter_than_the_check_is_checked_at_its_end(readings):

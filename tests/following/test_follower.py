@@ -59,7 +59,7 @@ def test_estimates_are_those_of_the_last_reading_and_become_stale():
     follower.add(Readings(time, columns))
     found = follower.estimate()
     assert 10.0 - 0.35 < found.time <= 10.0
-    assert follower.estimate(now=10.5)["input_torque"].status == "TOLD"
+    assert follower.estimate(now=10.5)["input_torque"].status == "ESTIMATED"
     assert follower.estimate(now=13.0)["input_torque"].status == "STALE"
 
 

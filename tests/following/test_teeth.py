@@ -27,7 +27,7 @@ def test_its_size_is_stated_with_an_interval_that_holds_it(cracked):
     (tooth,) = cracked[1].teeth
     assert tooth.loss.low < 0.01 < tooth.loss.high
     assert tooth.loss.value == pytest.approx(0.01, rel=0.1)
-    assert tooth.alike == ("sun tooth 7",)
+    assert tooth.candidates == ("sun tooth 7",)
 
 
 def test_a_change_of_load_tells_that_it_is_a_crack(cracked):
@@ -39,7 +39,7 @@ def test_the_compliance_is_that_of_the_model(cracked):
     found = {one.name: one for one in follower.estimates()}["compliance"]
     point = plant.scene.operating_point
     model = signatures(plant.scene, point.input_torque, point.input_speed).compliance
-    assert found.status == "TOLD"
+    assert found.status == "ESTIMATED"
     assert found.value == pytest.approx(model / follower.train.lever, rel=0.02)
 
 
@@ -50,7 +50,7 @@ def test_a_change_of_load_tells_wear():
     assert event.what == "sun tooth 7 changed" and event.causes == ("wear",)
 
 
-def test_two_teeth_are_told_apart():
+def test_two_teeth_are_distinguished():
     faults = [crack("sun", 20, 0.02), crack("ring", 5, 0.03)]
     _, follower = toothed({}, ({"at": LEARNED, "faults": faults},), 28.0)
     found = {(one.gear, one.tooth): one.loss for one in follower.teeth}
@@ -65,7 +65,7 @@ def test_without_a_learned_baseline_nothing_is_judged():
     assert any("of 24 hunting periods" in line for line in follower.remarks())
 
 
-def test_at_one_load_crack_and_wear_are_not_told_apart():
+def test_at_one_load_crack_and_wear_are_not_distinguished():
     kind = ToothKind(24)
     for _ in range(30):
         kind.add(0, 63.0, 0.01, 7e-4)
@@ -86,7 +86,7 @@ def test_teeth_of_all_gears_are_named_with_other_laws(law):
         assert len(follower.events) == 1, (gear, number)
         name = f"{gear}_{more['planet']}" if more else gear
         (tooth,) = follower.teeth
-        assert f"{name} tooth {number}" in tooth.alike
+        assert f"{name} tooth {number}" in tooth.candidates
         assert follower.events[0].found < LEARNED + limit[gear]
         inside.append(tooth.loss.low < 0.01 < tooth.loss.high)
     assert all(inside)
