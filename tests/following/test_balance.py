@@ -108,7 +108,7 @@ def test_wild_readings_and_gaps_do_no_harm():
 @pytest.mark.parametrize("kind", DELAYS)
 def test_stated_intervals_hold_the_truth_with_other_laws(kind):
     inside, found = {}, {}
-    for seed in range(24):
+    for seed in range(16):
         law = LAWS[[*LAWS][seed % 4]]
         plant, follower = balance_of(kind, law, 45.0, 100 + seed)
         assert not follower.events
@@ -123,13 +123,13 @@ def test_stated_intervals_hold_the_truth_with_other_laws(kind):
             if one.status == "ESTIMATED":
                 found[name] = found.get(name, 0) + 1
                 inside[name] = inside.get(name, 0) + (one.low < value < one.high)
-    assert found["friction_level"] == 24
+    assert found["friction_level"] == 16
     for name, count in found.items():
         assert inside[name] >= 0.9 * count - 1.0, (name, inside[name], count)
 
 
 @pytest.mark.exhaustive
-def test_no_false_alarm_in_an_hour_of_each_duty():
+def test_no_false_alarm_in_ten_minutes_of_each_duty():
     for number, kind in enumerate(DELAYS):
-        _, follower = balance_of(kind, LAWS["with bearings"], 1200.0, 40 + number)
+        _, follower = balance_of(kind, LAWS["with bearings"], 600.0, 40 + number)
         assert not follower.events
