@@ -75,8 +75,14 @@ class Counters:
 class _Pending:
     """Readings of bins that are open."""
 
-    time: Array = field(default_factory=lambda: np.empty(0))
-    value: Array = field(default_factory=lambda: np.empty(0))
+    parts: list[tuple[Array, Array]] = field(default_factory=list)
+
+    def join(self) -> tuple[Array, Array]:
+        """Times and values, as one piece."""
+        if not self.parts:
+            return np.empty(0), np.empty(0)
+        time, value = (np.concatenate(pieces) for pieces in zip(*self.parts, strict=True))
+        return time, value
 
 
 class Bins:
@@ -165,9 +171,9 @@ class Bins:
             there = np.isfinite(values)
             self.counters.missing += int(np.sum(~there))
             self.counters.late += int(np.sum(there & ~in_time))
-            kept, pending = there & in_time, self._pending[name]
-            pending.time = np.concatenate([pending.time, time[kept]])
-            pending.value = np.concatenate([pending.value, values[kept]])
+            kept = there & in_time
+            if kept.any():
+                self._pending[name].parts.append((time[kept], values[kept]))
 
     def _number(self, time: float) -> int:
         return int(np.floor(time / self.length + 1e-9))
@@ -178,10 +184,11 @@ class Bins:
             return
         means: dict[int, dict[str, Mean]] = {}
         for name, pending in self._pending.items():
-            number = np.floor(pending.time / self.length + 1e-9).astype(np.int64)
+            times, values = pending.join()
+            number = np.floor(times / self.length + 1e-9).astype(np.int64)
             done = number < until
-            order = np.argsort(pending.time[done], kind="stable")
-            time, value = pending.time[done][order], pending.value[done][order]
+            order = np.argsort(times[done], kind="stable")
+            time, value = times[done][order], values[done][order]
             own = number[done][order]
             if len(time):
                 cuts = np.flatnonzero(np.diff(own)) + 1
@@ -189,7 +196,7 @@ class Bins:
                 for k, (at, read) in zip(own[np.r_[0, cuts]], parts, strict=True):
                     middle = (int(k) + 0.5) * self.length
                     means.setdefault(int(k), {})[name] = self._mean(name, middle, at, read)
-            pending.time, pending.value = pending.time[~done], pending.value[~done]
+            pending.parts = [(times[~done], values[~done])]
         self._closed = until
         for k in sorted(means):
             yield Bin(k, means[k])

@@ -30,6 +30,7 @@ KEPT = 0.9  # of the common waveform from block to block
 CHANGED = 0.1  # relative change of that waveform, from which on it is learned again
 SLIP = 0.5  # tooth pitches by which the error may jump across a hole
 DELAY = 0.2  # [s] by which packets may be out of order
+BATCH = 0.05  # [s] of samples that are used at once; it changes nothing but the cost
 
 
 class HuntingBlock(NamedTuple):
@@ -114,7 +115,8 @@ class HuntingBlocks:
         if len(sample):
             self._waiting.append((sample[~late], counts[~late]))
             self._latest = int(latest[-1])
-        yield from self._release(self._latest - delay)
+        if self._latest - delay >= self._released + round(BATCH / self.period):
+            yield from self._release(self._latest - delay)
 
     def finish(self) -> Iterator[HuntingBlock]:
         """Use what is still waiting, at the end of a recording.
