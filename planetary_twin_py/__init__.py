@@ -33,6 +33,17 @@ if TYPE_CHECKING:
     from .batch import Outcome, simulate_many
     from .commands import Commands
     from .dynamics_choice import DynamicsChoice, choose_dynamics
+    from .following.checks import InputError
+    from .following.estimate import Estimate, Event
+    from .following.follower import (
+        EncoderFormat,
+        EncoderSamples,
+        Follower,
+        Following,
+        Readings,
+    )
+    from .following.sensors import Sensors
+    from .following.teeth import ToothState
     from .ledger_check import LedgerWarning
     from .modal.modes import NaturalModes
     from .modal.natural import natural_modes
@@ -71,6 +82,13 @@ _EXPORTS = {
     "dynamics_choice": ("DynamicsChoice", "choose_dynamics"),
     "commands": ("Commands",),
     "batch": ("Outcome", "simulate_many"),
+    "following.checks": ("InputError",),
+    "following.estimate": ("Estimate", "Event"),
+    "following.follower": (
+        "EncoderFormat", "EncoderSamples", "Follower", "Following", "Readings",
+    ),
+    "following.sensors": ("Sensors",),
+    "following.teeth": ("ToothState",),
     "ledger_check": ("LedgerWarning",),
     "modal.modes": ("NaturalModes",),
     "modal.natural": ("natural_modes",),
@@ -98,7 +116,14 @@ __all__ = [
     "Change",
     "Commands",
     "DynamicsChoice",
+    "EncoderFormat",
+    "EncoderSamples",
     "Energy",
+    "Estimate",
+    "Event",
+    "Follower",
+    "Following",
+    "InputError",
     "LedgerWarning",
     "Line",
     "LoadSharing",
@@ -109,12 +134,15 @@ __all__ = [
     "Outcome",
     "PortStates",
     "PowerDensity",
+    "Readings",
     "Result",
     "RunawayError",
     "Scene",
     "SceneError",
+    "Sensors",
     "Spectrum",
     "Stats",
+    "ToothState",
     "Tunable",
     "Twin",
     "Twins",

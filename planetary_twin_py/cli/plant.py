@@ -1,0 +1,84 @@
+"""`planetary-twin plant`: plays a gearbox with hidden changes and writes what sensors measure."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from ..terminal.arguments import SceneArgument, SetOption
+from ..terminal.console import make_console
+from ..terminal.messages import fail, need
+from ..terminal.output_files import output_file
+from ..terminal.settings import changed_scene, settings
+
+if TYPE_CHECKING:
+    from ..plant.hidden import Hidden
+    from ..scene import Scene
+
+
+def plant(
+    scene: SceneArgument,
+    out: Annotated[
+        Path,
+        typer.Option(
+            metavar="FILE",
+            help="Readings of torque and speed, a .csv, .parquet or .npz table.",
+            callback=output_file,
+        ),
+    ],
+    hidden: Annotated[
+        Path | None,
+        typer.Option(
+            metavar="FILE.yaml",
+            help="Duty, changes, sensors, and fields in which the plant differs from SCENE.",
+        ),
+    ] = None,
+    encoders: Annotated[
+        Path | None,
+        typer.Option(
+            metavar="FILE", help="Samples of both encoders, a table.", callback=output_file
+        ),
+    ] = None,
+    duration: Annotated[float, typer.Option(help="Played time [s].")] = 60.0,
+    set_: SetOption = None,
+) -> None:
+    """Play the gearbox of SCENE with what is hidden, and write what its sensors measure.
+
+    The tables are for `follow`: they have noise, errors, losses and changes as --hidden says.
+    Sensors are perfect, and nothing changes, unless it says so.
+
+    Example: planetary-twin plant paper --hidden crack.yaml --out readings.csv
+    """
+    need("analysis", "pyarrow")
+    from ..plant.hidden import Hidden, read_hidden
+
+    try:
+        loaded = changed_scene(scene, settings(set_ or []))
+        truth = read_hidden(hidden) if hidden is not None else Hidden()
+        if not 0.0 < duration <= 1e6:
+            raise ValueError(f"--duration = {duration!r}: must be above 0 and at most 1e6 s")
+        if encoders is not None and truth.sensors.encoders.rate == 0.0:
+            raise ValueError("--encoders: requires sensors.encoders.rate in --hidden")
+        with make_console().status("playing"):
+            lines = list(_write(loaded, truth, duration, (out, encoders)))
+    except (ValueError, ArithmeticError) as error:
+        fail(error)
+    except OSError as error:
+        fail(f"{error.filename}: {error.strerror}")
+    for line in lines:
+        make_console().print(line, highlight=False, markup=False, soft_wrap=True)
+
+
+def _write(
+    scene: Scene, truth: Hidden, duration: float, files: tuple[Path, Path | None]
+) -> list[str]:
+    from ..plant.readings import Plant
+    from ..plant.tables import write_encoders, write_readings
+
+    played = Plant(scene, truth, duration)
+    lines = [f"{files[0]}: {write_readings(played, files[0])} readings"]
+    if files[1] is not None:
+        lines.append(f"{files[1]}: {write_encoders(played, files[1])} samples")
+    return lines

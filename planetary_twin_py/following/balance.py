@@ -1,0 +1,333 @@
+"""Follows the loss of a gearbox by the torques and speeds at its ends."""
+
+from __future__ import annotations
+
+import copy
+import math
+from collections import deque
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, field, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..scene import Scene
+from .attribution import Attribution
+from .balance_filter import (
+    F_T,
+    F_W,
+    STANDSTILL,
+    STATES,
+    B,
+    BalanceFilter,
+    D,
+    F,
+    G,
+    Innovation,
+    J,
+    Measured,
+    T,
+    alarm_memory,
+    interval_memory,
+)  # fmt: skip
+from .bins import Bin, Bins, Counters
+from .checks import Checks
+from .cusum import Cusum, Step
+from .estimate import CONFIDENT, Estimate, Event, estimated, not_identifiable
+from .loss_map import loss_map
+from .sensors import Sensors, torque_noise
+from .train import followed_train
+
+Array = NDArray[np.float64]
+
+KEPT = 36_000  # bins whose torque is kept for the teeth
+PERIOD = 0.1  # [s] of a bin; longer ones let innovations correlate where the duty reverses
+TELLING = 0.5  # of the prior standard deviation, below which a parameter is estimated
+NOISY = 1.25  # standard deviation of innovations over the expected one, that is remarked upon
+REFUSED = 1.0  # [s] of gated balances that are an event
+UNITS = {"friction_level": "", "drag": "N m", "torque_zero": "N m", "torque_gain": "",
+         "inertia": "kg m^2"}  # fmt: skip
+REMEDIES = {
+    B: "a reversal of the rotation, or a run without load",
+    D: "a reversal of the rotation",
+    G: "a reversal of the torque",
+    J: "a change of speed",
+    F: "running at several torques",
+    F_T: "running at several torques",
+    F_W: "running at several speeds",
+}
+OWN = {F: "a reversal of the torque", J: "a change of speed"}
+
+
+@dataclass
+class _Refusals:
+    """Gated balances in a row."""
+
+    begin: float = math.nan
+    noted: bool = False
+
+    def add(self, time: float, gated: bool) -> float | None:
+        """Return the time at which they began, once they have lasted."""
+        if not gated:
+            self.begin, self.noted = math.nan, False
+            return None
+        if math.isnan(self.begin):
+            self.begin = time
+        if not self.noted and time - self.begin >= REFUSED:
+            self.noted = True
+            return self.begin
+        return None
+
+
+@dataclass
+class BalanceFollower:
+    """Estimates friction level, drag, zero and gain of the torque sensors, and inertia.
+
+    Two filters take the same readings: one whose parameters fall back to their priors, for
+    intervals, and one that hardly lets them change, whose innovations tell steps.
+
+    Args:
+        scene: of the gearbox, with one input.
+        sensors: what is known of them.
+        period: length of the bins over which readings are averaged [s].
+    """
+
+    scene: Scene
+    sensors: Sensors = field(default_factory=Sensors)
+    period: float = PERIOD
+    events: list[Event] = field(init=False, default_factory=list)
+    """Changes found so far."""
+    innovation: Innovation | None = field(init=False, default=None)
+    """Of the last bin, of the filter for intervals."""
+    time: float = field(init=False, default=math.nan)
+    """End of the last bin [s]."""
+    gated: int = field(init=False, default=0)
+    """Bins whose balance was too far off to be used."""
+
+    def __post_init__(self) -> None:
+        self.train = followed_train(self.scene)
+        losses = loss_map(self.scene)
+        self._losses = losses
+        self._wide = BalanceFilter(self.train, losses, self.sensors, interval_memory())
+        self._slow = BalanceFilter(self.train, losses, self.sensors, alarm_memory(self.train))
+        noise = torque_noise(self.sensors, self.train)
+        self._bins = Bins(self.period, {"input_torque": noise[0], "output_torque": noise[1]})
+        self._checks = Checks(self.train, self.period)
+        self._cusum, self._refusals = Cusum(), _Refusals()
+        self._before: tuple[BalanceFilter, Attribution, int] | None = None
+        self._last: tuple[float, float] | None = None  # time and speed
+        self._scatter = math.nan  # mean square deviation of a speed reading
+        self._oil = self.train.oil_temperature
+        self._operating = (0.0, self.train.oil_temperature)
+        self._torques: deque[tuple[float, float]] = deque(maxlen=KEPT)  # end of bin, torque
+
+    @property
+    def counters(self) -> Counters:
+        """What has become of the readings."""
+        return self._bins.counters
+
+    def add(self, time: Array, columns: Mapping[str, Array]) -> None:
+        """Take readings in the order of their arrival.
+
+        Args:
+            time: stamps [s], (n,).
+            columns: readings in SI by channel of `bins.CHANNELS`, (n,) each; NaN where there is
+                none. Signs are those of gearbox_state.
+
+        Raises:
+            InputError: a channel has another unit, sign or shaft, see `checks`.
+        """
+        for found in self._bins.add(time, columns):
+            self._take(found)
+
+    def finish(self) -> None:
+        """Use what is still open, at the end of a recording.
+
+        Raises:
+            InputError: see `add`.
+        """
+        for found in self._bins.finish():
+            self._take(found)
+        self._checks.check()
+
+    def _take(self, found: Bin) -> None:
+        self._checks.add(found)
+        self.time = (found.number + 1) * self.period
+        read = self._measured(found)
+        if math.isfinite(read.input_torque):
+            self._torques.append((self.time, read.input_torque))
+        if math.isfinite(read.speed):
+            self._operating = read.speed, read.oil_temperature
+        innovation = self._wide.update(read)
+        slow = self._slow.update(read)
+        if innovation is None or slow is None:
+            return
+        self.innovation = innovation
+        self.gated += innovation.gated
+        began = self._refusals.add(read.time, innovation.gated)
+        if began is not None:
+            self._wide.reopen()
+        if (step := self._cusum.add(read.time, slow.value, slow.sd)) is not None:
+            self._alarm(step)
+        elif began is not None:
+            size = not_identifiable("loss_torque_step", innovation.sd, "N m", "")
+            self.events.append(
+                Event("readings do not fit the gearbox", began, read.time, size, (),
+                      f"balance off by {innovation.value:.3g} N m")
+            )  # fmt: skip
+        self._attribute(read)
+
+    def _measured(self, found: Bin) -> Measured:
+        means, nan = found.means, math.nan
+        time = (found.number + 0.5) * self.period
+        shaft, factor = "input_speed", 1.0
+        if shaft not in means:
+            shaft, factor = "output_speed", 1.0 / self.train.ratio
+        speed = means[shaft].value * factor if shaft in means else nan
+        acceleration, noise = 0.0, 0.0
+        if shaft in means:
+            acceleration, noise = self._acceleration(time, speed, found, (shaft, factor))
+        if "oil_temperature" in means:
+            self._oil = means["oil_temperature"].value
+        first, second = means.get("input_torque"), means.get("output_torque")
+        return Measured(
+            time=time,
+            input_torque=nan if first is None else first.value,
+            output_torque=nan if second is None else second.value,
+            counts=(first.readings if first else 1, second.readings if second else 1),
+            speed=speed,
+            acceleration=acceleration,
+            acceleration_noise=noise,
+            oil_temperature=self._oil,
+        )
+
+    def _acceleration(
+        self, time: float, speed: float, found: Bin, shaft: tuple[str, float]
+    ) -> tuple[float, float]:
+        """Acceleration of the input, and its standard deviation [rad/s^2]."""
+        mean, factor = found.means[shaft[0]], shaft[1]
+        before, self._last = self._last, (time, speed)
+        if math.isfinite(mean.slope):
+            if math.isfinite(mean.scatter):
+                own = (mean.scatter * factor) ** 2
+                known = math.isfinite(self._scatter)
+                self._scatter = self._scatter + 0.02 * (own - self._scatter) if known else own
+            spread = self.period * math.sqrt(mean.readings / 12.0)
+            noise = math.sqrt(self._scatter) / spread if math.isfinite(self._scatter) else 0.0
+            return mean.slope * factor, noise
+        if before is None or time - before[0] > 10.0 * self.period:
+            return 0.0, 0.0
+        slope = (speed - before[1]) / (time - before[0])
+        return slope, 0.3 * abs(slope)  # it belongs to half a bin earlier
+
+    def _alarm(self, step: Step) -> None:
+        sense = math.copysign(1.0, self._operating[0])
+        size = estimated("loss_torque_step", sense * step.size, step.sd, "N m")
+        loss = self._losses(float(self._slow.x[T]), *self._operating).teeth
+        share = f", {100.0 * size.value / loss:.3g} % of the scene's tooth friction" if loss else ""
+        evidence = f"{size.value:+.3g} +- {CONFIDENT * size.sd:.2g} N m{share}"
+        attribution = Attribution(step.found)
+        self._before = copy.deepcopy(self._slow), attribution, len(self.events)
+        self.events.append(
+            Event("loss torque stepped", step.since, step.found, size, attribution.causes, evidence)
+        )
+        self._slow.restart()
+        self._wide.reopen()
+
+    def _attribute(self, read: Measured) -> None:
+        """Update the causes of the last step."""
+        if self._before is None:
+            return
+        frozen, attribution, place = self._before
+        if not read.time > attribution.begin:
+            return
+        frozen.x[T] = self._wide.x[T]
+        innovation = frozen.innovation(read)
+        loss = self._losses(float(frozen.x[T]), read.speed, read.oil_temperature).teeth
+        sign = math.copysign(1.0, read.speed)
+        attribution.add(read.time, innovation.value, innovation.sd, loss, sign)
+        if self.events[place].causes != attribution.causes:
+            self.events[place] = replace(self.events[place], causes=attribution.causes)
+
+    @property
+    def friction_level(self) -> float:
+        """Friction level, identifiable or not."""
+        return float(self._wide.x[F])
+
+    def torque_between(self, begin: float, end: float) -> float:
+        """Mean input torque of the bins that end within an interval [N m]; NaN without any.
+
+        Args:
+            begin: of the interval [s].
+            end: of the interval [s].
+        """
+        inside = [torque for time, torque in self._torques if begin < time <= end]
+        return float(np.mean(inside)) if inside else math.nan
+
+    def estimates(self) -> tuple[Estimate, ...]:
+        """Torque, loss, and parameters with intervals or with what would tell them."""
+        if math.isnan(self.time):
+            remedy = "readings of input_torque, output_torque and a speed"
+            names = ["input_torque", "loss_torque", *UNITS]
+            return tuple(
+                not_identifiable(name, math.nan, UNITS.get(name, "N m"), remedy, "LEARNING")
+                for name in names
+            )
+        return (*self._of_now(), *(self._parameter(n) for n in (F, D, B, G, J)))
+
+    def _of_now(self) -> Iterator[Estimate]:
+        wide = self._wide
+        sd = math.sqrt(max(float(wide.p[T, T]), 0.0))
+        if not sd < self.train.torque:
+            yield not_identifiable("input_torque", sd, "N m", "readings of input_torque")
+            yield not_identifiable("loss_torque", sd, "N m", "readings of both torques")
+            return
+        yield estimated("input_torque", float(wide.x[T]), sd, "N m")
+        speed, oil = self._operating
+        if self.innovation is None or abs(speed) <= STANDSTILL * self.train.speed:
+            yield not_identifiable(
+                "loss_torque", math.nan, "N m", "both torques while the train turns"
+            )
+            return
+        value, sd = wide.loss_torque(speed, oil)
+        yield estimated("loss_torque", value, sd, "N m")
+
+    def remarks(self) -> Iterator[str]:
+        """What makes the estimates less certain, a line each."""
+        excess = math.sqrt(self._wide.excess)
+        if excess > NOISY:
+            yield (
+                f"the balance scatters {excess:.1f} times as much as the noise of the torque "
+                "sensors; intervals are widened accordingly"
+            )
+        if self._cusum.held:
+            yield (
+                f"successive innovations correlate by {self._cusum.correlation:.2f}: steps of the "
+                "loss are not reported"
+            )
+        if self.gated:
+            yield f"{self.gated} bins are too far off the balance and are not used"
+
+    def _parameter(self, state: int) -> Estimate:
+        wide, name = self._wide, STATES[state]
+        sd = math.sqrt(max(float(wide.p[state, state]), 0.0))
+        prior = float(wide.prior[1][state - F])
+        remedy = self._remedy(state)
+        if not sd < TELLING * prior:
+            return not_identifiable(name, sd, UNITS[name], remedy)
+        return estimated(name, float(wide.x[state]), sd, UNITS[name], remedy)
+
+    def _remedy(self, state: int) -> str:
+        """What would separate a parameter from that with which it correlates most."""
+        p = self._wide.p
+        sd = np.sqrt(np.maximum(np.diag(p), 1e-300))
+        correlation = np.abs(p[state] / (sd * sd[state]))
+        correlation[[T, 1, state]] = 0.0
+        most = int(np.argmax(correlation))
+        if state in (B, D):
+            return REMEDIES[D]
+        if state == J or float(correlation[most]) < 0.3:
+            return OWN.get(state, REMEDIES[state])
+        if state == G:
+            return REMEDIES[G]
+        return REMEDIES[most]

@@ -1,0 +1,281 @@
+"""Extended Kalman filter of the torque balance between both ends of a gear train.
+
+Measured are the torques at the input, T_m, and at the output, T_l, with the speed ratio i:
+
+    T_m     = T + J a + n1
+    i T_l   = -T + s (phi L(T, w, oil) + R(w, oil) + d) + b + g T + n2
+    phi     = f + f_T ln(|T|/T0) + f_w ln(|w|/w0),   s = sign(w)
+
+L and R are the loss torques of tooth friction and of the rest in the scene, f is the friction
+level, d a drag that the scene lacks, b the zero of both torque sensors, g the difference of their
+gains, J the inertia, and a the acceleration. T is a state that wanders, not a regressor: its noise
+would bias the other states. f_T and f_w stand for a law of friction that is not known.
+
+Joseph's form of the update (Bucy and Joseph 1968, Filtering for Stochastic Processes, ch. 16). The
+parameters are either Gauss-Markov processes, which fall back to their priors, or random walks.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, field
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .loss_map import LossMap
+from .sensors import Sensors, torque_gain, torque_noise, torque_zero
+from .train import FollowedTrain
+
+Array = NDArray[np.float64]
+
+STATES = (
+    "input_torque", "torque_rate", "friction_level", "torque_zero", "drag", "torque_gain",
+    "inertia", "friction_over_torque", "friction_over_speed",
+)  # fmt: skip
+T, RATE, F, B, D, G, J, F_T, F_W = range(len(STATES))
+PARAMETERS = slice(F, None)
+WANDER = 0.025  # of the torque of the scene per sqrt(s)
+RATE_WANDER = 0.24  # likewise of its rate, in 1/s
+INERTIA = 0.1  # standard deviation over the inertia of the scene
+DRAG = 1e-3  # standard deviation over the torque of the scene
+LAW = 0.2, 0.3  # standard deviations of f_T and f_w
+STANDSTILL = 0.01  # of the speed of the scene, below which the sign of the loss is not known
+LEAST = 0.02  # of torque and speed of the scene, to which the logarithms are limited
+GATE = 5.0  # standard deviations of the innovation
+NOISE_MEMORY = 60.0  # [s]
+GAP = 2.0  # [s] without a bin, after which nothing is known of the torque
+FAR = 10.0  # standard deviation of a torque of which nothing is known, over that of the scene
+FALL = 600.0  # [s] in which the law of friction falls back to its prior by 1/e
+SLOW_FALL = 3600.0  # [s], of friction level, zero, gain, drag and inertia
+CLEAR = 5.0  # standard deviations above which an acceleration is used for the inertia
+
+
+class Measured(NamedTuple):
+    """One bin for the filter; what is NaN was not measured."""
+
+    time: float
+    """Middle of the bin [s]."""
+    input_torque: float
+    """[N m]."""
+    output_torque: float
+    """[N m]."""
+    counts: tuple[int, int]
+    """Readings in both means."""
+    speed: float
+    """Of the input [rad/s]."""
+    acceleration: float
+    """Of the input [rad/s^2]."""
+    acceleration_noise: float
+    """Its standard deviation [rad/s^2]."""
+    oil_temperature: float
+    """[K]."""
+
+
+class Innovation(NamedTuple):
+    """Measured less expected sum of both torques, referred to the input."""
+
+    value: float
+    """[N m]."""
+    sd: float
+    """Its expected standard deviation [N m]."""
+    gated: bool
+    """Whether it was too large to be used."""
+
+
+@dataclass(frozen=True)
+class Memory:
+    """How parameters may change."""
+
+    fall: Array
+    """Times in which they fall back to their priors by 1/e [s], (7,); infinite: they do not."""
+    walk: Array
+    """Random walks per sqrt(s), (7,)."""
+
+
+def interval_memory() -> Memory:
+    """Parameters that fall back: information must not pile up beyond what a law is worth."""
+    fall = np.array([SLOW_FALL, SLOW_FALL, SLOW_FALL, SLOW_FALL, SLOW_FALL, FALL, FALL])
+    return Memory(fall, np.zeros(7))
+
+
+def alarm_memory(train: FollowedTrain) -> Memory:
+    """Parameters that hardly change, so that a step is not followed before it is seen.
+
+    Args:
+        train: its torque scales the walk of the zero.
+    """
+    walk = np.array([2e-4, 3.2e-7 * train.torque, 0.0, 0.0, 0.0, 0.0, 0.0])
+    return Memory(np.full(7, np.inf), walk)
+
+
+@dataclass
+class BalanceFilter:
+    """The filter.
+
+    Args:
+        train: between the torque sensors.
+        losses: of its scene.
+        sensors: what is known of them.
+        memory: how parameters may change.
+    """
+
+    train: FollowedTrain
+    losses: LossMap
+    sensors: Sensors
+    memory: Memory
+    x: Array = field(init=False)
+    """Expected state, (9,)."""
+    p: Array = field(init=False)
+    """Its covariance, (9, 9)."""
+    prior: tuple[Array, Array] = field(init=False)
+    """Mean and standard deviation of the parameters before any reading, (7,) each."""
+
+    def __post_init__(self) -> None:
+        sensors, train = self.sensors, self.train
+        inertia = train.inertia if sensors.inertia is None else sensors.inertia
+        mean = np.array([1.0, 0.0, 0.0, 0.0, inertia, 0.0, 0.0])
+        sd = np.array(
+            [
+                sensors.friction, torque_zero(sensors, train), sensors.drag or DRAG * train.torque,
+                torque_gain(sensors), INERTIA * (inertia or train.inertia), *LAW,
+            ]
+        )  # fmt: skip
+        self.prior = mean, sd
+        noise = torque_noise(sensors, train)
+        self._noise = noise[0] ** 2, (train.ratio * noise[1]) ** 2
+        self.restart()
+
+    def restart(self) -> None:
+        """Forget everything."""
+        mean, sd = self.prior
+        self.x = np.concatenate([[0.0, 0.0], mean])
+        self.p = np.diag(np.concatenate([[1.0, 1.0], sd]) ** 2)
+        self._lose_torque()
+        self._time: float | None = None
+        self.excess = 1.0
+        """Variance of the innovations over that of the sensors' noise, at least 1."""
+
+    def reopen(self) -> None:
+        """Doubt friction, zero and drag as before any reading, after a step of the loss."""
+        sd = self.prior[1]
+        for state in (F, B, D):
+            self.p[state, state] += float(sd[state - F]) ** 2
+
+    def update(self, read: Measured) -> Innovation | None:
+        """Take one bin.
+
+        Args:
+            read: its means.
+
+        Returns:
+            The innovation of the balance; None if one of the torques or the speed was not measured,
+            or the train stood still.
+        """
+        step = 0.0 if self._time is None else max(read.time - self._time, 0.0)
+        self._time = read.time
+        self._predict(step)
+        turning = abs(read.speed) > STANDSTILL * self.train.speed  # false if it is NaN
+        if math.isfinite(read.input_torque) and turning:
+            noise = self._noise[0] / read.counts[0]
+            slope = np.zeros(len(STATES))
+            slope[T] = 1.0
+            if abs(read.acceleration) > CLEAR * read.acceleration_noise:
+                slope[J] = read.acceleration  # a regressor whose noise would bias J otherwise
+            expected = float(self.x[T] + self.x[J] * read.acceleration)
+            noise += (float(self.x[J]) * read.acceleration_noise) ** 2
+            self._take(slope, read.input_torque - expected, noise)
+        if not (math.isfinite(read.input_torque) and math.isfinite(read.output_torque) and turning):
+            return None
+        return self._balance(read, step)
+
+    def innovation(self, read: Measured) -> Innovation:
+        """Innovation of the balance with the present state, which stays as it is.
+
+        Args:
+            read: a bin with both torques and the speed.
+        """
+        expected, _ = self._expected(read.speed, read.oil_temperature)
+        noise = self._noise[1] / read.counts[1] + self._noise[0] / read.counts[0]
+        value = self.train.ratio * read.output_torque - expected
+        return Innovation(value, math.sqrt(self.excess * noise), False)
+
+    def loss_torque(self, speed: float, temperature: float) -> tuple[float, float]:
+        """Loss torque at the input, and its standard deviation [N m].
+
+        Args:
+            speed: of the input [rad/s].
+            temperature: of the oil [K].
+        """
+        expected, slope = self._expected(speed, temperature)
+        slope[T] += 1.0
+        slope[[B, G]] = 0.0
+        value = expected + float(self.x[T] - self.x[B] - self.x[G] * self.x[T])
+        return value * math.copysign(1.0, speed), math.sqrt(max(float(slope @ self.p @ slope), 0.0))
+
+    def _predict(self, step: float) -> None:
+        if step == 0.0:
+            return
+        scale = self.train.torque
+        if step > GAP:
+            self._lose_torque()
+        self.x[T] += step * self.x[RATE]
+        self.p[T] += step * self.p[RATE]
+        self.p[:, T] += step * self.p[:, RATE]
+        self.p[T, T] += (WANDER * scale) ** 2 * step
+        self.p[RATE, RATE] += (RATE_WANDER * scale) ** 2 * step
+        mean, sd = self.prior
+        keep = np.exp(-step / self.memory.fall)
+        self.x[PARAMETERS] = mean + keep * (self.x[PARAMETERS] - mean)
+        every = np.concatenate([[1.0, 1.0], keep])
+        self.p *= np.outer(every, every)
+        fresh = (1.0 - keep**2) * sd**2 + self.memory.walk**2 * step
+        self.p[np.arange(F, len(STATES)), np.arange(F, len(STATES))] += fresh
+
+    def _lose_torque(self) -> None:
+        self.x[RATE] = 0.0
+        self.p[: RATE + 1], self.p[:, : RATE + 1] = 0.0, 0.0
+        self.p[T, T] = self.p[RATE, RATE] = (FAR * self.train.torque) ** 2
+
+    def _expected(self, speed: float, temperature: float) -> tuple[float, Array]:
+        """Expected i T_l, and its derivatives over the states, (9,)."""
+        train, x = self.train, self.x
+        torque = float(x[T])
+        sign = math.copysign(1.0, speed)
+        loss = self.losses(torque, speed, temperature)
+        over_t = math.log(max(abs(torque) / train.torque, LEAST))
+        over_w = math.log(max(abs(speed) / train.speed, LEAST))
+        phi = float(x[F] + x[F_T] * over_t + x[F_W] * over_w)
+        slope = np.zeros(len(STATES))
+        slope[T] = -1.0 + x[G] + sign * phi * loss.slope * math.copysign(1.0, torque)
+        slope[F], slope[F_T], slope[F_W] = (
+            sign * loss.teeth, sign * loss.teeth * over_t, sign * loss.teeth * over_w,
+        )  # fmt: skip
+        slope[B], slope[D], slope[G] = 1.0, sign, torque
+        expected = -torque + sign * (phi * loss.teeth + loss.rest + float(x[D]))
+        return expected + float(x[B] + x[G] * torque), slope
+
+    def _balance(self, read: Measured, step: float) -> Innovation:
+        expected, slope = self._expected(read.speed, read.oil_temperature)
+        noise = self.excess * self._noise[1] / read.counts[1]
+        noise += (self.excess - 1.0) * self._noise[0] / read.counts[0]
+        innovation = self.train.ratio * read.output_torque - expected
+        variance = float(slope @ self.p @ slope) + noise
+        sd = math.sqrt(variance)
+        gated = abs(innovation) > GATE * sd
+        if not gated:
+            self._take(slope, innovation, noise)
+        share = min(step / NOISE_MEMORY, 0.1)
+        over = min(innovation**2 / variance, GATE**2)
+        self.excess = max(1.0, self.excess * (1.0 + share * (over - 1.0)))
+        return Innovation(innovation, sd, gated)
+
+    def _take(self, slope: Array, innovation: float, noise: float) -> None:
+        """Scalar update in Joseph's form."""
+        along = self.p @ slope
+        gain = along / (float(slope @ along) + noise)
+        self.x = self.x + gain * innovation
+        left = np.eye(len(STATES)) - np.outer(gain, slope)
+        self.p = left @ self.p @ left.T + noise * np.outer(gain, gain)
+        self.p = 0.5 * (self.p + self.p.T)

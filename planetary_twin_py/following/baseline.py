@@ -1,0 +1,149 @@
+"""Baseline of a gearbox: its deviation of transmission error while it is as it should be."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, field
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .hunting_blocks import HuntingBlock, without_common
+from .tooth_scores import Bank
+
+Array = NDArray[np.float64]
+
+SEEN = 1.5  # power of a change of losses with the torque over that of noise alone
+CELL = 0.1  # relative distance of torque and speed within which blocks share a baseline
+
+
+@dataclass
+class Baseline:
+    """Of one operating cell: blocks at similar torque and speed.
+
+    Args:
+        torque: mean torque of the first block at the input [N m].
+        speed: its speed of the input [rad/s].
+        segment: of the encoders.
+        needed: number of blocks from which it is learned.
+    """
+
+    torque: float
+    speed: float
+    segment: int
+    needed: int
+    bank: Bank | None = None
+    """Signatures at this cell."""
+    mean: Array | None = None
+    """Deviation [m], (cycles, BINS), once learned."""
+    sd: Array = field(default_factory=lambda: np.empty(0))
+    """Standard deviation of the loss of a tooth in one block, by gear, (gears,)."""
+    known: NDArray[np.bool_] = field(default_factory=lambda: np.empty(0, dtype=bool))
+    """Where the mean is known, (cycles, BINS)."""
+    taken_off: bool = False
+    """Whether it was learned with changed teeth, whose amounts were taken off."""
+    slope: Array | None = None
+    """Change of the deviation over the torque [m/(N m)], (cycles, BINS); None if it has none."""
+    _centre: float = 0.0  # mean torque of its blocks [N m]
+    _spread: float = 1.0  # sum of squares of their torques about it [N m^2]
+    _blocks: list[tuple[HuntingBlock, float]] = field(default_factory=list)
+
+    def covers(self, torque: float, speed: float, segment: int) -> bool:
+        """Whether a block belongs to this cell.
+
+        Args:
+            torque: of the block [N m].
+            speed: of the block [rad/s].
+            segment: of the encoders.
+        """
+        near = abs(torque - self.torque) <= CELL * abs(self.torque)
+        return (
+            near and abs(speed - self.speed) <= CELL * abs(self.speed) and (segment == self.segment)
+        )
+
+    @property
+    def count(self) -> int:
+        """Blocks learned so far."""
+        return len(self._blocks) if self.mean is None else self.needed
+
+    @property
+    def learned(self) -> bool:
+        """Whether blocks can be judged."""
+        return self.mean is not None
+
+    def learn(self, block: HuntingBlock, torque: float) -> None:
+        """Take a block; the last one needed makes the baseline.
+
+        Runouts let the deviation change with the torque. That is learned, too, if it is seen.
+
+        Args:
+            block: with the gearbox as it should be. `bank` must be set.
+            torque: its mean at the input [N m].
+        """
+        self._blocks.append((block, torque))
+        if len(self._blocks) < self.needed:
+            return
+        assert self.bank is not None  # set with the cell
+        deviations = np.array([one.deviation for one, _ in self._blocks])
+        measured = np.array([one.measured for one, _ in self._blocks])
+        torques = np.array([one for _, one in self._blocks])
+        counts = measured.sum(axis=0)
+        self.known = counts >= self.needed // 2
+        self.mean = deviations.sum(axis=0) / np.maximum(counts, 1)
+        self._centre = float(torques.mean())
+        apart = torques - self._centre
+        self._spread = float(apart @ apart) or 1.0
+        there = measured & self.known
+        left = np.where(there, deviations - self.mean, 0.0)
+        losses = self._losses(left, there)
+        leverage = np.full(len(torques), 1.0 / self.needed)
+        courses = apart @ losses / self._spread
+        if np.mean(self._spread * courses**2) > SEEN * np.mean(losses**2):
+            self.slope = np.tensordot(apart, left, 1) / self._spread
+            left -= np.where(there, apart[:, None, None] * self.slope, 0.0)
+            losses = self._losses(left, there)
+            leverage += apart**2 / self._spread
+        variance = np.mean(np.square(losses) / (1.0 - leverage[:, None]), axis=0)
+        gears = range(len(self.bank.gears))
+        self.sd = np.sqrt([np.mean(variance[self.bank.gear_of == g]) for g in gears])
+        self._blocks.clear()
+
+    def _losses(self, left: Array, there: NDArray[np.bool_]) -> Array:
+        """Loss of every tooth alone in every block, (blocks, teeth)."""
+        assert self.bank is not None  # set with the cell
+        found = []
+        for one, measured in zip(left, there, strict=True):
+            product, square = self.bank.score(without_common(one, measured), measured)
+            found.append(product / square)
+        return np.array(found)
+
+    def noise(self, torques: Array) -> float:
+        """Standard deviation of a mean over some blocks, over that of one block.
+
+        Args:
+            torques: of these blocks [N m], (n,).
+
+        Returns:
+            The factor, with the uncertainty of the baseline.
+        """
+        variance = 1.0 / len(torques) + 1.0 / self.needed
+        if self.slope is not None:
+            variance += (float(np.mean(torques)) - self._centre) ** 2 / self._spread
+        return math.sqrt(variance)
+
+    def residual(self, block: HuntingBlock, torque: float) -> tuple[Array, NDArray[np.bool_]]:
+        """Deviation of a block from the baseline.
+
+        Args:
+            block: of this cell, or of a neighbouring one.
+            torque: its mean at the input [N m].
+
+        Returns:
+            Residual [m], 0 where it is not measured, and where it is, (cycles, BINS) each.
+        """
+        assert self.mean is not None  # only learned baselines judge
+        there = block.measured & self.known
+        expected = self.mean
+        if self.slope is not None:
+            expected = expected + (torque - self._centre) * self.slope
+        return without_common(np.where(there, block.deviation - expected, 0.0), there), there

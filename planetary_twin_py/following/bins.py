@@ -1,0 +1,244 @@
+"""Puts readings in order of their stamps and averages them over bins of equal length.
+
+A reading belongs to the bin of its stamp. A bin is closed by the first reading, in the order of
+arrival, whose stamp is later than the end of the bin by `LAG`; what arrives for it afterwards is
+counted and not used. So the bins depend on the order of arrival alone: not on the clock of the
+follower, nor on how the readings are cut into blocks.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, field
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+Array = NDArray[np.float64]
+
+CHANNELS = {
+    "input_speed": "rad/s",
+    "input_torque": "N m",
+    "output_speed": "rad/s",
+    "output_torque": "N m",
+    "oil_temperature": "K",
+}
+"""SI units of what is measured; names and signs are those of gearbox_state."""
+LAG = 0.2  # [s] by which stamps may be out of order
+AHEAD = 1.0  # [s]; a single stamp further ahead of both of its neighbours is wrong
+OUTLIER = 5.0  # robust standard deviations
+NORMAL = 1.4826  # standard deviation of a normal distribution over its median absolute deviation
+ENOUGH = 5  # readings of which one can be called an outlier
+
+
+class Mean(NamedTuple):
+    """Readings of a channel in one bin."""
+
+    value: float
+    """At the middle of the bin, of the line through them; their mean below three."""
+    readings: int
+    """Their number."""
+    slope: float
+    """Of the line through them [1/s]; NaN below three readings."""
+    scatter: float
+    """Standard deviation about that line; NaN below four."""
+
+
+class Bin(NamedTuple):
+    """Means over one bin."""
+
+    number: int
+    """The bin covers `number` to `number` + 1 times its length."""
+    means: dict[str, Mean]
+    """Of the channels that have readings."""
+
+
+@dataclass
+class Counters:
+    """What has become of the readings."""
+
+    used: int = 0
+    late: int = 0
+    """Stamped before the end of a closed bin."""
+    doubled: int = 0
+    """With the stamp of another reading of the channel."""
+    missing: int = 0
+    """Not a finite number."""
+    outlying: int = 0
+    """More than 5 robust standard deviations off the median of their bin."""
+    ahead: int = 0
+    """With a single stamp far in the future."""
+
+
+@dataclass
+class _Pending:
+    """Readings of bins that are open."""
+
+    parts: list[tuple[Array, Array]] = field(default_factory=list)
+
+    def join(self) -> tuple[Array, Array]:
+        """Times and values, as one piece."""
+        if not self.parts:
+            return np.empty(0), np.empty(0)
+        time, value = (np.concatenate(pieces) for pieces in zip(*self.parts, strict=True))
+        return time, value
+
+
+class Bins:
+    """Sorts readings into bins.
+
+    Args:
+        length: of a bin [s].
+        noise: standard deviation of one reading, by channel; below it nothing is an outlier.
+    """
+
+    def __init__(self, length: float, noise: Mapping[str, float]) -> None:
+        self.length = length
+        self.counters = Counters()
+        self._noise = noise
+        self._pending = {name: _Pending() for name in CHANNELS}
+        self._latest = -np.inf  # stamp
+        self._closed: int | None = None  # number of the first open bin
+        self._held: tuple[Array, dict[str, Array]] | None = None  # a last row, perhaps ahead
+
+    def add(self, time: Array, columns: Mapping[str, Array]) -> Iterator[Bin]:
+        """Take readings in the order of their arrival.
+
+        Args:
+            time: stamps [s], (n,).
+            columns: readings in SI by channel, (n,) each; NaN where there is none.
+
+        Returns:
+            The bins that are closed by them, in order. Bins without readings are left out.
+        """
+        time, rows = self._in_turn(time, columns)
+        if len(time):
+            self._sort(time, rows)
+            yield from self._close(self._number(self._latest - LAG))
+
+    def finish(self) -> Iterator[Bin]:
+        """Close what is open, at the end of a recording.
+
+        Returns:
+            The last bins.
+        """
+        if self._held is not None:
+            self.counters.ahead += 1
+            self._held = None
+        if np.isfinite(self._latest):
+            yield from self._close(self._number(self._latest) + 1)
+
+    def _in_turn(self, time: Array, columns: Mapping[str, Array]) -> tuple[Array, dict[str, Array]]:
+        """The rows without single stamps far ahead; a last row that may be one waits."""
+        time = np.asarray(time, dtype=float)
+        rows = {name: np.asarray(values, dtype=float) for name, values in columns.items()}
+        if self._held is not None:
+            time, rows = _joined(self._held, (time, rows))
+            self._held = None
+        stamped = np.isfinite(time)
+        if not stamped.all():
+            self.counters.missing += int(np.sum(~stamped)) * len(rows)
+            time, rows = _chosen(stamped, time, rows)
+        if not len(time):
+            return time, rows
+        before = np.concatenate([[self._latest], np.maximum.accumulate(time)[:-1]])
+        leaps = np.flatnonzero((time > before + AHEAD) & np.isfinite(before))
+        wrong = np.zeros(len(time), dtype=bool)
+        for n in leaps:
+            latest = np.max(time[:n][~wrong[:n]], initial=self._latest)
+            if time[n] <= latest + AHEAD:
+                continue
+            if n + 1 == len(time):
+                self._held = _chosen(np.arange(len(time)) == n, time, rows)
+                wrong[n] = True
+            elif time[n + 1] < time[n] - AHEAD:
+                self.counters.ahead += 1
+                wrong[n] = True
+        return _chosen(~wrong, time, rows) if wrong.any() else (time, rows)
+
+    def _sort(self, time: Array, rows: dict[str, Array]) -> None:
+        """Keep the readings of bins that were open as each of them arrived."""
+        number = np.floor(time / self.length + 1e-9)
+        latest = np.maximum.accumulate(time)
+        before = np.concatenate([[self._latest], np.maximum(latest[:-1], self._latest)])
+        first_open = np.floor((before - LAG) / self.length + 1e-9)
+        in_time = number >= first_open
+        self._latest = max(self._latest, float(latest[-1]))
+        if self._closed is None:
+            self._closed = int(number[in_time].min())
+        for name, values in rows.items():
+            there = np.isfinite(values)
+            self.counters.missing += int(np.sum(~there))
+            self.counters.late += int(np.sum(there & ~in_time))
+            kept = there & in_time
+            if kept.any():
+                self._pending[name].parts.append((time[kept], values[kept]))
+
+    def _number(self, time: float) -> int:
+        return int(np.floor(time / self.length + 1e-9))
+
+    def _close(self, until: int) -> Iterator[Bin]:
+        """Bins below `until`."""
+        if self._closed is None or until <= self._closed:
+            return
+        means: dict[int, dict[str, Mean]] = {}
+        for name, pending in self._pending.items():
+            times, values = pending.join()
+            number = np.floor(times / self.length + 1e-9).astype(np.int64)
+            done = number < until
+            order = np.argsort(times[done], kind="stable")
+            time, value = times[done][order], values[done][order]
+            own = number[done][order]
+            if len(time):
+                cuts = np.flatnonzero(np.diff(own)) + 1
+                parts = zip(np.split(time, cuts), np.split(value, cuts), strict=True)
+                for k, (at, read) in zip(own[np.r_[0, cuts]], parts, strict=True):
+                    middle = (int(k) + 0.5) * self.length
+                    means.setdefault(int(k), {})[name] = self._mean(name, middle, at, read)
+            pending.parts = [(times[~done], values[~done])]
+        self._closed = until
+        for k in sorted(means):
+            yield Bin(k, means[k])
+
+    def _mean(self, name: str, middle: float, time: Array, value: Array) -> Mean:
+        """Of the readings of a bin around `middle`, in the order of their stamps."""
+        single = np.concatenate([[True], np.diff(time) > 0.0])
+        self.counters.doubled += int(np.sum(~single))
+        time, value = time[single], value[single]
+        if len(value) >= ENOUGH:
+            off = np.abs(value - float(np.median(value)))
+            spread = max(self._noise.get(name, 0.0), NORMAL * float(np.median(off)))
+            inside = off <= OUTLIER * spread if spread > 0.0 else off == 0.0
+            self.counters.outlying += int(np.sum(~inside))
+            time, value = time[inside], value[inside]
+        n = len(value)
+        self.counters.used += n
+        mean, centre = float(np.mean(value)), float(np.mean(time))
+        if n < 3:
+            return Mean(mean, n, np.nan, np.nan)
+        along = time - centre
+        slope = float(along @ value / (along @ along))
+        left = value - mean - slope * along
+        # Where readings are missing, their mean is not that of the bin while the torque changes.
+        mean += slope * (middle - centre)
+        return Mean(mean, n, slope, float(np.sqrt(left @ left / (n - 2))) if n > 3 else np.nan)
+
+
+def _joined(
+    first: tuple[Array, dict[str, Array]], second: tuple[Array, dict[str, Array]]
+) -> tuple[Array, dict[str, Array]]:
+    """Rows of two tables, NaN in columns that one of them lacks."""
+    names = list(dict.fromkeys([*first[1], *second[1]]))
+    parts = [
+        [rows.get(name, np.full(len(time), np.nan)) for time, rows in (first, second)]
+        for name in names
+    ]
+    columns = {name: np.concatenate(part) for name, part in zip(names, parts, strict=True)}
+    return np.concatenate([first[0], second[0]]), columns
+
+
+def _chosen(
+    rows: NDArray[np.bool_], time: Array, columns: dict[str, Array]
+) -> tuple[Array, dict[str, Array]]:
+    return time[rows], {name: values[rows] for name, values in columns.items()}

@@ -1,0 +1,158 @@
+"""Recognises a wrong unit, a wrong sign or exchanged shafts in the first seconds of readings."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from .bins import Bin
+from .train import FollowedTrain
+
+CHECKED = 5.0  # [s]
+RPM = 30.0 / math.pi
+NEAR = 0.02  # relative deviation of a speed ratio
+EFFICIENCY = 0.3, 1.15  # of what may be a torque ratio over that without loss
+LOADED = 0.2  # of the torque of the scene, below which torques are not compared
+SMALL = 0.05  # of the torque of the scene, below which a unit may be a thousand times too large
+MOVING = 0.05  # of the speed of the scene, below which speeds are not compared
+CELSIUS = 200.0  # below this, a temperature is not in kelvin
+
+
+class InputError(ValueError):
+    """Readings that cannot be those of the gearbox; one line with channel, figure and remedy."""
+
+
+@dataclass
+class Checks:
+    """Compares the first readings with the scene.
+
+    Args:
+        train: of the scene.
+        length: of a bin [s].
+    """
+
+    train: FollowedTrain
+    length: float
+    _read: dict[str, list[float]] = field(default_factory=dict)
+    _begin: int | None = None
+    _done: bool = False
+
+    def add(self, found: Bin) -> None:
+        """Take a bin; at the end of the first seconds, check.
+
+        Args:
+            found: the bin.
+
+        Raises:
+            InputError: a channel has another unit, sign or shaft.
+        """
+        if self._done:
+            return
+        if self._begin is None:
+            self._begin = found.number
+        for name in ("input_speed", "output_speed", "input_torque", "output_torque"):
+            mean = found.means.get(name)
+            self._read.setdefault(name, []).append(math.nan if mean is None else mean.value)
+        if "oil_temperature" in found.means:
+            self._temperature(found.means["oil_temperature"].value)
+        if (found.number - self._begin + 1) * self.length >= CHECKED:
+            self.check()
+
+    def check(self) -> None:
+        """Check what has been read so far.
+
+        Raises:
+            InputError: see `add`.
+        """
+        self._done = True
+        for line in self._faults():
+            raise InputError(line)
+
+    def _temperature(self, value: float) -> None:
+        if value < CELSIUS:
+            raise InputError(
+                f"oil_temperature = {value:.4g}: must be in kelvin; this is probably degC, write "
+                "oil_temperature [degC] as the heading"
+            )
+
+    def _faults(self) -> Iterator[str]:
+        columns = {name: np.array(values) for name, values in self._read.items()}
+        if not columns:
+            return
+        train = self.train
+        speed_in, speed_out = columns["input_speed"], columns["output_speed"]
+        fast = np.nanmax(np.abs(speed_in), initial=0.0) if np.isfinite(speed_in).any() else 0.0
+        if fast > 1.2 * train.speed_limit:
+            yield (
+                f"input_speed = {fast:.4g}: exceeds drive.speed_limit = {train.speed_limit:.4g} "
+                f"rad/s; probably rpm: scale input_speed by {1.0 / RPM:.6g}"
+            )
+        moving = (np.abs(speed_in) > MOVING * train.speed) & np.isfinite(speed_out)
+        if moving.any():
+            ratio = float(np.median(speed_out[moving] / speed_in[moving]))
+            yield from self._speeds(ratio)
+        first, second = columns["input_torque"], columns["output_torque"]
+        least = LOADED * train.torque
+        loaded = (np.abs(first) > least) | (np.abs(train.ratio * second) > least)
+        loaded &= np.isfinite(first) & np.isfinite(second) & (first != 0.0)
+        if loaded.any():
+            ratio = float(np.median(second[loaded] / first[loaded]))
+            yield from self._torques(ratio, float(np.median(np.abs(first[loaded]))))
+
+    def _speeds(self, ratio: float) -> Iterator[str]:
+        """Fault of a measured speed ratio."""
+        expected = self.train.ratio
+        if abs(ratio / expected - 1.0) < NEAR:
+            return
+        said = f"output_speed/input_speed = {ratio:.4g}: the teeth give {expected:.4g}"
+        for factor, why, remedy in (
+            (-1.0, "the sign of one speed is reversed", ("output_speed", -1.0)),
+            (RPM, "output_speed is probably in rpm", ("output_speed", 1.0 / RPM)),
+            (1.0 / RPM, "input_speed is probably in rpm", ("input_speed", 1.0 / RPM)),
+            (-RPM, "output_speed is probably in rpm and reversed", ("output_speed", -1.0 / RPM)),
+            (
+                -1.0 / RPM,
+                "input_speed is probably in rpm, and one sign is reversed",
+                ("input_speed", -1.0 / RPM),
+            ),
+            (180.0 / math.pi, "output_speed is probably in deg/s", ("output_speed", math.pi / 180)),
+            (math.pi / 180.0, "input_speed is probably in deg/s", ("input_speed", math.pi / 180)),
+        ):
+            if abs(ratio / (expected * factor) - 1.0) < NEAR:
+                yield f"{said}; {why}: scale {remedy[0]} by {remedy[1]:.6g}"
+                return
+        if abs(ratio * expected - 1.0) < NEAR:
+            yield f"{said}; input and output are exchanged"
+            return
+        yield f"{said}; no unit explains it: are these the shafts of this scene?"
+
+    def _torques(self, ratio: float, size: float) -> Iterator[str]:
+        """Fault of a measured torque ratio; `size` is the magnitude of the input torque."""
+        expected = -1.0 / self.train.ratio
+        share = ratio / expected
+        low, high = EFFICIENCY
+        if low <= share <= 1.0 / low:
+            return
+        said = f"output_torque/input_torque = {ratio:.4g}: without loss it is {expected:.4g}"
+        if low <= -share <= 1.0 / low:
+            yield f"{said}; the sign of one torque is reversed: scale output_torque by -1"
+            return
+        sign = int(math.copysign(1.0, share))
+        for factor, name, unit, scale in (
+            (1e3, "output_torque", "N mm", 1e-3)
+            if size > SMALL * self.train.torque
+            else (1e3, "input_torque", "kN m", 1e3),
+            (1e-3, "output_torque", "kN m", 1e3)
+            if size < self.train.torque / SMALL
+            else (1e-3, "input_torque", "N mm", 1e-3),
+        ):
+            if low <= abs(share) / factor <= high:
+                yield f"{said}; {name} is probably in {unit}: scale {name} by {sign * scale:g}"
+                return
+        if abs(share * expected**2 - 1.0) < 0.5:
+            yield f"{said}; both torques seem to be referred to the same shaft"
+            return
+        yield f"{said}; no unit explains it"

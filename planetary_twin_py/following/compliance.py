@@ -1,0 +1,136 @@
+"""Compliance and play of a gearbox: the mean transmission error over mean torque and speed.
+
+A delay between the two encoders shifts the error in proportion to the speed, so the speed is a
+regressor, too.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, field
+from typing import NamedTuple
+
+import numpy as np
+
+FEWEST = 8  # hunting periods
+RECENT = 32  # hunting periods of the present line
+LARGEST_SD = 0.05  # relative standard deviation of a slope that is reported
+
+
+class Line(NamedTuple):
+    """Plane of the transmission error over torque and speed."""
+
+    slope: float
+    """Over the torque [m/(N m)]."""
+    sd: float
+    """Its standard deviation [m/(N m)]."""
+    coefficients: np.ndarray
+    """Mean error [m], slope [m/(N m)], and slope over the speed [m s/rad]."""
+    covariance: np.ndarray
+    """Of the coefficients, (3, 3)."""
+    centre: tuple[float, float]
+    """Mean torque [N m] and speed [rad/s]."""
+
+    @property
+    def significant(self) -> bool:
+        """Whether the torque has varied enough."""
+        return self.sd < LARGEST_SD * abs(self.slope)
+
+    def at(self, torque: float, speed: float) -> tuple[float, float]:
+        """Transmission error at an operating point.
+
+        Args:
+            torque: at the input [N m].
+            speed: of the input [rad/s].
+
+        Returns:
+            Error and its standard deviation [m].
+        """
+        row = np.array([1.0, torque - self.centre[0], speed - self.centre[1]])
+        return float(row @ self.coefficients), math.sqrt(float(row @ self.covariance @ row))
+
+
+def fit_line(torque: np.ndarray, speed: np.ndarray, error: np.ndarray) -> Line | None:
+    """Fit by least squares.
+
+    Args:
+        torque: means of blocks [N m], (n,).
+        speed: means of blocks [rad/s], (n,).
+        error: means of their transmission error [m], (n,).
+
+    Returns:
+        The plane; None for too few blocks, or a torque that does not vary or only with the speed.
+    """
+    n = len(torque)
+    if n < FEWEST:
+        return None
+    centre = float(torque.mean()), float(speed.mean())
+    rows = np.column_stack([np.ones(n), torque - centre[0], speed - centre[1]])
+    size = np.maximum(np.sqrt(np.mean(rows**2, axis=0)), 1e-300)
+    scaled = rows / size
+    square = scaled.T @ scaled
+    if np.linalg.cond(square[:2, :2]) > 1e12:
+        return None
+    inverse = np.linalg.pinv(square, rcond=1e-9, hermitian=True)
+    found = inverse @ (scaled.T @ error)
+    left = error - scaled @ found
+    variance = float(left @ left) / (n - 3)
+    covariance = variance * inverse / np.outer(size, size)
+    coefficients = found / size
+    return Line(
+        float(coefficients[1]), math.sqrt(float(covariance[1, 1])), coefficients, covariance, centre
+    )
+
+
+@dataclass
+class Compliance:
+    """Lines of the first blocks and of the last ones, within a segment of the encoders.
+
+    Args:
+        learning: number of the first blocks.
+    """
+
+    learning: int
+    _segment: int = 0
+    _blocks: list[tuple[float, float, float]] = field(default_factory=list)
+
+    def add(self, segment: int, torque: float, speed: float, error: float) -> None:
+        """Take a block.
+
+        Args:
+            segment: of the encoders.
+            torque: mean at the input [N m].
+            speed: mean of the input [rad/s].
+            error: mean transmission error [m].
+        """
+        if not (math.isfinite(torque) and math.isfinite(error)):
+            return
+        if segment != self._segment:
+            self._segment = segment
+            self._blocks.clear()
+        self._blocks.append((torque, speed, error))
+        if len(self._blocks) > self.learning + RECENT:
+            del self._blocks[self.learning]
+
+    @property
+    def baseline(self) -> Line | None:
+        """Of the first blocks."""
+        return self._line(0, self.learning) if len(self._blocks) >= self.learning else None
+
+    @property
+    def present(self) -> Line | None:
+        """Of the last blocks; while there are few, of all."""
+        beyond = len(self._blocks) - self.learning
+        return self._line(self.learning if beyond >= FEWEST else 0, None)
+
+    @property
+    def both(self) -> tuple[Line, Line] | None:
+        """Baseline and present, where they have no block in common."""
+        first, last = self.baseline, self.present
+        if first is None or last is None or len(self._blocks) - self.learning < FEWEST:
+            return None
+        return first, last
+
+    def _line(self, begin: int, end: int | None) -> Line | None:
+        blocks = np.array(self._blocks[begin:end]).reshape(-1, 3)
+        return fit_line(*blocks.T)

@@ -1,0 +1,115 @@
+"""Cumulative sums of standardised innovations, for steps of either sign (Page 1954, Biometrika 41,
+100-115)."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, field
+from typing import NamedTuple
+
+KAPPA = 0.5  # half of the step that is found fastest, in standard deviations of one term
+LIMIT = 15.4  # of a sum; false once in half a year of terms of 1 s that are independent and normal
+TERM = 1.0  # [s]
+CLIP = 5.0  # a single innovation counts no more than that
+CORRELATED = 0.2  # correlation of successive innovations above which there is no alarm
+MEMORY = 60.0  # [s] of that correlation
+TRUSTED = 30.0  # [s] before which it is not known
+
+
+class Step(NamedTuple):
+    """A step that was found."""
+
+    since: float
+    """Time at which the sum has left zero [s]."""
+    found: float
+    """[s]."""
+    size: float
+    """Mean of the innovations since then [N m]."""
+    sd: float
+    """Its standard deviation [N m]."""
+
+
+@dataclass
+class _Sum:
+    sign: float
+    value: float = 0.0
+    since: float = math.nan
+    held: bool = False
+    total: float = 0.0
+    weight: float = 0.0
+
+    def add(self, term: float, time: float, weighted: tuple[float, float], held: bool) -> None:
+        self.value += self.sign * term - KAPPA
+        if self.value <= 0.0:
+            self.value, self.total, self.weight = 0.0, 0.0, 0.0
+            self.since, self.held = time, held
+            return
+        self.total += weighted[0]
+        self.weight += weighted[1]
+
+
+@dataclass
+class Cusum:
+    """Two sums, one for each sign."""
+
+    correlation: float = 0.0
+    """Of successive innovations, over the last minute."""
+    _sums: tuple[_Sum, _Sum] = field(default_factory=lambda: (_Sum(1.0), _Sum(-1.0)))
+    _term: list[tuple[float, float, float]] = field(default_factory=list)  # score, value, sd
+    _begin: float | None = None
+    _last: tuple[float, float] | None = None  # time and score
+    _known: float = 0.0
+
+    def add(self, time: float, value: float, sd: float) -> Step | None:
+        """Take an innovation.
+
+        Args:
+            time: of it [s].
+            value: of it [N m].
+            sd: its expected standard deviation [N m].
+
+        Returns:
+            A step, if one is found now; the sums then start from zero.
+        """
+        score = max(-CLIP, min(CLIP, value / sd))
+        self._correlate(time, score)
+        if self._begin is None:
+            self._begin = time
+            for one in self._sums:
+                one.since = time
+        found = None
+        if time >= self._begin + TERM:
+            found = self._end_term(time)
+            self._begin = time
+        self._term.append((score, value, sd))
+        return found
+
+    @property
+    def held(self) -> bool:
+        """Whether innovations correlate so much that a sum that leaves zero now gives no alarm.
+
+        A step lets them correlate, too, so those before it count.
+        """
+        return self._known >= TRUSTED and self.correlation > CORRELATED
+
+    def _end_term(self, time: float) -> Step | None:
+        term = sum(score for score, _, _ in self._term) / math.sqrt(len(self._term))
+        weights = [1.0 / sd**2 for _, _, sd in self._term]
+        total = sum(w * value for w, (_, value, _) in zip(weights, self._term, strict=True))
+        self._term.clear()
+        for one in self._sums:
+            one.add(term, time, (total, sum(weights)), self.held)
+        for one in self._sums:
+            if one.value > LIMIT and not one.held:
+                step = Step(one.since, time, one.total / one.weight, 1.0 / math.sqrt(one.weight))
+                self._sums = (_Sum(1.0, since=time), _Sum(-1.0, since=time))
+                return step
+        return None
+
+    def _correlate(self, time: float, score: float) -> None:
+        if self._last is not None:
+            step = time - self._last[0]
+            share = min(step / MEMORY, 0.1)
+            self.correlation += share * (score * self._last[1] - self.correlation)
+            self._known += step
+        self._last = time, score

@@ -1,0 +1,195 @@
+"""Follows a measured gearbox: loss, friction and torque sensors by power, teeth by encoders."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, field
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..scene import Scene
+from .balance import PERIOD, BalanceFollower
+from .bins import CHANNELS
+from .clock_watch import ClockWatch
+from .estimate import Estimate, Event
+from .sensors import Sensors
+from .teeth import TeethFollower, ToothState
+
+Array = NDArray[np.float64]
+
+TIMEOUT = 2.0  # [s] without readings, after which estimates are stale
+
+
+class Readings(NamedTuple):
+    """Torques, speeds and temperature, in the order of their arrival."""
+
+    time: Array
+    """Stamps [s], (n,)."""
+    columns: Mapping[str, Array]
+    """By channel, (n,) each in SI: input_speed, input_torque, output_speed, output_torque and
+    oil_temperature, with the signs of gearbox_state; NaN where there is none."""
+    arrival: Array | None = None
+    """Times of arrival by the receiver's clock [s], (n,); None: not known."""
+    sender: str = "readings"
+    """Whose clock the stamps are of."""
+
+
+class EncoderSamples(NamedTuple):
+    """Counts of two encoders, in the order of their arrival."""
+
+    sample: NDArray[np.int64]
+    """Numbers of the samples, (n,): times in sample periods."""
+    counts: NDArray[np.int64]
+    """Of the encoders on the input and the output member, whole turns included, (n, 2)."""
+
+
+class EncoderFormat(NamedTuple):
+    """Encoders on the members of input and output, read by one device."""
+
+    counts_per_turn: tuple[int, int]
+    """Of input and output."""
+    period: float
+    """Of the samples [s]."""
+
+
+@dataclass(frozen=True)
+class Following:
+    """All that a follower can say at one time."""
+
+    time: float
+    """Stamp of the last reading in it [s]; NaN before the first."""
+    estimates: tuple[Estimate, ...]
+    """Quantities, each with its interval or NOT_IDENTIFIABLE."""
+    teeth: tuple[ToothState, ...]
+    """Teeth that have changed."""
+    events: tuple[Event, ...]
+    """Changes, in the order in which they were found."""
+    counters: dict[str, int]
+    """What has become of readings and samples."""
+    remarks: tuple[str, ...]
+    """What makes the estimates less certain than they look."""
+
+    def __getitem__(self, name: str) -> Estimate:
+        """Estimate of a quantity."""
+        return next(one for one in self.estimates if one.name == name)
+
+
+@dataclass
+class Follower:
+    """Estimates what the readings of a gearbox determine.
+
+    The same readings in the same order give the same estimates to the last bit, however they are
+    cut into blocks: nothing depends on the clock of the computer.
+
+    Args:
+        scene: of the gearbox, with one input.
+        sensors: what is known of the torque sensors.
+        encoders: of the samples; None: there are none.
+        scale: factors on the readings, by channel, for other units and signs.
+        period: length of the bins over which readings are averaged [s].
+
+    Raises:
+        SceneError: the scene has two inputs, or cannot be simulated.
+        ValueError: a channel of `scale` does not exist.
+    """
+
+    scene: Scene
+    sensors: Sensors = field(default_factory=Sensors)
+    encoders: EncoderFormat | None = None
+    scale: Mapping[str, float] = field(default_factory=dict)
+    period: float = PERIOD
+
+    def __post_init__(self) -> None:
+        for name in self.scale:
+            if name not in CHANNELS:
+                raise ValueError(f"scale: {name!r}: must be one of {', '.join(CHANNELS)}")
+        if not 0.01 <= self.period <= 60.0:
+            raise ValueError(f"period = {self.period!r} s: must be within 0.01 and 60")
+        self._balance = BalanceFollower(self.scene, self.sensors, self.period)
+        self._clocks = ClockWatch()
+        self._teeth: TeethFollower | None = None
+        if self.encoders is not None:
+            self._teeth = TeethFollower(self.scene, *self.encoders, self.sensors.learning)
+
+    def add(self, block: Readings | EncoderSamples) -> None:
+        """Take readings or samples.
+
+        Args:
+            block: any number of them.
+
+        Raises:
+            InputError: readings cannot be those of the gearbox; names channel, figure and remedy.
+            ValueError: there is an unknown channel, or samples without a format of the encoders.
+        """
+        if isinstance(block, EncoderSamples):
+            if self._teeth is None:
+                raise ValueError("encoders: their counts per turn and their period are missing")
+            self._teeth.add(block.sample, block.counts)
+        else:
+            self._read(block)
+        if self._teeth is not None and math.isfinite(self._balance.time):
+            self._teeth.judge(self._balance.time, self._balance.torque_between)
+
+    def finish(self) -> None:
+        """Use what is still waiting, at the end of a recording.
+
+        Raises:
+            InputError: see `add`.
+        """
+        self._balance.finish()
+        if self._teeth is not None:
+            self._teeth.finish()
+            self._teeth.judge(math.inf, self._balance.torque_between)
+
+    def estimate(self, now: float | None = None) -> Following:
+        """What can be said of the gearbox.
+
+        Args:
+            now: present time by the clock of the stamps [s]; None: that of the last reading.
+
+        Returns:
+            Estimates, teeth and events.
+        """
+        balance, teeth = self._balance, self._teeth
+        estimates, events = balance.estimates(), list(balance.events)
+        counters = dict(vars(balance.counters), gated=balance.gated)
+        if teeth is not None:
+            estimates = (*estimates, *teeth.estimates())
+            events += teeth.events
+            counters |= {f"encoder_{name}": n for name, n in vars(teeth.counters).items()}
+            counters["hunting_periods"] = teeth.blocks
+        if now is not None and not now - balance.time <= TIMEOUT:
+            estimates = tuple(
+                one._replace(status="STALE") if one.status == "ESTIMATED" else one
+                for one in estimates
+            )
+        return Following(
+            balance.time, estimates, () if teeth is None else teeth.teeth,
+            tuple(sorted(events, key=lambda event: event.found)), counters,
+            (*balance.remarks(), *self._clocks.remarks(), *self._of_teeth()),
+        )  # fmt: skip
+
+    def _read(self, block: Readings) -> None:
+        columns = {}
+        for name, values in block.columns.items():
+            if name not in CHANNELS:
+                raise ValueError(f"{name!r}: must be one of {', '.join(CHANNELS)}")
+            columns[name] = np.asarray(values, dtype=float) * self.scale.get(name, 1.0)
+        time = np.asarray(block.time, dtype=float)
+        if block.arrival is not None:
+            self._clocks.add(block.sender, time, np.asarray(block.arrival, dtype=float))
+        self._balance.add(time, columns)
+
+    def _of_teeth(self) -> Iterator[str]:
+        if self._teeth is None:
+            return
+        counters = self._teeth.counters
+        if counters.segments > 1:
+            yield (
+                f"encoders: the count of turns restarted {counters.segments - 1} times; teeth are "
+                "numbered from each new start, and baselines are learned again"
+            )
+        yield from self._teeth.remarks()

@@ -1,0 +1,165 @@
+"""Loss torque of a scene over torque, speed and oil temperature: a table of quasi-static runs."""
+
+from __future__ import annotations
+
+import math
+from functools import lru_cache
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..scene import Scene
+from ..scene.errors import Errors
+from ..scene.mesh import Runout
+from ..simulation import simulate
+from .train import followed_train
+
+Array = NDArray[np.float64]
+
+TORQUES = 0.02, 0.08, 0.25, 0.5, 1.0, 1.6  # of the torque of the scene
+SPEEDS = 0.03, 0.12, 0.35, 0.7, 1.0, 1.5  # of the speed of the scene
+HEATING = -20.0, 0.0, 20.0  # [K] from the temperature of the scene
+CYCLES = 2  # mesh cycles of a run; all are equal
+TOLERANCE = 1e-4
+COLDEST, HOTTEST = 233.15, 433.15  # [K] of a scene
+
+
+class Loss(NamedTuple):
+    """Loss torques at the input [N m], against the rotation."""
+
+    teeth: float
+    """Of tooth friction."""
+    slope: float
+    """Its derivative over the magnitude of the torque [-]."""
+    rest: float
+    """Of bearings, drag and churning as the scene has them."""
+
+
+class LossMap:
+    """Loss torque between the points of a table that is filled where it is needed.
+
+    Tooth friction over torque is linear in the logarithms of torque and speed, the rest in torque
+    and speed themselves. Beyond the table, the coefficient of friction is that at its edge.
+
+    Args:
+        scene: of the gearbox, with one input.
+
+    Raises:
+        SceneError: the scene has two inputs.
+    """
+
+    def __init__(self, scene: Scene) -> None:
+        train = followed_train(scene)
+        self._scene, self._cycles = _plain(scene), abs(float(train.cycles))
+        torques = np.minimum(train.torque * np.array(TORQUES), scene.drive.torque_limit)
+        speeds = np.minimum(train.speed * np.array(SPEEDS), train.speed_limit)
+        heat = np.clip(train.oil_temperature + np.array(HEATING), COLDEST, HOTTEST)
+        self._torques, self._speeds, self._heat = map(np.unique, (torques, speeds, heat))
+        self._logarithms = np.log(self._torques), np.log(self._speeds)
+        self._tables: dict[tuple[bool, int], tuple[Array, Array]] = {}
+
+    def __call__(self, torque: float, speed: float, temperature: float) -> Loss:
+        """Loss at an operating point.
+
+        Args:
+            torque: at the input [N m].
+            speed: of the input [rad/s].
+            temperature: of the oil [K].
+
+        Returns:
+            The loss torques.
+
+        Raises:
+            RunawayError: a point of the table that is needed has no equilibrium.
+        """
+        k, h = _place(self._heat, temperature)
+        drives = torque * speed >= 0.0
+        cold = self._at(self._table(drives, k), torque, speed)
+        if h == 0.0:
+            return cold
+        warm = self._at(self._table(drives, k + 1), torque, speed)
+        return Loss(*(one + h * (other - one) for one, other in zip(cold, warm, strict=True)))
+
+    def _at(self, tables: tuple[Array, Array], torque: float, speed: float) -> Loss:
+        """Loss at a temperature of the table."""
+        size, rate = max(abs(torque), 1e-9), max(abs(speed), 1e-9)
+        m, v = _place(self._logarithms[1], math.log(rate))
+        n, u = _place(self._logarithms[0], math.log(size))
+        (a, b), (c, d) = tables[0][m : m + 2, n : n + 2].tolist()
+        low, high = a + v * (c - a), b + v * (d - b)
+        part = low + u * (high - low)
+        bend = (high - low) / float(self._logarithms[0][n + 1] - self._logarithms[0][n])
+        (a, b), (c, d) = tables[1][m : m + 2, n : n + 2].tolist()
+        v = _share(self._speeds, m, rate)
+        low, high = a + v * (c - a), b + v * (d - b)
+        rest = low + _share(self._torques, n, size) * (high - low)
+        return Loss(part * size, part + (bend if 0.0 < u < 1.0 else 0.0), rest)
+
+    def _table(self, drives: bool, k: int) -> tuple[Array, Array]:
+        """Loss torque of tooth friction over torque, and of the rest, (speeds, torques) each."""
+        if (drives, k) not in self._tables:
+            shape = len(self._speeds), len(self._torques)
+            teeth, rest = np.empty(shape), np.empty(shape)
+            for m, n in np.ndindex(shape):
+                torque = float(self._torques[n])
+                found = self._run(torque if drives else -torque, float(self._speeds[m]), k)
+                teeth[m, n], rest[m, n] = found[0] / torque, found[1]
+            self._tables[drives, k] = teeth, rest
+        return self._tables[drives, k]
+
+    def _run(self, torque: float, speed: float, k: int) -> tuple[float, float]:
+        """Loss torques of tooth friction and of the rest [N m]."""
+        there = self._scene.replace(
+            input_torque=torque, input_speed=speed, oil_temperature=float(self._heat[k])
+        )
+        duration = CYCLES * 2.0 * math.pi / (self._cycles * speed)
+        run = simulate(there, duration, 4.0 / duration, tolerance=TOLERANCE)
+        turned = run.duration * speed
+        energy = run.energy
+        return energy.friction / turned, (energy.bearing + energy.churning) / turned
+
+
+def _place(knots: Array, value: float) -> tuple[int, float]:
+    """Index of the interval of a value, and its place within it from 0 to 1."""
+    n = min(max(int(np.searchsorted(knots, value, "right")) - 1, 0), len(knots) - 2)
+    return n, min(max(_share(knots, n, value), 0.0), 1.0)
+
+
+def _share(knots: Array, n: int, value: float) -> float:
+    low = float(knots[n])
+    return (value - low) / (float(knots[n + 1]) - low)
+
+
+def loss_map(scene: Scene) -> LossMap:
+    """Losses of a scene, without its faults, runouts and errors.
+
+    Args:
+        scene: of the gearbox; dynamics play no role.
+
+    Returns:
+        The map, one for all that follow the same scene.
+
+    Raises:
+        SceneError: the scene has two inputs.
+    """
+    return _map_of(scene.model_dump_json())
+
+
+@lru_cache(maxsize=16)
+def _map_of(text: str) -> LossMap:
+    return LossMap(Scene.model_validate_json(text))
+
+
+def _plain(scene: Scene) -> Scene:
+    """The scene as a steady quasi-static train whose mesh cycles are all equal."""
+    return scene.replace(
+        **{
+            "dynamics": "quasi_static",
+            "faults": (),
+            "mesh.runout": Runout().model_dump(),
+            "errors": Errors().model_dump(),
+            "torque_ripple": 0.0,
+            "drive.speed_control.start_speed": None,
+        }
+    )

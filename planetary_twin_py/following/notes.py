@@ -1,0 +1,41 @@
+"""Writes what a follower said over time as a table."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+
+import numpy as np
+
+from ..recording.tables.message_tables import Column
+from ..recording.tables.table_files import FORMATS
+from .follower import Following
+
+
+def write_notes(path: Path, said: Sequence[Following]) -> None:
+    """Write one row for each time at which the follower was asked.
+
+    Args:
+        path: of the table: .csv, .parquet or .npz.
+        said: what it said, in order.
+
+    Raises:
+        ValueError: the format is not known.
+        OSError: the file cannot be written.
+    """
+    kind = path.suffix.removeprefix(".")
+    if kind not in FORMATS:
+        raise ValueError(f"must end in {', '.join('.' + name for name in FORMATS)}")
+    rows = [one for one in said if np.isfinite(one.time)]
+    batch = {"time": np.array([one.time for one in rows])}
+    units = {"time": "s", "events": ""}
+    for name, unit in ((one.name, one.unit) for one in said[-1].estimates):
+        for part in ("value", "low", "high"):
+            column = name if part == "value" else f"{name}_{part}"
+            batch[column] = np.array([getattr(one[name], part) for one in rows])
+            units[column] = unit
+    batch["events"] = np.array([len(one.events) for one in rows])
+    columns = [Column(name, units[name], values.dtype) for name, values in batch.items()]
+    table = FORMATS[kind](path, columns)
+    table.write(batch)
+    table.close()

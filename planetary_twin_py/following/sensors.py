@@ -1,0 +1,139 @@
+"""Sensors of a measured gearbox: noise, and how well zero and gain are known."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from pydantic import Field, ValidationError
+
+from ..scene import SceneError
+from ..scene.defect import explain
+from ..scene.quantity import Section, listed, quantity
+from ..scene.yaml_text import read_yaml
+from .train import FollowedTrain
+
+FULL_SCALE = 1.6  # of the torque of the operating point, unless it is given
+CLASS = 1e-3  # accuracy class 0.1 of a torque transducer
+
+
+class TorqueSensor(Section):
+    """A torque transducer, by default of class 0.1 with 1.6 times the torque of the scene."""
+
+    noise: float | None = quantity(
+        "N m", "standard deviation of a reading; default: 0.1 % of full scale", None, gt=0, le=1e8
+    )
+    zero: float | None = quantity(
+        "N m", "standard deviation of the zero; default: 0.05 % of full scale", None, gt=0, le=1e8
+    )
+    gain: float = quantity("", "standard deviation of the gain", CLASS, gt=0.0, le=1.0)
+
+
+class Encoders(Section):
+    """Two encoders on the members of input and output, read by one device."""
+
+    input_counts: int = Field(2**20, ge=1, le=2**32, description="per turn of the input")
+    output_counts: int = Field(2**20, ge=1, le=2**32, description="per turn of the output")
+    rate: float = quantity("Hz", "samples per second", 20_000.0, gt=0.0, le=1e7)
+
+
+class JointNames(Section):
+    """Where measured joint states are in a recording."""
+
+    input: str = Field("input_joint", description="joint of the input shaft")
+    output: str = Field("output_joint", description="joint of the output shaft")
+    topics: str = Field("joint_states", description="ending of the topics that are read")
+
+
+class Sensors(Section):
+    """What is known of the sensors, and of the inertia between them."""
+
+    input_torque: TorqueSensor = Field(TorqueSensor(), description="at the input shaft")
+    output_torque: TorqueSensor = Field(TorqueSensor(), description="at the output shaft")
+    inertia: float | None = quantity(
+        "kg m^2",
+        "moment of inertia between both torque sensors, referred to the input; default: that of "
+        "the whole train with motor and load",
+        None,
+        ge=0.0,
+        le=1e9,
+    )
+    friction: float = quantity(
+        "", "standard deviation of the friction level, whose prior mean is 1", 0.5, gt=0, le=10
+    )
+    drag: float | None = quantity(
+        "N m",
+        "standard deviation of a drag at the input that the scene lacks; default: 0.1 % of the "
+        "torque of the scene",
+        None,
+        gt=0.0,
+        le=1e8,
+    )
+    encoders: Encoders = Field(Encoders(), description="on the input and the output member")
+    joints: JointNames = Field(JointNames(), description="in recordings")
+    columns: dict[str, str] = Field({}, description="heading of a channel in tables, by channel")
+    scale: dict[str, float] = Field({}, description="factor on readings, by channel")
+    learning: int = Field(
+        24, ge=8, le=10_000, description="hunting periods from which a baseline is learned"
+    )
+
+
+def read_sensors(path: Path) -> Sensors:
+    """Read a YAML file with fields of `Sensors`.
+
+    Args:
+        path: of the file.
+
+    Returns:
+        The sensors.
+
+    Raises:
+        SceneError: a field is invalid.
+        OSError: the file cannot be read.
+    """
+    try:
+        return Sensors.model_validate(read_yaml(path.read_text("utf-8")) or {})
+    except ValidationError as error:
+        raise SceneError(f"{path}: {explain(error, Sensors, ())}") from None
+    except ValueError as error:
+        raise SceneError(listed([f"{path}: {error}"])) from None
+
+
+def torque_noise(sensors: Sensors, train: FollowedTrain) -> tuple[float, float]:
+    """Standard deviation of one reading of both torques [N m], the second at the output.
+
+    Args:
+        sensors: what is known of the sensors.
+        train: the train between them.
+    """
+    first, second = _full_scales(train)
+    return (
+        sensors.input_torque.noise or CLASS * first,
+        sensors.output_torque.noise or CLASS * second,
+    )
+
+
+def torque_zero(sensors: Sensors, train: FollowedTrain) -> float:
+    """Standard deviation of the sum of both zeros, referred to the input [N m].
+
+    Args:
+        sensors: what is known of the sensors.
+        train: the train between them.
+    """
+    first, second = _full_scales(train)
+    here = sensors.input_torque.zero or 0.5 * CLASS * first
+    there = sensors.output_torque.zero or 0.5 * CLASS * second
+    return float((here**2 + (train.ratio * there) ** 2) ** 0.5)
+
+
+def torque_gain(sensors: Sensors) -> float:
+    """Standard deviation of the difference of both gains.
+
+    Args:
+        sensors: what is known of the sensors.
+    """
+    return float((sensors.input_torque.gain**2 + sensors.output_torque.gain**2) ** 0.5)
+
+
+def _full_scales(train: FollowedTrain) -> tuple[float, float]:
+    full = FULL_SCALE * train.torque
+    return full, full / abs(train.ratio)

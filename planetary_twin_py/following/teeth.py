@@ -1,0 +1,363 @@
+"""Follows the teeth of a gearbox by two encoders: cracks, wear, compliance and play."""
+
+from __future__ import annotations
+
+import math
+from collections import deque
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, field, replace
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..scene import Scene, SceneError
+from .baseline import Baseline
+from .compliance import Compliance
+from .estimate import CONFIDENT, Estimate, Event, Status, estimated, not_identifiable
+from .hunting_blocks import EncoderCounters, HuntingBlock, HuntingBlocks
+from .signatures import signatures
+from .tooth_kind import ToothKind
+from .tooth_scores import Bank
+from .tooth_search import ALARM, Found, Residual, find_teeth
+from .train import followed_train
+from .transmission_error import Counts
+
+Array = NDArray[np.float64]
+
+WINDOWS = 1, 4, 16, 64  # blocks that are judged together
+UNCERTAIN = 0.15  # relative standard deviation of a size: runouts move load between teeth
+UNSCALED = 0.35  # likewise without a compliance, or at a load learned with a change
+SPEED_STEP = 0.3  # relative distance of the speeds for which signatures are computed
+
+
+class ToothState(NamedTuple):
+    """A tooth that has changed."""
+
+    gear: str
+    """"sun", "planet_1", ..., "ring"."""
+    tooth: int
+    """0 meets planet 1 first, counted from where the encoders start."""
+    loss: Estimate
+    """Loss of stiffness of a pair with this tooth, if it is a crack."""
+    z: float
+    """Standard deviations that it stands out with."""
+    kinds: tuple[str, ...]
+    """What it may be; one if the load has decided."""
+    candidates: tuple[str, ...]
+    """Teeth that explain the readings as well, itself included."""
+
+
+class _Judged(NamedTuple):
+    """Residual of a block."""
+
+    residual: Array
+    measured: NDArray[np.bool_]
+    products: Array
+    squares: Array
+    torque: float
+
+
+@dataclass
+class TeethFollower:
+    """Learns a baseline for each operating cell, and finds teeth that change.
+
+    Args:
+        scene: of the gearbox, with one input.
+        counts_per_turn: of the encoders on the input and the output member.
+        period: of their samples [s].
+        learning: hunting periods of a baseline.
+    """
+
+    scene: Scene
+    counts_per_turn: tuple[int, int]
+    period: float
+    learning: int = 24
+    events: list[Event] = field(init=False, default_factory=list)
+    """Changes found so far."""
+    teeth: tuple[ToothState, ...] = field(init=False, default=())
+    """Teeth that have changed."""
+    blocks: int = field(init=False, default=0)
+    """Hunting periods so far."""
+
+    def __post_init__(self) -> None:
+        first, second = self.counts_per_turn
+        if min(first, second) < 1 or not self.period > 0.0:
+            raise SceneError(
+                f"counts_per_turn = {first}, {second}, period = {self.period!r} s: must be above 0"
+            )
+        self.train = followed_train(self.scene)
+        self._hunting = HuntingBlocks(self.train, self.counts_per_turn, self.period)
+        self._pending: deque[HuntingBlock] = deque()
+        self._banks: dict[tuple[float, float], Bank] = {}  # by torque and speed
+        self._cells: list[Baseline] = []
+        self._recent: deque[_Judged] = deque(maxlen=WINDOWS[-1])
+        self._cell: int | None = None
+        self._kinds: dict[int, ToothKind] = {}
+        self._amounts: dict[int, float] = {}
+        self._place: dict[int, int] = {}  # of the event of a tooth
+        self._unmeasured = False
+        self.compliance = Compliance(self.learning)
+
+    @property
+    def counters(self) -> EncoderCounters:
+        """What has become of the samples."""
+        return self._hunting.counters
+
+    def add(self, sample: Counts, counts: Counts) -> None:
+        """Take samples in the order of their arrival.
+
+        Args:
+            sample: their numbers, (n,), which are times in periods.
+            counts: of both encoders, (n, 2).
+        """
+        self._pending.extend(self._hunting.add(sample, counts))
+
+    def finish(self) -> None:
+        """Use what is still waiting, at the end of a recording."""
+        self._pending.extend(self._hunting.finish())
+
+    def judge(self, until: float, torque: Callable[[float, float], float]) -> None:
+        """Judge the hunting periods that end by a time.
+
+        Args:
+            until: time up to which the torque is known [s].
+            torque: mean at the input between two times [N m]; NaN: not measured, then the scene's.
+        """
+        while self._pending and self._pending[0].end <= until:
+            block = self._pending.popleft()
+            self._judge(block, torque(block.begin, block.end))
+
+    def _judge(self, block: HuntingBlock, torque: float) -> None:
+        self.blocks += 1
+        speed = 2.0 * math.pi * block.rate / abs(float(self.train.cycles))
+        self.compliance.add(block.segment, torque, speed, block.mean)
+        if not math.isfinite(torque):
+            torque, self._unmeasured = self.scene.operating_point.input_torque, True
+        place = self._cell_of(block, torque, speed)
+        cell = self._cells[place]
+        if place != self._cell:
+            self._cell = place
+            self._recent.clear()
+        if not cell.learned:
+            self._follow_known(block, torque, place)
+            cell.learn(block, torque)
+            if cell.learned:
+                self._take_off_known(cell, place)
+            return
+        assert cell.bank is not None  # set with the cell
+        residual, measured = cell.residual(block, torque)
+        products, squares = cell.bank.score(residual, measured)
+        self._recent.append(_Judged(residual, measured, products, squares, torque))
+        self._note_amounts(residual, measured, (cell, place), torque)
+        self._decide(block, cell)
+
+    def _cell_of(self, block: HuntingBlock, torque: float, speed: float) -> int:
+        """Index of the operating cell of a block; a new one if there is none."""
+        for place, cell in enumerate(self._cells):
+            if cell.covers(torque, speed, block.segment):
+                return place
+        bank = self._bank(torque, speed)
+        self._cells.append(Baseline(torque, speed, block.segment, self.learning, bank))
+        return len(self._cells) - 1
+
+    def _bank(self, torque: float, speed: float) -> Bank:
+        """Signatures at a similar speed; they grow with the torque, whose sign chooses flanks."""
+        train, point = self.train, self.scene.operating_point
+        step = round(math.log(speed / train.speed) / math.log1p(SPEED_STEP))
+        near = min(train.speed * (1.0 + SPEED_STEP) ** step, train.speed_limit)
+        key = math.copysign(train.torque, torque), math.copysign(near, point.input_speed or 1.0)
+        if key not in self._banks:
+            self._banks[key] = Bank(signatures(self.scene, *key))
+        return self._banks[key]
+
+    def _decide(self, block: HuntingBlock, cell: Baseline) -> None:
+        """Look for teeth that stand out in any window."""
+        assert cell.bank is not None  # set with the cell
+        own = cell.sd[cell.bank.gear_of]
+        products = np.array([one.products for one in self._recent])[::-1].cumsum(axis=0)
+        squares = np.array([one.squares for one in self._recent])[::-1].cumsum(axis=0)
+        torques = np.array([one.torque for one in self._recent])
+        best, window = -math.inf, 1
+        for count in WINDOWS:
+            if count > len(self._recent):
+                break
+            sd = own * cell.noise(torques[-count:])
+            z = float(np.max(products[count - 1] / squares[count - 1] / sd))
+            if z > best:
+                best, window = z, count
+        if best < ALARM:
+            self._forget()
+            return
+        recent = list(self._recent)[-window:]
+        total = np.sum([one.residual for one in recent], axis=0)
+        blocks = np.sum([one.measured for one in recent], axis=0, dtype=float)
+        sd = own * cell.noise(torques[-window:])
+        found = find_teeth(cell.bank, Residual(total, blocks, sd))
+        if found:
+            self._name(found, cell, block, float(np.mean(torques[-window:])))
+        else:
+            self._forget()
+
+    def _name(self, found: list[Found], cell: Baseline, block: HuntingBlock, torque: float) -> None:
+        """Take the teeth of a search as the state; a new one is an event."""
+        bank = cell.bank
+        assert bank is not None  # set with the cell
+        scale, uncertain = self._scale(bank, torque)
+        if cell.taken_off:
+            uncertain = UNSCALED
+        states = []
+        before = dict(self._amounts)
+        self._amounts = {}
+        for one in found:
+            named = next((t for t in before if t in one.candidates), one.tooth)
+            tooth = bank.teeth[named]
+            self._amounts[named] = one.amount
+            loss = one.amount / scale
+            sd = math.hypot(one.sd / scale, uncertain * loss)
+            kind = self._kinds.setdefault(named, ToothKind(self.learning))
+            state = ToothState(
+                tooth.gear,
+                tooth.number,
+                estimated("stiffness_loss", loss, sd, ""),
+                one.z,
+                kind.kinds,
+                _names(bank, (named, *(other for other in one.candidates if other != named))),
+            )
+            states.append(state)
+            self._tell(named, state, block)
+        self.teeth = tuple(states)
+
+    def _tell(self, tooth: int, state: ToothState, block: HuntingBlock) -> None:
+        size = state.loss
+        reach = CONFIDENT * size.sd
+        others = (
+            f"; as likely: {', '.join(state.candidates[1:])}" if len(state.candidates) > 1 else ""
+        )
+        evidence = f"z = {state.z:.1f}, loss {100 * size.value:.2g} +- {100 * reach:.2g} %{others}"
+        what = f"{state.gear} tooth {state.tooth} changed"
+        if tooth not in self._place:
+            self._place[tooth] = len(self.events)
+            self.events.append(Event(what, block.begin, block.end, size, state.kinds, evidence))
+            return
+        place = self._place[tooth]
+        self.events[place] = replace(
+            self.events[place], size=size, causes=state.kinds, evidence=evidence
+        )
+
+    def _forget(self) -> None:
+        """Nothing stands out; teeth found before stay named until the window is full."""
+        if len(self._recent) >= WINDOWS[2]:
+            self.teeth, self._amounts = (), {}
+
+    def _scale(self, bank: Bank, torque: float) -> tuple[float, float]:
+        """Signatures of unit loss per that of the bank, and the uncertainty of a size."""
+        line = self.compliance.present
+        grown = torque / bank.torque
+        if line is None or not line.significant:
+            return grown, UNSCALED
+        return grown * line.slope / bank.compliance, UNCERTAIN
+
+    def _follow_known(self, block: HuntingBlock, torque: float, place: int) -> None:
+        """Amounts of known teeth at a load that is being learned, against the nearest baseline."""
+        near = [
+            cell
+            for cell in self._cells
+            if cell.learned and cell.segment == block.segment and cell.torque * torque > 0.0
+        ]
+        if not near or not self._amounts:
+            return
+        cell = min(near, key=lambda one: abs(one.torque - torque))
+        residual, measured = cell.residual(block, torque)
+        self._note_amounts(residual, measured, (cell, place), torque)
+
+    def _note_amounts(
+        self,
+        residual: Array,
+        measured: NDArray[np.bool_],
+        at: tuple[Baseline, int],
+        torque: float,
+    ) -> None:
+        """Amount of every known tooth in one block, the others taken off."""
+        cell, place = at
+        assert cell.bank is not None  # set with the cell
+        cycles = len(residual)
+        for tooth in self._amounts:
+            left = residual.copy()
+            for other, amount in self._amounts.items():
+                if other != tooth:
+                    left -= amount * cell.bank.deviation(other, cycles) * measured
+            products, squares = cell.bank.score(left, measured)
+            sd = float(cell.sd[cell.bank.gear_of[tooth]])
+            kind = self._kinds[tooth]
+            kind.add(place, torque, float(products[tooth] / squares[tooth]), sd)
+        self.teeth = tuple(self._with_kinds(state, cell.bank) for state in self.teeth)
+
+    def _with_kinds(self, state: ToothState, bank: Bank) -> ToothState:
+        """A state, and its event, with what it may be now."""
+        tooth = bank.teeth.index((state.gear, state.tooth))  # type: ignore[arg-type]
+        kinds = self._kinds[tooth].kinds
+        if kinds != state.kinds and tooth in self._place:
+            place = self._place[tooth]
+            self.events[place] = replace(self.events[place], causes=kinds)
+        return state._replace(kinds=kinds)
+
+    def _take_off_known(self, cell: Baseline, place: int) -> None:
+        """A baseline learned with a changed tooth is to be that without."""
+        assert cell.bank is not None and cell.mean is not None  # it has been learned
+        for tooth, kind in self._kinds.items():
+            if tooth in self._amounts:
+                cell.taken_off = True
+                cell.mean -= kind.amount(place) * cell.bank.deviation(tooth, len(cell.mean))
+
+    def remarks(self) -> Iterator[str]:
+        """What makes the estimates less certain, a line each."""
+        if self._unmeasured:
+            yield "encoders: without readings of the torque, that of the scene is assumed"
+        if self._cells and not any(cell.learned for cell in self._cells):
+            most = max(cell.count for cell in self._cells)
+            yield f"teeth: {most} of {self.learning} hunting periods of a baseline are learned"
+        if self.counters.dropped_blocks:
+            dropped = self.counters.dropped_blocks
+            yield f"encoders: {dropped} hunting periods have holes or reversals"
+
+    def estimates(self) -> tuple[Estimate, ...]:
+        """Compliance, and changes of compliance and play since the baseline."""
+        remedy = "a load that varies by some percent"
+        line, both = self.compliance.present, self.compliance.both
+        per_input = 1.0 / (self.train.lever * abs(float(self.train.twist[0])))
+        if line is None:
+            wait = "hunting periods with the torque measured"
+            return tuple(
+                not_identifiable(name, math.nan, unit, wait, "LEARNING")
+                for name, unit in (
+                    ("compliance", "rad/(N m)"), ("compliance_change", ""), ("play_change", "m"),
+                )
+            )  # fmt: skip
+        slope, sd = abs(line.slope) * per_input, line.sd * per_input
+        found = [
+            estimated("compliance", slope, sd, "rad/(N m)", remedy)
+            if line.significant
+            else not_identifiable("compliance", sd, "rad/(N m)", remedy)
+        ]
+        if both is None or not (both[0].significant and both[1].significant):
+            status: Status = "LEARNING" if both is None else "NOT_IDENTIFIABLE"
+            names = (("compliance_change", ""), ("play_change", "m"))
+            return (
+                *found,
+                *(not_identifiable(name, math.nan, unit, remedy, status) for name, unit in names),
+            )
+        first, last = both
+        change = last.slope / first.slope - 1.0
+        width = math.hypot(last.sd, first.sd) / abs(first.slope)
+        found.append(estimated("compliance_change", change, width, ""))
+        now, here = last.at(*last.centre)
+        then, there = first.at(*last.centre)
+        found.append(
+            estimated("play_change", 2.0 * (now - then), 2.0 * math.hypot(here, there), "m")
+        )
+        return tuple(found)
+
+
+def _names(bank: Bank, teeth: tuple[int, ...]) -> tuple[str, ...]:
+    return tuple(str(bank.teeth[tooth]) for tooth in teeth)

@@ -1,0 +1,71 @@
+"""Tells a crack from wear of the same tooth, by the load.
+
+At one load their signatures are similar. That of a crack grows with the torque, that of wear does
+not: mean amounts at different loads are compared with both courses.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+
+import numpy as np
+
+BETTER = 3.0  # units of log-likelihood
+CRACK, WEAR = "crack", "wear"
+
+
+@dataclass
+class ToothKind:
+    """Amounts of the signature of one tooth at some loads.
+
+    Args:
+        learning: blocks in the baseline, which all amounts at a load have in common.
+    """
+
+    learning: int
+    _amounts: dict[int, list[tuple[float, float, float]]] = field(default_factory=dict)
+
+    def add(self, cell: int, torque: float, amount: float, sd: float) -> None:
+        """Take the amount in one block.
+
+        Args:
+            cell: operating cell.
+            torque: of the block [N m].
+            amount: of the signature.
+            sd: its standard deviation.
+        """
+        self._amounts.setdefault(cell, []).append((torque, amount, sd))
+
+    def amount(self, cell: int) -> float:
+        """Mean amount in a cell; 0 without any.
+
+        Args:
+            cell: operating cell.
+        """
+        found = self._amounts.get(cell)
+        return float(np.mean([amount for _, amount, _ in found])) if found else 0.0
+
+    @property
+    def kinds(self) -> tuple[str, ...]:
+        """What it may be, the more likely first; one if the loads tell."""
+        misfits = self._misfits()
+        order = sorted(misfits, key=lambda kind: misfits[kind])
+        apart = 0.5 * (misfits[order[1]] - misfits[order[0]])
+        return (order[0],) if apart > BETTER else (CRACK, WEAR)
+
+    def _misfits(self) -> Mapping[str, float]:
+        """Sums of squares of both courses."""
+        rows = []
+        for found in self._amounts.values():
+            torque, amount, sd = np.array(found).T
+            variance = float(np.mean(sd**2)) * (1.0 / len(found) + 1.0 / self.learning)
+            rows.append((abs(float(torque.mean())), float(amount.mean()), variance))
+        if len(rows) < 2:
+            return {CRACK: 0.0, WEAR: 0.0}
+        torque, amount, variance = np.array(rows).T
+        misfits = {}
+        for kind, course in ((CRACK, torque / torque.mean()), (WEAR, np.ones_like(torque))):
+            size = np.sum(course * amount / variance) / np.sum(course**2 / variance)
+            misfits[kind] = float(np.sum((amount - size * course) ** 2 / variance))
+        return misfits

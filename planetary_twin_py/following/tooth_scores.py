@@ -1,0 +1,85 @@
+"""Scores of all teeth: how much of its signature a deviation holds.
+
+e_j = s_j r / s_j s_j over the measured bins is the least-squares estimate of the loss of tooth j
+alone. All teeth of a gear are scored at once: the deviation is folded to the period of the gear,
+and correlated with the signature of tooth 0 over whole mesh cycles.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .signatures import Signatures
+
+Array = NDArray[np.float64]
+
+
+class Tooth(NamedTuple):
+    """A tooth of a gear."""
+
+    gear: str
+    """"sun", "planet_1", ..., "ring"."""
+    number: int
+    """0 is the one that meets planet 1 first, counted from where the encoders start."""
+
+    def __str__(self) -> str:
+        return f"{self.gear} tooth {self.number}"
+
+
+class Bank:
+    """Signatures of all teeth of a train.
+
+    Args:
+        found: signatures of tooth 0 of all gears.
+    """
+
+    def __init__(self, found: Signatures) -> None:
+        self.gears = found.gears
+        self.torque, self.compliance = found.torque, found.compliance
+        self.teeth = [Tooth(g, t) for g, s in self.gears.items() for t in range(len(s))]
+        self.gear_of = np.repeat(np.arange(len(self.gears)), [len(s) for s in self.gears.values()])
+        """Index of the gear of every tooth, (teeth,)."""
+        self._spectra = {
+            gear: (np.conj(np.fft.rfft(s, axis=0)), np.conj(np.fft.rfft(s**2, axis=0)))
+            for gear, s in self.gears.items()
+        }
+
+    def score(self, deviation: Array, measured: Array | NDArray[np.bool_]) -> tuple[Array, Array]:
+        """Products of a deviation with the signatures, and of these with themselves.
+
+        Args:
+            deviation: by mesh cycle and bin [m], (cycles, BINS); 0 where it is not measured.
+            measured: where it is, or in how many blocks, (cycles, BINS).
+
+        Returns:
+            s_j r and s_j s_j over what is measured [m^2], (teeth,) each.
+        """
+        products: list[Array] = []
+        squares: list[Array] = []
+        weight = measured.astype(float)
+        for gear, signature in self.gears.items():
+            count = len(signature)
+            own, square = self._spectra[gear]
+            folded = deviation.reshape(-1, count, deviation.shape[1]).sum(axis=0)
+            share = weight.reshape(-1, count, deviation.shape[1]).sum(axis=0)
+            for found, spectrum, values in ((products, own, folded), (squares, square, share)):
+                shifted = np.fft.irfft(np.fft.rfft(values, axis=0) * spectrum, count, axis=0)
+                found.append(shifted.sum(axis=1))
+        return np.concatenate(products), np.concatenate(squares)
+
+    def deviation(self, tooth: int, cycles: int) -> Array:
+        """Signature of a tooth over a hunting period.
+
+        Args:
+            tooth: its index in `teeth`.
+            cycles: mesh cycles of the hunting period.
+
+        Returns:
+            Deviation per unit of loss [m], (cycles, BINS).
+        """
+        gear, number = self.teeth[tooth]
+        signature = np.roll(self.gears[gear], number, axis=0)
+        return np.tile(signature, (cycles // len(signature), 1))

@@ -1,0 +1,138 @@
+"""Finds which teeth explain a residual: orthogonal matching pursuit over all teeth (Pati, Rezaiifar
+and Krishnaprasad 1993, 27th Asilomar Conf., 40-44), with a joint fit of those that are found.
+
+A joint fit of all teeth at once would be several times noisier.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .bins import NORMAL
+from .tooth_scores import Bank
+
+Array = NDArray[np.float64]
+
+ALARM = 6.5  # standard deviations of a tooth that is found
+FURTHER = 5.0  # of a further one
+SHARE = 0.3  # of the first one, below which a further one may be its misfit: the signatures of wear
+# and of a crack correlate by 0.97, so a quarter of the one is left over by the other
+KEPT = 3.0  # of any in the joint fit
+SIMILAR = 3.0  # units of log-likelihood within which teeth cannot be distinguished
+MOST = 6  # teeth
+
+
+class Residual(NamedTuple):
+    """Sum of the residuals of some blocks."""
+
+    total: Array
+    """[m], (cycles, BINS)."""
+    blocks: Array
+    """Blocks in it, (cycles, BINS)."""
+    sd: Array
+    """Standard deviation of the loss of each tooth alone, at the torque of the bank, (teeth,)."""
+
+
+class Found(NamedTuple):
+    """A tooth that explains a part of a residual."""
+
+    tooth: int
+    """Index in the bank."""
+    amount: float
+    """Signatures of unit loss at the torque of the bank."""
+    sd: float
+    """Its standard deviation."""
+    z: float
+    """Standard deviations that it alone stands out with, the other teeth that are found taken
+    off."""
+    candidates: tuple[int, ...]
+    """Teeth that explain it as well, itself included, the best first."""
+
+
+def find_teeth(bank: Bank, residual: Residual) -> list[Found]:
+    """Find the teeth that explain a residual.
+
+    Args:
+        bank: signatures of all teeth.
+        residual: of one or more blocks.
+
+    Returns:
+        The teeth, the most certain one first; empty if none stands out.
+    """
+    residual = _with_noise(bank, residual)
+    active: list[int] = []
+    left, limit = residual.total, ALARM
+    while len(active) < MOST:
+        z = _z(bank, left, residual)
+        z[active] = -np.inf
+        best = int(np.argmax(z))
+        if z[best] < limit:
+            break
+        if not active:
+            limit = max(FURTHER, SHARE * float(z[best]))
+        active.append(best)
+        left = _left(bank, residual, active, _fit(bank, residual, active)[0])
+    while active:
+        amounts, sds = _fit(bank, residual, active)
+        weak = int(np.argmin(amounts / sds))
+        if amounts[weak] >= KEPT * sds[weak]:
+            break
+        del active[weak]
+    if not active:
+        return []
+    return sorted(_named(bank, residual, active), key=lambda found: -found.z)
+
+
+def _with_noise(bank: Bank, residual: Residual) -> Residual:
+    """The residual with the scatter that its teeth have once the best one is taken off.
+
+    Few teeth change, so the median of all gives the noise: blocks may be noisier than those of the
+    baseline.
+    """
+    best = int(np.argmax(_z(bank, residual.total, residual)))
+    left = _left(bank, residual, [best], _fit(bank, residual, [best])[0])
+    spread = NORMAL * float(np.median(np.abs(_z(bank, left, residual))))
+    return residual._replace(sd=residual.sd * max(1.0, spread))
+
+
+def _named(bank: Bank, residual: Residual, active: list[int]) -> list[Found]:
+    """Each tooth with those like it; of these the best one replaces it."""
+    cycles = len(residual.total)
+    amounts, sds = _fit(bank, residual, active)
+    left = _left(bank, residual, active, amounts)
+    found = []
+    for tooth, amount, sd in zip(active, amounts, sds, strict=True):
+        own = left + residual.blocks * amount * bank.deviation(tooth, cycles)
+        z = _z(bank, own, residual)
+        z[[other for other in active if other != tooth]] = -np.inf
+        order = np.argsort(-z, kind="stable")
+        gains = 0.5 * np.maximum(z[order], 0.0) ** 2
+        similar = tuple(int(t) for t in order[gains >= gains[0] - SIMILAR])
+        found.append(Found(similar[0], float(amount), float(sd), float(z[similar[0]]), similar))
+    return found
+
+
+def _z(bank: Bank, left: Array, residual: Residual) -> Array:
+    product, square = bank.score(left, residual.blocks)
+    return np.asarray(product / np.maximum(square, 1e-300) / residual.sd)
+
+
+def _fit(bank: Bank, residual: Residual, active: list[int]) -> tuple[Array, Array]:
+    """Joint least squares: amounts and their standard deviations, (active,) each."""
+    rows = np.array([bank.deviation(t, len(residual.total)).ravel() for t in active])
+    weighted = rows * residual.blocks.ravel()
+    square = weighted @ rows.T
+    inverse = np.linalg.inv(square)
+    wider = np.sqrt(np.diag(inverse) * np.diag(square))
+    return inverse @ (rows @ residual.total.ravel()), residual.sd[active] * wider
+
+
+def _left(bank: Bank, residual: Residual, active: list[int], amounts: Array) -> Array:
+    shown = sum(
+        amount * bank.deviation(t, len(residual.total))
+        for t, amount in zip(active, amounts, strict=True)
+    )
+    return np.asarray(residual.total - residual.blocks * shown)

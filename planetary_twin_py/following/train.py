@@ -1,0 +1,89 @@
+"""What the followers need to know of a gear train: ratios, inertia, and when teeth meet again."""
+
+from __future__ import annotations
+
+import math
+from fractions import Fraction
+from typing import NamedTuple
+
+from ..dynamics.bodies import CENTRAL, base_radii, machines, rigid_ratios, rim_masses
+from ..gearset.kinematics import mesh_cycles_per_turn
+from ..scene import Scene, SceneError
+
+
+class FollowedTrain(NamedTuple):
+    """A train with one input and one output."""
+
+    ratio: float
+    """Speed of the output over that of the input, signed."""
+    inertia: float
+    """Moment of inertia of the whole train with motor and load, referred to the input [kg m^2]."""
+    torque: float
+    """Magnitude of the input torque of the scene [N m]; a small share of its limit where that is
+    zero."""
+    speed: float
+    """Magnitude of the input speed of the scene [rad/s]; likewise."""
+    speed_limit: float
+    """Largest speed of the input [rad/s]."""
+    oil_temperature: float
+    """Of the scene [K]."""
+    members: tuple[str, str]
+    """Driven by the motor, and coupled to the load."""
+    cycles: Fraction
+    """Mesh cycles per turn of the input, signed."""
+    twist: tuple[Fraction, Fraction]
+    """Turns of the sun (the ring, if the sun is held) per turn of the input and of the output."""
+    lever: float
+    """Base radius of that gear [m], which makes a twist a transmission error."""
+    teeth: dict[str, int]
+    """Number of teeth by the name of the gear, "sun", "planet_1", ..., "ring"."""
+
+    @property
+    def hunting_cycles(self) -> int:
+        """Mesh cycles after which every tooth meets the same teeth again."""
+        return math.lcm(*self.teeth.values())
+
+
+def followed_train(scene: Scene) -> FollowedTrain:
+    """Collect what the followers need to know of a scene.
+
+    Args:
+        scene: of the gearbox, with one input.
+
+    Returns:
+        The train.
+
+    Raises:
+        SceneError: the scene has two inputs.
+    """
+    if scene.drive.second_input is not None:
+        raise SceneError("drive.second_input: a differential cannot be followed")
+    ratios = {name: ratio[0] for name, ratio in rigid_ratios(scene).items()}
+    members = (scene.drive.input.member, scene.drive.output.member)
+    gear = "ring" if scene.gearset.held == "sun" else "sun"
+    point, numbers = scene.operating_point, scene.gearset.tooth_numbers
+    planets = {f"planet_{n + 1}": numbers.planet for n in range(scene.gearset.planets)}
+    return FollowedTrain(
+        ratio=float(ratios[members[1]]),
+        inertia=_inertia(scene, ratios),
+        torque=abs(point.input_torque) or 0.1 * scene.drive.torque_limit,
+        speed=abs(point.input_speed) or 0.1 * scene.drive.speed_limit,
+        speed_limit=scene.drive.speed_limit,
+        oil_temperature=point.oil_temperature,
+        members=members,
+        cycles=mesh_cycles_per_turn(numbers, {name: ratios[name] for name in (*CENTRAL, "planet")}),
+        twist=(ratios[gear], ratios[gear] / ratios[members[1]]),
+        lever=base_radii(scene)[gear],
+        teeth={"sun": numbers.sun, **planets, "ring": numbers.ring},
+    )
+
+
+def _inertia(scene: Scene, ratios: dict[str, Fraction]) -> float:
+    """Of all that turns, referred to the input [kg m^2]."""
+    radii = base_radii(scene)
+    copies = {"planet": scene.gearset.planets}
+    parts = {
+        kind: mass * radii[kind] ** 2 * copies.get(kind, 1)
+        for kind, mass in rim_masses(scene).items()
+    } | {name: machine.inertia for name, machine in machines(scene).items()}
+    return sum(inertia * float(ratios[name]) ** 2 for name, inertia in parts.items())

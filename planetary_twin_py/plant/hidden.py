@@ -1,0 +1,114 @@
+"""What is hidden in a plant: its laws, what changes, its duty, and errors of its sensors."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any, Literal
+
+from pydantic import Field, ValidationError
+
+from ..scene import SceneError
+from ..scene.defect import explain
+from ..scene.faults import MOST_FAULTS, Fault
+from ..scene.quantity import Section, quantity
+from ..scene.yaml_text import read_yaml
+
+
+class Change(Section):
+    """A change at an instant; what is not given stays as it is."""
+
+    at: float = quantity("s", "time of the change", ge=0.0, le=1e9)
+    friction: float | None = quantity("", "factor on tooth friction", None, gt=0.0, le=100.0)
+    drag: float | None = quantity("N m", "drag at the input", None, ge=0.0, le=1e6)
+    torque_zero: float | None = quantity(
+        "N m", "zero of the torque sensor at the input", None, ge=-1e6, le=1e6
+    )
+    load: float | None = quantity("", "factor on the torque of the duty", None, ge=-10.0, le=10.0)
+    faults: tuple[Fault, ...] | None = Field(
+        None, max_length=MOST_FAULTS, description="faulty teeth from then on"
+    )
+
+
+class Duty(Section):
+    """Course of torque and speed at the input."""
+
+    kind: Literal["steady", "varied", "reversing"] = Field(
+        "steady",
+        description="steady: the operating point of the scene; varied: another torque and speed "
+        "every 5 s; reversing: the torque changes its sign every 5 s",
+    )
+    torque_wander: float = quantity("", "standard deviation of the torque, relative", 0.03, ge=0)
+    speed_wander: float = quantity("", "standard deviation of the speed, relative", 0.003, ge=0)
+
+
+class TorqueErrors(Section):
+    """Errors of a torque transducer."""
+
+    noise: float = quantity("N m", "standard deviation of a reading", 0.0, ge=0.0, le=1e6)
+    zero: float = quantity("N m", "error of the zero", 0.0, ge=-1e6, le=1e6)
+    gain: float = quantity("", "relative error of the gain", 0.0, gt=-1.0, le=1.0)
+
+
+class EncoderErrors(Section):
+    """Both encoders, read by one device."""
+
+    rate: float = quantity("Hz", "sample rate; 0: no encoders", 0.0, ge=0.0, le=1e6)
+    bits: int = Field(20, ge=8, le=32, description="counts per turn, as a power of two")
+    noise: float = quantity("rad", "standard deviation of a sample", 1e-6, ge=0.0, le=1.0)
+    long_wave: float = quantity("rad", "error once per turn, amplitude", 30e-6, ge=0.0, le=1.0)
+    mesh_wave: float = quantity(
+        "rad", "error at the mesh order of the encoder's shaft, amplitude", 1e-6, ge=0.0, le=1.0
+    )
+    jitter: float = quantity(
+        "s", "standard deviation of the delay between both channels", 0.0, ge=0.0, le=1.0
+    )
+    delay: float = quantity("s", "constant delay between both channels", 2e-6, ge=-1.0, le=1.0)
+    packet: int = Field(200, ge=1, le=100_000, description="samples of a packet")
+    lost: float = quantity("", "share of packets that are lost", 0.0, ge=0.0, lt=1.0)
+
+
+class SensorErrors(Section):
+    """Errors of all sensors."""
+
+    rate: float = quantity("Hz", "readings of torque and speed per second", 100.0, gt=0, le=1e5)
+    input_torque: TorqueErrors = Field(TorqueErrors(), description="at the input")
+    output_torque: TorqueErrors = Field(TorqueErrors(), description="at the output")
+    speed_noise: float = quantity("rad/s", "standard deviation of a speed", 0.0, ge=0.0, le=1e4)
+    clock_offset: float = quantity(
+        "s", "clock of the output less that of the input", 0.0, ge=-10.0, le=10.0
+    )
+    lost: float = quantity("", "share of readings that are lost", 0.0, ge=0.0, lt=1.0)
+    outlying: float = quantity("", "share of readings that are wild", 0.0, ge=0.0, lt=0.5)
+    encoders: EncoderErrors = Field(EncoderErrors(), description="encoders on sun and output")
+
+
+class Hidden(Section):
+    """Everything that a follower does not know."""
+
+    scene: dict[str, Any] = Field(
+        {}, description="fields in which the plant differs from the scene, by dotted name"
+    )
+    duty: Duty = Field(Duty(), description="course of torque and speed")
+    sensors: SensorErrors = Field(SensorErrors(), description="errors of the sensors")
+    changes: tuple[Change, ...] = Field((), description="changes, in order of time")
+    seed: int = Field(0, ge=0, description="of all that is drawn by chance")
+
+
+def read_hidden(path: Path) -> Hidden:
+    """Read a YAML file with fields of `Hidden`.
+
+    Args:
+        path: of the file.
+
+    Returns:
+        What is hidden.
+
+    Raises:
+        SceneError: a field is invalid.
+        OSError: the file cannot be read.
+    """
+    data = read_yaml(path.read_text("utf-8"), "hidden") or {}
+    try:
+        return Hidden.model_validate(data)
+    except ValidationError as error:
+        raise SceneError(f"{path}: {explain(error, Hidden)}") from None

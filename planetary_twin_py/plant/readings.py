@@ -1,0 +1,111 @@
+"""Readings of torque, speed and oil temperature of a plant."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..following.loss_map import loss_map
+from ..following.train import followed_train
+from ..scene import Scene
+from .course import Course, draw_course
+from .hidden import Hidden
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Plant:
+    """A gearbox that plays a duty and changes on the way.
+
+    Args:
+        scene: that a follower knows.
+        hidden: what it does not know.
+        duration: of the play [s].
+    """
+
+    scene: Scene
+    hidden: Hidden
+    duration: float
+
+    @cached_property
+    def true_scene(self) -> Scene:
+        """The scene with the laws of the plant."""
+        return self.scene.replace(**self.hidden.scene)
+
+    @cached_property
+    def course(self) -> Course:
+        """Of torque and speed."""
+        train = followed_train(self.true_scene)
+        chance = np.random.default_rng([self.hidden.seed, 0])
+        hidden = self.hidden
+        return draw_course(hidden.duty, hidden.changes, train, self.duration, chance)
+
+    def at(self, name: str, time: Array, default: float) -> Array:
+        """A quantity that changes by steps.
+
+        Args:
+            name: field of `Change`.
+            time: [s], (n,).
+            default: value before the first change.
+
+        Returns:
+            Values (n,).
+        """
+        values = np.full(len(time), default)
+        for change in self.hidden.changes:
+            value = getattr(change, name)
+            if value is not None:
+                values[time >= change.at] = value
+        return values
+
+
+def play_readings(plant: Plant) -> tuple[Array, dict[str, Array]]:
+    """Play the readings of a plant, in the order of their arrival.
+
+    The losses are those of the quasi-static train, see `loss_map`; the torque at the input also
+    accelerates the inertia of the whole train.
+
+    Args:
+        plant: the plant.
+
+    Returns:
+        Stamps [s], (n,), and readings in SI by channel, (n,) each, NaN where they are lost.
+    """
+    train, course = followed_train(plant.true_scene), plant.course
+    sensors = plant.hidden.sensors
+    time = np.arange(1, int(plant.duration * sensors.rate) + 1) / sensors.rate
+    torque, speed = course.torque_at(time), course.speed_at(time)
+    driving = torque + train.inertia * course.acceleration_at(time)
+    later = time + sensors.clock_offset
+    driven = (_loss(plant, later, course.torque_at(later), course.speed_at(later))
+              - course.torque_at(later)) / train.ratio  # fmt: skip
+    chance = np.random.default_rng([plant.hidden.seed, 1])
+    one, two = sensors.input_torque, sensors.output_torque
+    zero = plant.at("torque_zero", time, one.zero)
+    noise = chance.standard_normal((4, len(time)))
+    columns = {
+        "input_torque": driving * (1.0 + one.gain) + zero + one.noise * noise[0],
+        "output_torque": driven * (1.0 + two.gain) + two.zero + two.noise * noise[1],
+        "input_speed": speed + sensors.speed_noise * noise[2],
+        "output_speed": train.ratio * speed + sensors.speed_noise * noise[3],
+    }
+    for name, values in columns.items():
+        if name.endswith("torque"):
+            wild = chance.random(len(time)) < sensors.outlying
+            values[wild] = train.torque * chance.standard_cauchy(int(wild.sum()))
+        values[chance.random(len(time)) < sensors.lost] = np.nan
+    columns["oil_temperature"] = np.full(len(time), train.oil_temperature)
+    return time, columns
+
+
+def _loss(plant: Plant, time: Array, torque: Array, speed: Array) -> Array:
+    """Loss torque at the input, with the sign of the speed [N m], (n,)."""
+    losses = loss_map(plant.true_scene)
+    oil = plant.true_scene.operating_point.oil_temperature
+    parts = np.array([losses(t, w, oil)[::2] for t, w in zip(torque, speed, strict=True)])
+    friction, drag = plant.at("friction", time, 1.0), plant.at("drag", time, 0.0)
+    return np.asarray(np.sign(speed) * (friction * parts[:, 0] + parts[:, 1] + drag))

@@ -1,0 +1,135 @@
+"""Friction, drag, zero, gain and inertia of plants with hidden truth."""
+
+import numpy as np
+import pytest
+from following.plants import LAWS, balance_of, friction_level, paper, played
+
+from planetary_twin_py.following.balance import BalanceFollower
+
+DELAYS = {"steady": 10.0, "varied": 15.0, "reversing": 15.0}  # [s] until +5 % friction is found
+
+
+def named(follower):
+    return {one.name: one for one in follower.estimates()}
+
+
+@pytest.mark.parametrize("kind", DELAYS)
+def test_a_step_of_friction_by_five_percent_is_found(kind):
+    _, follower = balance_of(
+        kind, LAWS["with bearings"], 90.0, 3, ({"at": 60.0, "friction": 1.05},)
+    )
+    (event,) = follower.events
+    assert event.what == "loss torque stepped"
+    assert event.since <= 62.0 and 60.0 < event.found <= 60.0 + DELAYS[kind]
+    assert event.size.value > 0.0 and "friction" in event.causes
+
+
+def test_reversal_tells_friction_from_drag_and_zero():
+    changes = ({"at": 40.0, "friction": 1.2},)
+    _, follower = balance_of("reversing", {}, 90.0, 1, changes)
+    assert follower.events[0].causes == ("friction",)
+
+
+def test_steady_running_does_not_tell_the_cause_of_a_step():
+    _, follower = balance_of("steady", {}, 90.0, 1, ({"at": 40.0, "torque_zero": 0.1},))
+    assert set(follower.events[0].causes) == {"friction", "drag", "zero of a torque sensor"}
+
+
+def test_a_moved_zero_is_distinguished_from_friction_where_the_torque_reverses():
+    _, follower = balance_of("reversing", {}, 90.0, 1, ({"at": 40.0, "torque_zero": 0.3},))
+    assert "friction" not in follower.events[0].causes
+
+
+@pytest.mark.parametrize("law", LAWS)
+def test_reversing_duty_tells_friction_to_some_percent(law):
+    plant, follower = balance_of("reversing", LAWS[law], 60.0, 5)
+    friction = named(follower)["friction_level"]
+    assert friction.status == "ESTIMATED" and friction.sd < 0.04
+    assert friction.low < friction_level(plant) < friction.high
+
+
+def test_steady_running_tells_neither_drag_nor_zero_nor_gain_nor_inertia():
+    _, follower = balance_of("steady", {}, 60.0, 5)
+    found = named(follower)
+    for name in ("drag", "torque_zero", "torque_gain", "inertia"):
+        assert found[name].status == "NOT_IDENTIFIABLE" and np.isnan(found[name].value)
+        assert found[name].remedy.startswith("a ")
+    assert "reversal" in found["drag"].remedy and "speed" in found["inertia"].remedy
+
+
+def test_changing_speed_tells_inertia():
+    _, follower = balance_of("varied", {}, 60.0, 5)
+    inertia = named(follower)["inertia"]
+    assert inertia.status == "ESTIMATED" and inertia.sd < 0.03 * follower.train.inertia
+    assert inertia.low < follower.train.inertia < inertia.high
+
+
+def test_inertia_is_not_distinguished_from_the_noise_of_a_steady_speed():
+    _, follower = balance_of("reversing", {}, 200.0, 5)
+    inertia = named(follower)["inertia"]
+    assert inertia.status == "NOT_IDENTIFIABLE"
+    assert inertia.sd > 0.9 * 0.1 * follower.train.inertia
+
+
+def test_the_loss_torque_is_that_of_the_plant():
+    plant, follower = balance_of("steady", LAWS["another friction"], 30.0, 2)
+    loss = named(follower)["loss_torque"]
+    true = friction_level(plant) * 0.967  # [N m], of scene `paper` with load_sharing, 63 N m
+    assert loss.low < true < loss.high and loss.sd < 0.2
+
+
+def test_before_readings_everything_is_being_learned():
+    found = BalanceFollower(paper()).estimates()
+    assert {one.status for one in found} == {"LEARNING"}
+
+
+def test_readings_of_another_machine_are_an_event():
+    _, time, columns = played("steady", {}, 60.0, 4)
+    columns["output_torque"] = np.where(
+        time > 30.0, 0.97 * columns["output_torque"], columns["output_torque"]
+    )
+    follower = BalanceFollower(paper())
+    follower.add(time, columns)
+    assert any(30.0 <= event.found < 34.0 for event in follower.events)
+
+
+def test_wild_readings_and_gaps_do_no_harm():
+    _, time, columns = played(
+        "reversing", {}, 60.0, 6, sensors={"outlying": 0.02, "lost": 0.05, "clock_offset": 1e-3}
+    )
+    follower = BalanceFollower(paper())
+    follower.add(time, columns)
+    friction = named(follower)["friction_level"]
+    assert follower.counters.outlying > 50 and not follower.events
+    assert friction.low < 1.0 < friction.high
+
+
+@pytest.mark.exhaustive
+@pytest.mark.parametrize("kind", DELAYS)
+def test_stated_intervals_hold_the_truth_with_other_laws(kind):
+    inside, found = {}, {}
+    for seed in range(16):
+        law = LAWS[[*LAWS][seed % 4]]
+        plant, follower = balance_of(kind, law, 45.0, 100 + seed)
+        assert not follower.events
+        truth = {"friction_level": friction_level(plant), "inertia": follower.train.inertia}
+        errors = plant.hidden.sensors
+        truth["drag"] = 0.0
+        truth["torque_zero"] = (
+            errors.input_torque.zero + follower.train.ratio * errors.output_torque.zero
+        )
+        for name, value in truth.items():
+            one = named(follower)[name]
+            if one.status == "ESTIMATED":
+                found[name] = found.get(name, 0) + 1
+                inside[name] = inside.get(name, 0) + (one.low < value < one.high)
+    assert found["friction_level"] == 16
+    for name, count in found.items():
+        assert inside[name] >= 0.9 * count - 1.0, (name, inside[name], count)
+
+
+@pytest.mark.exhaustive
+def test_no_false_alarm_in_ten_minutes_of_each_duty():
+    for number, kind in enumerate(DELAYS):
+        _, follower = balance_of(kind, LAWS["with bearings"], 600.0, 40 + number)
+        assert not follower.events

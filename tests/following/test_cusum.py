@@ -1,0 +1,40 @@
+"""Steps in noise."""
+
+import numpy as np
+import pytest
+
+from planetary_twin_py.following.cusum import Cusum
+
+
+def steps(values, cusum=None):
+    cusum = cusum or Cusum()
+    found = [cusum.add(0.1 * n, value, 1.0) for n, value in enumerate(values)]
+    return [step for step in found if step], cusum
+
+
+def test_no_alarm_in_a_day_of_noise():
+    found, _ = steps(np.random.default_rng(1).standard_normal(864_000))
+    assert found == []
+
+
+@pytest.mark.parametrize("sign", [1.0, -1.0])
+def test_a_step_is_found_with_its_begin_and_its_size(sign):
+    values = np.random.default_rng(2).standard_normal(2000)
+    values[1000:] += sign * 0.8
+    (first, *_), _ = steps(values[:1200])
+    assert first.since == pytest.approx(100.0, abs=2.0)
+    assert 103.0 < first.found < 112.0
+    assert abs(first.size - sign * 0.8) < 3.0 * first.sd
+
+
+def test_a_single_wild_value_is_no_step():
+    values = np.random.default_rng(3).standard_normal(2000)
+    values[1000] = 1e6
+    assert steps(values)[0] == []
+
+
+def test_alarms_are_held_while_noise_correlates():
+    noise = np.random.default_rng(4).standard_normal(20_000)
+    slow = np.convolve(noise, np.ones(20), "valid") / np.sqrt(20.0)
+    found, cusum = steps(slow)
+    assert cusum.held and all(step.found < 60.0 for step in found)

@@ -1,0 +1,106 @@
+"""Cracked and worn teeth of plants with hidden truth."""
+
+import numpy as np
+import pytest
+from following.plants import TEETH_LAWS, crack, toothed
+
+from planetary_twin_py.following.signatures import signatures
+from planetary_twin_py.following.tooth_kind import ToothKind
+
+LEARNED = 22.0  # [s]
+SUN = ({"at": LEARNED, "faults": [crack("sun", 7, 0.01)]},)
+
+
+@pytest.fixture(scope="module")
+def cracked():
+    """A crack of 1 % of a sun tooth, and later a load of 130 %."""
+    return toothed({}, (*SUN, {"at": 30.0, "load": 1.3}), 42.0)
+
+
+def test_a_crack_of_one_percent_is_found_within_four_seconds(cracked):
+    (event,) = cracked[1].events
+    assert event.what == "sun tooth 7 changed"
+    assert LEARNED < event.found < LEARNED + 4.0
+
+
+def test_its_size_is_stated_with_an_interval_that_holds_it(cracked):
+    (tooth,) = cracked[1].teeth
+    assert tooth.loss.low < 0.01 < tooth.loss.high
+    assert tooth.loss.value == pytest.approx(0.01, rel=0.1)
+    assert tooth.candidates == ("sun tooth 7",)
+
+
+def test_a_change_of_load_tells_that_it_is_a_crack(cracked):
+    assert cracked[1].events[0].causes == ("crack",)
+
+
+def test_the_compliance_is_that_of_the_model(cracked):
+    plant, follower = cracked
+    found = {one.name: one for one in follower.estimates()}["compliance"]
+    point = plant.scene.operating_point
+    model = signatures(plant.scene, point.input_torque, point.input_speed).compliance
+    assert found.status == "ESTIMATED"
+    assert found.value == pytest.approx(model / follower.train.lever, rel=0.02)
+
+
+def test_a_change_of_load_tells_wear():
+    worn = {"kind": "wear", "gear": "sun", "tooth": 7, "depth": 2e-7}
+    _, follower = toothed({}, ({"at": LEARNED, "faults": [worn]}, {"at": 30.0, "load": 1.3}), 42.0)
+    (event,) = follower.events
+    assert event.what == "sun tooth 7 changed" and event.causes == ("wear",)
+
+
+def test_two_teeth_are_distinguished():
+    faults = [crack("sun", 20, 0.02), crack("ring", 5, 0.03)]
+    _, follower = toothed({}, ({"at": LEARNED, "faults": faults},), 28.0)
+    found = {(one.gear, one.tooth): one.loss for one in follower.teeth}
+    assert set(found) == {("sun", 20), ("ring", 5)}
+    assert found["sun", 20].value == pytest.approx(0.02, rel=0.15)
+    assert found["ring", 5].value == pytest.approx(0.03, rel=0.15)
+
+
+def test_without_a_learned_baseline_nothing_is_judged():
+    _, follower = toothed({}, (), 12.0)
+    assert not follower.events and not follower.teeth
+    assert any("of 24 hunting periods" in line for line in follower.remarks())
+
+
+def test_at_one_load_crack_and_wear_are_not_distinguished():
+    kind = ToothKind(24)
+    for _ in range(30):
+        kind.add(0, 63.0, 0.01, 7e-4)
+    assert set(kind.kinds) == {"crack", "wear"}
+
+
+@pytest.mark.exhaustive
+@pytest.mark.parametrize("law", TEETH_LAWS)
+def test_teeth_of_all_gears_are_named_with_other_laws(law):
+    limit = {"sun": 4.0, "planet": 4.0, "ring": 14.0}
+    chance = np.random.default_rng([*TEETH_LAWS].index(law))
+    inside = []
+    for gear, teeth in (("sun", 30), ("planet", 20), ("ring", 70)):
+        number = int(chance.integers(teeth))
+        more = {"planet": int(chance.integers(1, 4))} if gear == "planet" else {}
+        changes = ({"at": LEARNED, "faults": [crack(gear, number, 0.01, **more)]},)
+        _, follower = toothed(TEETH_LAWS[law], changes, LEARNED + 8.0, seed=number)
+        assert len(follower.events) == 1, (gear, number)
+        name = f"{gear}_{more['planet']}" if more else gear
+        (tooth,) = follower.teeth
+        assert f"{name} tooth {number}" in tooth.candidates
+        assert follower.events[0].found < LEARNED + limit[gear]
+        inside.append(tooth.loss.low < 0.01 < tooth.loss.high)
+    assert all(inside)
+
+
+@pytest.mark.exhaustive
+@pytest.mark.parametrize("law", ["the same", "runout"])
+def test_healthy_teeth_give_no_alarm(law):
+    _, follower = toothed(TEETH_LAWS[law], (), 150.0, seed=11)
+    assert not follower.events
+    assert follower.blocks > 150
+
+
+@pytest.mark.exhaustive
+def test_jitter_between_the_channels_hides_small_cracks_and_none_is_invented():
+    _, follower = toothed({}, SUN, 40.0, encoders={"jitter": 1e-6})
+    assert not follower.events

@@ -1,0 +1,106 @@
+"""Readings and encoders of a plant against runs of the twin with dynamics."""
+
+import numpy as np
+import pytest
+
+import planetary_twin_py as pt
+from planetary_twin_py.following.train import followed_train
+from planetary_twin_py.plant.encoders import play_encoders
+from planetary_twin_py.plant.hidden import Hidden
+from planetary_twin_py.plant.readings import Plant, play_readings
+
+SCENE = pt.load_scene("paper")
+STILL = {"torque_wander": 0.0, "speed_wander": 0.0}
+
+
+def play(hidden, duration=2.0):
+    plant = Plant(SCENE, Hidden.model_validate(hidden), duration)
+    return plant, *play_readings(plant)
+
+
+def test_steady_readings_are_those_of_the_twin_with_dynamics():
+    _, _, columns = play({"duty": STILL})
+    twin = pt.Twin(SCENE)
+    twin.advance(0.5)
+    window = twin.advance(0.5)
+    means = {name: float(np.mean(values)) for name, values in columns.items()}
+    assert means["input_torque"] == pytest.approx(window.input_torque, rel=1e-3)
+    assert means["output_torque"] == pytest.approx(window.output_torque, rel=1e-3)
+    assert means["input_speed"] == pytest.approx(window.input_speed, rel=1e-3)
+    assert means["output_speed"] == pytest.approx(window.output_speed, rel=1e-3)
+    lost = means["input_torque"] + followed_train(SCENE).ratio * means["output_torque"]
+    assert lost == pytest.approx(window.power_loss / window.input_speed, rel=0.02)
+
+
+def test_readings_balance_with_inertia_while_the_speed_changes():
+    plant, time, columns = play({"duty": {"kind": "varied"}}, 20.0)
+    train = followed_train(SCENE)
+    energy = 0.5 * train.inertia * plant.course.speed_at(time) ** 2
+    power = (
+        columns["input_torque"] * columns["input_speed"]
+        + columns["output_torque"] * columns["output_speed"]
+    )
+    stored = np.gradient(energy, time)
+    lost = power - stored
+    smooth = np.abs(np.gradient(plant.course.acceleration_at(time))) < 1e-9
+    assert np.all(lost[smooth] > 0.0)
+    assert np.ptp(stored[smooth]) > 100.0  # [W], far more than is lost
+    assert np.max(lost[smooth]) < 0.02 * 63.0 * 1.3 * 105.0
+
+
+def test_changes_come_at_their_time():
+    _, time, columns = play(
+        {"duty": STILL, "changes": [{"at": 1.0, "friction": 1.2}, {"at": 1.5, "torque_zero": 0.5}]}
+    )
+    lost = columns["input_torque"] + followed_train(SCENE).ratio * columns["output_torque"]
+    before, after = lost[time < 1.0].mean(), lost[(time > 1.0) & (time < 1.5)].mean()
+    assert after / before == pytest.approx(1.2, rel=1e-6)
+    assert lost[time > 1.5].mean() - after == pytest.approx(0.5, rel=1e-6)
+
+
+def test_the_same_seed_gives_the_same_readings():
+    hidden = {"duty": {"kind": "reversing"}, "sensors": {"input_torque": {"noise": 0.1}}}
+    one, other, third = play(hidden)[2], play(hidden)[2], play(hidden | {"seed": 1})[2]
+    assert np.array_equal(one["input_torque"], other["input_torque"])
+    assert not np.array_equal(one["input_torque"], third["input_torque"])
+
+
+def test_encoders_show_the_transmission_error_of_the_twin():
+    perfect = {"bits": 30, "noise": 0.0, "long_wave": 0.0, "mesh_wave": 0.0, "delay": 0.0}
+    hidden = {"duty": STILL, "sensors": {"encoders": {"rate": 20_000.0, **perfect}}}
+    plant = Plant(SCENE, Hidden.model_validate(hidden), 0.1)
+    (packet,) = play_encoders(plant)
+    turned = packet.counts / 2.0**30 * 2.0 * np.pi
+    shown = turned[:, 0] + 7.0 / 3.0 * turned[:, 1]
+    run = pt.simulate(SCENE, 0.1, 20_000.0, tolerance=1e-5, settling=1.0)
+    sun, ring = (run.angle[:, run.bodies.index(body)] for body in ("sun", "ring"))
+    true = sun + 7.0 / 3.0 * ring
+    assert np.mean(shown) == pytest.approx(np.mean(true), rel=2e-3)
+    assert np.std(shown) == pytest.approx(np.std(true), rel=0.02)
+    assert shown.min() == pytest.approx(true.min(), rel=0.02)
+
+
+def test_lost_packets_and_quantisation_are_as_given():
+    hidden = {"sensors": {"encoders": {"rate": 20_000.0, "bits": 12, "lost": 0.1}}}
+    plant = Plant(SCENE, Hidden.model_validate(hidden), 5.0)
+    sample = np.concatenate([packet.sample for packet in play_encoders(plant)])
+    assert 0.85 < len(sample) / 100_000 < 0.95
+    assert set(np.diff(np.flatnonzero(np.diff(sample) > 1)) % 200) == {0}
+
+
+@pytest.mark.parametrize(
+    ("text", "said"),
+    [
+        ("duty: {kind: idle}", "duty.kind = 'idle': must be"),
+        ("changes: [{friction: 2}]", r"changes\.0\.at: missing"),
+        ("sensors: {encoders: {lost: 2}}", r"sensors\.encoders\.lost = 2"),
+        ("sensor: {}", "sensor: no such field"),
+    ],
+)
+def test_what_is_hidden_is_checked(tmp_path, text, said):
+    from planetary_twin_py.plant.hidden import read_hidden
+
+    file = tmp_path / "hidden.yaml"
+    file.write_text(text)
+    with pytest.raises(pt.SceneError, match=said):
+        read_hidden(file)
