@@ -51,7 +51,7 @@ def planet_groups(scene: Scene) -> PlanetGroups:
 
 
 def axes_stand(scene: Scene) -> bool:
-    """Whether the axes of sun, ring and carrier cannot be displaced, as the forces on them cancel."""
+    """Whether sun, ring and carrier cannot be displaced, as the forces on them cancel."""
     return _cancel(scene, _signatures(scene))
 
 
