@@ -198,9 +198,7 @@ def _result(
         energy=_energy(engine, before.stored),
         mesh=statistics,
         mesh_efficiency=_mesh_efficiency(sums),
-        axes=axes_motion(
-            scene, samples, meshes.place, angle[:, -1], statistics["mesh_force_mean"]
-        )
+        axes=axes_motion(scene, samples, meshes.place, angle[:, -1], statistics["mesh_force_mean"])
         if scene.moving_axes
         else None,
         stats=Stats(
