@@ -215,13 +215,16 @@ def _order(scene: Scene) -> list[str]:
 
 def _places(scene: Scene) -> dict[str, int]:
     order, planets, groups = _order(scene), _planets(scene), planet_groups(scene)
+    leaders = (planets[groups.leaders[group]] for group in groups.group)
+    leader = dict(zip(planets, leaders, strict=True))
     place = {name: n for n, name in enumerate(order)}
-    place |= dict.fromkeys(("sun", "ring", "carrier"), len(order)) | place
+
+    def integrated(name: str) -> str:
+        body, *motion = name.split(".")
+        return ".".join([leader.get(body, body), *motion])
+
+    every = ["sun", *planets, "ring", "carrier", *machines(scene)]
     if scene.moving_axes:
-        displaced = [f"{body}.{motion}" for body in CENTRAL for motion in ("x", "y")]
-        place |= dict.fromkeys(displaced, len(order)) | place
-    for planet, group in zip(planets, groups.group, strict=True):
-        leader = planets[groups.leaders[group]]
-        for motion in ("", ".xi", ".eta") if scene.moving_axes else ("",):
-            place[planet + motion] = place[leader + motion]
-    return place
+        every += [f"{body}.{motion}" for body in CENTRAL for motion in ("x", "y")]
+        every += [f"{planet}.{motion}" for planet in planets for motion in ("xi", "eta")]
+    return {name: place.get(integrated(name), len(order)) for name in every}

@@ -140,7 +140,7 @@ def _sliding(
 def _bearings(scene: Scene, bodies: Bodies) -> dict[str, Any]:
     """Fields of `MovingAxes` over the bearings of sun, ring, carrier and planets.
 
-    Every planet has its own bearing, also where planets that move alike share displacements.
+    Every planet has its own bearing, also where planets of the same motion share displacements.
     """
     supports, planets = scene.supports, scene.gearset.planets
     assert supports is not None  # the scene has been checked

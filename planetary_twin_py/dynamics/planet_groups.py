@@ -7,7 +7,7 @@ between real planets must be given in the scene. (Planets in phase: Kahraman 199
 train dynamics; Parker and Lin 2004.)
 
 Where axes move, the forces of every group on sun, ring and carrier must cancel as well. Then these
-three are never displaced, and the planets of a group move alike on their pins.
+three are never displaced, and the planets of a group have the same motion on their pins.
 """
 
 from __future__ import annotations

@@ -30,15 +30,15 @@ def test_a_slope_is_found_within_its_error() -> None:
     assert abs(slope.value - 3.0) < 4.0 * slope.error < 0.3
 
 
-@pytest.mark.parametrize("alike", [0.0, 0.5, 0.9])
+@pytest.mark.parametrize("correlation", [0.0, 0.5, 0.9])
 def test_the_error_of_a_slope_is_its_scatter_even_if_deviations_resemble_each_other(
-    alike: float,
+    correlation: float,
 ) -> None:
     time, random, slopes = np.linspace(0.0, 1.0, 500), np.random.default_rng(2), []
     for _ in range(200):
         noise = np.zeros(500)
         for n, step in enumerate(random.normal(0.0, 0.1, 499), start=1):
-            noise[n] = alike * noise[n - 1] + step
+            noise[n] = correlation * noise[n - 1] + step
         slopes.append(Slope.of(time, noise))
     scatter = np.std([slope.value for slope in slopes])
     assert np.mean([slope.error for slope in slopes]) == pytest.approx(scatter, rel=0.25)

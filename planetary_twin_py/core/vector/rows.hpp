@@ -207,7 +207,7 @@ LAW double largest(const Row<L>& a) {
     return fold(a, [](double x, double y) { return y > x ? y : x; });
 }
 
-// Lanes in which small trains have room: 3 planets, or planets that move alike where axes move;
+// Lanes in which small trains have room: 3 planets, or planets of the same motion where axes move;
 // then 4 planets whose axes move.
 inline constexpr int FEW_LANES = 8, MORE_LANES = 24;
 

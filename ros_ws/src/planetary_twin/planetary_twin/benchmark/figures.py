@@ -42,7 +42,7 @@ class Slope(NamedTuple):
         value, mean = np.polyfit(at, values, 1)
         off = np.asarray(values) - mean - value * at
         deviance = off @ off
-        alike = max(float(off[1:] @ off[:-1] / deviance), 0.0) if deviance else 0.0
+        correlation = max(float(off[1:] @ off[:-1] / deviance), 0.0) if deviance else 0.0
         # Not below three: two samples have no deviations from a line.
-        independent = max(len(at) * (1.0 - alike) / (1.0 + alike), 3.0)
+        independent = max(len(at) * (1.0 - correlation) / (1.0 + correlation), 3.0)
         return cls(float(value), float(np.sqrt(deviance / (independent - 2.0) / (at @ at))))
