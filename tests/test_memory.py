@@ -63,6 +63,7 @@ def test_a_thousand_changes_leave_no_memory_in_use() -> None:
 
 
 @pytest.mark.slow
+@pytest.mark.exhaustive
 def test_changes_between_repeated_mesh_cycles_leave_no_memory_in_use() -> None:
     held, objects, repeated = growth(warm=18, measured=18, windows=25)
     assert repeated > 18  # the tables of the repeated cycle are made again after each change

@@ -43,6 +43,7 @@ def test_the_compliance_is_that_of_the_model(cracked):
     assert found.value == pytest.approx(model / follower.train.lever, rel=0.02)
 
 
+@pytest.mark.exhaustive
 def test_a_change_of_load_tells_wear():
     worn = {"kind": "wear", "gear": "sun", "tooth": 7, "depth": 2e-7}
     _, follower = toothed({}, ({"at": LEARNED, "faults": [worn]}, {"at": 30.0, "load": 1.3}), 42.0)
