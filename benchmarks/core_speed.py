@@ -48,6 +48,9 @@ CASES = (
     Case("light damping", "light damping 1000 rpm", 1e-3, 0.01, 0.2),
     Case("run-up", "run-up 5 to 1000 rpm in 0.5 s", 1e-3, 0.02, 0.48),
     Case("resonance 17 000 rpm", "resonance 17 000 rpm", 1e-3, 0.005, 0.02),
+    Case("planar", "planar", 1e-3, 0.05, 0.2),
+    Case("planar, floating sun", "planar, floating sun", 1e-3, 0.05, 0.2),
+    Case("planar, in phase", "planar, 4 planets in phase", 1e-3, 0.05, 0.2),
 )
 
 
@@ -58,14 +61,19 @@ class Timed(NamedTuple):
     steps: int
 
 
+def scene_of(case: Case) -> Any:
+    """The case of `planetary_twin_benchmark.cases`."""
+    from planetary_twin_benchmark.cases import CASES as HELD
+    from planetary_twin_benchmark.cases import PLANAR_CASES
+
+    return next(each for each in (*HELD, *PLANAR_CASES) if each.name == case.of)
+
+
 def timed(case: Case, sampled: bool) -> Timed:
     """Run a case in this process."""
-    from planetary_twin_benchmark.cases import CASES as SCENES
-
     from planetary_twin_py.run import start
 
-    scene = next(each for each in SCENES if each.name == case.of).scene()
-    engine = start(scene, case.tolerance, "march")
+    engine = start(scene_of(case).scene(), case.tolerance, "march")
     engine.advance(case.lead, 1, SAMPLE_RATE, 0)
     before, windows = engine.control.steps, round(case.timed / WINDOW)
     ends = [case.lead + (n + 1) * case.timed / windows for n in range(windows)]
@@ -81,12 +89,10 @@ def timed(case: Case, sampled: bool) -> Timed:
 
 def errors(case: Case) -> tuple[float, float]:
     """Error of the DTE over its rms, and over that of its alternating part, of the worst mesh."""
-    from planetary_twin_benchmark.cases import CASES as SCENES
-
     from planetary_twin_py._core import DTE
     from planetary_twin_py.run import start
 
-    compared = next(each for each in SCENES if each.name == case.of)
+    compared = scene_of(case)
     room = round(compared.duration * SAMPLE_RATE)
 
     def dte(tolerance: float) -> Any:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from typing import Any, NamedTuple
 
 from planetary_twin_py.scene import Scene, load_scene
@@ -77,4 +78,25 @@ CASES = (
     Case("light damping 1000 rpm", {"mesh.damping.law": "viscous"}, 0.01, 20),
     Case("light damping zeta 0.04", ZETA_004, 0.01, 20),
     Case("resonance 17 000 rpm", RESONANCE, 0.001, 100),
+)
+
+# Masses of Chaari et al. 2006, bearings half as stiff as a tooth pair.
+MASSES = {"sun": 0.46, "planet": 0.177, "ring": 0.588, "carrier": 3.0}
+SUPPORTS = {body: {"mass": mass, "bearing": 1e8} for body, mass in MASSES.items()}
+PLANAR = {
+    "dynamics": "planar",
+    "gearset.planet_mass": MASSES["planet"],
+    "supports": SUPPORTS,
+    "backlash": 1e-4,
+}
+FLOATING = {"supports": SUPPORTS | {"sun": {"mass": MASSES["sun"], "bearing": 0.0}}}
+IN_PHASE = {
+    "gearset.teeth": {"sun": 36, "planet": 18, "ring": 72},
+    "gearset.planet_angles": tuple(math.radians(90.0 * k) for k in range(4)),
+}
+# Other solvers have no equations for these.
+PLANAR_CASES = (
+    Case("planar", PLANAR, 0.01, 40),
+    Case("planar, floating sun", PLANAR | FLOATING, 0.01, 40),
+    Case("planar, 4 planets in phase", PLANAR | IN_PHASE, 0.01, 40),
 )
