@@ -9,7 +9,7 @@ from fractions import Fraction
 import numpy as np
 
 from .commands import Command, Commands, actions
-from .engine import Engine
+from .driven_engine import DrivenEngine
 from .integrators.clock import TICKS
 from .integrators.interpolant import Samples
 from .run import Run
@@ -34,7 +34,7 @@ class DrivenRun:
         self._pending = deque(() if commands is None else actions(commands, linear))
         if not self._pending:
             return
-        if not isinstance(run, Engine):
+        if not isinstance(run, DrivenEngine):
             raise SceneError(f"dynamics = {scene.dynamics!r}: must be torsional for commands")
         for action in self._pending:
             action.command.check(scene, run.port_ranges)
@@ -66,5 +66,5 @@ class DrivenRun:
         return Samples(*map(np.concatenate, zip(*parts, strict=True)))
 
     def _give(self, ticks: int, command: Command, reaching: float) -> None:
-        assert isinstance(self._run, Engine)
+        assert isinstance(self._run, DrivenEngine)
         self._run.give(command, ticks, reaching)

@@ -14,31 +14,26 @@ from typing import Any, NoReturn
 import numpy as np
 
 from ._core import (
-    AXES,
     EXCEEDED,
     IMPULSE,
     LEDGER,
     METHODS,
     NO_FINITE_STATE,
     NOT_FINITE,
-    REFUSED,
-    WITHIN_LIMITS,
     Control,
     Load,
     March,
     Model,
-    PortStates,
     Report,
     Train,
     WindowEnd,
 )
-from .commands import Command, port_ranges
 from .dynamics.cycle import common_cycles, turns_per_cycle
 from .dynamics.library import library
 from .dynamics.mesh_sums import MeshSums, clear, mesh_sums
 from .dynamics.oil import build_oil
 from .dynamics.speed_loop import SpeedLoopCheck, bandwidth
-from .dynamics.start import LoadBuilder, begin_given, keep_given, start_state
+from .dynamics.start import LoadBuilder, keep_given, start_state
 from .dynamics.static_load import mesh_force, static_torques
 from .dynamics.train import build_train, held_axes, lightest_body
 from .integrators.clock import (
@@ -122,8 +117,6 @@ class Engine:
         self._periodic, self._last = self.march.periodic, self.march.last
         self._shown: tuple[float | Fraction, Samples] | None = None
         self._limits = Limits(scene, self.train)
-        self.port_ranges = port_ranges(scene, self.train)
-        self._linear = scene.drive.interpolation == "linear"
         self._failure: RunawayError | None = None
         control = self.march.control
         control.step = control.next_step = control.next_stiff = FIRST_STEP
@@ -319,94 +312,6 @@ class Engine:
         clear(self.march.sums.total)
         self.march.sums.taken = self.march.control.step  # what lies before `time`
         self._shown = None
-
-    def set_ports(self, scene: Scene, point: OperatingPoint, time: Fraction) -> None:
-        """Continue with the ports of `scene` from `time` [s], the end of the last window.
-
-        Torques and motions that are given from then on begin as they are; a machine that takes
-        over the speed begins at the present one.
-
-        Args:
-            scene: that of the run, with other ports.
-            point: operating point of the run.
-            time: the end of the last window [s].
-
-        Raises:
-            ValueError: the speed loop would not be stable; nothing has changed.
-            RunawayError: the run has been stopped.
-        """
-        if self._failure is not None:
-            raise self._failure
-        speed_loop = SpeedLoopCheck(scene, build_train(held_axes(scene)))
-        loads = LoadBuilder(scene, self.train)
-        speed_loop.check(point)
-        shown = self._core.PortStates()
-        self._core.read_ports(self.model, self.march, instant(time), shown)
-        self._cut(time)
-        self.scene, self._speed_loop, self._loads = scene, speed_loop, loads
-        self._given = False
-        self._cycles.clear()
-        self._load(point)
-        if scene.drive.ports.given:
-            begin_given(self.model.load, instant(time), shown)
-        self._end.trim = [0.0] * AXES
-        self._end.set_speed[0] = shown.input_speed
-
-    def port_states(self, ticks: int) -> PortStates:
-        """What the ports show at the end of the last window, in ticks of the clock."""
-        shown: PortStates = self._core.PortStates()
-        self._core.read_ports(self.model, self.march, instant_of_ticks(ticks), shown)
-        return shown
-
-    def give(self, command: Command, ticks: int, reaching: float) -> None:
-        """Let a command act from the end of the last window on.
-
-        Args:
-            command: what is given at the ports.
-            ticks: the end of the last window, in ticks of the clock.
-            reaching: time in which values are reached along straight lines [s]; 0: at once.
-
-        Raises:
-            RunawayError: the run has been stopped, or no step is possible.
-        """
-        if self._failure is not None:
-            raise self._failure
-        try:
-            self._core.give(self.model, self.march, instant_of_ticks(ticks), *command, reaching)
-        except ArithmeticError as reason:
-            self._fail(reason)
-        self._shown = None
-
-    def step(
-        self, begin: int, end: int, command: Command, out: PortStates, reached: WindowEnd
-    ) -> bool:
-        """Let a command act and integrate, without samples.
-
-        Args:
-            begin: the present time, in ticks of the clock.
-            end: the end of the step, in ticks of the clock.
-            command: what is given at the ports.
-            out: what the ports show at the end.
-            reached: room for what the limits of the run are checked against.
-
-        Returns:
-            Whether the ports took the command; otherwise nothing has changed.
-
-        Raises:
-            RunawayError: the run exceeds physical limits, or has been stopped before.
-        """
-        if self._failure is not None:
-            raise self._failure
-        outcome = self._core.step_ports(
-            self.model, self.march, begin, end, *command, self._linear, self.port_ranges,
-            self._limits.record, reached, out,
-        )  # fmt: skip
-        if outcome == REFUSED:
-            return False
-        self._shown = None
-        if outcome != WITHIN_LIMITS:
-            self._watch(outcome, reached)
-        return True
 
     @property
     def reached(self) -> Fraction:

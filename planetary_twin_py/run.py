@@ -8,10 +8,10 @@ from typing import Protocol
 import numpy as np
 
 from ._core import Control, Report, Train, WindowEnd
+from .driven_engine import DrivenEngine
 from .dynamics.mesh_sums import MeshSums
 from .dynamics.speed_loop import check_speed_loop
 from .dynamics.train import build_train, held_axes
-from .engine import Engine
 from .integrators.interpolant import Samples, Waves
 from .quasi_static.engine import QuasiStaticEngine
 from .scene import OperatingPoint, Scene, SceneError
@@ -96,7 +96,7 @@ def start(scene: Scene, tolerance: float, method: str = "auto") -> Run:
             "compares them"
         )
     if scene.dynamics != "quasi_static":
-        return Engine(scene, tolerance, method)
+        return DrivenEngine(scene, tolerance, method)
     if method not in ("auto", "march"):
         raise ValueError(
             f"method = {method!r}: must be auto or march, because dynamics = {scene.dynamics!r}"

@@ -10,9 +10,9 @@ from typing import NamedTuple
 from ._core import Figures, PortStates
 from .accuracy import Course, Settling, course_so_far, unsettled
 from .commands import Command, Commands, course_of
+from .driven_engine import DrivenEngine
 from .dynamics.bodies import body_names, build_report, machines, mesh_names
 from .dynamics.library import library
-from .engine import Engine
 from .gearset.kinematics import mesh_frequency
 from .integrators.clock import TICKS
 from .integrators.interpolant import Waves, bearings_of, new_waves
@@ -277,7 +277,7 @@ class Twin:
         begin, engine = self._ticks, self._engine
         end = begin + (round(dt * TICKS) or 1)
         if not (
-            isinstance(engine, Engine)
+            isinstance(engine, DrivenEngine)
             and engine.step(begin, end, command, self._shown, self._reached)
         ):
             self._refuse(command)
@@ -291,9 +291,9 @@ class Twin:
         engine = self._driven()
         command.check(engine.scene, engine.port_ranges)
 
-    def _driven(self) -> Engine:
+    def _driven(self) -> DrivenEngine:
         """The engine, if its ports can be given."""
-        if not isinstance(self._engine, Engine):
+        if not isinstance(self._engine, DrivenEngine):
             raise SceneError(f"dynamics = {self.scene.dynamics!r}: must be torsional for ports")
         return self._engine
 
