@@ -25,7 +25,7 @@ run: setup
 
 # Nodes wait for one another most of the time: four workers keep two cores busy. Each file is one
 # worker's, so that what its tests share is made once.
-PYTEST := $(BIN)/pytest --quiet --numprocesses=4 --dist=loadfile
+PYTEST := $(BIN)/pytest --quiet --numprocesses=4 --dist=loadfile --no-loadscope-reorder
 
 test:
 	@echo "lint, then tests of every feature: about 6 minutes on 2 idle cores"
