@@ -1,11 +1,12 @@
 """Errors of transmission error and loss over random scenes, against the other method, converged.
 
 Speeds run from 0.001 to 20 000 rpm in both senses, with standstill; gear sets, power flows, laws,
-faults and errors of planets are drawn. Prints a line for each scene whose error exceeds ten
-tolerances, with "warned" where its run says so, or whose ledger misses a millionth of the turnover
-at 1e-5; then how many there are.
+faults and errors of planets are drawn; with planar dynamics masses, bearings and weight as well.
+Prints a line for each scene whose error exceeds ten tolerances, with "warned" where its run says
+so, or whose ledger misses a millionth of the turnover at 1e-5; then how many there are.
 
     python benchmarks/random_scenes.py --count 100 --seed 1 --tolerance 1e-4
+    python benchmarks/random_scenes.py --count 100 --seed 1 --dynamics planar
 """
 
 from __future__ import annotations
@@ -102,6 +103,35 @@ def errors_of_planets(random: np.random.Generator, planets: int) -> dict[str, An
     return {"pin_radial": each(), "pin_tangential": each(), "planet_thickness": each()}
 
 
+def moving_axes(random: np.random.Generator, planets: int) -> dict[str, Any]:
+    """Further settings of a random scene whose axes move: masses, bearings, larger errors."""
+
+    def logarithmic(low: float, high: float) -> float:
+        return float(10.0 ** random.uniform(math.log10(low), math.log10(high)))
+
+    def support(floats: bool) -> dict[str, Any]:
+        given = {"mass": logarithmic(0.05, 5.0), "bearing": logarithmic(1e6, 1e10)}
+        if random.integers(3) == 0:
+            given["clearance"] = logarithmic(1e-6, 5e-5)
+        if floats and random.integers(3) == 0:
+            given |= {"bearing": 0.0, "clearance": 0.0}
+        return given
+
+    changes: dict[str, Any] = {
+        "dynamics": "planar",
+        "supports": {name: support(name == "sun") for name in ("sun", "planet", "ring", "carrier")}
+        | {"gravity": (0.0, 0.0, 9.81)[random.integers(3)]},
+    }
+    if random.integers(3) > 0:
+        largest = logarithmic(1e-6, 3e-5)
+        changes["errors"] = {
+            name: tuple(random.uniform(-largest, largest, planets))
+            for name in ("pin_radial", "pin_tangential", "planet_thickness")
+        }
+        changes["backlash"] = logarithmic(1e-6, 2e-4)
+    return changes
+
+
 def measure(scene: pt.Scene, tolerance: float) -> Errors:
     """Compare a run of some mesh cycles with one of the other method at 1e-7."""
     speed = abs(scene.operating_point.input_speed)
@@ -130,13 +160,17 @@ def main() -> None:
     parser.add_argument("--count", type=int, default=100, help="scenes to draw")
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--tolerance", type=float, default=1e-4)
+    parser.add_argument("--dynamics", choices=("torsional", "planar"), default="torsional")
     given = parser.parse_args()
     warnings.simplefilter("ignore")
     random, paper = np.random.default_rng(given.seed), pt.load_scene("paper")
     compared = beyond = unwarned = 0
     for number in range(given.count):
         try:
-            scene = paper.replace(**random_changes(random))
+            changes = random_changes(random)
+            if given.dynamics == "planar":
+                changes |= moving_axes(random, len(changes["gearset.planet_angles"]))
+            scene = paper.replace(**changes)
             found = measure(scene, given.tolerance)
         except (ValueError, pt.RunawayError) as refusal:
             print(f"{number:4d}  refused: {str(refusal)[:90]}")

@@ -50,7 +50,7 @@ def moving_fields(scene: Scene, bodies: Bodies, fields: dict[str, Any]) -> dict[
         for the coast flanks of each.
     """
     meshes, frame = int(fields["meshes"]), len(bodies.mass)
-    body, sign, slide = _entries(scene, bodies, frame)
+    body, sign, line = _entries(scene, bodies, frame)
     doubled = {
         name: np.concatenate([np.asarray(fields[name])[:meshes]] * 2)
         for name in (
@@ -77,7 +77,7 @@ def moving_fields(scene: Scene, bodies: Bodies, fields: dict[str, Any]) -> dict[
                 frame=frame,
                 carrier=[bodies.place[f"carrier.{motion}"] for motion in "xy"],
                 arm=scene.gearset.geometry.centre_distance,
-                slide=slide,
+                line=line,
                 **_gravity(scene),
                 **_bearings(scene, bodies),
             ),
@@ -92,12 +92,15 @@ def _turning(scene: Scene) -> np.ndarray:
 
 
 def _entries(scene: Scene, bodies: Bodies, frame: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Coordinates, row and sliding of each entry of the meshes, (entries, ENTRIES) each."""
+    """Coordinates, row, and turn of the line of action of each entry of the meshes.
+
+    (entries, ENTRIES) each.
+    """
     angles = [mesh.pressure_angle for mesh in scene.gearset.geometry.meshes]
     rows = planar_rows(scene.gearset.planet_angles, *angles)
     count, leaders = scene.gearset.planets, planet_groups(scene).leaders
     meshes = [*(("sun", i) for i in leaders), *(("ring", i) for i in leaders)]
-    body, sign, slide = [], [], []
+    body, sign, line = [], [], []
     for side in SIDES:
         for name, number in meshes:
             i, planet = number + count * (name == "ring"), f"planet_{number + 1}"
@@ -111,30 +114,29 @@ def _entries(scene: Scene, bodies: Bodies, frame: int) -> tuple[np.ndarray, np.n
                 + [bodies.place[coordinate] for coordinate in moves]
             )
             sign.append([*row[:2], 0.0, *row[2:]])
-            slide.append(_sliding(rows, i, side, angles[i // count], moves))
-    return np.array(body), np.array(sign), np.array(slide)
+            turn = _turn_of_line(rows, i, side, angles[i // count], moves)
+            line.append([0.0, 0.0, 0.0, *(turn / scene.gearset.geometry.centre_distance)])
+    return np.array(body), np.array(sign), np.array(line)
 
 
 def _motions(body: str) -> tuple[str, str]:
     return ("x", "y") if body in CENTRAL else ("xi", "eta")
 
 
-def _sliding(
+def _turn_of_line(
     rows: PlanarRows, mesh: int, side: float, angle: float, moves: list[str]
-) -> list[float]:
-    """Sliding of the first on the second flank per displacement of the gears, (ENTRIES,).
+) -> np.ndarray:
+    """Turn of the line of action per displacement of the gears over the centre distance, (4,).
 
-    Along the normal n of the flanks the gears approach by T + side R per displacement, n being
-    side cos(angle) across and sin(angle) outwards from the sun. Turned by a right angle, n is the
-    tangent: what was the share of T becomes that of R and the other way round.
+    The line touches both base circles, at points that are a sin(angle) apart, a the centre
+    distance. Displacements across the line move one of these points past the other. Along it the
+    gears approach by T + side R per displacement: its direction has side cos(angle) across and
+    sin(angle) outwards from the sun, and by a right angle on, the share of T becomes that of R.
     """
-    count = rows.tangential.shape[0] // 2
     place = [rows.place(name) for name in moves]
     across = rows.tangential[mesh, place] / math.cos(angle)
     outwards = rows.radial[mesh, place] / math.sin(angle)
-    sense = 1.0 if mesh < count else -1.0  # the planet is the first gear at the ring
-    slide = sense * (math.sin(angle) * across - side * math.cos(angle) * outwards)
-    return [0.0, 0.0, 0.0, *slide.tolist()]
+    return side * outwards / math.tan(angle) - across
 
 
 def _bearings(scene: Scene, bodies: Bodies) -> dict[str, Any]:

@@ -88,7 +88,10 @@ class PlanarReference(Reference):
             relative[self.at(3 + i) + 1] -= self.radius * self.frame
         slip = (self.slides @ relative)[:, None]
         sliding = rho1 * w1 + self.external * rho2 * w2 + slip
-        entrain = np.maximum(np.abs(rho1 * w1 - self.external * rho2 * w2 + slip) / 2, 1e-3)
+        # The contact moves along a line of action that turns, between points that both move.
+        share = (rho1 - self.external * rho2) / (rho1 + self.external * rho2)
+        total = rho1 * w1 - self.external * rho2 * w2 + share * slip
+        entrain = np.maximum(np.abs(total) / 2, 1e-3)
         radius = 1.0 / (1.0 / rho1 + self.external / rho2)
         f = np.where(used, self.friction(load, radius, entrain, sliding), 0.0)
         force = -self.slides.T @ f.sum(axis=1)

@@ -49,6 +49,7 @@ def test_energy_balances_whatever_is_held_and_driven(flow):
         {"supports.planet.clearance": 5e-6, "input_torque": 5.0, "torque_ripple": 8.0},
         {"supports.sun.bearing": 0.0, "mesh.runout.sun": 8e-6, "mesh.runout.planet": 4e-6},
         {"mesh.ramp": 0.0, "lubrication.friction": False},
+        {"lubrication.rolling": "goksem_hargreaves"},
         {"input_torque": -63.0},
     ],
     ids=str,

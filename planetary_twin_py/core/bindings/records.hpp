@@ -86,7 +86,7 @@ inline void bind_records(nb::module_& m) {
         .FIELD(MovingAxes, downwards)
         .FIELD(MovingAxes, turn_numerator)
         .FIELD(MovingAxes, turn_denominator)
-        .FIELD(MovingAxes, slide);
+        .FIELD(MovingAxes, line);
     record<Train>(m, "Train")
         .FIELD(Train, bodies)
         .FIELD(Train, lanes)
@@ -247,10 +247,7 @@ inline void bind_records(nb::module_& m) {
         .FIELD(ToothPairs, bristle_decay)
         .FIELD(ToothPairs, bristle_gain)
         .FIELD(ToothPairs, lost);
-    record<DragOfMeshes>(m, "DragOfMeshes")
-        .FIELD(DragOfMeshes, torque)
-        .FIELD(DragOfMeshes, power)
-        .FIELD(DragOfMeshes, across);
+    record<DragOfMeshes>(m, "DragOfMeshes").FIELD(DragOfMeshes, torque).FIELD(DragOfMeshes, power);
     record<Model>(m, "Model").FIELD(Model, train).FIELD(Model, oil).FIELD(Model, load);
     record<Evaluation>(m, "Evaluation")
         .FIELD(Evaluation, force)
@@ -321,7 +318,6 @@ inline void bind_records(nb::module_& m) {
         .FIELD(Node, d)
         .FIELD(Node, rate)
         .FIELD(Node, spin)
-        .FIELD(Node, slip)
         .FIELD(Node, rubbing)
         .FIELD(Node, power)
         .FIELD(Node, meshes)

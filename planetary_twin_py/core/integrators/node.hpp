@@ -16,7 +16,6 @@ struct alignas(64) Node {
     alignas(64) double d[MESHES];                // transmission errors [m], [m/s]
     alignas(64) double rate[MESHES];             // of them
     alignas(64) double spin[GEARS - 1][MESHES];  // of both gears against the carrier [rad/s]
-    alignas(64) double slip[MESHES];             // of flanks, by the motion of their axes [m/s]
     alignas(64) double rubbing[BODIES];          // friction and drag, in the modes
     alignas(64) double power[LEDGER];            // without what meshes take and put in [W]
     MeshesNow meshes;

@@ -65,7 +65,7 @@ void rub_nodes(const Model& model, March& march) {
         for (int n = 0; n < count; ++n) {
             Node& node = run.node[n];
             share_pushes<L>(train, march.constants, node.meshes);
-            instants[n] = {&node.meshes, node.spin, &node.friction, node.slip};
+            instants[n] = {&node.meshes, node.spin, &node.friction};
         }
         find_friction(model, march.constants, instants, count,
                       march.control.tolerance >= SINGLE_PRECISION);
@@ -116,7 +116,7 @@ void show_friction(const Model& model, March& march, const double* delays, int c
         Node& node = march.run.shown[n];
         show_meshes<L>(model, march, delays[n], node);
         share_pushes<L>(model.train, march.constants, node.meshes);
-        instants[n] = {&node.meshes, node.spin, &node.friction, node.slip};
+        instants[n] = {&node.meshes, node.spin, &node.friction};
     }
     find_friction(model, march.constants, instants, count,
                   march.control.tolerance >= SINGLE_PRECISION_SHOWN);

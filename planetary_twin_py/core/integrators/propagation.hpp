@@ -284,12 +284,14 @@ inline void trim_at(const Model& model, const March& march, double delay, const 
     }
 }
 
-// How gears turn and slip at a node where the axes move, from the speeds of the bodies.
+// How gears turn against their lines of action at a node, from the speeds of the bodies.
 inline void turn_gears(const Train& train, const StepConstants& constants, Node& node) {
     for (std::int64_t i = 0; i < train.meshes; ++i) {
-        for (int g = 0; g < GEARS - 1; ++g)
-            node.spin[g][i] = constants.spin[g][i] + node.v[train.body[i][g]] * train.lever[g][i];
-        node.slip[i] = slip_of_axes(train, i, node.v);
+        const double line = turning_of_line(train, i, node.v);
+        for (int g = 0; g < GEARS - 1; ++g) {
+            double turning = node.v[train.body[i][g]] * train.lever[g][i];
+            node.spin[g][i] = constants.spin[g][i] + turning - line;
+        }
     }
 }
 

@@ -28,7 +28,7 @@ inline void rub_bodies(const Train& train, const DragOfMeshes& drag, double* rub
         }
         for (int j = GEARS; j < ENTRIES; ++j)
             rubbing[train.body[i][j]] +=
-                train.copies[i] * drag.across[i] * train.moving.slide[i][j];
+                train.copies[i] * drag.torque[2][i] * train.moving.line[i][j];
     }
 }
 

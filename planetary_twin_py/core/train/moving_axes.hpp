@@ -36,7 +36,7 @@ struct alignas(64) MovingAxes {
     double downwards;                 // its direction from x of the housing [rad]
     std::int64_t turn_numerator[AXES];  // turns of the frame per turn of each motor, as a fraction
     std::int64_t turn_denominator[AXES];
-    alignas(64) double slide[MESHES][ENTRIES];  // of the first on the second flank per displacement
+    alignas(64) double line[MESHES][ENTRIES];  // turn of the line of action per displacement [1/m]
 };
 
 }  // namespace gearbox

@@ -82,35 +82,15 @@ LAW void store_register(Number* column, const Real& lanes) {
     std::memcpy(column, &lanes, sizeof lanes);
 }
 
-// How gears turn and slip at an instant, for the surface speeds of their pairs.
-template <int L>
-struct Turning {
-    Row<L> spin1, spin2, slip;
-
-    LAW explicit Turning(const FrictionInstant& instant)
-        : spin1(instant.spin[0]), spin2(instant.spin[1]), slip(0.0) {
-        if constexpr (MOVING) slip = Row<L>(instant.slip);
-    }
-
-    LAW SurfaceSpeeds<Row<L>> at(const Row<L>& rho1, const Row<L>& rho2,
-                                 const Row<L>& external) const {
-        auto speeds = surface_speeds(rho1, rho2, external, spin1, spin2);
-        if constexpr (MOVING) {
-            speeds.sliding += slip;
-            speeds.sum += slip;
-        }
-        return speeds;
-    }
-};
-
 template <int L, class Number>
 LAW void place_pairs(const Train& train, const StepConstants& step, const FrictionInstant& instant,
                      Columns<Number>& pairs, std::int64_t first) {
-    Row<L> moved = way_on_path<L>(train, step, instant.meshes->advance), external(step.external);
-    const Turning<L> turning(instant);
+    using V = Row<L>;
+    V moved = way_on_path<L>(train, step, instant.meshes->advance), external(step.external);
+    const V spin1(instant.spin[0]), spin2(instant.spin[1]);
     for (std::int64_t p = 0, k = first; p < train.slots; ++p, k += L) {
         auto [rho1, rho2] = flank_radii<L>(step, p, moved);
-        auto [sliding, sum] = turning.at(rho1, rho2, external);
+        auto [sliding, sum] = surface_speeds(rho1, rho2, external, spin1, spin2);
         put(rho1, pairs.rho1 + k);
         put(rho2, pairs.rho2 + k);
         put(external, pairs.external + k);
@@ -163,11 +143,10 @@ LAW void add_up(const Train& train, const StepConstants& step, const Columns<Num
     MeshFriction& out = *instant.found;
     V moved = way_on_path<L>(train, step, instant.meshes->advance), external(step.external);
     V torque1(0.0), torque2(0.0), lost(0.0), boundary(0.0), viscous(0.0), film(0.0);
-    V across(0.0);
-    const Turning<L> turning(instant);
+    const V spin1(instant.spin[0]), spin2(instant.spin[1]);
     for (std::int64_t p = 0, k = first; p < train.slots; ++p, k += L) {
         auto [rho1, rho2] = flank_radii<L>(step, p, moved);
-        auto [sliding, sum] = turning.at(rho1, rho2, external);
+        auto [sliding, sum] = surface_speeds(rho1, rho2, external, spin1, spin2);
         V friction = get<L>(pairs.friction + k), resistance(0.0);
         lost += friction * sliding;
         if (rolling) {
@@ -176,7 +155,6 @@ LAW void add_up(const Train& train, const StepConstants& step, const Columns<Num
         }
         torque1 -= (friction + resistance) * rho1;
         torque2 -= (friction - resistance) * external * rho2;
-        if constexpr (MOVING) across -= friction + resistance;
         boundary += get<L>(pairs.boundary + k);
         viscous += get<L>(pairs.viscous + k);
         film += V(instant.meshes->share[p]) * get<L>(pairs.film + k);
@@ -189,7 +167,6 @@ LAW void add_up(const Train& train, const StepConstants& step, const Columns<Num
     torque2.store(out.drag.torque[1]);
     (V(0.0) - (torque1 + torque2)).store(out.drag.torque[2]);
     lost.store(out.drag.power);
-    if constexpr (MOVING) select(used, across, 0.0).store(out.drag.across);
     lost.store(out.lost);
     select(used, boundary, 0.0).store(out.boundary);
     select(used, viscous, 0.0).store(out.viscous);
@@ -231,7 +208,7 @@ void with_closed_lanes(const Train& train, const StepConstants& step, Function&&
 void clear_beyond(const Train& train, int lanes, MeshFriction& found) {
     for (std::int64_t i = lanes; i < train.lanes; ++i) {
         found.drag.torque[0][i] = found.drag.torque[1][i] = found.drag.torque[2][i] = 0.0;
-        found.drag.power[i] = found.drag.across[i] = found.lost[i] = 0.0;
+        found.drag.power[i] = found.lost[i] = 0.0;
         found.boundary[i] = found.viscous[i] = found.film[i] = 0.0;
     }
 }

@@ -24,13 +24,13 @@ struct alignas(64) MeshFriction {
     alignas(64) double film[MESHES];      // mean by the load [m]
 };
 
-// An instant: where the meshes stand, the speeds of their gears against the carrier [rad/s], and
+// An instant: where the meshes stand, the speeds of their gears against the carrier, and where axes
+// move against their lines of action [rad/s], and
 // room for what is found.
 struct FrictionInstant {
     const MeshesNow* meshes;
     const double (*spin)[MESHES];
     MeshFriction* found;
-    const double* slip = nullptr;  // sliding by the motion of the axes, where they move [m/s]
 };
 
 // Fill what is found at so many instants, at most MOST_INSTANTS. Entries beyond the meshes are

@@ -30,14 +30,15 @@ inline double slowest_rolling(const Train& train, const StepConstants& step) {
     return at_least(rolling, SLOWEST_ROLLING);
 }
 
-// Sliding [m/s] of the first on the second flank of mesh i by the motion of their axes, from v.
-inline double slip_of_axes(const Train& train, std::int64_t i, const double* v) {
-    double slip = 0.0;
-    for (int j = GEARS; j < ENTRIES; ++j) slip += train.moving.slide[i][j] * v[train.body[i][j]];
-    return slip;
+// Speed at which the displacements of the gears turn the line of action of mesh i [rad/s], from v.
+inline double turning_of_line(const Train& train, std::int64_t i, const double* v) {
+    double turning = 0.0;
+    for (int j = GEARS; j < ENTRIES; ++j) turning += train.moving.line[i][j] * v[train.body[i][j]];
+    return turning;
 }
 
-// Speeds of the gears of all pairs. What their axes add to the sliding counts with the first one.
+// Speeds of the gears of all pairs against the carrier, and against the line of action where that
+// turns.
 inline void turn_pairs(const Train& train, const StepConstants& step, const double* v,
                        ToothPairs& pairs) {
     std::int64_t meshes = train.meshes;
@@ -46,17 +47,11 @@ inline void turn_pairs(const Train& train, const StepConstants& step, const doub
     for (int j = 0; j < BODIES; ++j) turn[j] = step.rigid[j] + v[j] * train.inverse_radius[j];
     for (std::int64_t i = 0; i < meshes; ++i) {
         double frame = turn[train.body[i][2]];
+        if constexpr (MOVING) frame += turning_of_line(train, i, v);
         double speed1 = turn[train.body[i][0]] - frame, speed2 = turn[train.body[i][1]] - frame;
         for (std::int64_t p = 0; p < train.slots; ++p) {
             pairs.speed1[p * meshes + i] = speed1;
             pairs.speed2[p * meshes + i] = speed2;
-        }
-    }
-    if constexpr (MOVING) {
-        for (std::int64_t i = 0; i < meshes; ++i) {
-            double slip = slip_of_axes(train, i, v);
-            for (std::int64_t k = i; k < train.slots * meshes; k += meshes)
-                pairs.speed1[k] += slip / pairs.rho1[k];
         }
     }
 }
@@ -75,7 +70,7 @@ void evaluate(const Model& model, ToothPairs& pairs);
 // Add up what the pairs of each mesh do: -f dVs/dw and -F_R d(u1 + u2)/dw of both gears.
 inline void collect(const Train& train, const ToothPairs& pairs, DragOfMeshes& out) {
     for (std::int64_t i = 0; i < train.meshes; ++i)
-        out.torque[0][i] = out.torque[1][i] = out.power[i] = out.across[i] = 0.0;
+        out.torque[0][i] = out.torque[1][i] = out.power[i] = 0.0;
     for (std::int64_t p = 0; p < train.slots; ++p) {
         for (std::int64_t i = 0; i < train.meshes; ++i) {
             std::int64_t k = p * train.meshes + i;
@@ -83,7 +78,6 @@ inline void collect(const Train& train, const ToothPairs& pairs, DragOfMeshes& o
             out.torque[0][i] -= (f + rolling) * pairs.rho1[k];
             out.torque[1][i] -= (f - rolling) * pairs.external[k] * pairs.rho2[k];
             out.power[i] += f * pairs.sliding[k] + pairs.rolling_power[k];
-            if constexpr (MOVING) out.across[i] -= f + rolling;
         }
     }
     for (std::int64_t i = 0; i < train.meshes; ++i)
@@ -118,7 +112,7 @@ inline void sliding_row(const Train& train, const ToothPairs& pairs, std::int64_
     row[0] = rho1 * train.lever[0][i];
     row[1] = rho2 * train.lever[1][i];
     row[2] = -(rho1 + rho2) * train.lever[2][i];
-    for (int j = GEARS; j < ENTRIES; ++j) row[j] = train.moving.slide[i][j];
+    for (int j = GEARS; j < ENTRIES; ++j) row[j] = -(rho1 + rho2) * train.moving.line[i][j];
 }
 
 // matrix[body, body] += factor * row row^T, of the `size` bodies.

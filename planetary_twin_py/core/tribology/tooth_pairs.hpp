@@ -35,9 +35,8 @@ struct alignas(64) ToothPairs {
 };
 
 struct alignas(64) DragOfMeshes {
-    alignas(64) double torque[GEARS][MESHES];  // [N m]
+    alignas(64) double torque[GEARS][MESHES];  // on both gears and on the line of action [N m]
     alignas(64) double power[MESHES];          // lost [W]
-    alignas(64) double across[MESHES];         // force on the first flank, where axes move [N]
 };
 
 }  // namespace gearbox
