@@ -51,6 +51,8 @@ CASES = (
     Case("planar", "planar", 1e-3, 0.05, 0.2),
     Case("planar, floating sun", "planar, floating sun", 1e-3, 0.05, 0.2),
     Case("planar, in phase", "planar, 4 planets in phase", 1e-3, 0.05, 0.2),
+    Case("planar, helical", "planar, helical", 1e-3, 0.05, 0.2),
+    Case("spatial", "spatial", 1e-3, 0.05, 0.2),
 )
 
 

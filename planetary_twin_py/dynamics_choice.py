@@ -19,7 +19,7 @@ from .scene import Scene, SceneError
 from .window import mesh_statistics
 
 AUTO = "auto"
-BY_COST = ("quasi_static", "torsional", "planar")
+BY_COST = ("quasi_static", "torsional", "planar", "spatial")
 """From the dynamics that leaves out most to the one that leaves out least."""
 FIGURES = ("dte_mean", "dte_rms", "dte_peak", "mesh_force_mean", "mesh_force_peak", "power_loss")
 """Those that are compared, of every mesh but for the power loss."""
@@ -57,7 +57,7 @@ class DynamicsChoice:
     reference: str
     """The dynamics that leaves out least, of those with which the scene runs."""
     candidates: tuple[Candidate, ...]
-    """In the order of `BY_COST`."""
+    """In the order of `BY_COST`; spatial for helical teeth only, as spur teeth never tilt."""
 
     @property
     def dynamics(self) -> str:
@@ -131,7 +131,8 @@ def choose_dynamics(scene: Scene) -> DynamicsChoice:
     """
     runs: dict[str, tuple[dict[str, np.ndarray], float]] = {}
     refused: dict[str, str] = {}
-    for dynamics in BY_COST:
+    tried = BY_COST if scene.gearset.helix_angle != 0.0 else BY_COST[:-1]
+    for dynamics in tried:
         try:
             runs[dynamics] = _measured(scene.replace(dynamics=dynamics))
         except ValueError as reason:
@@ -139,13 +140,13 @@ def choose_dynamics(scene: Scene) -> DynamicsChoice:
             refused[dynamics] = " and ".join(line.strip() for line in lines[1:] or lines)
     if not runs:
         raise SceneError(f"dynamics = 'auto': {refused[BY_COST[1]]}")
-    reference = [dynamics for dynamics in BY_COST if dynamics in runs][-1]
+    reference = [dynamics for dynamics in tried if dynamics in runs][-1]
     exact = runs[reference][0]
     candidates = tuple(
         Candidate(dynamics, errors=_errors(runs[dynamics][0], exact), cost=runs[dynamics][1])
         if dynamics in runs
         else Candidate(dynamics, refused[dynamics])
-        for dynamics in BY_COST
+        for dynamics in tried
     )
     allowed = scene.dynamics_error
     picked = next(each.dynamics for each in candidates if each.error <= allowed)

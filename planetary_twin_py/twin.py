@@ -15,7 +15,7 @@ from .dynamics.bodies import body_names, build_report, machines, mesh_names
 from .dynamics.library import library
 from .gearset.kinematics import mesh_frequency
 from .integrators.clock import TICKS
-from .integrators.interpolant import Waves, bearings_of, new_waves
+from .integrators.interpolant import Waves, bearings_of, new_waves, tilts
 from .planar.motion import axes_of_waves
 from .run import start
 from .scene import TUNABLES, OperatingPoint, Scene, SceneError
@@ -392,7 +392,8 @@ class Twin:
         end = self._ticks + ticks
         first = self._samples(self._ticks) + 1
         rows = self._samples(end) - first + 1
-        waves = new_waves(rows, len(self.meshes), bearings_of(self._engine.train))
+        train = self._engine.train
+        waves = new_waves(rows, len(self.meshes), bearings_of(train), tilts(train))
         return _Plan(end, first, waves, self._engine.repeats)
 
     def _samples(self, ticks: int) -> int:

@@ -94,9 +94,14 @@ IN_PHASE = {
     "gearset.teeth": {"sun": 36, "planet": 18, "ring": 72},
     "gearset.planet_angles": tuple(math.radians(90.0 * k) for k in range(4)),
 }
+LEANING = {body: support | {"axial": 5e7, "tilting": 5e7} for body, support in SUPPORTS.items()}
+HELICAL = {"gearset.helix_angle": 0.1}
+SPATIAL = PLANAR | HELICAL | {"dynamics": "spatial", "supports": LEANING}
 # Other solvers have no equations for these.
 PLANAR_CASES = (
     Case("planar", PLANAR, 0.01, 40),
     Case("planar, floating sun", PLANAR | FLOATING, 0.01, 40),
     Case("planar, 4 planets in phase", PLANAR | IN_PHASE, 0.01, 40),
+    Case("planar, helical", PLANAR | HELICAL, 0.01, 40),
+    Case("spatial", SPATIAL, 0.01, 40),
 )

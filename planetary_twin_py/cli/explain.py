@@ -104,6 +104,7 @@ _MESH_ROWS = (
     ("teeth", ""),
     ("working pressure angle", "rad"),
     ("contact ratio", ""),
+    ("overlap ratio", ""),
     ("length of approach in base pitches", ""),
     ("length of recess in base pitches", ""),
     ("play of the teeth by profile shift and centre distance", "m"),
@@ -113,6 +114,7 @@ _MESH_ROWS = (
     ("natural frequency of the two gears alone, one pair in contact", "Hz"),
     ("damping ratio of this mode", ""),
     ("static mesh force", "N"),
+    ("axial part of the same", "N"),
     ("Hertz pressure at the pitch point, one pair carries the static force", "Pa"),
     ("tooth loss factor H_v", ""),
     ("backlash on the line of action", "m"),
@@ -150,7 +152,8 @@ def _dynamics_table(found: DynamicsChoice) -> Table:
     table = Table(
         title=f"Dynamics: error of each against {found.reference} [%], in steady running",
         caption=f"Within {100.0 * found.allowed:g} % (dynamics_error) is enough: "
-        f"{found.dynamics}.\n{found.reason}.\nOnly planar has bearing forces and orbits.",
+        f"{found.dynamics}.\n{found.reason}.\n"
+        "Only planar and spatial have bearing forces and orbits.",
     )
     table.add_column("dynamics")
     for name in (*FIGURES, "computing time per second"):

@@ -31,6 +31,7 @@ if TYPE_CHECKING:
     from ..planar.motion import AxesMotion
     from ..result import Result
     from ..scene import Scene
+    from ..spatial.motion import TiltingMotion
 
 
 def simulate(
@@ -202,6 +203,35 @@ _AXES = {
 }
 
 
+# The same where axes tilt.
+_TILTING = {
+    "axial_displacement_mean_m": ("axial displacement, mean", "m"),
+    "tilt_mean_rad": ("tilt, magnitude of its mean", "rad"),
+    "thrust_mean_N": ("thrust on the bearing, mean", "N"),
+    "thrust_peak_N": ("thrust on the bearing, largest magnitude", "N"),
+    "tilting_moment_mean_Nm": ("tilting moment on the bearing, magnitude of its mean", "N m"),
+    "tilting_moment_peak_Nm": ("tilting moment on the bearing, largest magnitude", "N m"),
+}
+
+
+def _tilting(bodies: tuple[str, ...], motion: TiltingMotion) -> dict[str, Any]:
+    """Axial motion, tilts, thrusts and moments of all bodies by JSON name."""
+    import numpy as np
+
+    def of_bodies(values: np.ndarray) -> dict[str, float]:
+        return dict(zip(bodies, values.tolist(), strict=True))
+
+    moment = motion.tilting_moment
+    return {
+        "axial_displacement_mean_m": of_bodies(motion.axial_displacement.mean(axis=0)),
+        "tilt_mean_rad": of_bodies(np.linalg.norm(motion.tilt.mean(axis=0), axis=1)),
+        "thrust_mean_N": of_bodies(motion.axial_force.mean(axis=0)),
+        "thrust_peak_N": of_bodies(np.abs(motion.axial_force).max(axis=0)),
+        "tilting_moment_mean_Nm": of_bodies(np.linalg.norm(moment.mean(axis=0), axis=1)),
+        "tilting_moment_peak_Nm": of_bodies(np.linalg.norm(moment, axis=2).max(axis=0)),
+    }
+
+
 def _axes(motion: AxesMotion) -> dict[str, Any]:
     """Displacements and bearing forces of all bodies by JSON name, and the shares of planets."""
     import numpy as np
@@ -216,6 +246,8 @@ def _axes(motion: AxesMotion) -> dict[str, Any]:
         peak = np.linalg.norm(values, axis=2).max(axis=0)
         found[f"{name}_mean_{unit}"] = dict(zip(motion.bodies, mean.tolist(), strict=True))
         found[f"{name}_peak_{unit}"] = dict(zip(motion.bodies, peak.tolist(), strict=True))
+    if motion.tilting is not None:
+        found |= _tilting(motion.bodies, motion.tilting)
     planets = motion.bodies[len(motion.bodies) - motion.load_share.shape[1] :]
     shares = motion.mean_load_share.tolist()
     if all(share == share for share in shares):  # there is a load to share
@@ -230,7 +262,8 @@ def _axes_table(motion: AxesMotion, found: dict[str, Any]) -> Table:
     table = Table("", title="Axes, in the frame of the carrier")
     for body in motion.bodies:
         table.add_column(body, justify="right")
-    for key, (text, unit) in _AXES.items():
+    rows = _AXES if motion.tilting is None else _AXES | _TILTING
+    for key, (text, unit) in rows.items():
         table.add_row(text, *(figure(value, unit) for value in found[key].values()))
     share = found.get("load_share", {})
     shares = (f"{share[body]:.4f}" if body in share else "" for body in motion.bodies)
@@ -261,8 +294,24 @@ def _axes_columns(motion: AxesMotion) -> dict[str, Any]:
             columns |= {
                 f"{quantity}/{body}/{name}": values[:, k, n] for n, name in enumerate(names)
             }
+        if motion.tilting is not None:
+            columns |= _tilting_columns(motion.tilting, k, body, names)
     for k in range(motion.load_share.shape[1]):
         columns[f"load_share/planet_{k + 1}"] = motion.load_share[:, k]
+    return columns
+
+
+def _tilting_columns(
+    motion: TiltingMotion, k: int, body: str, names: tuple[str, str]
+) -> dict[str, Any]:
+    """Time series of the axial motion and the tilts of body k, by column name."""
+    columns = {
+        f"{quantity}/{body}": getattr(motion, quantity)[:, k]
+        for quantity in ("axial_displacement", "axial_force")
+    }
+    for quantity in ("tilt", "tilting_moment"):
+        values = getattr(motion, quantity)
+        columns |= {f"{quantity}/{body}/{name}": values[:, k, n] for n, name in enumerate(names)}
     return columns
 
 
@@ -289,6 +338,8 @@ def _write_npz(result: Result, scene: Scene, path: Path) -> None:
         names = ("displacement", "bearing_force", "orbit", "flank_force", "load_share")
         arrays |= {name: getattr(result.axes, name) for name in names}
         arrays["axes"] = result.axes.bodies
+        if result.axes.tilting is not None:
+            arrays |= result.axes.tilting._asdict()
     arrays |= {"bodies": result.bodies, "meshes": result.meshes, "scene_yaml": text}
     np.savez_compressed(path, **arrays)
 

@@ -15,18 +15,20 @@ constexpr bool MOVING = false;
 #endif
 
 constexpr int REGISTER = 4;  // arrays over bodies and meshes come in whole registers
-// 7 planets, sun, ring, carrier, machines and the ground; or displacements of all axes beside them.
-constexpr int BODIES = (MOVING ? 10 : 4) * REGISTER;
-constexpr int MESHES = BODIES;
+// 7 planets, sun, ring, carrier, machines and the ground; or displacements and tilts of all axes
+// beside them.
+constexpr int BODIES = (MOVING ? 16 : 4) * REGISTER;
+constexpr int MESHES = (MOVING ? 8 : 4) * REGISTER;
 constexpr int MACHINES = 3;  // two motors and a load
 constexpr int AXES = 2;      // rigid motions of the train: one for each motor
 constexpr int KINDS = 2;     // of meshes: sun-planet, planet-ring
 constexpr int GEARS = 3;     // that a mesh joins: first gear, second gear, carrier
 // Coordinates of which a mesh makes its transmission error: turns of these, and where axes move the
-// displacements of the first and of the second gear.
-constexpr int ENTRIES = GEARS + (MOVING ? 4 : 0);
+// displacements of the first and of the second gear in the plane, then axial ones and tilts.
+constexpr int IN_PLANE = GEARS + (MOVING ? 4 : 0);
+constexpr int ENTRIES = IN_PLANE + (MOVING ? 6 : 0);
 constexpr int FLANKS = MOVING ? 2 : 1;  // entries of a mesh: both flanks apart, or one for either
-constexpr int PAIRS = 3;                // tooth pairs in contact at most: contact ratios up to 3
+constexpr int PAIRS = 8;                // tooth pairs in contact at most; of helical teeth, parts
 constexpr int TOTAL = PAIRS;            // place of the sum over the pairs
 constexpr int SEGMENTS = 32;            // breakpoints: 4 of each pair and those of faults
 constexpr int TERMS = 6;                // coefficients of a polynomial
@@ -35,8 +37,8 @@ constexpr int FAULTS = 4;
 constexpr int ROOM =
     (PAIRS + 1) * MESHES;   // all tooth pairs, and what whole registers write beyond
 constexpr int MEMBERS = 3;  // sun, ring, carrier
-constexpr int JOINTS = BODIES + MEMBERS;
-constexpr int BEARINGS = MOVING ? 10 : 1;  // of sun, ring, carrier and 7 planets
+constexpr int JOINTS = 16 + MEMBERS;
+constexpr int BEARINGS = MOVING ? 10 : MEMBERS;  // of sun, ring, carrier and 7 planets
 
 // Sides of a mesh.
 constexpr std::int64_t DRIVE_SIDE = 1, OPEN = 0, COAST_SIDE = -1;

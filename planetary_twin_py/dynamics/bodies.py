@@ -43,7 +43,9 @@ class Bodies(NamedTuple):
 
     Where axes move, displacements follow the bodies, as coordinates of their own: "sun.x" and
     "planet_1.xi" with r = 1, "planet_1.eta" with the radius of the planet centres, about which it
-    turns with the carrier. Those that cannot change are the ground.
+    turns with the carrier. Where they tilt, axial displacements and tilts follow: "sun.z" and
+    "sun.wx", "planet_1.w_eta", tilts times the radius of `tilting_radii`. Those that cannot change
+    are the ground.
     """
 
     place: dict[str, int]  # index of every body; a held body is the ground
@@ -184,22 +186,64 @@ def _displaced(scene: Scene) -> list[tuple[str, float]]:
     supports = scene.supports if scene.moving_axes else None
     if supports is None:
         return []
+    tilts = tilting_masses(scene) if scene.tilting_axes else {}
     return [
-        (f"{kind}.{motion}", getattr(supports, kind).mass)
+        (f"{kind}.{motion}", tilts[kind] if "w" in motion else getattr(supports, kind).mass)
         for kind in (*CENTRAL, "planet")
-        for motion in (("xi", "eta") if kind == "planet" else ("x", "y"))
+        for motion in _motions(scene, kind)
     ]
 
 
+def _motions(scene: Scene, body: str) -> tuple[str, ...]:
+    """Names of the motions of an axis."""
+    plane = in_plane(body)
+    return (*plane, "z", *tilts_of(body)) if scene.tilting_axes else plane
+
+
+def in_plane(body: str) -> tuple[str, str]:
+    """Names of the displacements of an axis in the plane."""
+    return ("x", "y") if body in CENTRAL else ("xi", "eta")
+
+
+def tilts_of(body: str) -> tuple[str, str]:
+    """Names of the tilts of an axis, about the directions of its displacements in the plane."""
+    return ("wx", "wy") if body in CENTRAL else ("w_xi", "w_eta")
+
+
+def tilting_radii(scene: Scene) -> dict[str, float]:
+    """Radius [m] of each kind of body at which tilts are ways, as in `scene.supports`."""
+    gears = scene.gearset.geometry
+    return base_radii(scene) | {"carrier": gears.centre_distance}
+
+
+def polar_masses(scene: Scene) -> dict[str, float]:
+    """J/r^2 [kg] of each kind of body with that radius; the carrier without planets."""
+    found = rim_masses(scene)
+    return found | {"carrier": scene.gearset.rim_masses.carrier}
+
+
+def tilting_masses(scene: Scene) -> dict[str, float]:
+    """I/r^2 [kg] of each kind of body with the diametral inertia I."""
+    polar = polar_masses(scene)
+    return {
+        kind: getattr(scene.supports, kind).diametral(polar[kind]) for kind in (*CENTRAL, "planet")
+    }
+
+
 def _displacements(scene: Scene) -> list[str]:
-    """Names of the displacements that can change, see `planet_groups`."""
+    """Names of the displacements that can change, see `planet_groups`.
+
+    Spur teeth excite no axial motion and no tilts: these stay exactly zero, as ground.
+    """
     if not scene.moving_axes:
         return []
-    central = () if axes_stand(scene) else CENTRAL
+    stand, helical = axes_stand(scene), scene.gearset.helix_angle != 0.0
     leaders = [_planets(scene)[leader] for leader in planet_groups(scene).leaders]
     return [
-        *(f"{body}.{motion}" for body in central for motion in ("x", "y")),
-        *(f"{planet}.{motion}" for planet in leaders for motion in ("xi", "eta")),
+        f"{body}.{motion}"
+        for body in (*CENTRAL, *leaders)
+        for motion in (_motions(scene, body) if helical else in_plane(body))
+        if motion == "z" or not (stand and body in CENTRAL)
     ]
 
 
@@ -225,6 +269,7 @@ def _places(scene: Scene) -> dict[str, int]:
 
     every = ["sun", *planets, "ring", "carrier", *machines(scene)]
     if scene.moving_axes:
-        every += [f"{body}.{motion}" for body in CENTRAL for motion in ("x", "y")]
-        every += [f"{planet}.{motion}" for planet in planets for motion in ("xi", "eta")]
+        every += [
+            f"{body}.{motion}" for body in (*CENTRAL, *planets) for motion in _motions(scene, body)
+        ]
     return {name: place.get(integrated(name), len(order)) for name in every}

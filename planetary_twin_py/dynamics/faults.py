@@ -14,6 +14,7 @@ from typing import Any
 import numpy as np
 
 from .._core import MESHES, NOWHERE, PAIRS, SEGMENTS, TERMS
+from ..mesh.overlap import FaceMean
 from ..mesh.tooth_pairs import Along, PairTable, along
 from ..scene import Scene
 from ..scene.faults import MOST_FAULTS, SPALL_EDGE, Crack, Fault, Spall, Wear
@@ -32,11 +33,16 @@ def fault_kinks(scene: Scene, kind: int) -> tuple[float, ...]:
 
 
 def build_faults(
-    scene: Scene, tables: list[PairTable], planets: Sequence[int], phases: np.ndarray
+    scene: Scene,
+    tables: Sequence[PairTable],
+    faces: Sequence[FaceMean | None],
+    planets: Sequence[int],
+    phases: np.ndarray,
 ) -> dict[str, Any]:
     """Fields of `Train`, for the sun meshes of `planets` and then their ring meshes.
 
-    `phases` (meshes,) [mesh cycles] of these meshes include whole cycles.
+    `phases` (meshes,) [mesh cycles] of these meshes include whole cycles. `faces` have the means
+    over the face of helical teeth.
     """
     teeth = scene.gearset.tooth_numbers._asdict()
     pairs = np.full((FAULTS, MESHES, 2), NOWHERE)
@@ -46,9 +52,10 @@ def build_faults(
             kind, n = divmod(i, len(planets))
             if kind in _kinds(fault) and (fault.gear != "planet" or fault.planet - 1 == planets[n]):
                 pairs[f, i] = _pairs(scene, fault, kind, phases[n] - phases[i])
-        for kind, table in enumerate(tables):
+        for kind, (table, face) in enumerate(zip(tables, faces, strict=True)):
             if kind in _kinds(fault):
-                factors[f, kind] = along(table, _factor(scene, fault, kind))
+                factor = _factor(scene, fault, kind)
+                factors[f, kind] = along(table, factor) if face is None else face.factors(factor)
     return {
         "faults": len(scene.faults),
         "fault_teeth": np.array([teeth[fault.gear] for fault in scene.faults], dtype=int),

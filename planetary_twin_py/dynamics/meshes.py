@@ -10,6 +10,7 @@ from typing import Any
 
 import numpy as np
 
+from ..mesh.overlap import FaceMean, overlap_ratio
 from ..mesh.stiffness import StiffnessLaw
 from ..mesh.tip_relief import relieved_table
 from ..mesh.tooth_pairs import PairTable, pair_table, terms_in_use
@@ -30,7 +31,8 @@ def build_meshes(scene: Scene, bodies: Bodies) -> dict[str, Any]:
     """
     gearset, damping = scene.gearset, scene.mesh.damping
     gears, laws = gearset.geometry, stiffness_laws(scene)
-    tables = [_table(scene, kind, law) for kind, law in enumerate(laws)]
+    faces = [_face(scene, kind, law) for kind, law in enumerate(laws)]
+    tables = [_table(scene, kind, laws[kind], face) for kind, face in enumerate(faces)]
     groups = planet_groups(scene)
     body, sign = _rows(groups, bodies.place, gears.carrier_ratio)
     phases = np.array([float(phases[i]) for phases in scene_phases(scene) for i in groups.leaders])
@@ -56,17 +58,33 @@ def build_meshes(scene: Scene, bodies: Bodies) -> dict[str, Any]:
         "segments": np.array([table.segments for table in tables]),
         "edge": np.array([table.edge for table in tables]),
         "shift": np.array([table.shift for table in tables]),
+        "centre": np.array([table.centre for table in tables]),
+        "travel": np.array([table.travel for table in tables]),
+        "face": np.array([table.face for table in tables]),
+        "face_growth": np.array([table.face_growth for table in tables]),
         "present": np.array([table.present.sum(axis=1) for table in tables]),
         "slots": max(int(table.present.sum(axis=1).max()) for table in tables),
         "terms": max(terms_in_use(table) for table in tables),
         "weight": np.array([table.weight for table in tables]),
         **build_form_errors(scene, groups.leaders),
-        **build_faults(scene, tables, groups.leaders, phases),
+        **build_faults(scene, tables, faces, groups.leaders, phases),
     }
 
 
-def _table(scene: Scene, kind: int, law: StiffnessLaw) -> PairTable:
+def _face(scene: Scene, kind: int, law: StiffnessLaw) -> FaceMean | None:
+    """Means over the face of helical teeth, None of spur teeth."""
+    gearset = scene.gearset
+    if gearset.helix_angle == 0.0:
+        return None
+    mesh = gearset.geometry.meshes[kind]
+    overlap = overlap_ratio(gearset.face_width, gearset.base_helix, mesh.base_pitch)
+    return FaceMean(mesh.path, scene.mesh.ramp, overlap, law, fault_kinks(scene, kind))
+
+
+def _table(scene: Scene, kind: int, law: StiffnessLaw, face: FaceMean | None) -> PairTable:
     """Tooth pairs of a kind of mesh, with tip relief at the load of the scene."""
+    if face is not None:
+        return face.table()
     ramp, kinks, gap = scene.mesh.ramp, fault_kinks(scene, kind), pair_gap(scene, kind)
     if gap is not None:
         return relieved_table(gap, ramp, law, loaded_force(scene), kinks)

@@ -6,16 +6,27 @@ The rows are those of `planar.rows`, in the order that `core/train/moving_axes.h
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
 from fractions import Fraction
 from typing import Any
 
 import numpy as np
 
-from .._core import AXES, axes
+from .._core import AXES, MovingAxes, axes
 from ..planar.rows import COAST, DRIVE, PlanarRows, planar_rows
 from ..scene import Scene
 from ..scene.supports import Support
-from .bodies import CENTRAL, Bodies, rigid_ratios
+from ..spatial.rows import LeaningRow, MeshOfKind, leaning_row
+from .bodies import (
+    CENTRAL,
+    Bodies,
+    in_plane,
+    polar_masses,
+    rigid_ratios,
+    tilting_masses,
+    tilting_radii,
+    tilts_of,
+)
 from .planet_groups import planet_groups
 
 SIDES = (DRIVE, COAST)
@@ -33,8 +44,20 @@ def bearing_damping(support: Support) -> float:
     Returns:
         That of the scene, or its default [N s/m].
     """
-    given = support.damping
-    return BEARING_DAMPING * support.bearing if given is None else given
+    return default_damping(support.damping, support.bearing)
+
+
+def default_damping(damping: float | None, stiffness: float) -> float:
+    """Damping of a bearing in one direction.
+
+    Args:
+        damping: that of the scene, if it gives one.
+        stiffness: of the bearing.
+
+    Returns:
+        The damping, in the unit of the stiffness times seconds.
+    """
+    return BEARING_DAMPING * stiffness if damping is None else damping
 
 
 def moving_fields(scene: Scene, bodies: Bodies, fields: dict[str, Any]) -> dict[str, Any]:
@@ -51,6 +74,19 @@ def moving_fields(scene: Scene, bodies: Bodies, fields: dict[str, Any]) -> dict[
     """
     meshes, frame = int(fields["meshes"]), len(bodies.mass)
     body, sign, line = _entries(scene, bodies, frame)
+    moving = axes.MovingAxes(
+        frame=frame,
+        carrier=[bodies.place[f"carrier.{motion}"] for motion in "xy"],
+        arm=scene.gearset.geometry.centre_distance,
+        line=line,
+        entries=body.shape[1],
+        **_gravity(scene),
+        **_bearings(scene, bodies),
+    )
+    if scene.tilting_axes:
+        moving.slope_place, moving.slope = _slopes(scene, bodies)
+        moving.face_square = scene.gearset.face_width**2 / 12.0
+        _fill_tilting(scene, bodies, moving)
     doubled = {
         name: np.concatenate([np.asarray(fields[name])[:meshes]] * 2)
         for name in (
@@ -73,14 +109,7 @@ def moving_fields(scene: Scene, bodies: Bodies, fields: dict[str, Any]) -> dict[
             "body": body,
             "sign": sign,
             "fault_pair": np.concatenate([fields["fault_pair"][:, :meshes]] * 2, axis=1),
-            "moving": axes.MovingAxes(
-                frame=frame,
-                carrier=[bodies.place[f"carrier.{motion}"] for motion in "xy"],
-                arm=scene.gearset.geometry.centre_distance,
-                line=line,
-                **_gravity(scene),
-                **_bearings(scene, bodies),
-            ),
+            "moving": moving,
         }
     )
 
@@ -92,35 +121,86 @@ def _turning(scene: Scene) -> np.ndarray:
 
 
 def _entries(scene: Scene, bodies: Bodies, frame: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Coordinates, row, and turn of the line of action of each entry of the meshes.
-
-    (entries, ENTRIES) each.
-    """
+    """Coordinates, row, and turn of the line of action of each entry, (entries, n) each."""
     angles = [mesh.pressure_angle for mesh in scene.gearset.geometry.meshes]
     rows = planar_rows(scene.gearset.planet_angles, *angles)
-    count, leaders = scene.gearset.planets, planet_groups(scene).leaders
-    meshes = [*(("sun", i) for i in leaders), *(("ring", i) for i in leaders)]
+    count = scene.gearset.planets
     body, sign, line = [], [], []
-    for side in SIDES:
-        for name, number in meshes:
-            i, planet = number + count * (name == "ring"), f"planet_{number + 1}"
-            first, second = (planet, name) if name == "ring" else (name, planet)
-            turns = [f"{first}.u", f"{second}.u"]
-            moves = [f"{gear}.{motion}" for gear in (first, second) for motion in _motions(gear)]
-            places = [rows.place(coordinate) for coordinate in (*turns, *moves)]
-            row = rows.tangential[i, places] + side * rows.radial[i, places]
-            body.append(
-                [bodies.place[first], bodies.place[second], frame]
-                + [bodies.place[coordinate] for coordinate in moves]
-            )
-            sign.append([*row[:2], 0.0, *row[2:]])
-            turn = _turn_of_line(rows, i, side, angles[i // count], moves)
-            line.append([0.0, 0.0, 0.0, *(turn / scene.gearset.geometry.centre_distance)])
+    for side, name, number in _meshes(scene):
+        i, planet = number + count * (name == "ring"), f"planet_{number + 1}"
+        first, second = (planet, name) if name == "ring" else (name, planet)
+        turns = [f"{first}.u", f"{second}.u"]
+        moves = [f"{gear}.{motion}" for gear in (first, second) for motion in in_plane(gear)]
+        places = [rows.place(coordinate) for coordinate in (*turns, *moves)]
+        row = rows.tangential[i, places] + side * rows.radial[i, places]
+        beyond, factors = _beyond_plane(scene, side, name, number)
+        body.append(
+            [bodies.place[first], bodies.place[second], frame]
+            + [bodies.place[coordinate] for coordinate in (*moves, *beyond)]
+        )
+        sign.append([*row[:2], 0.0, *row[2:], *factors])
+        turn = _turn_of_line(rows, i, side, angles[i // count], moves)
+        line.append([0.0, 0.0, 0.0, *(turn / scene.gearset.geometry.centre_distance)])
     return np.array(body), np.array(sign), np.array(line)
 
 
-def _motions(body: str) -> tuple[str, str]:
-    return ("x", "y") if body in CENTRAL else ("xi", "eta")
+def _meshes(scene: Scene) -> Iterator[tuple[float, str, int]]:
+    """Side, central gear and planet (counted from 0) of each entry, in the order of the core."""
+    leaders = planet_groups(scene).leaders
+    for side in SIDES:
+        for name in ("sun", "ring"):
+            for number in leaders:
+                yield side, name, number
+
+
+def _leaning(scene: Scene, side: float, name: str, number: int) -> LeaningRow:
+    gearset, internal = scene.gearset, name == "ring"
+    mesh = gearset.geometry.meshes[int(internal)]
+    radii = mesh.pitch_radii[::-1] if internal else mesh.pitch_radii
+    kind = MeshOfKind(internal, mesh.pressure_angle, gearset.base_helix, *radii)
+    return leaning_row(kind, side, gearset.planet_angles[number])
+
+
+def _beyond_plane(
+    scene: Scene, side: float, name: str, number: int
+) -> tuple[list[str], list[float]]:
+    """Axial displacements and tilts of both gears of an entry, and their factors in its row."""
+    if not scene.tilting_axes:
+        return [], []
+    row, radii = _leaning(scene, side, name, number), tilting_radii(scene)
+    coordinates, factors = [], []
+    for k, (gear, kind) in enumerate(((name, name), (f"planet_{number + 1}", "planet"))):
+        coordinates += [f"{gear}.{motion}" for motion in ("z", *tilts_of(gear))]
+        factors += [float(row.axial[k]), *(row.tilt[k] / radii[kind]).tolist()]
+    return coordinates, factors
+
+
+def _slopes(scene: Scene, bodies: Bodies) -> tuple[np.ndarray, np.ndarray]:
+    """Tilts of both gears of each entry, and the slope of its squeeze per tilt, (entries, 4)."""
+    radii, places, slopes = tilting_radii(scene), [], []
+    for side, name, number in _meshes(scene):
+        row, planet = _leaning(scene, side, name, number), f"planet_{number + 1}"
+        places.append([bodies.place[f"{g}.{m}"] for g in (name, planet) for m in tilts_of(g)])
+        slopes.append([*(row.slope[0] / radii[name]), *(row.slope[1] / radii["planet"])])
+    return np.array(places), np.array(slopes)
+
+
+def _fill_tilting(scene: Scene, bodies: Bodies, moving: MovingAxes) -> None:
+    """Fill axial and tilting motion of all bearings, in their order."""
+    supports, radii = scene.supports, tilting_radii(scene)
+    polar, diametral = polar_masses(scene), tilting_masses(scene)
+    names = [*CENTRAL, *(f"planet_{i + 1}" for i in range(scene.gearset.planets))]
+    for name, axis in zip(names, moving.tilting, strict=False):
+        kind = name.split("_")[0]
+        support, r = getattr(supports, kind), radii[kind]
+        axis.lift = bodies.place[f"{name}.z"]
+        axis.place = [bodies.place[f"{name}.{motion}"] for motion in tilts_of(name)]
+        axis.lever, axis.turns = 1.0 / r, bodies.place[name]
+        axis.axial_stiffness, axis.tilting_stiffness = support.axial, support.tilting * r**2
+        axis.axial_damping = default_damping(support.axial_damping, support.axial)
+        tilting_damping = default_damping(support.tilting_damping, support.tilting)
+        axis.tilting_damping = tilting_damping * r**2
+        axis.diametral, axis.polar = diametral[kind] * r**2, polar[kind] * r**2
 
 
 def _turn_of_line(
@@ -153,7 +233,7 @@ def _bearings(scene: Scene, bodies: Bodies) -> dict[str, Any]:
     return {
         "bearings": len(names),
         "leads": [True] * 3 + [i in planet_groups(scene).leaders for i in range(planets)],
-        "place": [[bodies.place[f"{name}.{m}"] for m in _motions(name)] for name in names],
+        "place": [[bodies.place[f"{name}.{m}"] for m in in_plane(name)] for name in names],
         "direction": [[0.0, 0.0]] * 3 + [[math.cos(a), math.sin(a)] for a in angles],
         "carried": [0.0] * 3 + [pin] * planets,
         "mass": [support.mass for support in held],

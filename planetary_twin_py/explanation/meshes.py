@@ -14,6 +14,7 @@ from ..dynamics.stiffness_laws import GEARS
 from ..dynamics.train import build_train, held_axes
 from ..losses.ohlendorf import tooth_loss_factor
 from ..lubrication.hertz import contact_modulus
+from ..mesh.overlap import overlap_ratio
 from ..scene import Scene
 from .friction import friction_figures
 
@@ -24,6 +25,7 @@ class MeshFigures(NamedTuple):
     teeth: tuple[int, int]
     pressure_angle: float  # working pressure angle [rad]
     contact_ratio: float
+    overlap_ratio: float  # of helical teeth
     approach: float  # length of the path of contact up to the pitch point [base pitches]
     recess: float  # and after it
     tooth_play: float  # by profile shift and centre distance alone, along the line of action [m]
@@ -33,6 +35,7 @@ class MeshFigures(NamedTuple):
     natural_frequency: float  # of the two gears alone, with one pair in contact [Hz]
     damping_ratio: float  # of this mode at the operating point [-]
     static_force: float  # mean under the torque of the operating point, without friction [N]
+    axial_force: float  # of helical teeth under the same [N]
     pitch_pressure: (
         float  # largest Hertz pressure at the pitch point, static force on one pair [Pa]
     )
@@ -76,6 +79,9 @@ def describe_meshes(scene: Scene) -> Meshes:
             teeth=(teeth[first], teeth[second]),
             pressure_angle=found[kind].pressure_angle,
             contact_ratio=paths[kind].contact_ratio,
+            overlap_ratio=overlap_ratio(
+                gearset.face_width, gearset.base_helix, found[kind].base_pitch
+            ),
             approach=paths[kind].approach,
             recess=paths[kind].recess,
             tooth_play=found[kind].play,
@@ -85,6 +91,7 @@ def describe_meshes(scene: Scene) -> Meshes:
             natural_frequency=float(natural[kind]) / (2.0 * math.pi),
             damping_ratio=0.5 * damping_time(train, kind, frequency) * float(natural[kind]),
             static_force=force,
+            axial_force=force * abs(math.tan(gearset.base_helix)),
             pitch_pressure=pressure[kind],
             loss_factor=tooth_loss_factor(paths[kind], teeth[first], teeth[second], kind == 1),
             backlash=2.0 * float(load.half_backlash),

@@ -26,7 +26,6 @@ class Limit(NamedTuple):
 
 
 NOT_MODELLED = (
-    Limit("tilting, axial motion", "only in `modal --model spatial`; no face load distribution"),
     Limit(
         "flexibility of carrier, ring and shafts",
         "only the teeth and the couplings of motor and load are elastic",
@@ -42,15 +41,30 @@ STATICS_ONLY = Limit(
 
 
 HELIX = Limit(
-    "helix",
-    "only in `modal --model spatial`; simulated as spur teeth of the transverse section, without "
-    "overlap or axial force",
+    "axial forces",
+    "contact lines move along the face, but axial force and tilting moments of the helix move no "
+    "body and load no bearing: dynamics = spatial",
 )
 
 
-TILTING = Limit(
-    "tilting of axes",
+IN_PLANE = Limit(
+    "places of axes",
     "axes move in the plane; directions and lengths of the lines of action stay nominal",
+)
+
+FLAT = Limit(
+    "tilting, axial motion",
+    "only with dynamics = spatial and in `modal --model spatial`; no face load distribution",
+)
+
+SHUTTLING = Limit(
+    "shuttling",
+    "the resultant of a mesh stays in the middle of the face, and flanks touch all along it",
+)
+
+NOMINAL_LINES = (
+    IN_PLANE,
+    Limit("axial friction", "friction of teeth acts in the plane of the gears"),
 )
 
 
@@ -59,7 +73,9 @@ def limits(scene: Scene) -> tuple[Limit, ...]:
     statics = (STATICS_ONLY,) if scene.dynamics == "quasi_static" else ()
     helix = (HELIX,) if scene.gearset.helix_angle != 0.0 else ()
     axes = Limit("translation of axes", meaning_of_held_axes(scene))
-    return (*statics, *helix, TILTING if scene.moving_axes else axes, *NOT_MODELLED)
+    if scene.tilting_axes:
+        return (SHUTTLING, *NOMINAL_LINES, *NOT_MODELLED)
+    return (*statics, *helix, IN_PLANE if scene.moving_axes else axes, FLAT, *NOT_MODELLED)
 
 
 def terms(scene: Scene) -> tuple[Term, ...]:
@@ -76,7 +92,9 @@ def _dynamics(scene: Scene) -> Term | None:
         return None
     if scene.moving_axes:
         law = "rotation and displacement of every body; elastic bearings, couplings and teeth"
-        return Term("planar dynamics", law, {"dynamics": "torsional"})
+        if scene.tilting_axes:
+            law = law.replace("displacement", "displacement, axial motion and tilts")
+        return Term(f"{scene.dynamics} dynamics", law, {"dynamics": "torsional"})
     law = "rotation of every body, elastic couplings and teeth"
     return Term("torsional dynamics", law, {"dynamics": "quasi_static"})
 

@@ -9,7 +9,8 @@ import numpy as np
 from .._core import AXES, QUANTITIES, Train
 
 MEMBERS = 3  # sun, ring, carrier
-SAMPLE_AXES = 4  # components of what a bearing shows
+SAMPLE_AXES = 4  # components of what a bearing shows in the plane
+SAMPLE_LEAN = 6  # and beyond it
 
 
 class Samples(NamedTuple):
@@ -21,6 +22,9 @@ class Samples(NamedTuple):
     speed: np.ndarray  # (room, bodies) [rad/s]
     drag: np.ndarray  # (room, 2) power loss of bearings and of churning [W]
     moved: np.ndarray  # (room, bearings, 4) displacement [m], force on the bearing [N]
+    # Where axes tilt: axial displacement [m], tilts [rad], axial force [N] and moments [N m] on the
+    # bearing; else without columns.
+    lean: np.ndarray  # (room, bearings, 6 or 0)
 
 
 class Waves(NamedTuple):
@@ -34,19 +38,26 @@ class Waves(NamedTuple):
     bearing_force: np.ndarray  # (rows, 2 bearings), on the bearing [N]
     orbit: np.ndarray  # (rows, 6) of sun, ring and carrier in the housing [m]
     flank_force: np.ndarray  # (rows, 2 meshes) of drive, then of coast flanks [N]
+    lean: np.ndarray  # (rows, 6 bearings) of axes that tilt, see `Samples`
 
 
-def new_waves(rows: int, meshes: int, bearings: int = 0) -> Waves:
+def new_waves(rows: int, meshes: int, bearings: int = 0, tilting: bool = False) -> Waves:
     """Room for `rows` samples; without bearings, axes are held and have no columns."""
     of_axes = (2 * bearings, 2 * bearings, 2 * MEMBERS, 2 * meshes) if bearings else (0,) * 4
+    lean = SAMPLE_LEAN * bearings if tilting else 0
     return Waves(
-        np.empty(rows), *(np.empty((rows, columns)) for columns in (*[meshes] * 3, *of_axes))
+        np.empty(rows), *(np.empty((rows, columns)) for columns in (*[meshes] * 3, *of_axes, lean))
     )
 
 
 def bearings_of(train: Train) -> int:
     """Number of the bearings of axes that move; 0 if they are held."""
     return int(train.moving.bearings)
+
+
+def tilts(train: Train) -> bool:
+    """Whether the axes tilt: then the rows of the meshes fill their room."""
+    return bearings_of(train) > 0 and int(train.moving.entries) == train.sign.shape[1]
 
 
 def new_samples(train: Train, room: int) -> Samples:
@@ -59,4 +70,5 @@ def new_samples(train: Train, room: int) -> Samples:
         np.zeros((room, bodies)),
         np.zeros((room, 2)),
         np.zeros((room, bearings_of(train), SAMPLE_AXES)),
+        np.zeros((room, bearings_of(train), SAMPLE_LEAN if tilts(train) else 0)),
     )

@@ -26,6 +26,8 @@ from numpy.polynomial import Polynomial
 from .._core import PAIRS, SEGMENTS, TERMS, TOTAL
 from ..gearset.geometry import PathOfContact
 
+MOST_PAIRS = 3  # of spur teeth in contact at once
+
 Along = Callable[[np.ndarray], np.ndarray]  # function of positions on the path of contact
 
 
@@ -42,6 +44,13 @@ class PairTable(NamedTuple):
     shift: np.ndarray  # (SEGMENTS, PAIRS)
     present: np.ndarray  # (SEGMENTS, PAIRS) whether the pair exists
     weight: np.ndarray  # (SEGMENTS, PAIRS + 1, TERMS), the sum over the pairs at TOTAL
+    # The contact of a pair is at centre + travel * x: in the middle of its contact line, which in
+    # spur teeth is the position of the pair.
+    centre: np.ndarray  # (SEGMENTS, PAIRS)
+    travel: np.ndarray  # (SEGMENTS, PAIRS)
+    # It is on the part face + face_growth * x of the face: on all of spur teeth.
+    face: np.ndarray  # (SEGMENTS, PAIRS)
+    face_growth: np.ndarray  # (SEGMENTS, PAIRS)
 
 
 def one(s: np.ndarray) -> np.ndarray:
@@ -68,33 +77,76 @@ def pair_table(
     Raises:
         ValueError: the contact ratio is below 1 + ramp (an instant without a full pair) or above 3.
     """
-    if not 1.0 + ramp <= path.contact_ratio <= PAIRS:
+    if not 1.0 + ramp <= path.contact_ratio <= MOST_PAIRS:
         raise ValueError(
             f"contact ratio = {path.contact_ratio:.4g}: must be within 1 + ramp = {1 + ramp:g} "
-            f"and {PAIRS}"
+            f"and {MOST_PAIRS}"
         )
     ends = (-path.approach, -path.approach + ramp, path.recess - ramp, path.recess)
     kinks = [kink for kink in kinks if -path.approach < kink < path.recess]
-    edges = sorted({0.0, 1.0} | {round(kink - math.floor(kink), 12) for kink in (*ends, *kinks)})
+    table = segmented([(-path.approach, path.recess)], (*ends, *kinks))
+    table.weight[:, :TOTAL] = along(
+        table,
+        lambda s: _ramp(path, ramp, s) * strength(s) * _shared(path, ramp, sharing, s),
+    )
+    table.weight[:, TOTAL] = table.weight[:, :TOTAL].sum(axis=1)
+    return table
+
+
+def segmented(
+    reaches: Sequence[tuple[float, float]],
+    corners: Sequence[float],
+    marks: Sequence[float] = (0.0,),
+) -> PairTable:
+    """A table of pairs without weights.
+
+    Args:
+        reaches: positions at which a pair, or each part of it, comes into contact and leaves it
+            [base pitches].
+        corners: positions with a discontinuity or a kink.
+        marks: added to the shifts of each part of a pair, below 1.
+
+    Returns:
+        Segments between the corners, and the pairs that are in contact in each.
+
+    Raises:
+        ValueError: the table has no room for the corners, or for the pairs.
+    """
+    edges = sorted({0.0, 1.0} | {round(corner - math.floor(corner), 12) for corner in corners})
+    if len(edges) > SEGMENTS:
+        raise ValueError(
+            f"faults: teeth have room for {SEGMENTS} changes of stiffness in a mesh cycle, and "
+            f"these make {len(edges)}: give fewer spalls"
+        )
     table = PairTable(
         len(edges) - 1,
         np.full(SEGMENTS + 1, 1.0),
         np.zeros((SEGMENTS, PAIRS)),
         np.zeros((SEGMENTS, PAIRS), dtype=bool),
         np.zeros((SEGMENTS, PAIRS + 1, TERMS)),
+        np.zeros((SEGMENTS, PAIRS)),
+        np.ones((SEGMENTS, PAIRS)),
+        np.ones((SEGMENTS, PAIRS)),
+        np.zeros((SEGMENTS, PAIRS)),
     )
     table.edge[: len(edges)] = edges
     for j, (low, high) in enumerate(pairwise(edges)):
         middle = 0.5 * (low + high)
-        shifts = [n for n in range(-PAIRS, PAIRS + 1) if -path.approach < middle + n < path.recess]
+        shifts = [
+            n + mark
+            for n in range(-PAIRS, PAIRS + 1)
+            for (first, last), mark in zip(reaches, marks, strict=True)
+            if first < middle + n < last
+        ]
+        if len(shifts) > PAIRS:
+            raise ValueError(
+                f"gearset.helix_angle, gearset.face_width: teeth overlap so much that {len(shifts)}"
+                f" parts of tooth pairs are in contact at once: at most {PAIRS}"
+            )
         table.shift[j] = shifts[0]  # absent pairs have a position but no weight
         table.shift[j, : len(shifts)] = shifts
         table.present[j, : len(shifts)] = True
-    table.weight[:, :TOTAL] = along(
-        table,
-        lambda s: _ramp(path, ramp, s) * strength(s) * _shared(path, ramp, sharing, s),
-    )
-    table.weight[:, TOTAL] = table.weight[:, :TOTAL].sum(axis=1)
+    table.centre[:] = table.shift
     return table
 
 

@@ -146,15 +146,14 @@ def _spatial_set(scene: Scene, mesh: MeshStiffness) -> SpatialSet:
 
     def body(name: str) -> SpatialBody:
         support: Support = getattr(supports, name)
-        tilt = 0.5 * rim[name] if support.tilt_mass is None else support.tilt_mass
         return SpatialBody(
             support.mass,
             rim[name],
-            tilt,
+            support.diametral(rim[name]),
             radius[name],
             support.bearing,
-            support.axial,
-            support.tilting,
+            support.axial or 0.0,
+            support.tilting or 0.0,
             support.torsion,
         )
 
@@ -167,6 +166,7 @@ def _spatial_set(scene: Scene, mesh: MeshStiffness) -> SpatialSet:
         mesh.sun_planet,
         mesh.planet_ring,
         sun_planet.pressure_angle,
-        math.atan(math.tan(gearset.helix_angle) * math.cos(gearset.pressure_angle)),
+        gearset.base_helix,
         planet_ring.pressure_angle,
+        gearset.face_width,
     )

@@ -4,7 +4,9 @@ It is the model that eqs. (20)-(31) of Salagianni et al. 2017 intend. The coordi
 its displacements x, y and z, tilts w_x and w_y, and rotation u; the last three are arc lengths at
 its base radius, for the carrier at the radius of the planet centres. The deformation of a spring
 follows from the displacements of both bodies at their contact point, so a rigid motion of the
-unsupported gearset deforms no spring at any helix angle. Gyroscopic terms are in `turning`.
+unsupported gearset deforms no spring at any helix angle. Beside its normal spring a mesh of
+stiffness k and face width L has the energy k L^2 s^2/24 of the slope s of the flanks along the
+face, with which the squeeze of its parts differs. Gyroscopic terms are in `turning`.
 """
 
 from __future__ import annotations
@@ -63,6 +65,8 @@ class SpatialSet:
     """Helix angle on the base circle, positive for a right-hand sun [rad]."""
     ring_angle: float | None = None
     """Working pressure angle of the planet-ring meshes [rad]; default: that of the others."""
+    face_width: float = 0.0
+    """Face width, along which each mesh resists tilting [m]; 0: at one point."""
 
 
 def spatial_model(data: SpatialSet) -> SpringModel:
@@ -128,7 +132,18 @@ def _meshes(data: SpatialSet, row: Rows, planet: str, psi: float) -> list[Spring
         kind = "sun_planet" if gear == "sun" else "planet_ring"
         stiffness = getattr(data, kind) / math.cos(data.base_helix) ** 2
         springs.append(Spring(kind, stiffness, row(parts)))
+        tilting = getattr(data, kind) * data.face_width**2 / 12.0
+        if tilting > 0.0:
+            slope = np.cross([0.0, 0.0, 1.0], flat)
+            parts = _relative(_tilt(data, gear, slope), _tilt(data, planet, slope))
+            springs.append(Spring(f"{kind}_tilting", tilting, row(parts)))
     return springs
+
+
+def _tilt(data: SpatialSet, name: str, direction: Vector) -> dict[str, float]:
+    """Row of the tilt of a body about `direction`."""
+    radius = _body(data, name).radius
+    return {f"{name}.{m}": part / radius for m, part in zip(("wx", "wy"), direction, strict=False)}
 
 
 def _pin(data: SpatialSet, row: Rows, planet: str, psi: float) -> list[Spring]:

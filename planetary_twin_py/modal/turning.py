@@ -105,7 +105,8 @@ def turning_modes(model: SpringModel, terms: Turning) -> NaturalModes:
     """
     scale = 1.0 / np.sqrt(model.mass)
     rows = np.array([spring.row for spring in model.acting]).reshape(-1, len(scale))
-    rigid = null_space(np.vstack([rows, terms.centripetal / np.abs(terms.centripetal).max()]))
+    largest = np.abs(terms.centripetal).max() or 1.0  # 0: bodies spin on a carrier at rest
+    rigid = null_space(np.vstack([rows, terms.centripetal / largest]))
     count = rigid.shape[1]
     stiffness = (model.stiffness - terms.centripetal) * np.outer(scale, scale)
     squares, vectors = eigh(stiffness)

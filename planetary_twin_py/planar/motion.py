@@ -21,6 +21,7 @@ from ..dynamics.bodies import CENTRAL
 from ..dynamics.library import library
 from ..integrators.interpolant import Samples, Waves
 from ..scene import Scene
+from ..spatial.motion import TiltingMotion, tilting_motion
 
 SUMMED = (MESH_FORCE, BOUNDARY, VISCOUS, POWER_LOSS, MESH_POWER)  # of both flanks
 OF_EITHER = (FILM, LAMBDA)  # of the flanks that carry, or else of the others
@@ -50,6 +51,8 @@ class AxesMotion:
     mean_load_share: np.ndarray
     """Mean torque that each planet takes from the sun over the mean of all planets, (planets,); an
     integral over the time of the samples, NaN where the mean of all is zero."""
+    tilting: TiltingMotion | None = None
+    """Axial motion and tilts, thrust and moments on bearings; None where axes do not tilt."""
 
     @property
     def load_share(self) -> np.ndarray:
@@ -119,6 +122,7 @@ def axes_motion(
         _orbits(library(scene), moved, angle),
         np.stack([forces[:, drive], forces[:, _other_flanks(drive, flanks)]], axis=1),
         _shares(mesh_force[: scene.gearset.planets]),
+        tilting_motion(samples.lean),
     )
 
 
@@ -143,6 +147,7 @@ def axes_of_waves(waves: Waves, planets: int, mesh_force: np.ndarray) -> AxesMot
         waves.orbit.reshape(rows, len(CENTRAL), 2),
         waves.flank_force.reshape(rows, 2, len(mesh_force)),
         _shares(mesh_force[:planets]),
+        tilting_motion(waves.lean.reshape(rows, len(names), waves.lean.shape[1] // len(names))),
     )
 
 

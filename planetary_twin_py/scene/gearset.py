@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Iterator
 from typing import Literal, Self
 
@@ -84,9 +85,9 @@ class Inertias(Section):
 class Gearset(Section):
     """Geometry and inertia of a simple planetary gearset of involute gears.
 
-    Module and pressure angle are those of the transverse plane, on the reference circles. Only the
-    spatial natural modes use the helix angle; in simulations helical gears are spur gears of the
-    transverse section. Profile shift and centre distance determine the working pressure angle of
+    Module and pressure angle are those of the transverse plane, on the reference circles. With a
+    helix angle, contact lines move along the face; axial forces act on bodies with dynamics:
+    spatial. Profile shift and centre distance determine the working pressure angle of
     both meshes. Moments of inertia are given as `equivalent_mass` or as `inertia`.
     """
 
@@ -129,6 +130,11 @@ class Gearset(Section):
     def planets(self) -> int:
         """Number of planets."""
         return len(self.planet_angles)
+
+    @property
+    def base_helix(self) -> float:
+        """Helix angle on the base circle [rad], positive for a right-hand sun."""
+        return math.atan(math.tan(self.helix_angle) * math.cos(self.pressure_angle))
 
     @property
     def tooth_numbers(self) -> Teeth:

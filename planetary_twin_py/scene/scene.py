@@ -11,6 +11,7 @@ from typing import Annotated, Any, Literal, Self
 from pydantic import Field, TypeAdapter, ValidationError, model_validator
 
 from ..printable import one_line
+from ..spatial.bearings import missing_stiffnesses
 from .defect import explain
 from .drive import Drive
 from .errors import Errors
@@ -40,12 +41,13 @@ class Scene(Section):
 
     name: str = Field(description="name in recordings and pictures")
     description: str = Field("", description="description in words")
-    dynamics: Literal["torsional", "planar", "quasi_static", "auto"] = Field(
+    dynamics: Literal["torsional", "planar", "spatial", "quasi_static", "auto"] = Field(
         "torsional",
         description="torsional: all bodies vibrate about axes that are held; planar: the axes move "
-        "in the plane, too, on the bearings of `supports`; quasi_static: the train turns rigidly "
-        "and its loads are in static equilibrium at every time; auto: the least of these that "
-        "keeps to `dynamics_error` at the operating point",
+        "in the plane, too, on the bearings of `supports`; spatial: they move along themselves and "
+        "tilt as well; quasi_static: the train turns rigidly and its loads are in static "
+        "equilibrium at every time; auto: the least of these that keeps to `dynamics_error` at the "
+        "operating point",
     )
     dynamics_error: float = quantity(
         "", "largest relative error of forces, DTE and loss that dynamics: auto may make", 0.02,
@@ -61,8 +63,8 @@ class Scene(Section):
     losses: Losses = Field(Losses(), description="losses outside the tooth contacts")
     supports: Supports | None = Field(
         None,
-        description="masses and bearings, for dynamics: planar, static load sharing, and planar "
-        "and spatial natural modes",
+        description="masses and bearings, for dynamics: planar and spatial, static load sharing, "
+        "and planar and spatial natural modes",
     )
     errors: Errors = Field(
         Errors(), description="deviations of gears and carrier, which make planets differ"
@@ -155,9 +157,11 @@ class Scene(Section):
             )
 
     def _relief(self) -> Iterator[str]:
-        """Errors of tip reliefs that are longer than the path of contact."""
+        """Errors of tip reliefs: of helical teeth, or longer than the path of contact."""
         if self.mesh.tip_relief == TipReliefs():
             return
+        if self.gearset.helix_angle != 0.0:
+            yield "mesh.tip_relief: requires spur teeth, gearset.helix_angle = 0"
         for mesh in self.gearset.geometry.meshes:
             longest = mesh.path.contact_ratio * mesh.base_pitch
             for name in mesh.names:
@@ -185,10 +189,16 @@ class Scene(Section):
         if not self.moving_axes:
             return
         held, supports = self.gearset.held, self.supports
-        why = "with dynamics = 'planar'"
+        why = f"with dynamics = {self.dynamics!r}"
         if supports is None:
             yield f"supports: missing; {why} all masses and bearings are required"
         else:
+            missing = [*missing_stiffnesses(supports)] if self.tilting_axes else []
+            if missing:
+                yield (
+                    f"{', '.join(missing)}: missing; {why} every body requires an axial and a "
+                    "tilting stiffness, 0 where it floats"
+                )
             for name in ("sun", "ring", "carrier"):
                 torsion = getattr(supports, name).torsion
                 if torsion != 0.0 and name != held:
@@ -206,7 +216,12 @@ class Scene(Section):
     @property
     def moving_axes(self) -> bool:
         """Whether the axes move in a simulation."""
-        return self.dynamics == "planar"
+        return self.dynamics in ("planar", "spatial")
+
+    @property
+    def tilting_axes(self) -> bool:
+        """Whether the axes tilt and move along themselves in a simulation."""
+        return self.dynamics == "spatial"
 
     def _least_deflection(self) -> float:
         """Deflection [m] of the stiffer meshes under the least torque, all pairs in contact."""

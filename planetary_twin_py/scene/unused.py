@@ -37,6 +37,9 @@ def not_in_use(scene: Scene, name: str) -> str | None:
         return f"lubrication.traction = {traction}; set lubrication.traction = table to use it"
     if plain == "second_input_speed" and scene.drive.second_input is None:
         return "the scene has no second input"
+    beyond_plane = plain.endswith((".axial", ".tilting", ".axial_damping", ".tilting_damping"))
+    if plain.startswith("supports.") and beyond_plane and not scene.tilting_axes:
+        return "axes do not tilt; set dynamics = spatial, or see the command modal"
     if plain.startswith("supports.") and not scene.moving_axes:
         return (
             "runs hold the axes; set dynamics = planar to move them, or see the commands "

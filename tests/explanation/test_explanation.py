@@ -55,15 +55,18 @@ def test_a_quasi_static_scene_says_that_dynamics_is_left_out():
 def test_a_scene_with_a_helix_names_the_effects_that_are_not_modelled():
     straight = pt.load_scene("paper")
     helical = straight.replace(**{"gearset.helix_angle": "-15 deg"})
-    assert limits(helical)[0].name == "helix" and limits(helical)[1:] == limits(straight)
-    assert limits(pt.load_scene("wind_turbine_stage"))[0].name == "helix"
+    assert limits(helical)[0].name == "axial forces" and limits(helical)[1:] == limits(straight)
+    assert limits(pt.load_scene("wind_turbine_stage"))[0].name == "axial forces"
+    assert limits(pt.load_scene("helical_stage"))[0].name == "shuttling"
 
 
-def test_running_knows_no_helix():
-    """What "Left out" says of it: the same samples, to the last bit."""
-    straight = pt.load_scene("cracked_tooth")
-    helical = straight.replace(**{"gearset.helix_angle": "15 deg"})
-    assert np.array_equal(pt.simulate(straight, 0.01).dte, pt.simulate(helical, 0.01).dte)
+def test_runs_in_the_plane_know_no_hand_of_the_helix():
+    """What the limits say of axial forces: the same samples with either hand, to the last bit."""
+    one, two = (
+        pt.load_scene("cracked_tooth").replace(**{"gearset.helix_angle": angle})
+        for angle in ("15 deg", "-15 deg")
+    )
+    assert np.array_equal(pt.simulate(one, 0.01).dte, pt.simulate(two, 0.01).dte)
 
 
 def test_the_effect_of_friction_is_the_difference_of_two_runs():

@@ -54,11 +54,12 @@ inline Sampling sampling_of(const SamplingTuple& values) {
 }
 
 // planetary_twin_py's Samples: mesh, turns, angle, speed, drag, moved.
-using SamplesTuple = std::tuple<Array, Array, Array, Array, Array, Array>;
+using SamplesTuple = std::tuple<Array, Array, Array, Array, Array, Array, Array>;
 
 inline Samples samples_of(const SamplesTuple& arrays) {
-    auto& [mesh, turns, angle, speed, drag, moved] = arrays;
-    if (mesh.ndim() != 3 || turns.ndim() != 2 || angle.ndim() != 2 || moved.ndim() != 3)
+    auto& [mesh, turns, angle, speed, drag, moved, lean] = arrays;
+    if (mesh.ndim() != 3 || turns.ndim() != 2 || angle.ndim() != 2 || moved.ndim() != 3 ||
+        lean.ndim() != 3)
         throw std::invalid_argument("samples: arrays of a wrong shape");
     Samples samples{static_cast<std::int64_t>(mesh.shape(0)),
                     static_cast<std::int64_t>(mesh.shape(1)),
@@ -72,13 +73,16 @@ inline Samples samples_of(const SamplesTuple& arrays) {
                     drag.data(),
                     nullptr,
                     static_cast<std::int64_t>(moved.shape(1)),
-                    moved.data()};
+                    moved.data(),
+                    lean.size() > 0 ? lean.data() : nullptr};
     std::size_t rows = mesh.shape(0);
     check_size("samples.turns", turns.size(), rows * turns.shape(1));
     check_size("samples.angle", angle.size(), rows * angle.shape(1));
     check_size("samples.speed", speed.size(), rows * angle.shape(1));
     check_size("samples.drag", drag.size(), rows * SAMPLE_DRAGS);
     check_size("samples.moved", moved.size(), rows * moved.shape(1) * SAMPLE_AXES);
+    if (lean.size() > 0)
+        check_size("samples.lean", lean.size(), rows * moved.shape(1) * SAMPLE_LEAN);
     return samples;
 }
 

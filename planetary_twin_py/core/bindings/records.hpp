@@ -68,6 +68,17 @@ inline void bind_records(nb::module_& m) {
         .FIELD(Load, torque_rate)
         .FIELD(Load, speed)
         .FIELD(Load, acceleration);
+    record<TiltingAxis>(m, "TiltingAxis")
+        .FIELD(TiltingAxis, lift)
+        .FIELD(TiltingAxis, place)
+        .FIELD(TiltingAxis, lever)
+        .FIELD(TiltingAxis, turns)
+        .FIELD(TiltingAxis, axial_stiffness)
+        .FIELD(TiltingAxis, axial_damping)
+        .FIELD(TiltingAxis, tilting_stiffness)
+        .FIELD(TiltingAxis, tilting_damping)
+        .FIELD(TiltingAxis, diametral)
+        .FIELD(TiltingAxis, polar);
     record<MovingAxes>(m, "MovingAxes")
         .FIELD(MovingAxes, bearings)
         .FIELD(MovingAxes, frame)
@@ -86,7 +97,12 @@ inline void bind_records(nb::module_& m) {
         .FIELD(MovingAxes, downwards)
         .FIELD(MovingAxes, turn_numerator)
         .FIELD(MovingAxes, turn_denominator)
-        .FIELD(MovingAxes, line);
+        .FIELD(MovingAxes, line)
+        .FIELD(MovingAxes, entries)
+        .FIELD(MovingAxes, tilting)
+        .FIELD(MovingAxes, slope_place)
+        .FIELD(MovingAxes, slope)
+        .FIELD(MovingAxes, face_square);
     record<Train>(m, "Train")
         .FIELD(Train, bodies)
         .FIELD(Train, lanes)
@@ -130,6 +146,10 @@ inline void bind_records(nb::module_& m) {
         .FIELD(Train, segments)
         .FIELD(Train, edge)
         .FIELD(Train, shift)
+        .FIELD(Train, centre)
+        .FIELD(Train, travel)
+        .FIELD(Train, face)
+        .FIELD(Train, face_growth)
         .FIELD(Train, present)
         .FIELD(Train, slots)
         .FIELD(Train, terms)
@@ -201,6 +221,9 @@ inline void bind_records(nb::module_& m) {
         .FIELD(StepConstants, weight)
         .FIELD(StepConstants, rho1)
         .FIELD(StepConstants, rho2)
+        .FIELD(StepConstants, travel)
+        .FIELD(StepConstants, face)
+        .FIELD(StepConstants, face_growth)
         .FIELD(StepConstants, tau)
         .FIELD(StepConstants, cycle_rate)
         .FIELD(StepConstants, rigid)
@@ -220,6 +243,9 @@ inline void bind_records(nb::module_& m) {
         .FIELD(MeshesNow, push)
         .FIELD(MeshesNow, lost)
         .FIELD(MeshesNow, work)
+        .FIELD(MeshesNow, stiffness)
+        .FIELD(MeshesNow, stiffening)
+        .FIELD(MeshesNow, moment)
         .FIELD(MeshesNow, share)
         .FIELD(MeshesNow, load);
     record<ToothPairs>(m, "ToothPairs")
@@ -232,6 +258,7 @@ inline void bind_records(nb::module_& m) {
         .FIELD(ToothPairs, speed1)
         .FIELD(ToothPairs, speed2)
         .FIELD(ToothPairs, load)
+        .FIELD(ToothPairs, face)
         .FIELD(ToothPairs, friction)
         .FIELD(ToothPairs, boundary)
         .FIELD(ToothPairs, viscous)
@@ -294,15 +321,20 @@ inline void bind_records(nb::module_& m) {
         .FIELD(ContactState, pull)
         .FIELD(ContactState, varies)
         .FIELD(ContactState, stiffness)
-        .FIELD(ContactState, form)
-        .FIELD(ContactState, share)
-        .FIELD(ContactState, motion)
-        .FIELD(ContactState, reach)
         .FIELD(ContactState, square)
         .FIELD(ContactState, shaft_damping)
         .FIELD(ContactState, mesh_damping)
         .FIELD(ContactState, past_rest)
-        .FIELD(ContactState, past_rubbing);
+        .FIELD(ContactState, past_rubbing)
+        .def_prop_ro(
+            "form",
+            [](nb::handle_t<ContactState> self) {
+                MatrixRows form = nb::inst_ptr<ContactState>(self)->matrices.form();
+                auto lanes = static_cast<size_t>(form.lanes);
+                size_t shape[2] = {lanes, lanes};
+                return nb::ndarray<nb::numpy, const double>(form.first, 2, shape, self);
+            },
+            "What mode m does to body j [1/sqrt(kg)], (lanes, lanes).");
     record<MeshFriction>(m, "MeshFriction")
         .FIELD(MeshFriction, drag)
         .FIELD(MeshFriction, lost)

@@ -10,9 +10,11 @@
 #include "bindings/vectors.hpp"
 #include "run/figures.hpp"
 #include "run/orbit.hpp"
+#include "run/samples.hpp"
 #include "run/statistics.hpp"
 #include "run/window.hpp"
 #include "run/windows.hpp"
+#include "train/tilting.hpp"
 
 namespace gearbox {
 
@@ -21,8 +23,8 @@ using namespace nb::literals;
 namespace {
 
 // Arrays of a waveform: time, dte, mesh force, friction; displacement, bearing force, orbit and
-// flank force, without columns where the axes are held.
-using WaveformTuple = std::tuple<Values, Rows, Rows, Rows, Rows, Rows, Rows, Rows>;
+// flank force, without columns where the axes are held; axial motion and tilts where these are.
+using WaveformTuple = std::tuple<Values, Rows, Rows, Rows, Rows, Rows, Rows, Rows, Rows>;
 
 bool fits(const Rows& values, std::size_t rows, std::size_t columns) {
     return values.shape(0) == rows && values.shape(1) == columns;
@@ -30,7 +32,7 @@ bool fits(const Rows& values, std::size_t rows, std::size_t columns) {
 
 Waveform waveform_of(const WaveformTuple& arrays, const Report& report, std::int64_t first,
                      double rate, const Train& train) {
-    auto& [time, dte, mesh_force, friction, displacement, bearing_force, orbit, flank_force] =
+    auto& [time, dte, mesh_force, friction, displacement, bearing_force, orbit, flank_force, lean] =
         arrays;
     std::size_t rows = time.size(), meshes = static_cast<std::size_t>(report.meshes);
     bool sound = true;
@@ -39,16 +41,18 @@ Waveform waveform_of(const WaveformTuple& arrays, const Report& report, std::int
         auto bearings = static_cast<std::size_t>(train.moving.bearings);
         sound &= fits(displacement, rows, 2 * bearings) && fits(bearing_force, rows, 2 * bearings);
         sound &= fits(orbit, rows, 2 * MEMBERS) && fits(flank_force, rows, FLANKS * meshes);
+        sound &= fits(lean, rows, tilts(train) ? SAMPLE_LEAN * bearings : 0);
     }
     if (!sound) throw nb::value_error("waveform: arrays of a wrong shape");
-    return {static_cast<std::int64_t>(rows),
-            first,
-            rate,
-            time.data(),
-            dte.data(),
-            mesh_force.data(),
-            friction.data(),
-            {displacement.data(), bearing_force.data(), orbit.data(), flank_force.data()}};
+    return {
+        static_cast<std::int64_t>(rows),
+        first,
+        rate,
+        time.data(),
+        dte.data(),
+        mesh_force.data(),
+        friction.data(),
+        {displacement.data(), bearing_force.data(), orbit.data(), flank_force.data(), lean.data()}};
 }
 
 // Arguments of `run_window` in Python, in this order.

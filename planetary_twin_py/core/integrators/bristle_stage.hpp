@@ -22,7 +22,7 @@ inline void bristle_damping(const Train& train, const ToothPairs& pairs, double 
         double damping = pairs.full[k] * pairs.bristle_gain[k];
         damping /= 1.0 / step + pairs.bristle_decay[k];
         damping *= 1.0 + RELAXATION / step;
-        add_outer(matrix, train.body[i], row, ENTRIES, train.copies[i] * damping);
+        add_outer(matrix, train.body[i], row, IN_PLANE, train.copies[i] * damping);
     }
 }
 
@@ -52,7 +52,7 @@ inline void pull_bristles(const Train& train, const ToothPairs& start, const Too
         double decay = start.bristle_decay[k];
         double pull = train.copies[i] * start.full[k] * rate / (1.0 / step + decay);
         pull *= 1.0 - RELAXATION * decay;
-        for (int j = 0; j < ENTRIES; ++j) right[train.body[i][j]] -= pull * work.row[j];
+        for (int j = 0; j < IN_PLANE; ++j) right[train.body[i][j]] -= pull * work.row[j];
     }
 }
 
@@ -63,7 +63,7 @@ inline void solve_bristles(const Train& train, const ToothPairs& start, double s
         std::int64_t i = k % train.meshes;
         sliding_row(train, start, k, work.row);
         double sliding = 0.0;
-        for (int j = 0; j < ENTRIES; ++j) sliding += work.row[j] * right[train.body[i][j]];
+        for (int j = 0; j < IN_PLANE; ++j) sliding += work.row[j] * right[train.body[i][j]];
         double rate = work.bend[stage][k] + start.bristle_gain[k] * sliding;
         work.bend[stage][k] = rate / (1.0 / step + start.bristle_decay[k]);
     }

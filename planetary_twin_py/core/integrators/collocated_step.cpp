@@ -59,7 +59,7 @@ void place_end(const Model& model, March& march, double h) {
     find_end_waves<L>(run, h);
     RowPair<L> modes = modal_states<L>(run.motion, h * run.motion.per_step, Row<L>(run.end_cosine),
                                        Row<L>(run.end_sine));
-    auto [x, v] = sum_rows<L>(contacts_of(run).form, modes);
+    auto [x, v] = sum_rows<L>(contacts_of(run).matrices.form(), modes);
     x.store(march.end.x);
     v.store(march.end.v);
     move_given(model, march.begin, h, march.end.x, march.end.v);

@@ -56,13 +56,13 @@ void enter(const Model& model, March& march) {
     for (int a = 0; a < AXES; ++a) start.trim[a] = march.begin.trim[a];
     V mass(model.train.mass);
     RowPair<L> modes =
-        sum_rows<L>(contacts.share, RowPair<L>{mass * V(start.x), mass * V(start.v)});
-    RowPair<L> meshes = sum_rows<L>(contacts.motion, modes);
+        sum_rows<L>(contacts.matrices.share(), RowPair<L>{mass * V(start.x), mass * V(start.v)});
+    RowPair<MESH_LANES<L>> meshes = sum_rows<MESH_LANES<L>>(contacts.matrices.motion(), modes);
     modes.first.store(start.q);
     modes.second.store(start.p);
     meshes.first.store(start.d);
     meshes.second.store(start.rate);
-    sum_rows<L>(contacts.share, V(march.last.rubbing)).store(start.rubbing);
+    sum_rows<L>(contacts.matrices.share(), V(march.last.rubbing)).store(start.rubbing);
     push_node<L>(model, march, start, 0.0);
     node_force<L>(model, march, contacts, 0.0, start).store(run.force);
 }
@@ -94,11 +94,11 @@ void sweep(const Model& model, March& march, bool with_friction) {
 // before, over its tolerance.
 template <int L>
 double difference(const March& march) {
-    using V = Row<L>;
+    using V = Row<MESH_LANES<L>>;
     const Propagation& run = march.run;
     const Node& node = run.node[run.nodes.count - 1];
     V d = V(node.d) - V(run.before_d), rate = V(node.rate) - V(run.before_rate);
-    V speed = absolute(V(node.v) - V(run.before_v));
+    Row<L> speed = absolute(Row<L>(node.v) - Row<L>(run.before_v));
     double of_meshes = largest(larger(absolute(d), V(march.constants.damping) * absolute(rate)));
     double change =
         std::max(of_meshes / march.control.tolerance_x, largest(speed) / march.control.tolerance_v);
@@ -109,7 +109,7 @@ double difference(const March& march) {
 template <int L>
 double tail_of_speeds(const March& march, const Row<L>& error) {
     using V = Row<L>;
-    const double (*form)[BODIES] = contacts_of(march.run).form;
+    const MatrixRows form = contacts_of(march.run).matrices.form();
     V speed(0.0);
     for (int m = 0; m < L; ++m) speed += absolute(V(form[m])) * error[m];
     return largest(speed) / march.control.tolerance_v;
@@ -131,7 +131,8 @@ double tail_error(March& march) {
     lasting = select(V(run.spring) == 0.0, 1.0, lasting);
     V missed = tail * tail / (tail + below + SMALLEST) * share * lasting;
     double error =
-        largest(sum_rows<L>(contacts_of(run).reach, missed / stiff)) / march.control.tolerance_x;
+        largest(sum_rows<MESH_LANES<L>>(contacts_of(run).matrices.reach(), missed / stiff)) /
+        march.control.tolerance_x;
     if (!march.control.slow) return error;
     return std::max(error, tail_of_speeds<L>(march, missed / larger(square_root(stiff), damper)));
 }
@@ -172,7 +173,7 @@ Outcome settle_friction(const Model& model, March& march, double& known_pull) {
         visit_last_node<L>(model, march);
         change = difference<L>(march);
         if (round == 0) {
-            tail = std::max(tail_error<L>(march), loss_error<L>(model.train, march));
+            tail = std::max(tail_error<L>(march), loss_error<MESH_LANES<L>>(model.train, march));
         } else if (before > 0.0) {
             pull = change / before;
             if (!MOVING || round == 1)

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "mesh/cycle.hpp"
+#include "mesh/slope.hpp"
 #include "mesh/stiffness.hpp"
 #include "train/bearings.hpp"
 #include "vector/symmetric_eigen.hpp"
@@ -41,7 +42,7 @@ void add_spring(double (*matrix)[BODIES], const std::int64_t* place, const doubl
         }
 }
 
-// Bearings that move the axes; those with clearance are not linear, and part of the rest.
+// Bearings that move the axes; radially those with clearance are not linear, and part of the rest.
 std::int64_t linear_bearings(const Train& train) {
     return MOVING ? train.moving.bearings : 0;
 }
@@ -51,51 +52,61 @@ void stiffness_matrix(const Train& train, const ContactState& modes, const doubl
                       double (*matrix)[BODIES]) {
     constexpr double ends[2] = {1.0, -1.0};
     for (std::int64_t i = 0; i < train.meshes; ++i)
-        add_spring(matrix, train.body[i], train.sign[i], ENTRIES, modes.stiffness[i], scale);
+        add_spring(matrix, train.body[i], train.sign[i], entries_of(train), modes.stiffness[i],
+                   scale);
     for (std::int64_t c = 0; c < train.machines; ++c)
         add_spring(matrix, train.coupling[c], ends, 2, train.coupling_stiffness[c], scale);
     for (std::int64_t b = 0; b < linear_bearings(train); ++b) {
-        if (train.moving.clearance[b] > 0.0) continue;
-        BearingRows rows = rows_of_bearing(train, b);
-        for (const double* row : rows.row)
-            add_spring(matrix, rows.place, row, BearingRows::SIZE, train.moving.stiffness[b],
-                       scale);
+        for (const BearingRow& row : rows_of_bearing(train, b)) {
+            if (row.radial && train.moving.clearance[b] > 0.0) continue;
+            add_spring(matrix, row.place, row.factor, row.size, row.stiffness, scale);
+        }
     }
+    if (!MOVING || !tilts(train)) return;
+    for (std::int64_t i = 0; i < train.meshes; ++i)
+        add_spring(matrix, train.moving.slope_place[i], train.moving.slope[i], SLOPES,
+                   modes.stiffness[i] * train.moving.face_square, scale);
 }
 
 // What mode m does to the bearings without clearance, which damp it.
 void damp_by_bearings(const Train& train, ContactState& modes, std::int64_t m) {
+    const double* form = modes.matrices.form()[m];
     for (std::int64_t b = 0; b < linear_bearings(train); ++b) {
-        if (train.moving.clearance[b] > 0.0) continue;
-        BearingRows rows = rows_of_bearing(train, b);
-        for (const double* row : rows.row) {
+        for (const BearingRow& row : rows_of_bearing(train, b)) {
+            if (row.radial && train.moving.clearance[b] > 0.0) continue;
             double way = 0.0;
-            for (int e = 0; e < BearingRows::SIZE; ++e)
-                way += row[e] * modes.form[m][rows.place[e]];
-            modes.shaft_damping[m] += train.moving.damping[b] * way * way;
+            for (int e = 0; e < row.size; ++e) way += row.factor[e] * form[row.place[e]];
+            modes.shaft_damping[m] += row.damping * way * way;
         }
     }
 }
 
 // What mode m does to the meshes, and what damps it.
 void spread_mode(const Train& train, ContactState& modes, std::int64_t m) {
+    ModeMatrices& matrices = modes.matrices;
+    const double* form = matrices.form()[m];
     for (std::int64_t i = 0; i < train.meshes; ++i) {
         double motion = 0.0;
-        for (int a = 0; a < ENTRIES; ++a)
-            motion += train.sign[i][a] * modes.form[m][train.body[i][a]];
-        modes.motion[m][i] = motion;
-        modes.reach[m][i] = std::fabs(motion);
-        modes.press[i][m] = -train.copies[i] * motion;
-        double frame = modes.form[m][train.body[i][2]] * train.lever[2][i];
-        for (int g = 0; g < GEARS - 1; ++g) {
-            double spin = modes.form[m][train.body[i][g]] * train.lever[g][i] - frame;
-            modes.spin[g][m][i] = spin;
-            modes.twist[g][i][m] = train.copies[i] * spin;
-        }
+        for (int a = 0; a < entries_of(train); ++a)
+            motion += train.sign[i][a] * form[train.body[i][a]];
+        matrices.entry(matrices.motion(), m, i) = motion;
+        matrices.entry(matrices.reach(), m, i) = std::fabs(motion);
+        matrices.entry(matrices.press(), i, m) = -train.copies[i] * motion;
         modes.mesh_damping[train.kind[i]][m] += modes.stiffness[i] * motion * motion;
+        if constexpr (MOVING) {
+            const double slope = slope_of(train, i, form), face = train.moving.face_square;
+            modes.mesh_damping[train.kind[i]][m] += modes.stiffness[i] * face * slope * slope;
+            continue;
+        }
+        double frame = form[train.body[i][2]] * train.lever[2][i];
+        for (int g = 0; g < GEARS - 1; ++g) {
+            double spin = form[train.body[i][g]] * train.lever[g][i] - frame;
+            matrices.entry(matrices.spin(g), m, i) = spin;
+            matrices.entry(matrices.twist(g), i, m) = train.copies[i] * spin;
+        }
     }
     for (std::int64_t c = 0; c < train.machines; ++c) {
-        double twist = modes.form[m][train.coupling[c][0]] - modes.form[m][train.coupling[c][1]];
+        double twist = form[train.coupling[c][0]] - form[train.coupling[c][1]];
         modes.shaft_damping[m] += train.coupling_damping[c] * twist * twist;
     }
     damp_by_bearings(train, modes, m);
@@ -111,10 +122,15 @@ void solve_modes(const Model& model, const State& state, ContactState& modes) {
     find_stiffness(train, state, modes);
     stiffness_matrix(train, modes, scale, matrix);
     symmetric_eigen(matrix, static_cast<int>(train.bodies), squares);
+    with_lanes(train, [&]<int L>(std::integral_constant<int, L>) {
+        modes.matrices.resize(L, MESH_LANES<L>, train.bodies, train.meshes);
+    });
+    ModeMatrices& matrices = modes.matrices;
     for (std::int64_t m = 0; m < train.bodies; ++m) {
         modes.square[m] = std::max(squares[m], 0.0);
         for (std::int64_t j = 0; j < train.bodies; ++j)
-            modes.form[m][j] = modes.share[j][m] = matrix[j][m] * scale[j];
+            matrices.entry(matrices.form(), m, j) = matrices.entry(matrices.share(), j, m) =
+                matrix[j][m] * scale[j];
         spread_mode(train, modes, m);
     }
 }

@@ -4,8 +4,10 @@
 #include <cstdint>
 #include <deque>
 #include <unordered_map>
+#include <vector>
 
 #include "rooms.hpp"
+#include "vector/rows.hpp"
 
 namespace gearbox {
 
@@ -54,11 +56,61 @@ struct alignas(64) WaveBounds {
     alignas(64) double moving[BODIES];  // [s]
 };
 
-// Modes of one contact state, of unit modal mass. `form[m]` is what mode m does to the bodies,
-// `share[j]` what body j does to the modes, `motion[m]` what mode m does to the meshes, `reach` its
-// magnitude, and `press[i]` what a force of mesh i and its copies does to the modes [1/sqrt(kg)].
-// `spin` is how mode m turns both gears of the meshes against the carrier [1/(m sqrt(kg))], and
-// `twist` what torques on the gears of mesh i and its copies do to the modes.
+// Matrices of the modes of a contact state, as small as the lanes in use: what steps read again and
+// again stays in the fastest memory.
+class ModeMatrices {
+public:
+    // Room for so many lanes of modes and of meshes, of which the first are in use.
+    void resize(std::int64_t modes, std::int64_t meshes, std::int64_t modes_used,
+                std::int64_t meshes_used) {
+        of_modes = modes;
+        of_meshes = meshes;
+        used_modes = whole(modes_used);
+        used_meshes = whole(meshes_used);
+        const std::int64_t across = modes * meshes, twists = MOVING ? 0 : 2 * (GEARS - 1);
+        room.assign(static_cast<std::size_t>((2 * modes * modes + (3 + twists) * across) / LINE),
+                    {});
+    }
+
+    // What mode m does to the bodies, and what body j does to the modes [1/sqrt(kg)].
+    MatrixRows form() const { return {at(0), of_modes, used_modes}; }
+    MatrixRows share() const { return {at(of_modes * of_modes), of_modes, used_modes}; }
+    // What mode m does to the meshes, and its magnitude.
+    MatrixRows motion() const { return {across(0), of_meshes, used_modes}; }
+    MatrixRows reach() const { return {across(1), of_meshes, used_modes}; }
+    // What a force of mesh i and its copies does to the modes.
+    MatrixRows press() const { return {across(2), of_modes, used_meshes}; }
+    // Where axes are held: how mode m turns both gears of the meshes against the carrier
+    // [1/(m sqrt(kg))], and what torques on the gears of mesh i and its copies do to the modes.
+    MatrixRows spin(int gear) const { return {across(3 + gear), of_meshes, used_modes}; }
+    MatrixRows twist(int gear) const {
+        return {across(3 + (GEARS - 1) + gear), of_modes, used_meshes};
+    }
+
+    double& entry(const MatrixRows& rows, std::int64_t row, std::int64_t column) {
+        return const_cast<double*>(rows[row])[column];
+    }
+
+private:
+    static constexpr std::int64_t LINE = 8;  // doubles
+    struct alignas(64) CacheLine {
+        double value[LINE];
+    };
+
+    const double* at(std::int64_t place) const { return room.data()->value + place; }
+    const double* across(std::int64_t number) const {
+        return at(2 * of_modes * of_modes + number * of_modes * of_meshes);
+    }
+
+    static std::int64_t whole(std::int64_t count) {
+        return (count + REGISTER - 1) / REGISTER * REGISTER;
+    }
+
+    std::int64_t of_modes = 0, of_meshes = 0, used_modes = 0, used_meshes = 0;
+    std::vector<CacheLine> room;
+};
+
+// Modes of one contact state, of unit modal mass.
 struct alignas(64) ContactState {
     ContactKey key;
     std::int64_t follower;  // the state that came next last time
@@ -68,13 +120,7 @@ struct alignas(64) ContactState {
     bool predictable;       // whether friction came to rest in one sweep last time
     bool varies;            // whether a stiffness changes within its segment
     alignas(64) double stiffness[MESHES];  // of every mesh with its copies [N/m]
-    alignas(64) double form[BODIES][BODIES];
-    alignas(64) double share[BODIES][BODIES];
-    alignas(64) double motion[BODIES][MESHES];
-    alignas(64) double reach[BODIES][MESHES];
-    alignas(64) double press[MESHES][BODIES];
-    alignas(64) double spin[GEARS - 1][BODIES][MESHES];
-    alignas(64) double twist[GEARS - 1][MESHES][BODIES];
+    ModeMatrices matrices;
     alignas(64) double square[BODIES];           // w^2 [1/s^2]
     alignas(64) double shaft_damping[BODIES];    // c of the couplings [1/s]
     alignas(64) double mesh_damping[2][BODIES];  // c/tau of each kind of mesh [1/s^2]

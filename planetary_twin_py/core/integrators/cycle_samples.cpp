@@ -10,6 +10,7 @@
 #include "mesh/add_sums.hpp"
 #include "rooms.hpp"
 #include "train/set_step_constants.hpp"
+#include "train/tilting.hpp"
 
 namespace gearbox {
 
@@ -22,8 +23,8 @@ constexpr double POINTS[TERMS_OF_TIME] = {-0.98078528, -0.83146961, -0.55557023,
 constexpr int TRIALS = 3;
 constexpr double TRIAL[TRIALS] = {-1.0, 0.0, 1.0};
 constexpr double ERROR_SHARE = 0.01;  // of the tolerance, that interpolation may add
-constexpr int MOST_COLUMNS =
-    QUANTITIES * MESHES + 2 * BODIES + SAMPLE_DRAGS + (MOVING ? BEARINGS * SAMPLE_AXES : 0);
+constexpr int MOST_COLUMNS = QUANTITIES * MESHES + 2 * BODIES + SAMPLE_DRAGS +
+                             (MOVING ? BEARINGS * (SAMPLE_AXES + SAMPLE_LEAN) : 0);
 
 // Coefficients of polynomials from their values at POINTS, (terms, points).
 struct FromValues {
@@ -70,8 +71,12 @@ std::int64_t columns_of_axes(const Train& train) {
     return MOVING ? train.moving.bearings * SAMPLE_AXES : 0;
 }
 
+std::int64_t columns_of_lean(const Train& train) {
+    return tilts(train) ? train.moving.bearings * SAMPLE_LEAN : 0;
+}
+
 std::int64_t columns_of(const Train& train) {
-    return place_of_axes(train) + columns_of_axes(train);
+    return place_of_axes(train) + columns_of_axes(train) + columns_of_lean(train);
 }
 
 // What an empty `Samples` of one row needs, a column after the other.
@@ -84,6 +89,7 @@ Samples row_in(const Train& train, double* turns, double* columns) {
     if constexpr (MOVING) {
         out.bearings = train.moving.bearings;
         out.moved = columns + place_of_axes(train);
+        if (tilts(train)) out.lean = out.moved + columns_of_axes(train);
     }
     return out;
 }
@@ -137,11 +143,21 @@ void set_allowed(const Model& model, const March& march, const Rows& rows, doubl
         allowed[bodies + j] = yields;
         allowed[bodies + train.bodies + j] = yields * control.quickness;
     }
-    const std::int64_t axes = place_of_axes(train);
+    const std::int64_t axes = place_of_axes(train), lean = axes + columns_of_axes(train);
     for (std::int64_t c = drags; c < axes; ++c) allowed[c] = share * largest(c, c + 1);
     double force = control.deflection * std::max(train.stiffness[0], train.stiffness[1]);
-    for (std::int64_t c = axes; c < rows.columns; ++c)
+    for (std::int64_t c = axes; c < lean; ++c)
         allowed[c] = share * ((c - axes) % SAMPLE_AXES < 2 ? control.deflection : force);
+    for (std::int64_t c = lean; c < rows.columns; ++c) {
+        const double lever = train.moving.tilting[(c - lean) / SAMPLE_LEAN].lever;
+        const double by_kind[SAMPLE_LEAN] = {control.deflection,
+                                             control.deflection * lever,
+                                             control.deflection * lever,
+                                             force,
+                                             force / lever,
+                                             force / lever};
+        allowed[c] = share * by_kind[(c - lean) % SAMPLE_LEAN];
+    }
 }
 
 // Whether polynomials show at all trials what was computed there.
@@ -260,6 +276,9 @@ void read_table(const Model& model, const Periodic& periodic, const CycleStep& s
     if (MOVING && out.bearings > 0)
         evaluate_columns(table + place_of_axes(train), columns, columns_of_axes(train), at.s,
                          out.moved + row * columns_of_axes(train));
+    if (out.lean && out.bearings > 0)
+        evaluate_columns(table + place_of_axes(train) + columns_of_axes(train), columns,
+                         columns_of_lean(train), at.s, out.lean + row * columns_of_lean(train));
     if (!out.turns) {
         evaluate_columns(table, columns, shown, at.s, out.mesh_row(row));
         return;
@@ -326,7 +345,7 @@ void play_window(const Model& model, March& march, const Instant& until, Samplin
             stand_on(model, march, step);
             return;
         }
-        add_sums(step.sums, march.sums.total, model.train.lanes);
+        add_sums(step.sums, march.sums.total, mesh_lanes(model.train));
     }
 }
 

@@ -41,7 +41,7 @@ inline NextEvent next_event(const Model& model, const March& march) {
     const StepConstants& constants = march.constants;
     double pace = constants.cycle_rate + cycle_shift(train, state.v), times[MESHES];
     NextEvent nearest{std::numeric_limits<double>::infinity(), NO_MESH};
-    with_lanes(train, [&](auto lanes) { times_to_edges<lanes>(constants, pace, times); });
+    with_mesh_lanes(train, [&](auto lanes) { times_to_edges<lanes>(constants, pace, times); });
     for (std::int64_t i = 0; i < train.meshes; ++i)
         if (times[i] < nearest.time) nearest = {times[i], i};
     for (std::int64_t a = 0; a < train.axes; ++a) {

@@ -77,12 +77,13 @@ LAW RowPair<L> free_waves(const Propagation& run, int n) {
 
 // Bounds on what free waves can take from the play of the meshes [m].
 template <int L>
-LAW Row<L> wave_bounds(const Propagation& run) {
+LAW Row<MESH_LANES<L>> wave_bounds(const Propagation& run) {
     using V = Row<L>;
     const ContactState& contacts = contacts_of(run);
     V bound = V(contacts.bounds.displaced) * absolute(V(run.motion.free[0])) +
               V(contacts.bounds.moving) * absolute(V(run.motion.free[1]));
-    return sum_rows<L>(contacts.reach, select(has_waves<L>(run.motion), bound, 0.0));
+    return sum_rows<MESH_LANES<L>>(contacts.matrices.reach(),
+                                   select(has_waves<L>(run.motion), bound, 0.0));
 }
 
 // Whether all meshes are closed, have no errors of form, and keep so much play at every node that
@@ -135,13 +136,14 @@ bool suspect_flanks(const Model& model, March& march) {
     const Train& train = model.train;
     Propagation& run = march.run;
     const ContactState& contacts = contacts_of(run);
-    const Row<L> bound = wave_bounds<L>(run);
-    if (MOVING ? contacts_stay<L>(model, march, bound) : loaded_throughout<L>(model, march, bound))
+    constexpr int M = MESH_LANES<L>;
+    const Row<M> bound = wave_bounds<L>(run);
+    if (MOVING ? contacts_stay<M>(model, march, bound) : loaded_throughout<M>(model, march, bound))
         return false;
-    double least[L];
-    for (int i = 0; i < L; ++i) least[i] = std::numeric_limits<double>::infinity();
+    double least[M];
+    for (int i = 0; i < M; ++i) least[i] = std::numeric_limits<double>::infinity();
     for (int n = 0; n < run.nodes.count; ++n) {
-        auto [d, rate] = sum_rows<L>(contacts.motion, free_waves<L>(run, n));
+        auto [d, rate] = sum_rows<M>(contacts.matrices.motion(), free_waves<L>(run, n));
         for (std::int64_t i = 0; i < train.meshes; ++i) {
             double tau = model.load.release * march.constants.tau[train.kind[i]];
             double left = left_without_waves(model, march, i, n, tau, d[static_cast<int>(i)],
@@ -168,8 +170,8 @@ void scan(March& march, double end) {
     Waves<L> now = gap;
     for (int k = 0; k < SCANNED; ++k) {
         const double t = (k + 1) * end / SCANNED * motion.per_step;
-        auto [d, rate] =
-            sum_rows<L>(contacts.motion, modal_states<L>(motion, t, now.cosine, now.sine));
+        auto [d, rate] = sum_rows<MESH_LANES<L>>(contacts.matrices.motion(),
+                                                 modal_states<L>(motion, t, now.cosine, now.sine));
         now = waves_after(motion, now, gap);
         d.store(run.scan_d[k]);
         rate.store(run.scan_rate[k]);

@@ -33,7 +33,7 @@ inline double slack_of(const March& march) {
 template <int L>
 double smooth_departure(const Model& model, March& march, std::int64_t i, double delay) {
     const Propagation& run = march.run;
-    const double (*motion)[MESHES] = contacts_of(run).motion;
+    const MatrixRows motion = contacts_of(run).matrices.motion();
     auto [q, p] = modes_at<L>(run.motion, delay);
     double d = 0.0, rate = 0.0;
     for (int m = 0; m < L; ++m) {

@@ -39,7 +39,7 @@ Moments moments(const Propagation& run, std::int64_t j, double h, const double* 
     V wave0 = (w0 - w1 - c * (u1 - u0)) * inverse;
     V wave1 = (u1 - u0 - h * w1 - c * (h * u1 - wave0)) * inverse;
     Mask<L> free = V(run.spring) + V(run.damper) == 0.0;
-    V share(contacts_of(run).share[j]);
+    V share(contacts_of(run).matrices.share()[j]);
     return {total(share * (zeroth + select(free, 0.0, wave0))),
             total(share * (first + select(free, 0.0, wave1)))};
 }

@@ -55,6 +55,9 @@ void sample_axes(const Train& train, const State& begin, const double* x, const 
     const double turning = body_speed(train, begin, v, train.moving.frame);
     for (std::int64_t b = 0; b < out.bearings; ++b)
         show_bearing(train, b, turning, x, v, out.moved + (row * out.bearings + b) * SAMPLE_AXES);
+    if (!out.lean || !tilts(train)) return;
+    for (std::int64_t b = 0; b < out.bearings; ++b)
+        show_lean(train, b, turning, x, v, out.lean + (row * out.bearings + b) * SAMPLE_LEAN);
 }
 
 // Write a sample from what the meshes show and the motion of the bodies.
@@ -102,7 +105,7 @@ void sample_collocated(const Model& model, March& march, const double* delays, i
     for (int n = 0; n < count; ++n) {
         const Node& node = march.run.shown[n];
         alignas(64) double shown[QUANTITIES][MESHES];
-        show_node<L>(model, march, node, shown);
+        show_node<MESH_LANES<L>>(model, march, node, shown);
         write_sample(model, march, shown, node.x, node.v, delays[n], out, row + n);
     }
 }

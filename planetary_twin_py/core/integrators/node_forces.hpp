@@ -18,11 +18,13 @@ inline constexpr double SINGLE_PRECISION_SHOWN = 5e-4;
 // Forces of the meshes at a node.
 template <int L>
 SHARED void push_node(const Model& model, const March& march, Node& node, double delay) {
-    copy<L>(node.d, node.meshes.d);
-    copy<L>(node.rate, node.meshes.rate);
+    constexpr int M = MESH_LANES<L>;
+    copy<M>(node.d, node.meshes.d);
+    copy<M>(node.rate, node.meshes.rate);
     const StepConstants& constants = march.constants;
     place_meshes(model.train, march.begin, constants, node.x, node.v, delay, node.meshes);
-    push_meshes<L>(model, march.begin, constants, node.meshes);
+    push_meshes<M>(model, march.begin, constants, node.meshes);
+    if (tilts(model.train)) tilt_flanks(model.train, constants, node.x, node.v, node.meshes);
 }
 
 // Friction and drag at a node as forces on the bodies, but for what `find_friction` has found.
@@ -46,10 +48,11 @@ LAW void rub_node(const Model& model, const March& march, const ContactState& co
     if (MOVING || train.printed_torque || train.joints + train.discs > 0) {
         alignas(64) double on_bodies[BODIES] = {};
         rub_bodies_at(model, march, node, on_bodies);
-        rubbing = sum_rows<L>(contacts.share, V(on_bodies));
+        rubbing = sum_rows<L>(contacts.matrices.share(), V(on_bodies));
     } else if (train.friction) {
         for (int g = 0; g < GEARS - 1; ++g)
-            rubbing += sum_rows<L>(contacts.twist[g], V(node.friction.drag.torque[g]));
+            rubbing += sum_rows<L>(contacts.matrices.twist(g),
+                                   Row<MESH_LANES<L>>(node.friction.drag.torque[g]));
     }
     rubbing.store(node.rubbing);
 }
@@ -64,7 +67,7 @@ void rub_nodes(const Model& model, March& march) {
         FrictionInstant instants[MOST_NODES] = {};
         for (int n = 0; n < count; ++n) {
             Node& node = run.node[n];
-            share_pushes<L>(train, march.constants, node.meshes);
+            share_pushes<MESH_LANES<L>>(train, march.constants, node.meshes);
             instants[n] = {&node.meshes, node.spin, &node.friction};
         }
         find_friction(model, march.constants, instants, count,
@@ -85,17 +88,20 @@ SHARED Row<L> node_force(const Model& model, const March& march, const ContactSt
     apply_couplings(train, node.x, node.v, forces, node.power);
     apply_machines(model, march.begin, march.constants, node.x, node.v, delay, node.trim, forces,
                    node.power);
-    V push = V(march.constants.side) * V(node.meshes.push);
-    V force = V(node.rubbing) + sum_rows<L>(contacts.press, push);
+    using OfMeshes = Row<MESH_LANES<L>>;
+    const MatrixRows share = contacts.matrices.share();
+    OfMeshes push = OfMeshes(march.constants.side) * OfMeshes(node.meshes.push);
+    V force = V(node.rubbing) + sum_rows<L>(contacts.matrices.press(), push);
     for (std::int64_t c = 0; c < train.machines; ++c) {
-        force += V(contacts.share[train.coupling[c][0]]) * forces.machine[c];
-        force += V(contacts.share[train.coupling[c][1]]) * forces.member[c];
+        force += V(share[train.coupling[c][0]]) * forces.machine[c];
+        force += V(share[train.coupling[c][1]]) * forces.member[c];
     }
     if constexpr (MOVING) {
         alignas(64) double on_axes[BODIES] = {};
-        apply_axes(train, march.begin, march.constants.rigid[train.moving.frame], delay, node.x,
-                   node.v, on_axes, node.power);
-        force += sum_rows<L>(contacts.share, V(on_axes));
+        apply_axes(train, march.begin, march.constants.rigid, delay, node.x, node.v, on_axes,
+                   node.power);
+        if (tilts(train)) add_slope_moments(train, node.meshes, on_axes);
+        force += sum_rows<L>(share, V(on_axes));
     }
     return force;
 }
@@ -115,7 +121,7 @@ void show_friction(const Model& model, March& march, const double* delays, int c
     for (int n = 0; n < count; ++n) {
         Node& node = march.run.shown[n];
         show_meshes<L>(model, march, delays[n], node);
-        share_pushes<L>(model.train, march.constants, node.meshes);
+        share_pushes<MESH_LANES<L>>(model.train, march.constants, node.meshes);
         instants[n] = {&node.meshes, node.spin, &node.friction};
     }
     find_friction(model, march.constants, instants, count,

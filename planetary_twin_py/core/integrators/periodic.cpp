@@ -133,7 +133,7 @@ bool close_cycle(const Model& model, March& march) {
     periodic.part = 0;
     periodic.sums.time = 0.0;
     for (std::int64_t k = 0; k < periodic.steps; ++k)
-        add_sums(periodic.tape[k].sums, periodic.sums, train.lanes);
+        add_sums(periodic.tape[k].sums, periodic.sums, mesh_lanes(train));
     double late =
         std::max(std::fabs(took / whole.after - 1.0), std::fabs(turned / whole.turned - 1.0));
     return late * static_cast<double>(periodic.cycles) * PHASE <=
@@ -218,11 +218,11 @@ Turns turns_at(const Periodic& periodic, const Place& place) {
 CycleStep& next_step(const Model& model, March& march, const Instant& until) {
     Periodic& periodic = march.periodic;
     while (true) {
-        if (periodic.place == periodic.steps) begin_cycle_of(march, model.train.lanes, until);
+        if (periodic.place == periodic.steps) begin_cycle_of(march, mesh_lanes(model.train), until);
         CycleStep& step = periodic.tape[periodic.place++];
         ++march.control.repeated;
         if (delay(periodic.start, until) <= step.end.after) return step;
-        add_sums(step.sums, march.sums.total, model.train.lanes);
+        add_sums(step.sums, march.sums.total, mesh_lanes(model.train));
     }
 }
 

@@ -36,12 +36,12 @@ Row<L> gain_of_given(const Model& model, const March& march, double delay) {
     for (std::int64_t c = 0; c < train.machines; ++c) {
         const std::int64_t body = train.coupling[c][0], member = train.coupling[c][1];
         const double more = model.load.torque_rate[c] * delay * train.inverse_radius[body];
-        gain += Row<L>(contacts.share[body]) * more;
+        gain += Row<L>(contacts.matrices.share()[body]) * more;
         if (model.load.port[c] != BY_MOTION) continue;
         const GivenMotion end = given_motion(model, march.begin, c);
         const double pull = train.coupling_stiffness[c] * (end.x(delay) - end.place) +
                             train.coupling_damping[c] * (end.v(delay) - end.speed);
-        gain += Row<L>(contacts.share[member]) * pull;
+        gain += Row<L>(contacts.matrices.share()[member]) * pull;
     }
     return gain;
 }

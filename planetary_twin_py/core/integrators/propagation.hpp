@@ -265,7 +265,7 @@ LAW RowPair<L> modes_at(const ModalMotion& motion, double delay) {
 template <int L>
 void propagate(const Model& model, March& march, double delay, double* x, double* v) {
     Propagation& run = march.run;
-    auto [at, rate] = sum_rows<L>(contacts_of(run).form, modes_at<L>(run.motion, delay));
+    auto [at, rate] = sum_rows<L>(contacts_of(run).matrices.form(), modes_at<L>(run.motion, delay));
     at.store(x);
     rate.store(v);
     move_given(model, march.begin, delay, x, v);
@@ -299,12 +299,12 @@ inline void turn_gears(const Train& train, const StepConstants& constants, Node&
 template <int L>
 SHARED void move_node(const Model& model, const March& march, double delay, const Row<L>& cosine,
                       const Row<L>& sine, Node& node) {
-    using V = Row<L>;
+    constexpr int M = MESH_LANES<L>;
     const Propagation& run = march.run;
-    const ContactState& contacts = contacts_of(run);
+    const ModeMatrices& matrices = contacts_of(run).matrices;
     RowPair<L> modes = modal_states<L>(run.motion, delay * run.motion.per_step, cosine, sine);
-    RowPair<L> meshes = sum_rows<L>(contacts.motion, modes);
-    RowPair<L> bodies = sum_rows<L>(contacts.form, modes);
+    RowPair<M> meshes = sum_rows<M>(matrices.motion(), modes);
+    RowPair<L> bodies = sum_rows<L>(matrices.form(), modes);
     modes.first.store(node.q);
     modes.second.store(node.p);
     meshes.first.store(node.d);
@@ -316,7 +316,7 @@ SHARED void move_node(const Model& model, const March& march, double delay, cons
         turn_gears(model.train, march.constants, node);
     } else {
         for (int g = 0; g < GEARS - 1; ++g)
-            (V(march.constants.spin[g]) + sum_rows<L>(contacts.spin[g], modes.second))
+            (Row<M>(march.constants.spin[g]) + sum_rows<M>(matrices.spin(g), modes.second))
                 .store(node.spin[g]);
     }
     trim_at(model, march, delay, node.x, node.trim);
@@ -354,13 +354,14 @@ template <int L>
 void visit_last_node(const Model& model, March& march) {
     Propagation& run = march.run;
     respond<L>(run);
-    const ContactState& contacts = contacts_of(run);
+    constexpr int M = MESH_LANES<L>;
+    const MatrixRows motion = contacts_of(run).matrices.motion();
     const std::int64_t last = run.nodes.count - 1;
     for (std::int64_t n = 0; n < last; ++n)
-        sum_rows<L>(contacts.motion, modal_places<L>(run, n)).store(run.node[n].d);
+        sum_rows<M>(motion, modal_places<L>(run, n)).store(run.node[n].d);
     const Node& node = run.node[last];
-    copy<L>(node.d, run.before_d);
-    copy<L>(node.rate, run.before_rate);
+    copy<M>(node.d, run.before_d);
+    copy<M>(node.rate, run.before_rate);
     copy<L>(node.v, run.before_v);
     move_to<L>(model, march, last);
 }

@@ -6,6 +6,7 @@
 #include "integrators/rosenbrock_coefficients.hpp"
 #include "mesh/cycle.hpp"
 #include "mesh/mesh_forces.hpp"
+#include "mesh/slope.hpp"
 #include "mesh/stiffness.hpp"
 #include "train/bearings.hpp"
 #include "train/body_speed.hpp"
@@ -40,13 +41,17 @@ void assemble_meshes(const Model& model, const State& state, const StepConstants
         std::int64_t kind = train.kind[i];
         double side = static_cast<double>(state.side[i]), copies = train.copies[i];
         double drift = copies * push_drift(model, state, constants, i, pace);
-        for (int j = 0; j < ENTRIES; ++j)
+        for (int j = 0; j < entries_of(train); ++j)
             work.drift[train.body[i][j]] -= side * drift * train.sign[i][j];
         double cycle = constants.start[i] + side * pace * 0.5 * h;
         double k = copies * mesh_stiffness(train, kind, state.segment[i], cycle);
-        add_outer(work.stiffness, train.body[i], train.sign[i], ENTRIES, k);
-        add_outer(work.system, train.body[i], train.sign[i], ENTRIES,
+        add_outer(work.stiffness, train.body[i], train.sign[i], entries_of(train), k);
+        add_outer(work.system, train.body[i], train.sign[i], entries_of(train),
                   k * (constants.tau[kind] + step));
+        if constexpr (MOVING) {
+            add_slope_stiffness(train, i, k, work.stiffness);
+            add_slope_stiffness(train, i, k * (constants.tau[kind] + step), work.system);
+        }
     }
 }
 
@@ -65,13 +70,12 @@ void free_given(const Model& model, double h, Workspace& work) {
 // The same of the bearings that press; the turning of the frame is left out.
 void assemble_bearings(const Train& train, const State& state, double step, Workspace& work) {
     for (std::int64_t b = 0; b < train.moving.bearings; ++b) {
-        if (!presses(train, b, state.x)) continue;
-        double k = train.moving.stiffness[b];
-        BearingRows rows = rows_of_bearing(train, b);
-        for (const double* row : rows.row) {
-            add_outer(work.stiffness, rows.place, row, BearingRows::SIZE, k);
-            add_outer(work.system, rows.place, row, BearingRows::SIZE,
-                      train.moving.damping[b] + step * k);
+        const bool pressed = presses(train, b, state.x);
+        for (const BearingRow& row : rows_of_bearing(train, b)) {
+            if (row.radial && !pressed) continue;
+            add_outer(work.stiffness, row.place, row.factor, row.size, row.stiffness);
+            add_outer(work.system, row.place, row.factor, row.size,
+                      row.damping + step * row.stiffness);
         }
     }
 }

@@ -87,16 +87,18 @@ void integrate_powers(const Train& train, March& march, double h) {
     const double t = h / run.motion.step;
     for (int e = 0; e < LEDGER; ++e) end.energy[e] = march.begin.energy[e];
     weigh_nodes(run, t);
-    V quadrature(0.0), lost(0.0), work(0.0), friction(0.0);
+    using OfMeshes = Row<MESH_LANES<L>>;
+    V quadrature(0.0);
+    OfMeshes lost(0.0), work(0.0), friction(0.0);
     for (std::int64_t n = 0; n <= last; ++n) {
         const double weight = run.weight[n];
         const Node& node = run.node[n];
         for (int e = 0; e < LEDGER; ++e) end.energy[e] += weight * node.power[e];
         V rate(node.p);
         quadrature += weight * rate * rate;
-        lost += weight * V(node.meshes.lost);
-        work += weight * V(node.meshes.work);
-        friction += weight * V(node.friction.drag.power);
+        lost += weight * OfMeshes(node.meshes.lost);
+        work += weight * OfMeshes(node.meshes.work);
+        friction += weight * OfMeshes(node.friction.drag.power);
     }
     end.energy[DAMPING] += sum_of_meshes(train, lost);
     end.energy[STIFFNESS_WORK] += sum_of_meshes(train, work);

@@ -38,7 +38,7 @@ void add_films_of_nodes(const Model& model, March& march, ContactSums<L>& contac
 // Films of a step that was cut short, at Gauss's points of what is left of it: beyond the end of a
 // step whose flanks part, nodes show films of no load.
 template <int L>
-void add_films_of_cut_step(const Model& model, March& march, ContactSums<L>& contacts) {
+void add_films_of_cut_step(const Model& model, March& march, ContactSums<MESH_LANES<L>>& contacts) {
     constexpr double FROM_MIDDLE[] = {-0.3872983346207417, 0.0, 0.3872983346207417};
     constexpr double SHARE[] = {5.0 / 18.0, 4.0 / 9.0, 5.0 / 18.0};
     const double h = march.control.step;
@@ -49,19 +49,19 @@ void add_films_of_cut_step(const Model& model, March& march, ContactSums<L>& con
 }
 
 // Fill the look at the start and the nodes of a step by collocation.
-template <int L>
+template <int M>
 void look_at_nodes(March& march) {
     const Propagation& run = march.run;
     Look& look = march.sums.look;
     look.count = run.nodes.count + 1;
     look.at[0] = look.weight[0] = 0.0;
-    copy<L>(run.start.d, look.d[0]);
-    copy<L>(run.start.meshes.push, look.push[0]);
+    copy<M>(run.start.d, look.d[0]);
+    copy<M>(run.start.meshes.push, look.push[0]);
     for (std::int64_t n = 0; n < run.nodes.count; ++n) {
         look.at[n + 1] = run.nodes.abscissa[n] * run.motion.step;
         look.weight[n + 1] = run.weight[n];
-        copy<L>(run.node[n].d, look.d[n + 1]);
-        copy<L>(run.node[n].meshes.push, look.push[n + 1]);
+        copy<M>(run.node[n].d, look.d[n + 1]);
+        copy<M>(run.node[n].meshes.push, look.push[n + 1]);
     }
 }
 
@@ -77,8 +77,8 @@ void look_at_even_times(const Model& model, March& march, std::int64_t intervals
     for (std::int64_t k = 0; k < look.count; ++k) {
         move_node<L>(model, march, look.at[k], now.cosine, now.sine, node);
         push_node<L>(model, march, node, look.at[k]);
-        copy<L>(node.d, look.d[k]);
-        copy<L>(node.meshes.push, look.push[k]);
+        copy<MESH_LANES<L>>(node.d, look.d[k]);
+        copy<MESH_LANES<L>>(node.meshes.push, look.push[k]);
         now = waves_after(motion, now, gap);
     }
 }
@@ -89,17 +89,17 @@ void add_collocated(const Model& model, March& march) {
     const Train& train = model.train;
     const Propagation& run = march.run;
     const double h = march.control.step;
-    ContactSums<L> contacts;
+    ContactSums<MESH_LANES<L>> contacts;
     for (std::int64_t n = 0; n < run.nodes.count; ++n)
         add_node(train, run.node[n], run.weight[n], contacts);
     std::int64_t intervals = even_intervals(march, train, h);
     if (std::fabs(h - run.motion.step) > NEAR * run.motion.step) {
         look_at_even_times<L>(model, march, std::max(intervals, FEWEST));
         contacts.share = contacts.film = 0.0;
-        add_films_of_cut_step(model, march, contacts);
+        add_films_of_cut_step<L>(model, march, contacts);
     } else {
         if (intervals == 0)
-            look_at_nodes<L>(march);
+            look_at_nodes<MESH_LANES<L>>(march);
         else
             look_at_even_times<L>(model, march, intervals);
         if (!train.friction) add_films_of_nodes(model, march, contacts);
@@ -111,7 +111,7 @@ void add_collocated(const Model& model, March& march) {
 void put_rates(const Model& model, const StepConstants& constants, const double* v,
                Evaluation& work, StepSums& sums) {
     if (!model.train.friction) find_contacts(model, constants, v, work);
-    with_lanes(model.train, [&]<int L>(std::integral_constant<int, L>) {
+    with_mesh_lanes(model.train, [&]<int L>(std::integral_constant<int, L>) {
         ContactSums<L> contacts;
         add_films(model.train, work.pairs, 1.0, contacts);
         add_friction(model.train, work, 1.0, contacts);
@@ -120,8 +120,9 @@ void put_rates(const Model& model, const StepConstants& constants, const double*
 }
 
 void add_rates(const Train& train, const StepSums& sums, double weight, double (*out)[MESHES]) {
+    const std::int64_t lanes = mesh_lanes(train);
     for (int row = 0; row < SUMS; ++row)
-        for (std::int64_t i = 0; i < train.lanes; ++i) out[row][i] += weight * sums.rates[row][i];
+        for (std::int64_t i = 0; i < lanes; ++i) out[row][i] += weight * sums.rates[row][i];
 }
 
 // Fill the look at the ends of a stiff step, and sum up its contacts and friction.
@@ -216,7 +217,7 @@ void sum_step(const Model& model, March& march) {
 std::int64_t even_intervals(const March& march, const Train& train, double h) {
     const Propagation& run = march.run;
     const ModalMotion& motion = run.motion;
-    const double (*reach)[MESHES] = run.known.states[motion.modes].reach;
+    const MatrixRows reach = run.known.states[motion.modes].matrices.reach();
     const double by_nodes = static_cast<double>(run.nodes.count);
     double fastest = 0.0;
     for (std::int64_t m = 0; m < train.lanes; ++m) {
@@ -243,7 +244,7 @@ void set_even_times(Look& look, double begin, double end, std::int64_t intervals
 
 void add_look(const Train& train, const StepConstants& constants, const Look& look,
               MeshSums& step) {
-    with_lanes(train, [&](auto lanes) { add_look_in_lanes<lanes>(constants, look, step); });
+    with_mesh_lanes(train, [&](auto lanes) { add_look_in_lanes<lanes>(constants, look, step); });
 }
 
 }  // namespace gearbox

@@ -39,12 +39,12 @@ void count_part(const Model& model, March& march, double begin, double end) {
     sums.part.time = end - begin;
     put_contacts(train, model.oil, contacts, sums.part.integral);
     add_look(train, march.constants, look, sums.part);
-    add_sums(sums.part, sums.total, train.lanes);
+    add_sums(sums.part, sums.total, mesh_lanes(train));
 }
 
 void count_between(const Model& model, March& march, double begin, double end) {
     if (end <= begin) return;
-    with_lanes(model.train, [&](auto lanes) { count_part<lanes>(model, march, begin, end); });
+    with_mesh_lanes(model.train, [&](auto lanes) { count_part<lanes>(model, march, begin, end); });
 }
 
 }  // namespace
@@ -52,7 +52,7 @@ void count_between(const Model& model, March& march, double begin, double end) {
 void count_step(const Model& model, March& march) {
     StepSums& sums = march.sums;
     if (sums.taken == 0.0)
-        add_sums(sums.step, sums.total, model.train.lanes);
+        add_sums(sums.step, sums.total, mesh_lanes(model.train));
     else
         count_between(model, march, sums.taken, march.control.step);
     sums.taken = 0.0;

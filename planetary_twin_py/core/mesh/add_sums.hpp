@@ -9,7 +9,7 @@
 
 namespace gearbox {
 
-// Lengthen `total` by `step`; `lanes` is that of the train.
+// Lengthen `total` by `step`; `lanes` is that of the meshes.
 inline void add_sums(const MeshSums& step, MeshSums& total, std::int64_t lanes) {
     if (total.time == 0.0) {
         total = step;

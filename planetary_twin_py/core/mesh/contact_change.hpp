@@ -3,6 +3,7 @@
 // What happens when flanks meet or part, and when tooth pairs enter or leave a mesh.
 
 #include "mesh/deflection.hpp"
+#include "mesh/slope.hpp"
 #include "mesh/stiffness.hpp"
 #include "train/model.hpp"
 #include "train/set_step_constants.hpp"
@@ -21,12 +22,15 @@ inline double energy_at(const Model& model, const State& state, StepConstants& s
     place_mesh(train, state, step, i, cycles);
     double u = step.start[i] - step.low[i];
     double d = deflection(train, step, i, state.x, state.v, 0.0, 0.0).d;
-    double energy = 0.0;
+    double energy = 0.0, stiffness = 0.0;
     for (std::int64_t p = 0; p < train.present[kind][segment]; ++p) {
         auto [k, gap] = pair_stiffness(train, step, i, segment, p, u);
         double q = side * d - model.load.offset - gap;
-        if (gap == 0.0 || q > 0.0) energy += 0.5 * k * (q * q - model.load.inner_squared);
+        if (gap > 0.0 && q <= 0.0) continue;
+        energy += 0.5 * k * (q * q - model.load.inner_squared);
+        stiffness += k;
     }
+    if (tilts(train)) energy += slope_energy(train, i, stiffness, state.x);
     return train.copies[i] * energy;
 }
 

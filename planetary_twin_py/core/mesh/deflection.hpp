@@ -12,7 +12,7 @@ namespace gearbox {
 // Transmission error of mesh i from x, its rate from v.
 inline double mesh_motion(const Train& train, std::int64_t i, const double* x) {
     double total = 0.0;
-    for (int j = 0; j < ENTRIES; ++j) total += train.sign[i][j] * x[train.body[i][j]];
+    for (int j = 0; j < entries_of(train); ++j) total += train.sign[i][j] * x[train.body[i][j]];
     return total;
 }
 

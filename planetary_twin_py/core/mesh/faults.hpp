@@ -21,7 +21,8 @@ inline void mark_fault(const Train& train, std::int64_t i, std::int64_t side, st
     std::int64_t kind = train.kind[i], flank = side == DRIVE_SIDE ? 0 : 1;
     std::int64_t pair = train.fault_pair[f][i][flank], teeth = train.fault_teeth[f];
     for (int p = 0; p < PAIRS; ++p) {
-        std::int64_t number = whole - static_cast<std::int64_t>(train.shift[kind][segment][p]);
+        auto behind = static_cast<std::int64_t>(std::floor(train.shift[kind][segment][p]));
+        std::int64_t number = whole - behind;
         faulty[i][p][f] = pair != NOWHERE && (number - pair) % teeth == 0;
     }
 }

@@ -12,6 +12,7 @@
 #include "mesh/cycle.hpp"
 #include "mesh/damping.hpp"
 #include "mesh/deflection.hpp"
+#include "mesh/slope.hpp"
 #include "mesh/stiffness.hpp"
 #include "train/evaluation.hpp"
 #include "train/model.hpp"
@@ -93,6 +94,10 @@ LAW void healthy_mesh_forces(const Model& model, const StepConstants& step, Mesh
     V work = 0.5 * closed * gain * growth;
     work *= (squeeze * squeeze - inner_squared) * now.pace;
     push.store(now.push);
+    if constexpr (MOVING) {
+        k.store(now.stiffness);
+        (side * gain * growth * now.pace).store(now.stiffening);
+    }
     (damped * closing).store(now.lost);
     (side * (work - push * V(now.error_rate))).store(now.work);
 }
@@ -116,10 +121,12 @@ struct Radii {
     Row<L> first, second;
 };
 
-// Radii of pair p, `moved` metres along the path of contact from where the cycle is 0.
+// Radii of pair p, whose teeth are `moved` metres along the path of contact from where the cycle is
+// 0.
 template <int L>
 LAW Radii<L> flank_radii(const StepConstants& step, std::int64_t p, const Row<L>& moved) {
-    return {Row<L>(step.rho1[p]) + moved, Row<L>(step.rho2[p]) - Row<L>(step.external) * moved};
+    Row<L> way = Row<L>(step.travel[p]) * moved;
+    return {Row<L>(step.rho1[p]) + way, Row<L>(step.rho2[p]) - Row<L>(step.external) * way};
 }
 
 // Way of the contacts along their path from where the cycle is 0 [m].
@@ -127,6 +134,14 @@ template <int L>
 LAW Row<L> way_on_path(const Train& train, const StepConstants& step, double advance) {
     const double pitch = train.base_pitch;
     return Row<L>(step.side) * (advance * pitch) + Row<L>(step.start) * pitch;
+}
+
+// Part of the face on which pair p is in contact, but for what is next to nothing.
+template <int L>
+LAW Row<L> face_in_contact(const StepConstants& step, std::int64_t p, double advance) {
+    constexpr double LEAST = 1e-3;
+    Row<L> cycle = Row<L>(step.side) * advance + Row<L>(step.start);
+    return larger(Row<L>(step.face[p]) + Row<L>(step.face_growth[p]) * cycle, Row<L>(LEAST));
 }
 
 // Put loads and radii of all meshes' tooth pairs into columns.
@@ -141,6 +156,7 @@ inline void fill_pairs(const Train& train, const StepConstants& step, const Mesh
         rho2.store(pairs.rho2 + first);
         copy<L>(now.share[p], pairs.share + first);
         copy<L>(now.load[p], pairs.load + first);
+        face_in_contact<L>(step, p, now.advance).store(pairs.face + first);
         copy<L>(step.external, pairs.external + first);
     }
     pairs.count = train.slots * train.meshes;
@@ -151,7 +167,7 @@ inline void faulty_mesh_force(const Model& model, const State& state, const Step
                               std::int64_t i, MeshesNow& now) {
     const Train& train = model.train;
     const std::int64_t kind = train.kind[i], segment = state.segment[i];
-    now.push[i] = now.lost[i] = now.work[i] = 0.0;
+    now.push[i] = now.lost[i] = now.work[i] = now.stiffness[i] = now.stiffening[i] = 0.0;
     for (std::int64_t p = 0; p < train.slots; ++p) now.load[p][i] = 0.0;
     if (state.side[i] == OPEN) return;
     double side = static_cast<double>(state.side[i]);
@@ -171,6 +187,8 @@ inline void faulty_mesh_force(const Model& model, const State& state, const Step
         double force = k * (q + tau * closing);
         if (effect.gap > 0.0) force = at_least(force, 0.0);
         now.push[i] += force;
+        now.stiffness[i] += k;
+        now.stiffening[i] += side * dk * now.pace;
         now.lost[i] += (force - k * q) * closing;
         work += 0.5 * dk * (q * q - model.load.inner_squared);
         now.load[p][i] = at_least(force, 0.0);
@@ -208,13 +226,15 @@ inline void mesh_forces(const Model& model, const State& state, const StepConsta
                         const double* x, const double* v, double delay, Evaluation& out) {
     for (double& power : out.power) power = 0.0;
     place_meshes(model.train, state, step, x, v, delay, out.now);
-    with_lanes(model.train, [&](auto lanes) { push_meshes<lanes>(model, state, step, out.now); });
+    with_mesh_lanes(model.train,
+                    [&](auto lanes) { push_meshes<lanes>(model, state, step, out.now); });
+    if (tilts(model.train)) tilt_flanks(model.train, step, x, v, out.now);
     book_mesh_power(model.train, out.now, out.power);
 }
 
 // Share the pushes among the tooth pairs, in columns.
 inline void share_loads(const Model& model, const StepConstants& step, Evaluation& out) {
-    with_lanes(model.train, [&](auto lanes) {
+    with_mesh_lanes(model.train, [&](auto lanes) {
         share_pushes<lanes>(model.train, step, out.now);
         fill_pairs<lanes>(model.train, step, out.now, out.pairs);
     });

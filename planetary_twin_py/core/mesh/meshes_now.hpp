@@ -12,10 +12,15 @@ struct alignas(64) MeshesNow {
     double following;                 // damping time that follows the rate at which teeth pass [s]
     alignas(64) double d[MESHES];     // transmission error, less the error of form [m]
     alignas(64) double rate[MESHES];  // of it [m/s]
-    alignas(64) double error_rate[MESHES];    // of the error of form [m/s]
-    alignas(64) double push[MESHES];          // force, 0 if open [N]
-    alignas(64) double lost[MESHES];          // to damping [W]
-    alignas(64) double work[MESHES];          // what the changing shape puts in [W]
+    alignas(64) double error_rate[MESHES];  // of the error of form [m/s]
+    alignas(64) double push[MESHES];        // force, 0 if open [N]
+    alignas(64) double lost[MESHES];        // to damping [W]
+    alignas(64) double work[MESHES];        // what the changing shape puts in [W]
+    // Where axes move: stiffness [N/m] and its growth [N/(m s)]; where they tilt, the moment
+    // against the slope of the flanks [N m].
+    alignas(64) double stiffness[MESHES];
+    alignas(64) double stiffening[MESHES];
+    alignas(64) double moment[MESHES];
     alignas(64) double share[PAIRS][MESHES];  // of the tooth pairs in the force [-]
     alignas(64) double load[PAIRS][MESHES];   // of the tooth pairs [N]
 };

@@ -50,7 +50,8 @@ inline void share_force(const Train& train, StepConstants& step, std::int64_t i,
         auto whole = static_cast<std::int64_t>(std::nearbyint(own - cycle));
         mark_fault(train, i, side, segment, f, whole, step.faulty);
     }
-    for (int p = 0; p < PAIRS; ++p) position[p] = cycle + train.shift[kind][segment][p];
+    for (int p = 0; p < PAIRS; ++p)
+        position[p] = train.centre[kind][segment][p] + train.travel[kind][segment][p] * cycle;
     double u = cycle - train.edge[kind][segment];
     balance_pairs(train, step, i, segment, u, std::abs(force), load);
 }

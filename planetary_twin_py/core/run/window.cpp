@@ -44,7 +44,7 @@ void put_waveform(const Report& report, const Train& train, const double* mesh,
 
 // What samples need beside those of the meshes to show axes that move.
 struct RoomOfAxes {
-    std::vector<double> turns, angle, speed, moved;
+    std::vector<double> turns, angle, speed, moved, lean;
 
     void ask(const Train& train, Samples& waves) {
         auto rows = static_cast<std::size_t>(waves.rows);
@@ -58,6 +58,9 @@ struct RoomOfAxes {
         waves.angle = angle.data();
         waves.speed = speed.data();
         waves.moved = moved.data();
+        if (!tilts(train)) return;
+        lean.resize(rows * static_cast<std::size_t>(waves.bearings) * SAMPLE_LEAN);
+        waves.lean = lean.data();
     }
 };
 
@@ -72,6 +75,7 @@ double carrier_angle(const Report& report, const Train& train, const Samples& wa
 void put_axes(const Report& report, const Train& train, const Samples& waves,
               const AxesWaveform& out) {
     const std::int64_t bearings = waves.bearings, n = report.meshes;
+    if (waves.lean) std::copy_n(waves.lean, waves.rows * bearings * SAMPLE_LEAN, out.lean);
     for (std::int64_t row = 0; row < waves.rows; ++row) {
         const double* moved = waves.moved + row * bearings * SAMPLE_AXES;
         for (std::int64_t b = 0; b < bearings; ++b) {

@@ -20,6 +20,7 @@ struct AxesWaveform {
     double* bearing_force;  // (rows, bearings, 2), on the bearing [N]
     double* orbit;          // (rows, MEMBERS, 2) [m]
     double* flank_force;    // (rows, FLANKS, meshes), drive flanks first, magnitude [N]
+    double* lean;           // (rows, bearings, SAMPLE_LEAN), see Samples; only where axes tilt
 };
 
 // Every sample of every mesh that is reported, in arrays that their owner keeps.

@@ -14,6 +14,7 @@
 #include "rooms.hpp"
 #include "train/body_speed.hpp"
 #include "train/state.hpp"
+#include "train/tilting.hpp"
 #include "train/train.hpp"
 #include "train/weight.hpp"
 #include "vector/math.hpp"
@@ -98,10 +99,12 @@ inline void add_inertial(const Train& train, std::int64_t b, double turning, con
     force[train.carrier] -= axes.carried[b] * m * square * beside;
 }
 
-// Add what bearings, weight and a frame that turns at `turning` [rad/s] do to the axes, `delay`
-// seconds after a state; what damping takes and weight puts in to `power` [W].
-inline void apply_axes(const Train& train, const State& state, double turning, double delay,
+// Add what bearings, weight and a frame that turns do to the axes, `delay` seconds after a state;
+// what damping takes and weight puts in to `power` [W]. `rigid` has the speeds of the frame
+// [rad/s].
+inline void apply_axes(const Train& train, const State& state, const double* rigid, double delay,
                        const double* x, const double* v, double* force, double* power) {
+    const double turning = rigid[train.moving.frame];
     if (train.moving.gravity != 0.0) {
         const InPlane gravity = gravity_at(train, frame_angle(train, state, delay), x);
         add_weight(train, turning, gravity, x, v, force, power[WEIGHT]);
@@ -111,22 +114,35 @@ inline void apply_axes(const Train& train, const State& state, double turning, d
         add_at_bearing(train, b, bearing.pull, force);
         power[DAMPING] += bearing.lost;
         if (turning != 0.0) add_inertial(train, b, turning, x, v, force);
+        if (!tilts(train)) continue;
+        power[DAMPING] += tilt_bearing(train, b, turning, x, v, force);
+        add_gyroscopic(train, b, turning, rigid[train.moving.tilting[b].turns], x, v, force);
     }
     force[train.bodies] = 0.0;  // the ground
 }
 
-// Rows of the displacement across bearing b, over the coordinates `place`.
-struct BearingRows {
-    static constexpr int SIZE = 5;
-    std::int64_t place[SIZE];
-    double row[2][SIZE];
-};
-
+// The displacement across bearing b in the plane, and where it tilts the axial one and the tilts.
 inline BearingRows rows_of_bearing(const Train& train, std::int64_t b) {
     const MovingAxes& axes = train.moving;
     auto [cosine, sine] = axes.direction[b];
-    return {{axes.place[b][0], axes.place[b][1], axes.carrier[0], axes.carrier[1], train.carrier},
-            {{1.0, 0.0, -cosine, -sine, 0.0}, {0.0, 1.0, sine, -cosine, -axes.carried[b]}}};
+    const double k = axes.stiffness[b], c = axes.damping[b];
+    const std::int64_t along = axes.place[b][0], across = axes.place[b][1];
+    const std::int64_t* carrier = axes.carrier;
+    BearingRows rows{};
+    rows.add({true,
+              5,
+              {along, across, carrier[0], carrier[1], train.carrier},
+              {1.0, 0.0, -cosine, -sine, 0.0},
+              k,
+              c});
+    rows.add({true,
+              5,
+              {along, across, carrier[0], carrier[1], train.carrier},
+              {0.0, 1.0, sine, -cosine, -axes.carried[b]},
+              k,
+              c});
+    if (tilts(train)) add_tilting_rows(train, b, rows);
+    return rows;
 }
 
 // Elastic energy of bearing b [J].
@@ -178,6 +194,7 @@ inline void turn_displacements(const Train& train, double angle, double rate, St
         }
         v[along] += rate * beside;
         v[across] -= rate * x[along];
+        if (tilts(train)) turn_tilts(train, b, {sine, cosine}, rate, x, v);
     }
 }
 

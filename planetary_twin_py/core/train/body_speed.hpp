@@ -7,10 +7,14 @@
 
 namespace gearbox {
 
+// Speed of body j with the rigid frame [rad/s].
+inline double rigid_speed(const Train& train, const State& state, std::int64_t j) {
+    return train.ratio[j][0] * state.speed[0] + train.ratio[j][1] * state.speed[1];
+}
+
 // Absolute speed of body j [rad/s].
 inline double body_speed(const Train& train, const State& state, const double* v, std::int64_t j) {
-    double rigid = train.ratio[j][0] * state.speed[0] + train.ratio[j][1] * state.speed[1];
-    return rigid + v[j] * train.inverse_radius[j];
+    return rigid_speed(train, state, j) + v[j] * train.inverse_radius[j];
 }
 
 }  // namespace gearbox

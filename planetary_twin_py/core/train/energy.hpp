@@ -25,6 +25,11 @@ inline double kinetic(const Model& model, const State& state) {
     if constexpr (MOVING) {
         double turning = body_speed(train, state, state.v, train.moving.frame);
         total += centrifugal_energy(train, turning, state.x);
+        if (!tilts(train)) return total;
+        for (std::int64_t b = 0; b < train.moving.bearings; ++b) {
+            double spin = rigid_speed(train, state, train.moving.tilting[b].turns);
+            total += tilting_energy(train, turning, spin, b, state.x);
+        }
     }
     return total;
 }
@@ -40,8 +45,10 @@ inline double elastic(const Model& model, const State& state, StepConstants& ste
         total += 0.5 * train.coupling_stiffness[c] * twist * twist;
     }
     if constexpr (MOVING) {
-        for (std::int64_t b = 0; b < train.moving.bearings; ++b)
+        for (std::int64_t b = 0; b < train.moving.bearings; ++b) {
             total += bearing_energy(train, b, state.x);
+            if (tilts(train)) total += lean_energy(train, b, state.x);
+        }
         total += weight_energy(train, state);
     }
     return total;

@@ -26,7 +26,7 @@ inline void rub_bodies(const Train& train, const DragOfMeshes& drag, double* rub
             double force = drag.torque[j][i] * train.lever[j][i];
             rubbing[train.body[i][j]] += train.copies[i] * force;
         }
-        for (int j = GEARS; j < ENTRIES; ++j)
+        for (int j = GEARS; j < IN_PLANE; ++j)
             rubbing[train.body[i][j]] +=
                 train.copies[i] * drag.torque[2][i] * train.moving.line[i][j];
     }
@@ -126,7 +126,8 @@ inline void assemble_forces(const Model& model, const State& state, const StepCo
     for (int j = 0; j < BODIES; ++j) out.force[j] = out.rubbing[j];
     for (std::int64_t i = 0; i < train.meshes; ++i) {
         double push = train.copies[i] * static_cast<double>(state.side[i]) * out.now.push[i];
-        for (int j = 0; j < ENTRIES; ++j) out.force[train.body[i][j]] -= push * train.sign[i][j];
+        for (int j = 0; j < entries_of(train); ++j)
+            out.force[train.body[i][j]] -= push * train.sign[i][j];
     }
     MachineForces forces;
     apply_couplings(train, x, v, forces, out.power);
@@ -135,8 +136,10 @@ inline void assemble_forces(const Model& model, const State& state, const StepCo
         out.force[train.coupling[c][0]] += forces.machine[c];
         out.force[train.coupling[c][1]] += forces.member[c];
     }
-    if constexpr (MOVING)
-        apply_axes(train, state, step.rigid[train.moving.frame], delay, x, v, out.force, out.power);
+    if constexpr (MOVING) {
+        apply_axes(train, state, step.rigid, delay, x, v, out.force, out.power);
+        if (tilts(train)) add_slope_moments(train, out.now, out.force);
+    }
     out.force[train.bodies] = 0.0;  // the ground
 }
 

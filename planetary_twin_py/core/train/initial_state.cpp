@@ -7,6 +7,7 @@
 #include "mesh/cycle.hpp"
 #include "mesh/deflection.hpp"
 #include "mesh/form_errors.hpp"
+#include "mesh/slope.hpp"
 #include "mesh/stiffness.hpp"
 #include "rooms.hpp"
 #include "train/bearings.hpp"
@@ -68,11 +69,9 @@ void hold_body(Balance& balance, std::int64_t body) {
 void hold_axes(Start& start) {
     const Train& train = start.model.train;
     double (*stiffness)[BODIES] = start.balance.stiffness;
-    for (std::int64_t b = 0; b < train.moving.bearings; ++b) {
-        BearingRows rows = rows_of_bearing(train, b);
-        for (const double* row : rows.row)
-            add_outer(stiffness, rows.place, row, BearingRows::SIZE, train.moving.stiffness[b]);
-    }
+    for (std::int64_t b = 0; b < train.moving.bearings; ++b)
+        for (const BearingRow& row : rows_of_bearing(train, b))
+            add_outer(stiffness, row.place, row.factor, row.size, row.stiffness);
     double loose = LOOSE * std::max(train.stiffness[0], train.stiffness[1]);
     for (std::int64_t j = 0; j < train.bodies; ++j) stiffness[j][j] += loose;
 }
@@ -86,7 +85,9 @@ void yield_to_forces(Start& start) {
         double k =
             mesh_stiffness(train, train.kind[i], start.state.segment[i], start.step.start[i]);
         if (MOVING && start.state.side[i] == OPEN) continue;
-        add_outer(balance.stiffness, train.body[i], train.sign[i], ENTRIES, train.copies[i] * k);
+        add_outer(balance.stiffness, train.body[i], train.sign[i], entries_of(train),
+                  train.copies[i] * k);
+        if constexpr (MOVING) add_slope_stiffness(train, i, train.copies[i] * k, balance.stiffness);
     }
     for (std::int64_t c = 0; c < train.machines; ++c)
         add_outer(balance.stiffness, train.coupling[c], ENDS, 2, train.coupling_stiffness[c]);
@@ -152,8 +153,11 @@ void forces_at_rest(Start& start) {
         double k = mesh_stiffness(train, train.kind[i], state.segment[i], start.step.start[i]);
         double d = deflection(train, start.step, i, state.x, state.v, 0.0, 0.0).d;
         double push = k * (d - static_cast<double>(state.side[i]) * load.offset);
-        for (int j = 0; j < ENTRIES; ++j)
+        for (int j = 0; j < entries_of(train); ++j)
             force[train.body[i][j]] -= train.copies[i] * train.sign[i][j] * push;
+        if constexpr (MOVING)
+            add_slope_moment(train, i, k * train.moving.face_square * slope_of(train, i, state.x),
+                             force);
     }
     for (std::int64_t c = 0; c < train.machines; ++c) {
         std::int64_t machine = train.coupling[c][0], member = train.coupling[c][1];
@@ -162,8 +166,7 @@ void forces_at_rest(Start& start) {
         force[member] += pull;
     }
     double power[LEDGER] = {};
-    apply_axes(train, state, start.step.rigid[train.moving.frame], 0.0, state.x, state.v, force,
-               power);
+    apply_axes(train, state, start.step.rigid, 0.0, state.x, state.v, force, power);
     for (std::int64_t a = 0; a < train.axes; ++a) force[train.coupling[2 * a][0]] = 0.0;
 }
 

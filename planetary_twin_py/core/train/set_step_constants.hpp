@@ -32,9 +32,12 @@ inline void take_segment(const Train& train, const State& state, StepConstants& 
         step.weight[TOTAL][t][i] = train.weight[kind][segment][TOTAL][t];
     }
     for (std::int64_t p = 0; p < train.slots; ++p) {
-        double shift = train.shift[kind][segment][p] * train.base_pitch;
-        step.rho1[p][i] = train.pitch_curvature[kind][0] + shift;
-        step.rho2[p][i] = train.pitch_curvature[kind][1] - train.external[kind] * shift;
+        double centre = train.centre[kind][segment][p] * train.base_pitch;
+        step.rho1[p][i] = train.pitch_curvature[kind][0] + centre;
+        step.rho2[p][i] = train.pitch_curvature[kind][1] - train.external[kind] * centre;
+        step.travel[p][i] = train.travel[kind][segment][p];
+        step.face[p][i] = train.face[kind][segment][p];
+        step.face_growth[p][i] = train.face_growth[kind][segment][p];
     }
 }
 

@@ -21,10 +21,13 @@ struct alignas(64) StepConstants {
     alignas(
         64) double rho1[PAIRS][MESHES];  // radii of curvature of the pairs where the cycle is 0 [m]
     alignas(64) double rho2[PAIRS][MESHES];
-    alignas(64) double damping[MESHES];  // damping time of each mesh at the start [s]
-    double tau[KINDS];                   // damping time of each kind of mesh at the start [s]
-    double cycle_rate;                   // mesh cycles per second of the frame, signed
-    alignas(64) double rigid[BODIES];    // speeds of the frame [rad/s]
+    alignas(64) double travel[PAIRS][MESHES];       // of the contact of a pair per way of its teeth
+    alignas(64) double face[PAIRS][MESHES];         // part of it in contact where the cycle is 0
+    alignas(64) double face_growth[PAIRS][MESHES];  // per cycle
+    alignas(64) double damping[MESHES];             // damping time of each mesh at the start [s]
+    double tau[KINDS];                 // damping time of each kind of mesh at the start [s]
+    double cycle_rate;                 // mesh cycles per second of the frame, signed
+    alignas(64) double rigid[BODIES];  // speeds of the frame [rad/s]
     alignas(64) double spin[GEARS - 1][MESHES];    // of the gears of the frame's meshes [rad/s]
     double slew[AXES];                             // of the speed set-points [rad/s^2]
     double torque[MACHINES];                       // of the load at the start [N m]

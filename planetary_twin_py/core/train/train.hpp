@@ -50,7 +50,15 @@ struct alignas(64) Train {
     double external[KINDS];            // +1: external, -1: internal
     std::int64_t segments[KINDS];      // number of segments in a mesh cycle
     alignas(64) double edge[KINDS][SEGMENTS + 1];
+    // Distance of a pair from the first [base pitches]; of parts of a pair, its fraction tells
+    // which.
     alignas(64) double shift[KINDS][SEGMENTS][PAIRS];
+    // Contact of a pair, at centre + travel * cycle [base pitches]: see `mesh/overlap.py`.
+    alignas(64) double centre[KINDS][SEGMENTS][PAIRS];
+    alignas(64) double travel[KINDS][SEGMENTS][PAIRS];
+    // Part of the face in contact, face + face_growth * cycle.
+    alignas(64) double face[KINDS][SEGMENTS][PAIRS];
+    alignas(64) double face_growth[KINDS][SEGMENTS][PAIRS];
     alignas(64) std::int64_t present[KINDS][SEGMENTS];  // number of tooth pairs
     std::int64_t slots;                                 // tooth pairs of a mesh at most
     std::int64_t terms;                                 // of the polynomials below that are in use
@@ -86,5 +94,10 @@ struct alignas(64) Train {
     double disc_fill;             // share of oil in what they turn in [-]
     MovingAxes moving;
 };
+
+// Number of the coordinates of which the meshes make their transmission errors.
+inline int entries_of(const Train& train) {
+    return MOVING ? static_cast<int>(train.moving.entries) : ENTRIES;
+}
 
 }  // namespace gearbox

@@ -18,21 +18,28 @@ LAW void store_lanes(double* to, Lanes lanes) {
     std::memcpy(to, &lanes, sizeof lanes);
 }
 
+LAW Lanes part_of_face(const ToothPairs& pairs, int k) {
+    Lanes face = load_lanes(pairs.face + k);
+    return face > 0.0 ? face : Lanes{} + 1.0;
+}
+
+// Laws are those of the whole face: where a part of it carries, they see its line load.
 LAW PairMotion<Lanes> load_motion(const ToothPairs& pairs, int k) {
     return {load_lanes(pairs.rho1 + k),     load_lanes(pairs.rho2 + k),
             load_lanes(pairs.external + k), load_lanes(pairs.speed1 + k),
-            load_lanes(pairs.speed2 + k),   load_lanes(pairs.load + k)};
+            load_lanes(pairs.speed2 + k),   load_lanes(pairs.load + k) / part_of_face(pairs, k)};
 }
 
 LAW void store_friction(const PairFriction<Lanes>& found, ToothPairs& pairs, int k) {
-    store_lanes(pairs.friction + k, found.friction);
-    store_lanes(pairs.boundary + k, found.boundary);
-    store_lanes(pairs.viscous + k, found.viscous);
+    const Lanes face = part_of_face(pairs, k);
+    store_lanes(pairs.friction + k, found.friction * face);
+    store_lanes(pairs.boundary + k, found.boundary * face);
+    store_lanes(pairs.viscous + k, found.viscous * face);
     store_lanes(pairs.log_film + k, found.log_film);
     store_lanes(pairs.sliding + k, found.sliding);
-    store_lanes(pairs.slope + k, found.slope);
-    store_lanes(pairs.rolling + k, found.rolling);
-    store_lanes(pairs.rolling_power + k, found.rolling_power);
+    store_lanes(pairs.slope + k, found.slope * face);
+    store_lanes(pairs.rolling + k, found.rolling * face);
+    store_lanes(pairs.rolling_power + k, found.rolling_power * face);
 }
 
 // One part of the laws after the other for all pairs: what waits for a result in one register has

@@ -96,7 +96,8 @@ LAW void place_pairs(const Train& train, const StepConstants& step, const Fricti
         put(external, pairs.external + k);
         put(sliding, pairs.sliding + k);
         put(sum, pairs.sum + k);
-        put(Row<L>(instant.meshes->load[p]), pairs.load + k);
+        put(Row<L>(instant.meshes->load[p]) / face_in_contact<L>(step, p, instant.meshes->advance),
+            pairs.load + k);
     }
 }
 
@@ -147,16 +148,17 @@ LAW void add_up(const Train& train, const StepConstants& step, const Columns<Num
     for (std::int64_t p = 0, k = first; p < train.slots; ++p, k += L) {
         auto [rho1, rho2] = flank_radii<L>(step, p, moved);
         auto [sliding, sum] = surface_speeds(rho1, rho2, external, spin1, spin2);
-        V friction = get<L>(pairs.friction + k), resistance(0.0);
+        const V face = face_in_contact<L>(step, p, instant.meshes->advance);
+        V friction = face * get<L>(pairs.friction + k), resistance(0.0);
         lost += friction * sliding;
         if (rolling) {
-            resistance = get<L>(pairs.rolling + k);
-            lost += get<L>(pairs.rolling_power + k);
+            resistance = face * get<L>(pairs.rolling + k);
+            lost += face * get<L>(pairs.rolling_power + k);
         }
         torque1 -= (friction + resistance) * rho1;
         torque2 -= (friction - resistance) * external * rho2;
-        boundary += get<L>(pairs.boundary + k);
-        viscous += get<L>(pairs.viscous + k);
+        boundary += face * get<L>(pairs.boundary + k);
+        viscous += face * get<L>(pairs.viscous + k);
         film += V(instant.meshes->share[p]) * get<L>(pairs.film + k);
     }
     const Mask<L> used = first_of_row<L>(train.meshes);
@@ -201,12 +203,13 @@ void with_closed_lanes(const Train& train, const StepConstants& step, Function&&
         while (closed > 0 && step.side[closed - 1] == 0.0) --closed;
         if (closed <= FIRST) return function(std::integral_constant<int, FIRST>{});
     }
-    with_lanes(train, function);
+    with_mesh_lanes(train, function);
 }
 
 // Let entries beyond the first `lanes` have no friction.
 void clear_beyond(const Train& train, int lanes, MeshFriction& found) {
-    for (std::int64_t i = lanes; i < train.lanes; ++i) {
+    const std::int64_t count = mesh_lanes(train);
+    for (std::int64_t i = lanes; i < count; ++i) {
         found.drag.torque[0][i] = found.drag.torque[1][i] = found.drag.torque[2][i] = 0.0;
         found.drag.power[i] = found.lost[i] = 0.0;
         found.boundary[i] = found.viscous[i] = found.film[i] = 0.0;

@@ -33,7 +33,7 @@ inline double slowest_rolling(const Train& train, const StepConstants& step) {
 // Speed at which the displacements of the gears turn the line of action of mesh i [rad/s], from v.
 inline double turning_of_line(const Train& train, std::int64_t i, const double* v) {
     double turning = 0.0;
-    for (int j = GEARS; j < ENTRIES; ++j) turning += train.moving.line[i][j] * v[train.body[i][j]];
+    for (int j = GEARS; j < IN_PLANE; ++j) turning += train.moving.line[i][j] * v[train.body[i][j]];
     return turning;
 }
 
@@ -105,14 +105,14 @@ inline void print_torques(const Train& train, const StepConstants& step, const d
     }
 }
 
-// Fill dVs/dv (ENTRIES,) of pair k for the coordinates of its mesh.
+// Fill dVs/dv (IN_PLANE,) of pair k for the coordinates of its mesh.
 inline void sliding_row(const Train& train, const ToothPairs& pairs, std::int64_t k, double* row) {
     std::int64_t i = k % train.meshes;
     double rho1 = pairs.rho1[k], rho2 = pairs.external[k] * pairs.rho2[k];
     row[0] = rho1 * train.lever[0][i];
     row[1] = rho2 * train.lever[1][i];
     row[2] = -(rho1 + rho2) * train.lever[2][i];
-    for (int j = GEARS; j < ENTRIES; ++j) row[j] = -(rho1 + rho2) * train.moving.line[i][j];
+    for (int j = GEARS; j < IN_PLANE; ++j) row[j] = -(rho1 + rho2) * train.moving.line[i][j];
 }
 
 // matrix[body, body] += factor * row row^T, of the `size` bodies.
@@ -127,19 +127,19 @@ inline void add_outer(Matrix matrix, const std::int64_t* body, const double* row
 // Large where little slides: at the pitch point, and for everything near standstill. Where the
 // forces on the bodies would turn the sliding round within h seconds, the slope is that of the
 // chord to rest: beside it the tangent is flat, and steps would reverse the sliding each time.
-// `row` (ENTRIES,) is room to work in.
+// `row` (IN_PLANE,) is room to work in.
 inline void friction_damping(const Train& train, const ToothPairs& pairs, const double* force,
                              double h, double* row, Matrix matrix) {
     for (std::int64_t k = 0; k < pairs.count; ++k) {
         std::int64_t i = k % train.meshes;
         sliding_row(train, pairs, k, row);
         double sliding = pairs.sliding[k], slope = pairs.slope[k], gain = 0.0;
-        for (int j = 0; j < ENTRIES; ++j) {
+        for (int j = 0; j < IN_PLANE; ++j) {
             std::int64_t body = train.body[i][j];
             gain += h * row[j] * force[body] / train.mass[body];
         }
         if (sliding * (sliding + gain) < 0.0) slope = at_least(slope, pairs.friction[k] / sliding);
-        add_outer(matrix, train.body[i], row, ENTRIES, train.copies[i] * slope);
+        add_outer(matrix, train.body[i], row, IN_PLANE, train.copies[i] * slope);
     }
 }
 

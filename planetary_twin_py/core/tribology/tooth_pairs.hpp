@@ -17,6 +17,7 @@ struct alignas(64) ToothPairs {
     alignas(64) double speed1[ROOM];    // of the gears relative to the carrier [rad/s]
     alignas(64) double speed2[ROOM];
     alignas(64) double load[ROOM];           // [N]
+    alignas(64) double face[ROOM];           // part of the face that carries it; 0: not known, all
     alignas(64) double friction[ROOM];       // signed, against the sliding [N]
     alignas(64) double boundary[ROOM];       // [N]
     alignas(64) double viscous[ROOM];        // [N]

@@ -182,7 +182,7 @@ LAW Row<L> square_root(const Row<L>& a) {
 template <int L, class Join>
 LAW double fold(const Row<L>& a, Join&& join) {
     double part[L];
-#pragma GCC unroll 40
+#pragma GCC unroll 64
     for (int i = 0; i < L; ++i) part[i] = a[i];
     if constexpr ((L & (L - 1)) == 0) {
 #pragma GCC unroll 4
@@ -208,16 +208,42 @@ LAW double largest(const Row<L>& a) {
 }
 
 // Lanes in which small trains have room: 3 planets, or planets of the same motion where axes move;
-// then 4 planets whose axes move.
-inline constexpr int FEW_LANES = 8, MORE_LANES = 24;
+// then 4 planets whose axes move in the plane, 7 of these, and 4 whose axes tilt.
+inline constexpr int FEW_LANES = 8, MORE_LANES = 24, MANY_LANES = 40, TILTING_LANES = 48;
 
-// Call `function` with the number of lanes as a constant; lanes beyond those in use are zero.
+// Lanes of the meshes of a train with L lanes of bodies: where axes move, it has fewer meshes.
+template <int L>
+inline constexpr int MESH_LANES = L == MORE_LANES || L == TILTING_LANES ? 16
+                                  : L < MESHES                          ? L
+                                                                        : MESHES;
+
+// Call `function` with the number of lanes of bodies and modes as a constant; lanes beyond those in
+// use are zero.
 template <class Function>
 inline decltype(auto) with_lanes(const Train& train, Function&& function) {
     if (train.lanes <= FEW_LANES) return function(std::integral_constant<int, FEW_LANES>{});
-    if constexpr (MOVING)
-        if (train.lanes <= MORE_LANES) return function(std::integral_constant<int, MORE_LANES>{});
+    if constexpr (MOVING) {
+        const bool few_meshes = train.meshes <= MESH_LANES<MORE_LANES>;
+        if (train.lanes <= MORE_LANES && few_meshes)
+            return function(std::integral_constant<int, MORE_LANES>{});
+        if (train.lanes <= TILTING_LANES && few_meshes)
+            return function(std::integral_constant<int, TILTING_LANES>{});
+        if (train.lanes <= MANY_LANES) return function(std::integral_constant<int, MANY_LANES>{});
+    }
     return function(std::integral_constant<int, BODIES>{});
+}
+
+// Call `function` with the number of lanes of the meshes.
+template <class Function>
+inline decltype(auto) with_mesh_lanes(const Train& train, Function&& function) {
+    return with_lanes(train, [&]<int L>(std::integral_constant<int, L>) -> decltype(auto) {
+        return function(std::integral_constant<int, MESH_LANES<L>>{});
+    });
+}
+
+// Number of the lanes of the meshes.
+inline std::int64_t mesh_lanes(const Train& train) {
+    return with_mesh_lanes(train, [](auto lanes) { return static_cast<std::int64_t>(lanes); });
 }
 
 template <int L>
@@ -225,16 +251,36 @@ LAW void copy(const double* source, double* target) {
     Row<L>(source).store(target);
 }
 
-// Sum over m of rows[m] weights[m]; rows and weights beyond those in use are zero.
+// Rows of a matrix, without gaps between them.
+struct MatrixRows {
+    const double* first;
+    std::int64_t lanes;  // of each
+    std::int64_t count;  // of them, in whole registers; those beyond are zero
+
+    const double* operator[](std::int64_t m) const { return first + m * lanes; }
+};
+
+// Sum over m of rows[m] weights[m]; rows and weights beyond those in use are zero. The rows have L
+// lanes.
 //
 // Weights that have just been computed are best given as a Row: read back from memory, each would
 // wait until all of the row is written.
-template <int L, class Weights>
-LAW Row<L> sum_rows(const double (*rows)[BODIES], const Weights& weights) {
-    Row<L> sum = Row<L>(rows[0]) * weights[0];
+template <int L, int COUNT>
+LAW Row<L> sum_rows(const MatrixRows& rows, const Row<COUNT>& weights) {
+    const double* row = rows.first;
+    if constexpr (COUNT <= MORE_LANES) {
+        Row<L> sum = Row<L>(row) * weights[0];
 #pragma GCC unroll 16
-    for (int m = 1; m < L; ++m) sum += Row<L>(rows[m]) * weights[m];
-    return sum;
+        for (int m = 1; m < COUNT; ++m) sum += Row<L>(row + m * L) * weights[m];
+        return sum;
+    } else {
+        alignas(64) double weight[COUNT];
+        weights.store(weight);
+        Row<L> sum(0.0);
+        for (std::int64_t m = 0; m < rows.count; m += 4)
+            for (int k = 0; k < 4; ++k) sum += Row<L>(row + (m + k) * L) * weight[m + k];
+        return sum;
+    }
 }
 
 // Two rows that belong together, as values and their rates.
@@ -244,9 +290,23 @@ struct RowPair {
 };
 
 // The same sums for two rows of weights.
-template <int L>
-LAW RowPair<L> sum_rows(const double (*rows)[BODIES], const RowPair<L>& weights) {
-    return {sum_rows<L>(rows, weights.first), sum_rows<L>(rows, weights.second)};
+template <int L, int COUNT>
+LAW RowPair<L> sum_rows(const MatrixRows& rows, const RowPair<COUNT>& weights) {
+    if constexpr (COUNT <= MORE_LANES) {
+        return {sum_rows<L>(rows, weights.first), sum_rows<L>(rows, weights.second)};
+    } else {
+        alignas(64) double first[COUNT], second[COUNT];
+        weights.first.store(first);
+        weights.second.store(second);
+        RowPair<L> sum{0.0, 0.0};
+        for (std::int64_t m = 0; m < rows.count; m += 2)
+            for (int k = 0; k < 2; ++k) {
+                const Row<L> row(rows.first + (m + k) * L);
+                sum.first += row * first[m + k];
+                sum.second += row * second[m + k];
+            }
+        return sum;
+    }
 }
 
 }  // namespace gearbox

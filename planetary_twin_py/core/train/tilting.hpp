@@ -1,0 +1,183 @@
+#pragma once
+
+// Axial motion and tilts of the axes: bearings, and the moments of a gyroscope.
+//
+// A body of polar inertia J_p and diametral inertia J_t with the spin w_0 has, in a frame that
+// turns at W, the tilts theta = theta_x + i theta_y under a moment M,
+//     J_t theta'' + i (2 W J_t - J_p w_0) theta' + (J_p w_0 W - J_t W^2) theta = M,
+// from the change of its angular momentum (Goldstein 1980, Classical Mechanics, section 5.5, for
+// small tilts). Bearings of sun, ring and carrier are at rest in the housing, so their damping sees
+// the tilts turn, too; those of planets are on the carrier, whose tilts lift and lean the pins.
+
+#include <cmath>
+
+#include "rooms.hpp"
+#include "train/bearing_rows.hpp"
+#include "train/train.hpp"
+#include "train/weight.hpp"
+
+namespace gearbox {
+
+// Whether the axes tilt and move along themselves.
+inline bool tilts(const Train& train) {
+    return MOVING && train.moving.entries > IN_PLANE;
+}
+
+// Motion across a bearing: along its axis, and tilts.
+struct Lean {
+    double lift;   // [m]
+    InPlane tilt;  // [rad]
+};
+
+// That of what bearing b holds against what it is on, from x; its rate from v.
+inline Lean lean_across(const Train& train, std::int64_t b, const double* x) {
+    const TiltingAxis &own = train.moving.tilting[b],
+                      &carrier = train.moving.tilting[CARRIER_BEARING];
+    Lean lean{x[own.lift], {own.lever * x[own.place[0]], own.lever * x[own.place[1]]}};
+    if (train.moving.carried[b] == 0.0) return lean;
+    auto [cosine, sine] = train.moving.direction[b];
+    double first = carrier.lever * x[carrier.place[0]],
+           second = carrier.lever * x[carrier.place[1]];
+    double along = cosine * first + sine * second, across = cosine * second - sine * first;
+    return {lean.lift - x[carrier.lift] + train.moving.arm * across,
+            {lean.tilt.along - along, lean.tilt.across - across}};
+}
+
+// Add a force and moments on what bearing b holds to `force`, and their reactions.
+inline void add_lean(const Train& train, std::int64_t b, const Lean& pull, double* force) {
+    const TiltingAxis &own = train.moving.tilting[b],
+                      &carrier = train.moving.tilting[CARRIER_BEARING];
+    force[own.lift] += pull.lift;
+    force[own.place[0]] += own.lever * pull.tilt.along;
+    force[own.place[1]] += own.lever * pull.tilt.across;
+    if (train.moving.carried[b] == 0.0) return;
+    auto [cosine, sine] = train.moving.direction[b];
+    double along = -pull.tilt.along, across = train.moving.arm * pull.lift - pull.tilt.across;
+    force[carrier.lift] -= pull.lift;
+    force[carrier.place[0]] += carrier.lever * (cosine * along - sine * across);
+    force[carrier.place[1]] += carrier.lever * (sine * along + cosine * across);
+}
+
+struct LeanForce {
+    Lean pull;    // on what the bearing holds [N], [N m]
+    double lost;  // to damping [W]
+};
+
+// Axial force and moments of bearing b in a frame that turns at `turning` [rad/s].
+inline LeanForce lean_force(const Train& train, std::int64_t b, double turning, const double* x,
+                            const double* v) {
+    const TiltingAxis& own = train.moving.tilting[b];
+    const Lean at = lean_across(train, b, x), rate = lean_across(train, b, v);
+    InPlane against = rate.tilt;
+    if (train.moving.carried[b] == 0.0) {
+        against.along -= turning * at.tilt.across;
+        against.across += turning * at.tilt.along;
+    }
+    const double axial = own.axial_damping * rate.lift, c = own.tilting_damping;
+    const double k = own.tilting_stiffness;
+    return {{-own.axial_stiffness * at.lift - axial,
+             {-k * at.tilt.along - c * against.along, -k * at.tilt.across - c * against.across}},
+            axial * rate.lift +
+                c * (against.along * rate.tilt.along + against.across * rate.tilt.across)};
+}
+
+// Add axial force and moments of bearing b to `force`; the power that damping takes [W].
+inline double tilt_bearing(const Train& train, std::int64_t b, double turning, const double* x,
+                           const double* v, double* force) {
+    const LeanForce found = lean_force(train, b, turning, x, v);
+    add_lean(train, b, found.pull, force);
+    return found.lost;
+}
+
+// Add the moments of a gyroscope on what bearing b holds, which spins at `spin` [rad/s].
+inline void add_gyroscopic(const Train& train, std::int64_t b, double turning, double spin,
+                           const double* x, const double* v, double* force) {
+    const TiltingAxis& own = train.moving.tilting[b];
+    const double square = own.lever * own.lever;
+    const double whirl = square * (2.0 * turning * own.diametral - own.polar * spin);
+    const double pull = square * turning * (turning * own.diametral - own.polar * spin);
+    const std::int64_t first = own.place[0], second = own.place[1];
+    force[first] += whirl * v[second] + pull * x[first];
+    force[second] += pull * x[second] - whirl * v[first];
+}
+
+// Add the rows of the axial displacement and of the tilts across bearing b.
+inline void add_tilting_rows(const Train& train, std::int64_t b, BearingRows& rows) {
+    const TiltingAxis &own = train.moving.tilting[b],
+                      &carrier = train.moving.tilting[CARRIER_BEARING];
+    const bool carried = train.moving.carried[b] != 0.0;
+    auto [cosine, sine] = train.moving.direction[b];
+    const double lever = carried ? carrier.lever : 0.0, arm = train.moving.arm;
+    const std::int64_t first = carrier.place[0], second = carrier.place[1];
+    rows.add({false,
+              4,
+              {own.lift, carrier.lift, first, second},
+              {1.0, carried ? -1.0 : 0.0, -arm * lever * sine, arm * lever * cosine},
+              own.axial_stiffness,
+              own.axial_damping});
+    rows.add({false,
+              3,
+              {own.place[0], first, second},
+              {own.lever, -lever * cosine, -lever * sine},
+              own.tilting_stiffness,
+              own.tilting_damping});
+    rows.add({false,
+              3,
+              {own.place[1], first, second},
+              {own.lever, lever * sine, -lever * cosine},
+              own.tilting_stiffness,
+              own.tilting_damping});
+}
+
+// Elastic energy of bearing b by axial displacement and tilts [J].
+inline double lean_energy(const Train& train, std::int64_t b, const double* x) {
+    const TiltingAxis& own = train.moving.tilting[b];
+    const Lean at = lean_across(train, b, x);
+    double square = at.tilt.along * at.tilt.along + at.tilt.across * at.tilt.across;
+    return 0.5 * (own.axial_stiffness * at.lift * at.lift + own.tilting_stiffness * square);
+}
+
+// Energy [J] of the moments that turn with the frame, as `centrifugal_energy` of the forces.
+inline double tilting_energy(const Train& train, double turning, double spin, std::int64_t b,
+                             const double* x) {
+    const TiltingAxis& own = train.moving.tilting[b];
+    const double first = own.lever * x[own.place[0]], second = own.lever * x[own.place[1]];
+    return 0.5 * turning * (own.polar * spin - turning * own.diametral) *
+           (first * first + second * second);
+}
+
+struct Rotation {
+    double sine, cosine;
+};
+
+// Let the tilts of what bearing b holds follow a jump of the frame, see `turn_displacements`.
+inline void turn_tilts(const Train& train, std::int64_t b, Rotation by, double rate, double* x,
+                       double* v) {
+    const std::int64_t first = train.moving.tilting[b].place[0];
+    const std::int64_t second = train.moving.tilting[b].place[1];
+    if (train.moving.carried[b] == 0.0) {
+        double a = x[first], c = x[second], p = v[first], q = v[second];
+        x[first] = by.cosine * a + by.sine * c;
+        x[second] = by.cosine * c - by.sine * a;
+        v[first] = by.cosine * p + by.sine * q;
+        v[second] = by.cosine * q - by.sine * p;
+    }
+    v[first] += rate * x[second];
+    v[second] -= rate * x[first];
+}
+
+// Axial displacement and tilts of what bearing b holds, and its axial force and moments on the
+// bearing, six numbers.
+inline void show_lean(const Train& train, std::int64_t b, double turning, const double* x,
+                      const double* v, double* out) {
+    const TiltingAxis& own = train.moving.tilting[b];
+    const Lean pull = lean_force(train, b, turning, x, v).pull;
+    out[0] = x[own.lift];
+    out[1] = own.lever * x[own.place[0]];
+    out[2] = own.lever * x[own.place[1]];
+    out[3] = -pull.lift;
+    out[4] = -pull.tilt.along;
+    out[5] = -pull.tilt.across;
+}
+
+}  // namespace gearbox

@@ -1,0 +1,27 @@
+"""Axial and tilting bearings of a scene, and what it lacks for axes that tilt."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from ..scene.supports import Supports
+
+BODIES = ("sun", "planet", "ring", "carrier")
+STIFFNESSES = ("axial", "tilting")
+
+
+def missing_stiffnesses(supports: Supports) -> Iterator[str]:
+    """Fields that a spatial run needs and the scene does not give.
+
+    Args:
+        supports: of the scene.
+
+    Returns:
+        Their names, "supports.sun.axial" for instance.
+    """
+    for body in BODIES:
+        for name in STIFFNESSES:
+            if getattr(getattr(supports, body), name) is None:
+                yield f"supports.{body}.{name}"

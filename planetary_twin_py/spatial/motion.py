@@ -1,0 +1,39 @@
+"""What a run whose axes tilt shows beyond the plane: axial motion, tilts, thrust and moments."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+
+
+class TiltingMotion(NamedTuple):
+    """Axial motion and tilts of the axes in a run, and what their bearings carry by them.
+
+    Directions are those of `AxesMotion`: tilts and moments of sun, ring and carrier are about x and
+    y in the frame of the carrier, those of planets about the radial and the tangential direction.
+    The axial direction is that from which rotations are counter-clockwise.
+    """
+
+    axial_displacement: np.ndarray
+    """Displacement of each body along its axis [m], (samples, bodies)."""
+    tilt: np.ndarray
+    """Tilt of each axis about two directions [rad], (samples, bodies, 2)."""
+    axial_force: np.ndarray
+    """Thrust of each body on its bearing [N], (samples, bodies)."""
+    tilting_moment: np.ndarray
+    """Moment of each body on its bearing about two directions [N m], (samples, bodies, 2)."""
+
+
+def tilting_motion(lean: np.ndarray) -> TiltingMotion | None:
+    """What samples show beyond the plane.
+
+    Args:
+        lean: of `integrators.interpolant.Samples`, (samples, bodies, 6).
+
+    Returns:
+        Motion and loads; None if the axes do not tilt.
+    """
+    if not lean.shape[2]:
+        return None
+    return TiltingMotion(lean[:, :, 0], lean[:, :, 1:3], lean[:, :, 3], lean[:, :, 4:])

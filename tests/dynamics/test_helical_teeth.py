@@ -1,0 +1,95 @@
+"""Helical teeth in torsional and quasi-static runs, against slices of the face."""
+
+import math
+
+import numpy as np
+import pytest
+
+import planetary_twin_py as pt
+
+SLICES = 2001
+PAIRS = np.arange(-4, 5)
+
+
+def helical(**changes):
+    """Equal planets in phase, slow, without friction: each mesh has a constant force."""
+    return pt.load_scene("paper").replace(
+        **{
+            "dynamics": "quasi_static",
+            "gearset.helix_angle": "18 deg",
+            "lubrication.friction": False,
+            "backlash": 0.0,
+        }
+        | changes
+    )
+
+
+def stiffness(scene, kind, cycle):
+    """Mean over the slices of what trapezoids of spur teeth give [N/m]."""
+    gears, mesh = scene.gearset, scene.mesh
+    path = gears.geometry.meshes[kind].path
+    pitch = math.pi * gears.module * math.cos(gears.pressure_angle)
+    lean = math.tan(gears.helix_angle) * math.cos(gears.pressure_angle) / pitch
+    z = gears.face_width * ((np.arange(SLICES) + 0.5) / SLICES - 0.5)
+    s = cycle + z[:, None] * lean + PAIRS
+    rise = np.minimum(s + path.approach, path.recess - s) / mesh.ramp
+    pairs = np.clip(rise, 0.0, 1.0).sum(axis=1)
+    single = (mesh.sun_planet_stiffness, mesh.planet_ring_stiffness)[kind]
+    ratio = mesh.double_pair_ratio
+    return single * (2.0 - ratio + (ratio - 1.0) * pairs).mean()
+
+
+@pytest.mark.parametrize("angle", ["4 deg", "-18 deg"])
+def test_the_transmission_error_is_the_force_over_the_mean_of_the_slices(angle):
+    scene = helical(**{"gearset.helix_angle": angle})
+    run = pt.simulate(scene, 0.002, sample_rate=50e3)
+    teeth = scene.gearset.teeth.sun
+    sun, carrier = run.bodies.index("sun"), run.bodies.index("carrier")
+    cycles = teeth * (run.angle[:, sun] - run.angle[:, carrier]) / (2.0 * math.pi)
+    for n in range(0, len(cycles), 7):
+        expected = run.mesh_force[n, 0] / stiffness(scene, 0, cycles[n])
+        assert run.dte[n, 0] == pytest.approx(expected, rel=2e-4)
+
+
+def test_overlap_quietens_the_gears():
+    """Fluctuation of the stiffness falls with the overlap, and so does that of the DTE."""
+    swings = []
+    for angle in ("0 deg", "4 deg", "8 deg"):
+        run = pt.simulate(helical(dynamics="torsional", **{"gearset.helix_angle": angle}), 0.02)
+        swings.append(run.dte[:, 0].std())
+    assert swings[0] > swings[1] > swings[2]
+
+
+def test_the_sense_of_the_helix_does_not_matter_to_rotations():
+    one, two = (
+        pt.simulate(helical(dynamics="torsional", **{"gearset.helix_angle": angle}), 0.01).dte
+        for angle in ("12 deg", "-12 deg")
+    )
+    assert np.array_equal(one, two)
+
+
+def test_the_ledger_closes_with_friction_on_parts_of_contact_lines():
+    scene = helical(dynamics="torsional", **{"lubrication.friction": True})
+    run = pt.simulate(scene, 0.02, tolerance=1e-5)
+    assert abs(run.energy.residual) < 1e-6 * abs(run.energy.input)
+    spur = pt.simulate(scene.replace(**{"gearset.helix_angle": 0.0}), 0.02, tolerance=1e-5)
+    assert run.energy.loss == pytest.approx(spur.energy.loss, rel=0.1)
+
+
+def test_a_crack_on_helical_teeth_softens_less_at_once_and_runs():
+    """The cracked tooth enters along the face: its mesh deflects less at its worst instant."""
+    crack = {"kind": "crack", "gear": "sun", "tooth": 2, "stiffness_loss": 0.3}
+    peaks = []
+    for angle in ("0 deg", "12 deg"):
+        scene = helical(**{"gearset.helix_angle": angle, "faults": [crack]})
+        healthy = scene.replace(faults=[])
+        cracked, sound = (
+            pt.simulate(s, 0.06, sample_rate=20e3).dte[:, 0] for s in (scene, healthy)
+        )
+        peaks.append(np.abs(cracked - sound).max())
+    assert 0.0 < peaks[1] < peaks[0]
+
+
+def test_tip_relief_is_for_spur_teeth():
+    with pytest.raises(ValueError, match=r"mesh\.tip_relief: requires spur teeth"):
+        helical(**{"mesh.tip_relief.sun": {"amount": "5 um", "length": "0.3 mm"}})

@@ -1,0 +1,138 @@
+"""Helical teeth: means over the face, against slices added up here."""
+
+import math
+
+import numpy as np
+import pytest
+
+from planetary_twin_py._core import TERMS, TOTAL
+from planetary_twin_py.gearset.geometry import PathOfContact
+from planetary_twin_py.mesh.overlap import FaceMean, overlap_ratio
+from planetary_twin_py.mesh.stiffness import given_stiffness, tooth_stiffness
+from planetary_twin_py.mesh.tooth_pairs import mean_weight, pair_table
+
+PATH = PathOfContact(0.7, 0.85)
+OVERLAPS = pytest.mark.parametrize("overlap", [0.05, 0.446, 1.0, 1.9951, 3.1])
+RAMPS = pytest.mark.parametrize("ramp", [0.0, 0.03])
+SLICES = 20001
+GIVEN = given_stiffness(2e8, 1.75)
+TEETH = tooth_stiffness(lambda s: 2e8 * (1.0 - 0.2 * s**2), 0.9)
+
+
+def total(table, cycle):
+    """Sum of the weights of all pairs at fractions of the mesh cycle."""
+    cycle = np.mod(cycle, 1.0)
+    j = np.searchsorted(table.edge[: table.segments], cycle, side="right") - 1
+    powers = (cycle - table.edge[j])[:, None] ** np.arange(TERMS)
+    return (table.weight[j, TOTAL] * powers).sum(axis=1)
+
+
+def face(overlap):
+    """Places of the slices [mesh cycles], the middles of equal parts of the face."""
+    return overlap * ((np.arange(SLICES) + 0.5) / SLICES - 0.5)
+
+
+def test_overlap_ratio_of_a_published_gear():
+    """NREL 5 MW reference gearbox, first stage: 0.491 m wide, normal module 45.7 mm, 7.495 deg; the
+    overlap ratio is b sin(beta)/(pi m_n)."""
+    helix, normal = math.radians(7.495), 45.7e-3
+    transverse = math.atan(math.tan(math.radians(25.0)) / math.cos(helix))
+    pitch = math.pi * normal / math.cos(helix) * math.cos(transverse)
+    base = math.atan(math.tan(helix) * math.cos(transverse))
+    expected = 0.491 * math.sin(helix) / (math.pi * normal)
+    assert overlap_ratio(0.491, base, pitch) == pytest.approx(expected, rel=1e-12)
+    assert overlap_ratio(0.491, -base, pitch) == overlap_ratio(0.491, base, pitch)
+
+
+@OVERLAPS
+@RAMPS
+@pytest.mark.parametrize("law", [GIVEN, TEETH])
+def test_the_stiffness_is_the_mean_of_the_slices(overlap, ramp, law):
+    spur = pair_table(PATH, ramp, law.strength, law.sharing)
+    table = FaceMean(PATH, ramp, overlap, law).table()
+    for cycle in np.linspace(0.0, 1.0, 23):
+        slices = total(spur, cycle + face(overlap)).mean()
+        assert total(table, np.array([cycle]))[0] == pytest.approx(slices, abs=4.0 / SLICES)
+
+
+@OVERLAPS
+@RAMPS
+def test_the_mean_over_a_mesh_cycle_is_that_of_spur_teeth(overlap, ramp):
+    spur, table = pair_table(PATH, ramp), FaceMean(PATH, ramp, overlap, GIVEN).table()
+    own = mean_weight(table.edge, table.weight[:, TOTAL])
+    assert own == pytest.approx(mean_weight(spur.edge, spur.weight[:, TOTAL]), rel=1e-10)
+
+
+@pytest.mark.parametrize("overlap", [1.0, 2.0])
+def test_a_whole_overlap_leaves_a_constant_stiffness(overlap):
+    table = FaceMean(PATH, 0.03, overlap, GIVEN).table()
+    stiffness = total(table, np.linspace(0.0, 1.0, 101))
+    assert np.ptp(stiffness) < 1e-9 * stiffness.mean()
+
+
+@OVERLAPS
+def test_parts_of_a_contact_line_are_before_and_after_the_pitch_point(overlap):
+    """Each part has the weight of its slices, and its contact in their middle."""
+    table = FaceMean(PATH, 0.0, overlap, GIVEN).table()
+    for j, p in zip(*np.nonzero(table.present), strict=True):
+        cycle = 0.25 * table.edge[j] + 0.75 * table.edge[j + 1]
+        pair, mark = math.floor(table.shift[j, p]), table.shift[j, p] % 1.0
+        slices = cycle + pair + face(overlap)
+        first, last = (0.0, PATH.recess) if mark else (-PATH.approach, 0.0)
+        touching = slices[(slices > first) & (slices < last)]
+        middle = table.centre[j, p] + table.travel[j, p] * cycle
+        assert middle == pytest.approx(touching.mean(), abs=4.0 * overlap / SLICES)
+        share = table.face[j, p] + table.face_growth[j, p] * cycle
+        assert share == pytest.approx(len(touching) / SLICES, abs=2.0 / SLICES)
+        powers = (cycle - table.edge[j]) ** np.arange(TERMS)
+        weight = table.weight[j, p] @ powers
+        assert weight == pytest.approx(len(touching) / SLICES, abs=2.0 / SLICES)
+
+
+@OVERLAPS
+def test_friction_over_a_mesh_cycle_is_that_of_spur_teeth_at_a_steady_load(overlap):
+    """Slices slide as spur teeth do, so the mean of weight times sliding distance is the same."""
+    ends = np.linspace(-PATH.approach, PATH.recess, 40001)
+    expected = np.trapezoid(np.abs(ends), ends)
+    table, found = FaceMean(PATH, 0.0, overlap, GIVEN).table(), 0.0
+    nodes, gauss = np.polynomial.legendre.leggauss(4)
+    for j, p in zip(*np.nonzero(table.present), strict=True):
+        low, high = table.edge[j], table.edge[j + 1]
+        for cycle, weigh in zip(
+            0.5 * (low + high) + 0.5 * (high - low) * nodes, gauss, strict=True
+        ):
+            weight = table.weight[j, p] @ (cycle - low) ** np.arange(TERMS)
+            place = abs(table.centre[j, p] + table.travel[j, p] * cycle)
+            found += 0.5 * (high - low) * weigh * weight * place
+    assert found == pytest.approx(expected, rel=1e-8)
+
+
+def test_a_little_overlap_is_nearly_spur():
+    spur, table = pair_table(PATH, 0.03), FaceMean(PATH, 0.03, 1e-4, GIVEN).table()
+    cycle = np.linspace(0.0, 1.0, 400)
+    assert total(table, cycle) == pytest.approx(total(spur, cycle), abs=2e-3)
+
+
+def test_a_fault_weakens_the_mean_of_the_slices_it_is_in():
+    overlap, corners = 0.6, [-0.2, -0.15, 0.1, 0.15]
+    face_mean = FaceMean(PATH, 0.03, overlap, GIVEN, corners)
+
+    def spall(s):
+        return 1.0 - 0.5 * np.interp(s, corners, [0.0, 1.0, 1.0, 0.0])
+
+    table, factors = face_mean.table(), face_mean.factors(spall)
+    ends = [-PATH.approach, -PATH.approach + 0.03, PATH.recess - 0.03, PATH.recess]
+    for j in range(table.segments):
+        cycle = 0.4 * table.edge[j] + 0.6 * table.edge[j + 1]
+        powers, found = (cycle - table.edge[j]) ** np.arange(TERMS), 0.0
+        for p in np.flatnonzero(table.present[j]):
+            found += (table.weight[j, p] @ powers) * (factors[j, p] @ powers)
+        slices = cycle + face(overlap)[:, None] + np.arange(-4, 5)
+        weight = np.interp(slices, ends, [0.0, 1.0, 1.0, 0.0], left=0.0, right=0.0)
+        expected = (weight * spall(slices)).sum(axis=1).mean()
+        assert found == pytest.approx(expected, abs=2e-4)
+
+
+def test_beyond_the_room_of_the_table_the_error_names_what_to_change():
+    with pytest.raises(ValueError, match="face_width: teeth overlap so much that 9 parts"):
+        FaceMean(PATH, 0.03, 3.6, GIVEN)

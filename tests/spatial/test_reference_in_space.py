@@ -1,0 +1,48 @@
+"""Runs whose axes tilt against a model of vectors in space, integrated by SciPy."""
+
+import math
+
+import numpy as np
+import pytest
+from planar.test_reference_in_plane import absolute
+from power_flows import FLOWS
+from spatial.reference_in_space import SpatialReference
+from spatial.tilting_scenes import spatial
+
+from planetary_twin_py._core import DTE
+from planetary_twin_py.dynamics.bodies import build_bodies, tilting_radii, tilts_of
+from planetary_twin_py.engine import Engine
+
+RATE = 50_000.0
+ERRORS = {"errors.pin_tangential": [-2e-5, 1e-5, 0.0], "lubrication.friction": False}
+
+
+def absolute_in_space(engine, reference):
+    """Coordinates, speeds and trim as the reference has them, and sides."""
+    plane, sides = absolute(engine, reference)
+    middle = len(plane) // 2
+    place, radii = build_bodies(engine.scene).place, tilting_radii(engine.scene)
+    state, more = engine.march.end, []
+    for name in ("sun", "ring", "carrier", *(f"planet_{i + 1}" for i in range(reference.n))):
+        more += [(f"{name}.z", 1.0)]
+        more += [(f"{name}.{tilt}", radii[name.split("_")[0]]) for tilt in tilts_of(name)]
+    x, v = (np.array([way[place[name]] / r for name, r in more]) for way in (state.x, state.v))
+    return np.concatenate([plane[:middle], x, plane[middle:-1], v, plane[-1:]]), sides
+
+
+@pytest.mark.parametrize("flow", [FLOWS[0], FLOWS[2]], ids=["held carrier", "turning carrier"])
+def test_steady_running_converges_to_the_reference(flow):
+    scene = spatial(flow, helix=0.2, **ERRORS)
+    source = Engine(scene, 1e-6)
+    source.advance(1e-3, 1, RATE, 0)
+    start = source.march.end.time
+    first, last = math.floor(start * RATE) + 1, round(3e-3 * RATE)
+    times = np.arange(first, last + 1) / RATE
+    reference = SpatialReference(scene)
+    begin = absolute_in_space(source, reference)
+    exact, _ = reference.transmission_errors(*begin, times - start)
+    for tolerance, allowed in ((1e-4, 5e-4), (1e-6, 2e-5)):
+        engine = Engine(scene, tolerance)
+        engine.march.end = source.march.end
+        mine = engine.advance(times[-1], first, RATE, len(times)).mesh[:, DTE]
+        assert np.sqrt(np.mean((mine - exact) ** 2) / np.mean(exact**2)) < allowed
