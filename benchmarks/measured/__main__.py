@@ -5,7 +5,8 @@ from __future__ import annotations
 import sys
 from pathlib import Path
 
-from .compact import rig_compliance, rig_losses, rig_orders
+from .compact import rig_lost_motion, rig_orders, rig_stiffness
+from .compact_losses import rig_estimates, rig_losses, rig_predictions
 from .published import helicopter, others, trends, two_actuators
 from .row import Row
 
@@ -16,6 +17,7 @@ Made by `make measured`. Each table puts a measured or published figure beside t
 - **agrees**: within the stated bound, or the trend has the same sign.
 - **misses**: outside the bound, or not modelled. The reason is below the table.
 - **input**: the twin takes this figure as a parameter, so the row proves nothing.
+- **prediction**: there is no reading to compare with.
 - **undecided**: the twin has a line there, but from another cause.
 
 All figures come from the sources named; this project has measured none of them.
@@ -25,8 +27,8 @@ SECTIONS = {
     "COMPAct test rig": (
         "7.2:1, 25/65/155 printed teeth, module 0.5 mm, ring held. "
         "[COMPAct](https://github.com/singhaman1750/COMPAct), ICRA 2026, arXiv 2510.07197, MIT "
-        "licence. Data, licence and scene are in `tests/data/compact`.",
-        (rig_compliance, rig_orders, rig_losses),
+        "licence. Scene `compact_actuator`; data and licence are in `tests/data/compact`.",
+        (rig_lost_motion, rig_stiffness, rig_orders, rig_estimates, rig_losses, rig_predictions),
     ),
     "Two 6:1 actuators": (
         "Loss of both, back to back: 0.094 T + 0.125 N m + 0.0040 N m s w (737 windows, rms 0.13 "

@@ -55,15 +55,6 @@ def highest_between() -> float:
     return max(measured_line(place).height for place in (145.0, 160.0, 165.0))
 
 
-def measured_lost_motion() -> float:
-    """Range of the output angle less that of the motor over the gear ratio [rad]."""
-    table = parquet.read_table(RIG / "lost_motion.parquet")
-    motor, output = (
-        np.asarray(table[f"{name} [rad]"], dtype=float) for name in ("motor", "output")
-    )
-    return float(np.ptp(motor / 7.2 - output))
-
-
 @cache
 def _spectrum() -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     table = parquet.read_table(RIG / "speed.parquet")

@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import NamedTuple
 
 AGREES, MISSES, INPUT, UNDECIDED = "agrees", "**misses**", "input", "undecided"
+PREDICTION = "prediction"
 
 
 class Row(NamedTuple):

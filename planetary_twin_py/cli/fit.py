@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from ..studies.fit.identify import Identified
 
 
-def fit(
+def fit(  # noqa: PLR0913 - an argument for each option
     file: FileArgument,
     free: Annotated[
         str,
@@ -40,6 +40,14 @@ def fit(
         list[str] | None,
         typer.Option(
             metavar="NAME=VALUE", help="Standard deviation of one reading, in SI. Repeatable."
+        ),
+    ] = None,
+    hold_out: Annotated[
+        str | None,
+        typer.Option(
+            metavar="FROM:TO",
+            help="Another part in simulated seconds, which is predicted with intervals and not "
+            "fitted.",
         ),
     ] = None,
     namespace: NamespaceOption = None,
@@ -69,6 +77,7 @@ def fit(
             found = identify(
                 file, search, namespace, from_, to,
                 report=lambda count: status.update(f"{count} simulations"),
+                hold_out=_span(hold_out),
             )  # fmt: skip
     except (ValueError, ArithmeticError) as error:
         fail(error)
@@ -92,6 +101,18 @@ def _parts(text: str) -> list[str]:
 def _pair(text: str) -> tuple[str, str]:
     name, _, value = text.partition("=")
     return _name(name), value.strip()
+
+
+def _span(text: str | None) -> tuple[float, float] | None:
+    if text is None:
+        return None
+    try:
+        begin, end = map(float, text.split(":"))
+    except ValueError:
+        raise ValueError(f"--hold-out = {text!r}: must be FROM:TO in seconds") from None
+    if not 0.0 <= begin < end < math.inf:
+        raise ValueError(f"--hold-out = {text!r}: FROM must be at least 0 and below TO")
+    return begin, end
 
 
 def _numbers(given: list[str]) -> dict[str, float]:
@@ -127,6 +148,13 @@ def _print(console: Console, found: Identified) -> None:
             span, source = "-", "combination only"
         table.add_row(parameter.name, value, span, parameter.unit, source)
     console.print(table)
+    for one in found.predictions:
+        console.print(
+            f"held out: {one.name} at {len(one.measured)} operating points: rms error "
+            f"{100.0 * one.rms:.3g} %, {100.0 * one.inside:.3g} % within their "
+            f"{100.0 * found.confidence:g} % intervals",
+            highlight=False,
+        )
     console.print(f"{found.simulations} simulations in {found.wall_time:.1f} s", highlight=False)
 
 
@@ -157,6 +185,16 @@ def _figures(found: Identified) -> dict[str, Any]:
         "noise": {
             readings.name: _finite(float(noise.reading.max()))
             for readings, noise in zip(found.weighted.recorded, found.weighted.noise, strict=True)
+        },
+        "predictions": {
+            one.name: {
+                "measured": one.measured.tolist(),
+                "predicted": one.predicted.tolist(),
+                "reach": one.reach.tolist(),
+                "rms": _finite(one.rms),
+                "inside": one.inside,
+            }
+            for one in found.predictions
         },
         "contact_fraction": found.contact_fraction,
         "from_s": found.excerpt.start,

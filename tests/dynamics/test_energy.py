@@ -15,7 +15,8 @@ RATTLE = {"input_torque": 0.3, "torque_ripple": 3.0}
 def imbalance(scene, tolerance, method="auto"):
     energy = simulate(scene, 0.05, tolerance=tolerance, method=method).energy
     driven = scene.lubrication.friction_torque == "printed"  # by a sign that puts energy in
-    assert (energy.friction < 0.0 if driven else energy.friction > 0.0) and energy.damping > 0.0
+    assert energy.friction < 0.0 if driven else energy.friction > 0.0
+    assert energy.damping > 0.0 or scene.dynamics == "quasi_static"
     return abs(energy.residual) / energy.put_in
 
 

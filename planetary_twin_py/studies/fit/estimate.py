@@ -26,6 +26,8 @@ class Estimate:
     not_identifiable: tuple[tuple[int, ...], ...]
     """Indices of parameters that are not identifiable; several of which only a combination is
     identifiable form one group."""
+    covariance: Array
+    """(p, p), of the identifiable directions, if noise explained the residuals."""
     unbounded: Array
     """(p,); minimum of the sum of squares without the ranges, to first order."""
     at_bound: tuple[bool, ...]
@@ -80,6 +82,7 @@ def conclude(
         intervals=tuple(found[k] for k in range(len(parameters))),
         correlation=correlation(linear),
         not_identifiable=linear.groups,
+        covariance=linear.covariance,
         unbounded=unbounded,
         at_bound=bound,
         excess=excess,

@@ -16,6 +16,7 @@ from ...recording.container.records import RecordingError
 from ...recording.ros2.namespaces import choose_namespace
 from ...recording.ros2.tape import Tape
 from ...recording.ros2.topics import STATE, WAVEFORM
+from ...recording.runs.origin import Measured
 from ...recording.runs.schedule import (
     Change,
     Interval,
@@ -53,6 +54,8 @@ class Excerpt:
     """Blocks of the waveform; empty if not requested."""
     remarks: tuple[str, ...]
     """Warnings about the file."""
+    measured: bool
+    """Whether it is a table of a rig, whose operating points need not follow each other."""
 
     @property
     def start(self) -> float:
@@ -122,7 +125,8 @@ def read_excerpt(
             f"{path}: {len(intervals)} intervals{asked}, must be at least {FEWEST}; "
             f"the longest run ends at {longest:g} s"
         )
-    reference = _reference(run, intervals[0].begin / TICKS)
+    measured = isinstance(run.origin.makers, Measured)
+    reference = None if measured else _reference(run, intervals[0].begin / TICKS)
     stamps = {interval.stamp for interval in intervals} | {reference.stamp if reference else -1}
     states = {
         stamp_of(message): message
@@ -134,12 +138,15 @@ def read_excerpt(
     return Excerpt(
         scene=scene,
         begins=begins,
-        before=tuple(i for i in between(run, begins, math.inf) if i.end <= intervals[0].begin),
+        before=()
+        if measured
+        else tuple(i for i in between(run, begins, math.inf) if i.end <= intervals[0].begin),
         intervals=tuple(intervals),
         states=tuple(states[interval.stamp] for interval in intervals),
         changes=tuple(change for change in run.changes if begins <= change.time < last),
         blocks=tuple(_blocks(path, chosen, intervals)) if waveform else (),
         remarks=tuple(remarks),
+        measured=measured,
     )
 
 

@@ -17,10 +17,11 @@ from .estimate import Estimate, conclude
 from .excerpt import Excerpt, read_excerpt
 from .least_squares import Minimum, explained, minimise, with_initial_magnitudes
 from .least_squares import search as find_least
-from .misfit import WeightedReadings, measure_noise
+from .misfit import WeightedReadings, means_of, measure_noise
 from .missing_loss import MissingLoss, find_missing_loss
 from .model import Model, ModelOutput, read_all
 from .parameter import Parameter, read_parameters
+from .prediction import Fitted, Predicted, predict
 from .readings import HARMONICS, USUAL, Array, Readings, check_observables, recorded
 from .simulations import Simulations
 
@@ -58,8 +59,12 @@ class Identified:
     """Level of the intervals."""
     sum: float
     """Sum of squares at the estimate."""
+    residuals: tuple[Array, ...]
+    """Simulated less recorded means by observable, in SI, (operating points, channels) each."""
     missing_loss: MissingLoss | None
     """A loss absent from the model that would explain the residuals, or None."""
+    predictions: tuple[Predicted, ...]
+    """Of the part that was held out, an entry for each observable; empty without one."""
     simulations: int
     wall_time: float
     """[s]"""
@@ -73,6 +78,7 @@ def identify(
     end: float | None = None,
     threads: Threads | None = None,
     report: Callable[[int], None] = lambda simulations: None,
+    hold_out: tuple[float, float] | None = None,
 ) -> Identified:
     """Estimate the free parameters of `search` from the recording at `path`.
 
@@ -84,6 +90,7 @@ def identify(
         end: its end [s].
         threads: threads that simulate; None uses all cores.
         report: called with the number of completed simulations.
+        hold_out: start and end of another part [s], which is predicted and not fitted.
 
     Returns:
         The estimates.
@@ -115,6 +122,13 @@ def identify(
         runs.residuals(weighted), parameters, minimum, weighted.freedom, search.confidence
     )
     closest = _known(runs, minimum.values)
+    predictions: tuple[Predicted, ...] = ()
+    if hold_out is not None:
+        _check_apart(excerpt, hold_out)
+        other = read_excerpt(Path(path), namespace, *hold_out, HARMONICS in search.observe)
+        there = Simulations(Model(other, model.free, model.observables), runs.threads, report)
+        fitted = Fitted(parameters, found, weighted, search.confidence)
+        predictions = predict(there, _data(search, other), fitted)
     return Identified(
         parameters=parameters,
         estimate=found,
@@ -124,6 +138,10 @@ def identify(
         weighted=weighted,
         confidence=search.confidence,
         sum=minimum.sum,
+        residuals=tuple(
+            means_of(s) - means_of(r) for s, r in zip(closest.readings, data, strict=True)
+        ),
+        predictions=predictions,
         missing_loss=_missing_loss(runs, weighted, parameters, minimum, found),
         simulations=runs.count,
         wall_time=time.perf_counter() - began,
@@ -160,6 +178,15 @@ def _check(search: Search) -> None:
             raise ValueError(f"noise of {name} = {value!r}: must be above 0")
     if not 0.0 < search.confidence < 1.0:
         raise ValueError(f"confidence = {search.confidence!r}: must be between 0 and 1")
+
+
+def _check_apart(excerpt: Excerpt, hold_out: tuple[float, float]) -> None:
+    begin, end = hold_out
+    if begin < excerpt.end - 1e-9 and end > excerpt.start + 1e-9:
+        raise ValueError(
+            f"hold_out = {begin:g} to {end:g} s: overlaps the fitted part, {excerpt.start:g} to "
+            f"{excerpt.end:g} s"
+        )
 
 
 def _data(search: Search, excerpt: Excerpt) -> tuple[Readings, ...]:

@@ -62,7 +62,7 @@ class WeightedReadings:
         """Simulated minus recorded means, divided by their noise, as a vector."""
         return np.concatenate(
             [
-                ((_means(s) - _means(r)) / noise.mean).ravel()
+                ((means_of(s) - means_of(r)) / noise.mean).ravel()
                 for s, r, noise in zip(readings, self.recorded, self.noise, strict=True)
             ]
         )
@@ -99,7 +99,7 @@ def _noise(recorded: Readings, readings: Readings, tolerance: float, given: floa
     segments, place, count = np.unique(
         recorded.segment[:rows], return_inverse=True, return_counts=True
     )
-    means = _means(recorded)
+    means = means_of(recorded)
     for s in range(len(segments)):
         left[place == s] -= left[place == s].mean(axis=0)
     scatter, size, repeat = np.empty(left.shape[1]), np.empty(means.shape), np.empty(left.shape[1])
@@ -136,7 +136,14 @@ def _repeats(correlation: Any) -> Any:
     return (1.0 + correlation) / (1.0 - correlation)
 
 
-def _means(readings: Readings) -> Array:
-    """Means over each segment, shape (segments, channels)."""
+def means_of(readings: Readings) -> Array:
+    """Means over each operating point.
+
+    Args:
+        readings: of one observable.
+
+    Returns:
+        Means, shape (segments, channels).
+    """
     segments = np.unique(readings.segment)
     return np.array([readings.values[readings.segment == s].mean(axis=0) for s in segments])

@@ -18,6 +18,7 @@ from ...twin import LONGEST_WINDOW, Twin
 from ...window import Window
 from .excerpt import Excerpt
 from .readings import Array, IntervalReadings, Readings, read, simulated
+from .steady_points import steady_points
 
 UNUSED = 1.0  # [Hz] sample rate if the samples are not used
 FEW = 100  # samples per interval if only the power flow, an integral, is used
@@ -46,13 +47,22 @@ class Model:
         """Readings with the free parameters at `values` (p,); None if the simulation fails."""
         overrides = dict(zip(self.free, values.tolist(), strict=True))
         try:
-            windows = list(_windows(self.excerpt, overrides, self._most_samples))
+            intervals, windows = self._simulate(overrides)
         except (ValueError, ArithmeticError):
             return None
-        intervals = [simulated(window, self.excerpt.begins) for window in windows]
         contact = min(float(np.min(window.mesh["contact_fraction"])) for window in windows)
         course = reduce(Course.joined, (window.course for window in windows))
         return ModelOutput(read_all(self.observables, intervals, self.excerpt), contact, course)
+
+    def _simulate(
+        self, overrides: Mapping[str, float]
+    ) -> tuple[list[IntervalReadings], list[Window]]:
+        """Readings and window of every interval."""
+        if self.excerpt.measured:
+            parts = list(steady_points(self.excerpt, overrides, self._most_samples))
+            return [simulated(w, begins) for w, begins in parts], [w for w, _ in parts]
+        windows = list(_windows(self.excerpt, overrides, self._most_samples))
+        return [simulated(window, self.excerpt.begins) for window in windows], windows
 
     @property
     def _most_samples(self) -> float:

@@ -7,6 +7,8 @@ from collections.abc import Iterator
 from ...accuracy import course_warnings
 from .identify import Identified
 from .parameter import Parameter
+from .readings import Array
+from .runs_test import count_runs
 
 
 def remarks(found: Identified) -> Iterator[str]:
@@ -54,10 +56,24 @@ def remarks(found: Identified) -> Iterator[str]:
                 f"{readings.name}: successive readings are correlated, with a coefficient of "
                 f"{noise.correlation:.2g}; intervals are widened accordingly"
             )
+    for readings, residuals in zip(found.weighted.recorded, found.residuals, strict=True):
+        yield from _not_noise(readings.name, residuals)
     # Readings are means over intervals: impacts that amplify errors of single values do not matter.
     for line in course_warnings(found.course._replace(flank_events=0)):
         yield f"at the estimate, {line}"
     yield from found.excerpt.remarks
+
+
+def _not_noise(name: str, residuals: Array) -> Iterator[str]:
+    for channel, values in enumerate(residuals.T, 1):
+        runs = count_runs(values)
+        if runs is not None and not runs.noise:
+            which = f"{name} of mesh {channel}" if residuals.shape[1] > 1 else name
+            yield (
+                f"{which}: the residuals of {len(values)} operating points are not noise: "
+                f"{runs.runs} runs of one sign, {runs.expected:.0f} expected in random order; the "
+                "model misses something that changes slowly from one operating point to the next"
+            )
 
 
 def _at_end(parameter: Parameter, unbounded: float) -> str:

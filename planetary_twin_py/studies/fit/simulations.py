@@ -21,7 +21,7 @@ class Simulations:
     def __init__(
         self, model: Model, threads: Threads, report: Callable[[int], None] = lambda count: None
     ) -> None:
-        self._model, self._threads, self._report = model, threads, report
+        self._model, self.threads, self._report = model, threads, report
         self._known: dict[tuple[float, ...], ModelOutput | None] = {}
 
     @property
@@ -37,13 +37,13 @@ class Simulations:
     def freeing(self, field: str) -> Simulations:
         """The same with `field` as a further free parameter, the last entry of a point."""
         wider = replace(self._model, free=(*self._model.free, field))
-        return Simulations(wider, self._threads, self._report)
+        return Simulations(wider, self.threads, self._report)
 
     def at(self, points: Sequence[Array]) -> list[ModelOutput | None]:
         """The output at each point (p,)."""
         keys = [tuple(point.tolist()) for point in points]
         new = [key for key in dict.fromkeys(keys) if key not in self._known]
-        for key, output in self._threads.do(lambda key: self._model(np.array(key)), new):
+        for key, output in self.threads.do(lambda key: self._model(np.array(key)), new):
             self._known[key] = output
             self._report(self.count)
         return [self._known[key] for key in keys]

@@ -54,6 +54,6 @@ def test_with_a_load_independent_drag_friction_stays_within_its_range(rig):
 def test_one_of_several_operating_points_is_not_chosen_silently(rig):
     found = identify(rig, Search((DRAG,), ("power_loss",)))
     assert any(
-        line.startswith("only 1 of 9 operating points is used, 0 to 2.5 s of 22.5 s")
+        line.startswith("only 1 of 54 operating points is used, 0 to 2.5 s of 135 s")
         for line in remarks(found)
     )

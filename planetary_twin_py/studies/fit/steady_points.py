@@ -1,0 +1,47 @@
+"""Simulates the operating points of a measured table, each on its own.
+
+The rows of a table are means of test runs that need not follow each other: from one operating point
+to the next there is no manoeuvre.
+"""
+
+from __future__ import annotations
+
+from bisect import bisect_right
+from collections.abc import Iterator, Mapping
+from itertools import groupby
+
+from ...integrators.clock import TICKS
+from ...scene import TUNABLES
+from ...twin import Twin
+from ...window import Window
+from .excerpt import Excerpt
+
+
+def steady_points(
+    excerpt: Excerpt, overrides: Mapping[str, float], most_samples: float
+) -> Iterator[tuple[Window, float]]:
+    """Simulate the intervals of an excerpt of a table with other parameters.
+
+    Args:
+        excerpt: of a measured table.
+        overrides: values of the free parameters in SI, by name.
+        most_samples: upper limit of samples per interval.
+
+    Yields:
+        The window of each interval, and the time at which its twin started [s].
+    """
+    held = {name: value for name, value in overrides.items() if name in TUNABLES}
+    others = {name: value for name, value in overrides.items() if name not in TUNABLES}
+    times = [change.time for change in excerpt.changes]
+    scene = excerpt.scene.replace(**others)
+    for place, intervals in groupby(
+        excerpt.intervals, lambda one: bisect_right(times, one.begin / TICKS) - 1
+    ):
+        change = excerpt.changes[place]
+        fixed = held if change.time >= excerpt.held_from else {}
+        rows = list(intervals)
+        length = (rows[0].end - rows[0].begin) / TICKS
+        rate = min(rows[0].sample_rate, most_samples / length)
+        twin = Twin(scene.replace(**(change.values | fixed)), rate, rows[0].tolerance)
+        for _ in rows:
+            yield twin.advance(length), rows[0].begin / TICKS
