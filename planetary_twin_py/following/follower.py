@@ -57,7 +57,7 @@ class EncoderSamples(NamedTuple):
     counts: NDArray[np.int64]
     """Of the encoders on the input and the output member, whole turns included, (n, 2)."""
     format: EncoderFormat | None = None
-    """Of these encoders; None: as the follower was told."""
+    """Of these encoders; None: as stated to the follower."""
 
 
 @dataclass(frozen=True)
