@@ -83,7 +83,7 @@ class MessageReader:
             if values:
                 yield from _joined(samples)
                 row = _Row(one.sender, stamp_of(one.message), one.time, values)
-                if rows and not _alike(rows[-1], row):
+                if rows and not _same_channels(rows[-1], row):
                     yield from _together(rows)
                 rows.append(row)
         yield from _together(rows)
@@ -164,7 +164,7 @@ def _interface(message: Any, place: int, interface: str) -> float | None:
     return float(values[place]) if len(values) > place else None
 
 
-def _alike(one: _Row, other: _Row) -> bool:
+def _same_channels(one: _Row, other: _Row) -> bool:
     return one.sender == other.sender and [*one.values] == [*other.values]
 
 

@@ -209,7 +209,7 @@ def test_a_reset_forgets_all_readings(rig: Rig, start: Start) -> None:
     assert rig.estimates[-1].header.stamp.sec < BEGIN + 100
 
 
-def test_publishers_that_are_best_effort_are_heard_too(peer: Peer, start: Start) -> None:
+def test_publishers_that_are_best_effort_are_received_too(peer: Peer, start: Start) -> None:
     qos = QoSProfile(depth=2000, reliability=ReliabilityPolicy.BEST_EFFORT)
     rig = Rig(peer)
     peer.node.destroy_publisher(rig.joints)

@@ -45,9 +45,9 @@ _KEPT = {"event", "baseline"}  # for late subscribers
 
 class Follower(ManagedNode):
     """
-    Follows a measured gearbox: activate starts without readings, deactivate publishes the last
-    estimate.
+    Follows a measured gearbox.
 
+    `activate` starts without readings, `deactivate` uses what waits and publishes the last estimate.
     Messages are taken, used and published in a thread, so services answer while tables are
     computed.
     """

@@ -85,7 +85,7 @@ class LiveFollower:
         self._begin()
         self.behind = 0.0
         """Time that the last messages waited for this thread [s]."""
-        self._heard = time.monotonic()
+        self._advanced = time.monotonic()
         self._spoken = -math.inf
         self._stop, self._restart = threading.Event(), threading.Event()
         self._thread = threading.Thread(target=self._run, name="follower", daemon=True)
@@ -104,7 +104,7 @@ class LiveFollower:
     @property
     def silent(self) -> float:
         """Time since the last new estimate [s]."""
-        return time.monotonic() - self._heard
+        return time.monotonic() - self._advanced
 
     @property
     def refusal(self) -> str:
@@ -181,10 +181,10 @@ class LiveFollower:
         if follower.time > self.latest.time or math.isnan(self.latest.time) > math.isnan(
             follower.time
         ):
-            self._heard, self._stale = now, False
+            self._advanced, self._stale = now, False
             if now >= self._spoken + 1.0 / self._options.publish_rate - 0.5 * _TICK:
                 self._say(follower.estimate())
-        elif not self._stale and now > self._heard + self._options.sensor_timeout:
+        elif not self._stale and now > self._advanced + self._options.sensor_timeout:
             self._stale = True
             self._say(follower.estimate(now=math.inf))
 
