@@ -47,7 +47,7 @@ class Follower(ManagedNode):
     """
     Follows a measured gearbox.
 
-    `activate` starts without readings, `deactivate` uses what waits and publishes the last estimate.
+    `activate` starts without readings; `deactivate` uses what waits and publishes an estimate.
     Messages are taken, used and published in a thread, so services answer while tables are
     computed.
     """
