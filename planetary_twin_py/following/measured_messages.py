@@ -63,11 +63,12 @@ class MessageReader:
         """Convert messages.
 
         Args:
-            arrived: the messages, in the order of their arrival.
+            arrived: the messages of a short time, in the order of their arrival.
 
         Returns:
-            Their contents in the same order. Readings that follow one another with the same sender
-            and channels are one block; so are samples of encoders.
+            Their contents: readings in the same order, in one block where they follow one another
+            with the same sender and channels, then samples of encoders as one block. Which of both
+            comes first changes nothing in what a follower estimates.
 
         Raises:
             InputError: a block of encoder samples has another format than the one before, or none.
@@ -76,18 +77,19 @@ class MessageReader:
         samples: list[EncoderSamples] = []
         for one in arrived:
             if one.kind == ENCODERS:
-                yield from _together(rows)
                 samples.append(self._samples(one))
                 continue
             values = self._values(one)
             if values:
-                yield from _joined(samples)
                 row = _Row(one.sender, stamp_of(one.message), one.time, values)
                 if rows and not _same_channels(rows[-1], row):
-                    yield from _together(rows)
+                    yield _together(rows)
+                    rows = []
                 rows.append(row)
-        yield from _together(rows)
-        yield from _joined(samples)
+        if rows:
+            yield _together(rows)
+        if samples:
+            yield _joined(samples)
 
     def _values(self, one: Arrived) -> dict[str, float]:
         if one.kind == TEMPERATURE:
@@ -168,25 +170,17 @@ def _same_channels(one: _Row, other: _Row) -> bool:
     return one.sender == other.sender and [*one.values] == [*other.values]
 
 
-def _together(rows: list[_Row]) -> Iterator[Readings]:
-    """The rows as one block; takes them from the list."""
-    if not rows:
-        return
+def _together(rows: list[_Row]) -> Readings:
+    """The rows as one block."""
     columns = {name: np.array([row.values[name] for row in rows]) for name in rows[0].values}
     stamp, arrival = (np.array([row[k] for row in rows]) for k in (1, 2))
-    sender = rows[0].sender
-    rows.clear()
-    yield Readings(stamp, columns, arrival, sender)
+    return Readings(stamp, columns, arrival, rows[0].sender)
 
 
-def _joined(samples: list[EncoderSamples]) -> Iterator[EncoderSamples]:
-    """The samples as one block; takes them from the list."""
-    if not samples:
-        return
-    joined = EncoderSamples(
+def _joined(samples: list[EncoderSamples]) -> EncoderSamples:
+    """The samples as one block."""
+    return EncoderSamples(
         np.concatenate([one.sample for one in samples]),
         np.concatenate([one.counts for one in samples]),
         samples[0].format,
     )
-    samples.clear()
-    yield joined

@@ -15,6 +15,8 @@ from .follower import EncoderSamples, Readings
 from .measured_messages import JOINTS, KINDS, Arrived, MessageReader
 from .sensors import JointNames
 
+PART = 0.5  # [s] of messages that are converted at once
+
 
 def read_recording(path: Path, joints: JointNames) -> list[Readings | EncoderSamples]:
     """Read measured messages in the order in which they were recorded.
@@ -34,7 +36,12 @@ def read_recording(path: Path, joints: JointNames) -> list[Readings | EncoderSam
     if not files:
         raise ValueError(f"{path}: has no .mcap file")
     reader = MessageReader(joints)
-    found = [block for file in files for block in reader.read(_arrived(file, joints))]
+    found = [
+        block
+        for file in files
+        for part in _in_parts(_arrived(file, joints))
+        for block in reader.read(part)
+    ]
     named = (block.columns for block in found if isinstance(block, Readings))
     shafts = set(CHANNELS) - {"oil_temperature"}
     if not any(shafts & set(columns) for columns in named):
@@ -43,6 +50,17 @@ def read_recording(path: Path, joints: JointNames) -> list[Readings | EncoderSam
             f"{joints.output!r} on a topic that ends in {joints.topics!r}"
         )
     return found
+
+
+def _in_parts(arrived: Iterator[Arrived]) -> Iterator[list[Arrived]]:
+    """The messages of each short time."""
+    part: list[Arrived] = []
+    for one in arrived:
+        if part and not abs(one.time - part[0].time) < PART:
+            yield part
+            part = []
+        part.append(one)
+    yield part
 
 
 def _arrived(file: Path, joints: JointNames) -> Iterator[Arrived]:

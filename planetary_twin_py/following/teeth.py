@@ -101,6 +101,7 @@ class TeethFollower:
         self._place: dict[int, int] = {}  # of the event of a tooth
         self._unmeasured = False
         self.compliance = Compliance(self.learning)
+        self._estimates: tuple[Estimate, ...] | None = None  # since the last hunting period
 
     @property
     def counters(self) -> EncoderCounters:
@@ -139,6 +140,7 @@ class TeethFollower:
     def _judge(self, block: HuntingBlock, torque: float) -> None:
         self.blocks += 1
         speed = 2.0 * math.pi * block.rate / abs(float(self.train.cycles))
+        self._estimates = None
         self.compliance.add(block.segment, torque, speed, block.mean)
         if not math.isfinite(torque):
             torque, self._unmeasured = self.scene.operating_point.input_torque, True
@@ -335,6 +337,11 @@ class TeethFollower:
 
     def estimates(self) -> tuple[Estimate, ...]:
         """Compliance, and changes of compliance and play since the baseline."""
+        if self._estimates is None:
+            self._estimates = self._of_compliance()
+        return self._estimates
+
+    def _of_compliance(self) -> tuple[Estimate, ...]:
         remedy = "a load that varies by some percent"
         line, both = self.compliance.present, self.compliance.both
         per_input = 1.0 / (self.train.lever * abs(float(self.train.twist[0])))

@@ -16,6 +16,7 @@ from planetary_twin_py.following.estimate import Event
 from planetary_twin_py.following.follower import Following
 from planetary_twin_py.following.train import followed_train
 
+from .beside import TwinBeside
 from .follower_messages import (
     baseline_message,
     estimate_message,
@@ -57,6 +58,7 @@ class Follower(ManagedNode):
         declare_options(self)
         self._options = options_of(self)
         self._intake: Intake | None = None
+        self._beside: TwinBeside | None = None
         self._live: LiveFollower | None = None
         self._outlets: dict[str, LifecyclePublisher] = {}
         self._sequence: dict[str, int] = {}
@@ -71,7 +73,10 @@ class Follower(ManagedNode):
         """Load the scene and the sensors, and create publishers and subscriptions."""
         self._options = options_of(self)
         self._options.follower()  # refuses a scene that cannot be followed
-        self._teeth = list(followed_train(self._options.scene).teeth.values())
+        train = followed_train(self._options.scene)
+        self._teeth = list(train.teeth.values())
+        if self._options.twin:
+            self._beside = TwinBeside(self, self._options.twin, train)
         for name, kind in _KINDS.items():
             qos = _LATCHED if name in _KEPT else QoSProfile(depth=100)
             self._outlets[name] = self.create_lifecycle_publisher(kind, f"~/{name}", qos)
@@ -104,6 +109,9 @@ class Follower(ManagedNode):
         if self._intake is not None:
             self._intake.close()
             self._intake = None
+        if self._beside is not None:
+            self._beside.close()
+            self._beside = None
         for publisher in self._outlets.values():
             self.destroy_lifecycle_publisher(publisher)
         self._outlets = {}
@@ -120,6 +128,8 @@ class Follower(ManagedNode):
         self._send("estimate", estimate_message(following, frame, self._next("estimate")))
         self._send("residuals", residuals_message(following, frame, self._next("residuals")))
         self._announce(following)
+        if self._beside is not None:
+            self._beside.follow(following)
         periods = following.counters.get("hunting_periods", 0)
         if periods != self._periods:
             self._periods = periods

@@ -32,6 +32,7 @@ class FollowerOptions:
     reset_on_time_jump: bool
     frame: str
     hardware: str
+    twin: str
 
     def follower(self) -> pt.Follower:
         """Return a follower without any readings so far."""
@@ -74,6 +75,9 @@ def declare_options(node: ParameterNode) -> None:
     declare_fixed(
         node, "hardware_id", "", "serial number of the gearbox; empty: the namespace of the node"
     )
+    declare_fixed(
+        node, "twin", "", "simulation that is set to the estimates once a second; empty: none"
+    )
     declare_changing(
         node, "friction_limit", 2.0, (1.0, 100.0),
         "friction level whose interval above it is an error in /diagnostics [-]",
@@ -113,4 +117,5 @@ def options_of(node: Node) -> FollowerOptions:
         value["reset_on_time_jump"],
         value["frame_id"],
         value["hardware_id"] or node.get_namespace(),
+        value["twin"],
     )

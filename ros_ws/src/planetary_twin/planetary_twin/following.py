@@ -14,7 +14,7 @@ from planetary_twin_py.following.measured_messages import Arrived, MessageReader
 
 from .follower_parameters import FollowerOptions
 
-_TICK = 0.02  # [s] between two looks for messages
+_TICK = 0.04  # [s] between two looks for messages
 _DISCOVERY = 0.2  # [s] between two looks for publishers
 _JUMP = 1.0  # [s] by which stamps go back in a jump
 _JUMPED = 5  # messages in a row

@@ -39,10 +39,15 @@ class _Inlet:
         self.name, self.kind = node.resolve_topic_name(topic), kind
         self._node, self._class, self._group = node, message_class(kind), group
         self._subscription = self._subscribed(_ANY)
+        self._matched = 0  # publishers whose offers are known
 
     def follow_publishers(self) -> list[tuple[int, Any]]:
         """Renew the subscription if publishers offer another reliability; returns what waited."""
+        matched = self._node.count_publishers(self.name)
+        if matched == self._matched:
+            return []
         publishers = self._node.get_publishers_info_by_topic(self.name)
+        self._matched = matched if len(publishers) == matched else 0
         if not publishers:
             return []
         offered = matching_qos(publishers).reliability

@@ -1,4 +1,4 @@
-"""A play of a plant beside a follower, from the start of the processes to a finished recording."""
+"""A play of a plant, a follower and a twin beside it, from their start to a finished recording."""
 
 from __future__ import annotations
 
@@ -61,7 +61,7 @@ def _run(plan: PlantPlan, console: Console) -> Followed:
             if plant.stop() != 0:
                 raise RunError(plant.last_line() or "plant: ended with an error")
             listener.finish()
-            for node in nodes:
+            for node in reversed(nodes):
                 if node.stop() != 0:
                     raise RunError(node.last_line() or f"{node.node}: ended with an error")
         if listener.estimate is None or listener.begin is None:
@@ -74,10 +74,12 @@ def _parameters(plan: PlantPlan) -> dict[str, dict[str, object]]:
     """Return the parameters of the nodes, in the order of their start."""
     given = {"scene": plan.scene}
     logger = {"directory": plan.folder.parent.absolute(), "name": plan.folder.name}
+    sensors = {"sensors": plan.sensors} if plan.sensors else {}
     plant = {"duration": float(plan.duration), "wait_for": "[follower, logger]"}
     return {
         "logger": given | logger,
-        "follower": given | ({"sensors": plan.sensors} if plan.sensors else {}),
+        "simulation": given | {"wait_for": "logger"},
+        "follower": given | {"twin": "simulation"} | sensors,
         "plant": given | plant | ({"hidden": plan.hidden} if plan.hidden else {}),
     }
 
