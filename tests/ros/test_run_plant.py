@@ -23,6 +23,18 @@ sensors:
 changes: [{at: 6 s, friction: 1.5}]
 """
 
+CRACK = """
+duty: {torque_wander: 0.02}
+sensors:
+  input_torque: {noise: 0.1 N m, zero: 0.03 N m, gain: 5e-4}
+  output_torque: {noise: 0.25 N m}
+  speed_noise: 0.02 rad/s
+  encoders: {rate: 20 kHz, lost: 0.003}
+changes:
+  - at: 25 s
+    faults: [{kind: crack, gear: sun, tooth: 7, stiffness_loss: 0.01}]
+"""
+
 Run = Callable[..., subprocess.Popen[str]]
 
 
@@ -57,6 +69,28 @@ def test_a_hidden_change_is_found_shown_and_recorded(run: Run, tmp_path: Path) -
     assert recorded[f"{TWIN}/measured/joint_states"] == 1000
     assert recorded[f"{TWIN}/follower/estimate"] > 50
     assert recorded[f"{TWIN}/follower/event"] >= 1
+
+
+@pytest.mark.exhaustive
+def test_a_crack_of_one_percent_is_found_in_four_seconds(run: Run, tmp_path: Path) -> None:
+    (tmp_path / "crack.yaml").write_text(CRACK)
+    process = run("--hidden", "crack.yaml", "--duration", "33", "--json", "out.json")
+    _, errors = process.communicate(timeout=5 * LONG)
+    assert process.returncode == 0, errors
+    (crack,) = json.loads((tmp_path / "out.json").read_text())["events"]
+    assert crack["what"] == "sun tooth 7 changed"
+    assert 25.0 < crack["found"] < 29.0
+    assert crack["low"] < 0.01 < crack["high"]
+
+
+@pytest.mark.exhaustive
+def test_a_healthy_gearbox_raises_nothing_in_two_minutes(run: Run, tmp_path: Path) -> None:
+    (tmp_path / "healthy.yaml").write_text(CRACK.partition("changes:")[0])
+    process = run("--hidden", "healthy.yaml", "--duration", "120", "--json", "out.json")
+    _, errors = process.communicate(timeout=5 * LONG)
+    assert process.returncode == 0, errors
+    figures = json.loads((tmp_path / "out.json").read_text())
+    assert figures["events"] == [] and figures["teeth"] == []
 
 
 def test_an_interrupt_leaves_a_finished_recording(run: Run, peer: Peer, tmp_path: Path) -> None:
