@@ -33,6 +33,8 @@ if TYPE_CHECKING:
     from .batch import Outcome, simulate_many
     from .commands import Commands
     from .dynamics_choice import DynamicsChoice, choose_dynamics
+    from .following.balance_filter import Innovation
+    from .following.baseline import LearnedCell
     from .following.checks import InputError
     from .following.estimate import Estimate, Event
     from .following.follower import (
@@ -82,6 +84,8 @@ _EXPORTS = {
     "dynamics_choice": ("DynamicsChoice", "choose_dynamics"),
     "commands": ("Commands",),
     "batch": ("Outcome", "simulate_many"),
+    "following.balance_filter": ("Innovation",),
+    "following.baseline": ("LearnedCell",),
     "following.checks": ("InputError",),
     "following.estimate": ("Estimate", "Event"),
     "following.follower": (
@@ -123,7 +127,9 @@ __all__ = [
     "Event",
     "Follower",
     "Following",
+    "Innovation",
     "InputError",
+    "LearnedCell",
     "LedgerWarning",
     "Line",
     "LoadSharing",

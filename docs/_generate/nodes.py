@@ -8,8 +8,10 @@ from tempfile import TemporaryDirectory
 os.environ["ROS_AUTOMATIC_DISCOVERY_RANGE"] = "OFF"
 
 import rclpy
+from planetary_twin.follower import Follower
 from planetary_twin.logger import Logger
 from planetary_twin.parameters import changes
+from planetary_twin.plant import Plant
 from planetary_twin.replay import Replay
 from planetary_twin.simulation import Simulation
 from rcl_interfaces.msg import ParameterDescriptor, ParameterType
@@ -17,7 +19,13 @@ from rclpy.lifecycle import TransitionCallbackReturn
 from rclpy.node import Node
 from rclpy.parameter import Parameter
 
-_NODES = {"simulation": Simulation, "logger": Logger, "replay": Replay}
+_NODES = {
+    "simulation": Simulation,
+    "logger": Logger,
+    "replay": Replay,
+    "follower": Follower,
+    "plant": Plant,
+}
 _TYPES = {
     value: name.removeprefix("PARAMETER_").lower().replace("_", " ")
     for name, value in vars(ParameterType).items()

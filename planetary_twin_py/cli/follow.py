@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
+from datetime import UTC, datetime
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -21,6 +22,8 @@ if TYPE_CHECKING:
     from ..following.follower import EncoderFormat, EncoderSamples, Follower, Following, Readings
     from ..following.sensors import Sensors
 
+EPOCH = 1e8  # [s] above this, stamps count from 1970
+
 
 def follow(
     scene: SceneArgument,
@@ -30,7 +33,7 @@ def follow(
             "--from",
             metavar="FILE",
             help="Readings: a .csv or .parquet table, or a recording (.mcap or its folder) with "
-            "JointState, DynamicJointState and Temperature messages.",
+            "JointState, DynamicJointState, Temperature and EncoderBlock messages.",
         ),
     ],
     encoders: Annotated[
@@ -123,7 +126,7 @@ def _factors(given: list[str]) -> dict[str, float]:
     return found
 
 
-def _readings(path: Path, sensors: Sensors) -> list[Readings]:
+def _readings(path: Path, sensors: Sensors) -> list[Readings | EncoderSamples]:
     if path.suffix in (".csv", ".parquet"):
         from ..following.measured_tables import read_readings
 
@@ -145,7 +148,7 @@ def _samples(path: Path | None, shape: EncoderFormat | None) -> EncoderSamples |
 def _show(console: Console, follower: Follower, said: Following) -> None:
     from rich.table import Table
 
-    table = Table(title=f"{follower.scene.name}, {said.time:g} s")
+    table = Table(title=f"{follower.scene.name}, {_instant(said.time)}")
     for heading in ("quantity", "estimate", "95 % interval", "unit", "status", "what would tell"):
         table.add_column(heading, justify="left" if heading == "what would tell" else "right")
     for one in said.estimates:
@@ -161,13 +164,20 @@ def _show(console: Console, follower: Follower, said: Following) -> None:
         remark(f"warning: {line}")
 
 
+def _instant(time: float) -> str:
+    """A stamp in words: in UTC, if it counts from 1970."""
+    if not time > EPOCH:
+        return f"{time:.1f} s"
+    return datetime.fromtimestamp(time, UTC).strftime("%Y-%m-%d %H:%M:%S.%f")[:-5]
+
+
 def _in_words(said: Following) -> Iterator[str]:
     """Events and teeth, a line each."""
     if not said.events:
         yield "no change found"
     for event in said.events:
         causes = f"; {' or '.join(event.causes)}" if event.causes else ""
-        since = f"since {event.since:.1f} s, found at {event.found:.1f} s"
+        since = f"since {_instant(event.since)}, found at {_instant(event.found)}"
         yield f"{event.what}: {event.evidence}; {since}{causes}"
     for tooth in said.teeth:
         loss = tooth.loss

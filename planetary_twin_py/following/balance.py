@@ -118,7 +118,8 @@ class BalanceFollower:
         self._last: tuple[float, float] | None = None  # time and speed
         self._scatter = math.nan  # mean square deviation of a speed reading
         self._oil = self.train.oil_temperature
-        self._operating = (0.0, self.train.oil_temperature)
+        self.operating = (math.nan, self.train.oil_temperature)
+        """Speed of the input [rad/s], NaN before one is measured, and oil temperature [K]."""
         self._torques: deque[tuple[float, float]] = deque(maxlen=KEPT)  # end of bin, torque
 
     @property
@@ -157,7 +158,7 @@ class BalanceFollower:
         if math.isfinite(read.input_torque):
             self._torques.append((self.time, read.input_torque))
         if math.isfinite(read.speed):
-            self._operating = read.speed, read.oil_temperature
+            self.operating = read.speed, read.oil_temperature
         innovation = self._wide.update(read)
         slow = self._slow.update(read)
         if innovation is None or slow is None:
@@ -221,9 +222,9 @@ class BalanceFollower:
         return slope, 0.3 * abs(slope)  # it belongs to half a bin earlier
 
     def _alarm(self, step: Step) -> None:
-        sense = math.copysign(1.0, self._operating[0])
+        sense = math.copysign(1.0, self.operating[0])
         size = estimated("loss_torque_step", sense * step.size, step.sd, "N m")
-        loss = self._losses(float(self._slow.x[T]), *self._operating).teeth
+        loss = self._losses(float(self._slow.x[T]), *self.operating).teeth
         share = f", {100.0 * size.value / loss:.3g} % of the scene's tooth friction" if loss else ""
         evidence = f"{size.value:+.3g} +- {CONFIDENT * size.sd:.2g} N m{share}"
         attribution = Attribution(step.found)
@@ -248,6 +249,11 @@ class BalanceFollower:
         attribution.add(read.time, innovation.value, innovation.sd, loss, sign)
         if self.events[place].causes != attribution.causes:
             self.events[place] = replace(self.events[place], causes=attribution.causes)
+
+    @property
+    def scatter(self) -> float:
+        """Standard deviation of innovations over that of the sensors' noise, at least 1."""
+        return math.sqrt(self._wide.excess)
 
     @property
     def friction_level(self) -> float:
@@ -283,7 +289,7 @@ class BalanceFollower:
             yield not_identifiable("loss_torque", sd, "N m", "readings of both torques")
             return
         yield estimated("input_torque", float(wide.x[T]), sd, "N m")
-        speed, oil = self._operating
+        speed, oil = self.operating
         if self.innovation is None or abs(speed) <= STANDSTILL * self.train.speed:
             yield not_identifiable(
                 "loss_torque", math.nan, "N m", "both torques while the train turns"
@@ -294,10 +300,9 @@ class BalanceFollower:
 
     def remarks(self) -> Iterator[str]:
         """What makes the estimates less certain, a line each."""
-        excess = math.sqrt(self._wide.excess)
-        if excess > NOISY:
+        if self.scatter > NOISY:
             yield (
-                f"the balance scatters {excess:.1f} times as much as the noise of the torque "
+                f"the balance scatters {self.scatter:.1f} times as much as the noise of the torque "
                 "sensors; intervals are widened accordingly"
             )
         if self._cusum.held:

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, field
+from hashlib import sha256
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -15,6 +17,23 @@ Array = NDArray[np.float64]
 
 SEEN = 1.5  # power of a change of losses with the torque over that of noise alone
 CELL = 0.1  # relative distance of torque and speed within which blocks share a baseline
+
+
+class LearnedCell(NamedTuple):
+    """What is learned at similar torque and speed."""
+
+    torque: float
+    """Mean of the first hunting period at the input [N m]."""
+    speed: float
+    """Likewise, of the input [rad/s]."""
+    segment: int
+    """Of the encoders: counts losses of their turns."""
+    periods: int
+    """Hunting periods so far."""
+    needed: int
+    """Hunting periods of a baseline."""
+    digest: str
+    """Of the baseline, once it is learned; empty before."""
 
 
 @dataclass
@@ -44,6 +63,8 @@ class Baseline:
     """Whether it was learned with changed teeth, whose amounts were taken off."""
     slope: Array | None = None
     """Change of the deviation over the torque [m/(N m)], (cycles, BINS); None if it has none."""
+    digest: str = ""
+    """Of the mean and its scatter, once learned."""
     _centre: float = 0.0  # mean torque of its blocks [N m]
     _spread: float = 1.0  # sum of squares of their torques about it [N m^2]
     _blocks: list[tuple[HuntingBlock, float]] = field(default_factory=list)
@@ -70,6 +91,13 @@ class Baseline:
     def learned(self) -> bool:
         """Whether blocks can be judged."""
         return self.mean is not None
+
+    @property
+    def summary(self) -> LearnedCell:
+        """What is learned so far."""
+        return LearnedCell(
+            self.torque, self.speed, self.segment, self.count, self.needed, self.digest
+        )
 
     def learn(self, block: HuntingBlock, torque: float) -> None:
         """Take a block; the last one needed makes the baseline.
@@ -106,6 +134,7 @@ class Baseline:
         variance = np.mean(np.square(losses) / (1.0 - leverage[:, None]), axis=0)
         gears = range(len(self.bank.gears))
         self.sd = np.sqrt([np.mean(variance[self.bank.gear_of == g]) for g in gears])
+        self.digest = sha256(self.mean.tobytes() + self.sd.tobytes()).hexdigest()[:16]
         self._blocks.clear()
 
     def _losses(self, left: Array, there: NDArray[np.bool_]) -> Array:

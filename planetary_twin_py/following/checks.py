@@ -19,6 +19,7 @@ LOADED = 0.2  # of the torque of the scene, below which torques are not compared
 SMALL = 0.05  # of the torque of the scene, below which a unit may be a thousand times too large
 MOVING = 0.05  # of the speed of the scene, below which speeds are not compared
 CELSIUS = 200.0  # below this, a temperature is not in kelvin
+HOTTEST = 475.0  # [K] above this, kelvin was taken for degrees Celsius
 
 
 class InputError(ValueError):
@@ -76,6 +77,11 @@ class Checks:
             raise InputError(
                 f"oil_temperature = {value:.4g}: must be in kelvin; this is probably degC, write "
                 "oil_temperature [degC] as the heading"
+            )
+        if value > HOTTEST:
+            raise InputError(
+                f"oil_temperature = {value:.4g} K: must be at most {HOTTEST:g}; messages are in "
+                "degrees Celsius by definition, and this sender is probably in kelvin"
             )
 
     def _faults(self) -> Iterator[str]:

@@ -12,7 +12,10 @@ from numpy.typing import NDArray
 
 from ..scene import Scene
 from .balance import PERIOD, BalanceFollower
+from .balance_filter import Innovation
+from .baseline import LearnedCell
 from .bins import CHANNELS
+from .checks import InputError
 from .clock_watch import ClockWatch
 from .estimate import Estimate, Event
 from .sensors import Sensors
@@ -37,15 +40,6 @@ class Readings(NamedTuple):
     """Whose clock the stamps are of."""
 
 
-class EncoderSamples(NamedTuple):
-    """Counts of two encoders, in the order of their arrival."""
-
-    sample: NDArray[np.int64]
-    """Numbers of the samples, (n,): times in sample periods."""
-    counts: NDArray[np.int64]
-    """Of the encoders on the input and the output member, whole turns included, (n, 2)."""
-
-
 class EncoderFormat(NamedTuple):
     """Encoders on the members of input and output, read by one device."""
 
@@ -53,6 +47,17 @@ class EncoderFormat(NamedTuple):
     """Of input and output."""
     period: float
     """Of the samples [s]."""
+
+
+class EncoderSamples(NamedTuple):
+    """Counts of two encoders, in the order of their arrival."""
+
+    sample: NDArray[np.int64]
+    """Numbers of the samples, (n,): times in sample periods."""
+    counts: NDArray[np.int64]
+    """Of the encoders on the input and the output member, whole turns included, (n, 2)."""
+    format: EncoderFormat | None = None
+    """Of these encoders; None: as stated to the follower."""
 
 
 @dataclass(frozen=True)
@@ -71,6 +76,17 @@ class Following:
     """What has become of readings and samples."""
     remarks: tuple[str, ...]
     """What makes the estimates less certain than they look."""
+    operating: tuple[float, float]
+    """Speed of the input [rad/s], NaN before one is measured, and oil temperature [K]."""
+    innovation: Innovation | None
+    """Of the last bin; None before one has both torques and a speed."""
+    scatter: float
+    """Standard deviation of innovations over that of the sensors' noise, at least 1."""
+    every_z: tuple[float, ...]
+    """Standard deviations with which every tooth stands out in the last hunting period: sun, each
+    planet, ring; empty while a baseline is being learned."""
+    cells: tuple[LearnedCell, ...]
+    """What is learned of the teeth."""
 
     def __getitem__(self, name: str) -> Estimate:
         """Estimate of a quantity."""
@@ -87,7 +103,7 @@ class Follower:
     Args:
         scene: of the gearbox, with one input.
         sensors: what is known of the torque sensors.
-        encoders: of the samples; None: there are none.
+        encoders: of the samples; None: the first samples state it, or there are none.
         scale: factors on the readings, by channel, for other units and signs.
         period: length of the bins over which readings are averaged [s].
 
@@ -114,6 +130,16 @@ class Follower:
         if self.encoders is not None:
             self._teeth = TeethFollower(self.scene, *self.encoders, self.sensors.learning)
 
+    @property
+    def time(self) -> float:
+        """Stamp of the last reading that is used [s]; NaN before the first."""
+        return self._balance.time
+
+    @property
+    def hunting_periods(self) -> int:
+        """Hunting periods that have been judged."""
+        return 0 if self._teeth is None else self._teeth.blocks
+
     def add(self, block: Readings | EncoderSamples) -> None:
         """Take readings or samples.
 
@@ -125,13 +151,22 @@ class Follower:
             ValueError: there is an unknown channel, or samples without a format of the encoders.
         """
         if isinstance(block, EncoderSamples):
-            if self._teeth is None:
-                raise ValueError("encoders: their counts per turn and their period are missing")
-            self._teeth.add(block.sample, block.counts)
+            self._teeth_of(block).add(block.sample, block.counts)
         else:
             self._read(block)
         if self._teeth is not None and math.isfinite(self._balance.time):
             self._teeth.judge(self._balance.time, self._balance.torque_between)
+
+    def _teeth_of(self, block: EncoderSamples) -> TeethFollower:
+        """The follower of the teeth, with the format that the first samples state."""
+        if self._teeth is None:
+            if block.format is None:
+                raise ValueError("encoders: their counts per turn and their period are missing")
+            self.encoders = block.format
+            self._teeth = TeethFollower(self.scene, *self.encoders, self.sensors.learning)
+        if block.format not in (None, self.encoders):
+            raise InputError(f"encoders: {block.format}: must be {self.encoders} as before")
+        return self._teeth
 
     def finish(self) -> None:
         """Use what is still waiting, at the end of a recording.
@@ -170,6 +205,8 @@ class Follower:
             balance.time, estimates, () if teeth is None else teeth.teeth,
             tuple(sorted(events, key=lambda event: event.found)), counters,
             (*balance.remarks(), *self._clocks.remarks(), *self._of_teeth()),
+            balance.operating, balance.innovation, balance.scatter,
+            () if teeth is None else teeth.every_z, () if teeth is None else teeth.cells,
         )  # fmt: skip
 
     def _read(self, block: Readings) -> None:

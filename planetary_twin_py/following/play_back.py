@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator, Sequence
 
 import numpy as np
@@ -12,14 +13,17 @@ EVERY = 1.0  # [s] from one note to the next
 
 
 def play_back(
-    follower: Follower, readings: Sequence[Readings], samples: EncoderSamples | None
+    follower: Follower,
+    blocks: Sequence[Readings | EncoderSamples],
+    samples: EncoderSamples | None,
 ) -> Iterator[Following]:
     """Feed a follower second by second.
 
     Args:
         follower: without any readings so far.
-        readings: in the order of their arrival.
-        samples: of the encoders; None: there are none.
+        blocks: in the order of their arrival.
+        samples: of the encoders, which are fed beside the readings by their times; None: there
+            are none, or they are among the blocks.
 
     Returns:
         What is said after each second, and at last after all.
@@ -27,15 +31,20 @@ def play_back(
     Raises:
         InputError: readings cannot be those of the gearbox.
     """
-    place = 0
-    for part in readings:
-        for rows, until in _seconds(part):
-            columns = {name: values[rows] for name, values in part.columns.items()}
-            arrival = None if part.arrival is None else part.arrival[rows]
-            follower.add(Readings(part.time[rows], columns, arrival, part.sender))
+    place, noted = 0, -math.inf
+    for block in blocks:
+        if isinstance(block, EncoderSamples):
+            follower.add(block)
+            continue
+        for rows, until in _seconds(block):
+            columns = {name: values[rows] for name, values in block.columns.items()}
+            arrival = None if block.arrival is None else block.arrival[rows]
+            follower.add(Readings(block.time[rows], columns, arrival, block.sender))
             if samples is not None and follower.encoders is not None:
                 place = _feed(follower, follower.encoders, samples, (place, until))
-            yield follower.estimate()
+            if follower.time > noted + EVERY - 0.5 * follower.period:
+                noted = follower.time
+                yield follower.estimate()
     if samples is not None:
         follower.add(EncoderSamples(samples.sample[place:], samples.counts[place:]))
     follower.finish()

@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..scene import Scene, SceneError
-from .baseline import Baseline
+from .baseline import Baseline, LearnedCell
 from .compliance import Compliance
 from .estimate import CONFIDENT, Estimate, Event, Status, estimated, not_identifiable
 from .hunting_blocks import EncoderCounters, HuntingBlock, HuntingBlocks
@@ -79,6 +79,9 @@ class TeethFollower:
     """Teeth that have changed."""
     blocks: int = field(init=False, default=0)
     """Hunting periods so far."""
+    every_z: tuple[float, ...] = field(init=False, default=())
+    """Standard deviations with which every tooth stands out in the last hunting period; empty
+    while a baseline is being learned."""
 
     def __post_init__(self) -> None:
         first, second = self.counts_per_turn
@@ -98,11 +101,17 @@ class TeethFollower:
         self._place: dict[int, int] = {}  # of the event of a tooth
         self._unmeasured = False
         self.compliance = Compliance(self.learning)
+        self._estimates: tuple[Estimate, ...] | None = None  # since the last hunting period
 
     @property
     def counters(self) -> EncoderCounters:
         """What has become of the samples."""
         return self._hunting.counters
+
+    @property
+    def cells(self) -> tuple[LearnedCell, ...]:
+        """What is learned, by operating cell."""
+        return tuple(cell.summary for cell in self._cells)
 
     def add(self, sample: Counts, counts: Counts) -> None:
         """Take samples in the order of their arrival.
@@ -131,6 +140,7 @@ class TeethFollower:
     def _judge(self, block: HuntingBlock, torque: float) -> None:
         self.blocks += 1
         speed = 2.0 * math.pi * block.rate / abs(float(self.train.cycles))
+        self._estimates = None
         self.compliance.add(block.segment, torque, speed, block.mean)
         if not math.isfinite(torque):
             torque, self._unmeasured = self.scene.operating_point.input_torque, True
@@ -140,6 +150,7 @@ class TeethFollower:
             self._cell = place
             self._recent.clear()
         if not cell.learned:
+            self.every_z = ()
             self._follow_known(block, torque, place)
             cell.learn(block, torque)
             if cell.learned:
@@ -183,7 +194,10 @@ class TeethFollower:
             if count > len(self._recent):
                 break
             sd = own * cell.noise(torques[-count:])
-            z = float(np.max(products[count - 1] / squares[count - 1] / sd))
+            every = products[count - 1] / squares[count - 1] / sd
+            if count == 1:
+                self.every_z = tuple(every.tolist())
+            z = float(np.max(every))
             if z > best:
                 best, window = z, count
         if best < ALARM:
@@ -323,6 +337,11 @@ class TeethFollower:
 
     def estimates(self) -> tuple[Estimate, ...]:
         """Compliance, and changes of compliance and play since the baseline."""
+        if self._estimates is None:
+            self._estimates = self._of_compliance()
+        return self._estimates
+
+    def _of_compliance(self) -> tuple[Estimate, ...]:
         remedy = "a load that varies by some percent"
         line, both = self.compliance.present, self.compliance.both
         per_input = 1.0 / (self.train.lever * abs(float(self.train.twist[0])))

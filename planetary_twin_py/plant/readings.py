@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..following.loss_map import loss_map
-from ..following.train import followed_train
+from ..following.train import FollowedTrain, followed_train
 from ..scene import Scene
 from .course import Course, draw_course
 from .hidden import Hidden
@@ -37,9 +37,14 @@ class Plant:
         return self.scene.replace(**self.hidden.scene)
 
     @cached_property
+    def train(self) -> FollowedTrain:
+        """The train with the laws of the plant."""
+        return followed_train(self.true_scene)
+
+    @cached_property
     def course(self) -> Course:
         """Of torque and speed."""
-        train = followed_train(self.true_scene)
+        train = self.train
         chance = np.random.default_rng([self.hidden.seed, 0])
         hidden = self.hidden
         return draw_course(hidden.duty, hidden.changes, train, self.duration, chance)
@@ -75,7 +80,7 @@ def play_readings(plant: Plant) -> tuple[Array, dict[str, Array]]:
     Returns:
         Stamps [s], (n,), and readings in SI by channel, (n,) each, NaN where they are lost.
     """
-    train, course = followed_train(plant.true_scene), plant.course
+    train, course = plant.train, plant.course
     sensors = plant.hidden.sensors
     time = np.arange(1, int(plant.duration * sensors.rate) + 1) / sensors.rate
     torque, speed = course.torque_at(time), course.speed_at(time)

@@ -64,3 +64,10 @@ def test_good_readings_pass(readings):
     follower.finish()
     counters = follower.estimate().counters
     assert counters["used"] + counters["outlying"] == 5 * 800
+
+
+def test_kelvin_taken_for_degrees_celsius_is_named(readings):
+    time, columns = readings
+    warm = np.full(len(time), 343.15 + 273.15)
+    with pytest.raises(InputError, match="this sender is probably in kelvin"):
+        Follower(paper()).add(Readings(time, columns | {"oil_temperature": warm}))

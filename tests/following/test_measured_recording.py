@@ -1,9 +1,14 @@
 """Measured joint states and temperatures of a recording."""
 
+from types import SimpleNamespace
+
 import numpy as np
 import pytest
 from mcap_ros2.writer import Writer
 
+from planetary_twin_py.following.checks import InputError
+from planetary_twin_py.following.follower import EncoderFormat
+from planetary_twin_py.following.measured_messages import ENCODERS, Arrived, MessageReader
 from planetary_twin_py.following.measured_recording import read_recording
 from planetary_twin_py.following.sensors import JointNames
 
@@ -97,3 +102,34 @@ def test_what_is_no_recording_is_refused(tmp_path):
     text.write_text("time,torque\n")
     with pytest.raises(ValueError, match="is not a readable recording"):
         read_recording(text, JOINTS)
+
+
+def block(first, stamp, counts=2**20):
+    """A block of two samples at 20 kHz."""
+    seconds, part = divmod(round(stamp * 1e9), 10**9)
+    header = SimpleNamespace(stamp=SimpleNamespace(sec=seconds, nanosec=part))
+    message = SimpleNamespace(
+        header=header, first_sample=first, sample_period=5e-5, input_counts_per_turn=counts,
+        output_counts_per_turn=2**18, input_counts=[10, 11], output_counts=[-4, -5],
+    )  # fmt: skip
+    return Arrived("/rig/encoders", ENCODERS, stamp, message)
+
+
+def test_encoder_blocks_are_numbered_from_their_stamps_and_keep_the_numbers_of_the_device():
+    reader = MessageReader(JOINTS)
+    (samples,) = reader.read([block(700, 1000.0), block(704, 1000.00025)])  # the stamp is late
+    begin = round(1000.0 / 5e-5)
+    assert list(samples.sample - begin) == [0, 1, 4, 5]
+    assert samples.counts.tolist() == [[10, -4], [11, -5]] * 2
+    assert samples.format == EncoderFormat((2**20, 2**18), 5e-5)
+    (later,) = reader.read([block(0, 1003.0)])  # the device has restarted
+    assert list(later.sample) == [round(1003.0 / 5e-5) + n for n in (0, 1)]
+
+
+def test_encoder_blocks_of_another_format_are_refused():
+    reader = MessageReader(JOINTS)
+    list(reader.read([block(0, 1.0)]))
+    with pytest.raises(InputError, match="must be 1048576, 262144, 5e-05 s as in the blocks"):
+        list(reader.read([block(2, 1.0001, counts=4096)]))
+    with pytest.raises(InputError, match="must be at least 1"):
+        list(MessageReader(JOINTS).read([block(0, 1.0, counts=0)]))

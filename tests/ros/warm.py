@@ -1,7 +1,9 @@
 """Imports and loads what nodes need at their start, in the process from which tests fork them."""
 
 import planetary_twin.composed
+import planetary_twin.follower
 import planetary_twin.logger
+import planetary_twin.plant
 import planetary_twin.replay
 import planetary_twin.simulation  # noqa: F401
 

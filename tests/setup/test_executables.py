@@ -6,6 +6,8 @@ import subprocess
 import sys
 from pathlib import Path
 
+import pytest
+
 PACKAGE = Path(__file__).parents[2] / "ros_ws/src/planetary_twin"
 FOLDER = Path(sys.prefix, "lib/planetary_twin")
 
@@ -33,9 +35,10 @@ def test_no_program_of_the_system_is_hidden() -> None:
     assert "planetary-twin" in on_the_path
 
 
-def test_the_launch_file_starts_executables_that_exist() -> None:
-    launch = PACKAGE / "launch/twin.launch.py"
-    started = re.findall(r'_node\("(\w+)"', launch.read_text(encoding="utf-8"))
+@pytest.mark.parametrize("name", ["twin", "follow"])
+def test_the_launch_file_starts_executables_that_exist(name: str) -> None:
+    launch = PACKAGE / f"launch/{name}.launch.py"
+    started = re.findall(r'_node\(\s*"(\w+)"', launch.read_text(encoding="utf-8"))
     assert started
     assert set(started) <= {path.name for path in FOLDER.iterdir()}
     assert all(os.access(path, os.X_OK) for path in FOLDER.iterdir())

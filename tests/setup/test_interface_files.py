@@ -9,7 +9,7 @@ SPEC = Path(__file__).parents[2] / "msgs_spec"
 MESSAGES = sorted(SPEC.glob("msg/*.msg"))
 FILES = MESSAGES + sorted(SPEC.glob("srv/*.srv"))
 FIELD = re.compile(r"^(?P<type>[\w/\[\]<=]+)\s+(?P<name>\w+)\s*(?:#\s*(?P<comment>.*))?$")
-UNIT = re.compile(r"\[(-|m|s|rad|rad/s|N|N m|W|Hz|K)\]")
+UNIT = re.compile(r"\[(-|m|s|rad|rad/s|rad/\(N m\)|N|N m|kg m\^2|W|Hz|K)\]")
 
 
 def fields(path):
@@ -30,7 +30,8 @@ def test_every_field_is_explained(path):
 
 @pytest.mark.parametrize("path", FILES, ids=name)
 def test_every_real_number_has_its_unit(path):
-    unitless = {"values"}  # of SetOperatingPoint: each has the unit of the quantity it names
+    # In SetOperatingPoint each has the unit of the quantity it names; an event states its own.
+    unitless = {"values", "size", "size_sd", "size_low", "size_high"}
     numbers = [f for f in fields(path) if f["type"].startswith("float")]
     missing = [f["name"] for f in numbers if not UNIT.match(f["comment"])]
     assert set(missing) <= unitless

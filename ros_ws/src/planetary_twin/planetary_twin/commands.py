@@ -5,7 +5,7 @@ from __future__ import annotations
 import signal
 from collections.abc import Mapping
 from pathlib import Path
-from typing import Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
@@ -18,8 +18,12 @@ from planetary_twin_py.terminal.settings import changed_scene, settings
 
 from .pacing import check_rate_factor
 
+if TYPE_CHECKING:
+    from .running.plant_session import PlantPlan
+
 RECORDINGS = Path("recordings")
 SHORTEST = 0.1  # [s] shortest run
+LONGEST_PLAY = 86_400.0  # [s] of a plant
 PointOption = Annotated[
     list[str] | None,
     typer.Option(
@@ -30,7 +34,7 @@ PointOption = Annotated[
 ]
 
 
-def run(
+def run(  # noqa: PLR0913 (options of the command line)
     scene: SceneArgument = "paper",
     duration: Annotated[
         float, typer.Option(help="Simulated time; inf: until Ctrl-C.", **SECONDS)
@@ -48,10 +52,27 @@ def run(
     tour: Annotated[
         bool, typer.Option(help="Change the operating point during the run, as a demonstration.")
     ] = True,
+    plant: Annotated[
+        str | None,
+        typer.Option(
+            metavar="SCENE", help="Play this gearbox as if it were measured, and follow it."
+        ),
+    ] = None,
+    hidden: Annotated[
+        Path | None,
+        typer.Option(metavar="FILE.yaml", help="Of --plant: duty, changes and sensors."),
+    ] = None,
+    sensors: Annotated[
+        Path | None,
+        typer.Option(metavar="FILE.yaml", help="Of --plant: what is known of the sensors."),
+    ] = None,
     json_: JsonOption = None,
 ) -> None:
     """
     Run a gearbox in real time on ROS 2, change its operating point, and record it.
+
+    With --plant a plant with hidden changes and sensor errors takes its place, and a follower
+    estimates its state; see the command `plant`.
 
     Example: planetary-twin run paper --duration 20 --record first --set backlash=0.3um
     """
@@ -59,6 +80,13 @@ def run(
     if not duration >= SHORTEST:
         fail(f"--duration = {duration:g} s: must be at least {SHORTEST:g} s")
     interrupt_on_signals()
+    if plant is not None:
+        if set_ or rate_factor != 1.0 or tolerance:
+            fail("--plant: --set, --rate-factor and --tolerance are options of a simulation")
+        _follow_plant(plant, duration, record, (hidden, sensors), json_)
+        return
+    if hidden is not None or sensors is not None:
+        fail("--hidden and --sensors: require --plant")
     options = {
         "scene": scene,
         "duration": duration,
@@ -106,6 +134,60 @@ def _run(
     if losses := outcome.losses():
         counts = ", ".join(f"{count} of {topic}" for topic, count in losses.items())
         raise RuntimeError(f"{outcome.files[0].parent}: messages are lost: {counts}")
+
+
+def _follow_plant(
+    scene: str,
+    duration: float,
+    record: str | None,
+    files: tuple[Path | None, Path | None],
+    target: str | None,
+) -> None:
+    """Play a plant with its `files` for hidden changes and sensors, and follow it."""
+    from .running.followed import print_followed
+    from .running.plant_session import run_plant_session
+
+    console = console_beside(target)
+    try:
+        followed = run_plant_session(_plant_plan(scene, duration, record, files), console)
+    except KeyboardInterrupt:
+        remark("interrupted before the recording started")
+        return
+    except ValueError as mistake:
+        fail(mistake)
+    except OSError as failure:
+        fail(f"{failure.filename}: {failure.strerror}")
+    except RuntimeError as failure:
+        fail(failure, 1)
+    print_followed(console, followed)
+    put_figures(followed.figures(), target)
+
+
+def _plant_plan(
+    scene: str, duration: float, record: str | None, files: tuple[Path | None, Path | None]
+) -> PlantPlan:
+    """Return what to play, refused before any process starts if it is invalid."""
+    import planetary_twin_py as pt
+    from planetary_twin_py.following.sensors import read_sensors
+    from planetary_twin_py.plant.hidden import read_hidden
+
+    from .running.plant_session import PlantPlan
+
+    hidden, sensors = files
+    if not duration <= LONGEST_PLAY:
+        raise ValueError(f"--duration = {duration:g} s: must be at most {LONGEST_PLAY:g} s")
+    pt.load_scene(scene)
+    if hidden is not None:
+        read_hidden(hidden)
+    if sensors is not None:
+        read_sensors(sensors)
+    return PlantPlan(
+        scene,
+        duration,
+        _folder(record, scene),
+        "" if hidden is None else str(hidden.absolute()),
+        "" if sensors is None else str(sensors.absolute()),
+    )
 
 
 def _folder(record: str | None, scene: str) -> Path:

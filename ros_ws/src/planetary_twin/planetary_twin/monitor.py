@@ -9,7 +9,8 @@ from typing import NamedTuple
 
 import numpy as np
 from diagnostic_msgs.msg import DiagnosticArray
-from planetary_twin_msgs.msg import AxesState, GearboxState
+from planetary_twin_msgs.msg import AxesState, FollowerEstimate, FollowerEvent, GearboxState
+from rclpy.qos import DurabilityPolicy, QoSProfile
 from rich.console import Console
 from rich.live import Live
 from rich.table import Table
@@ -18,6 +19,7 @@ from planetary_twin_py.quantities import BEARING, MESH, SHARING, TRAIN, Quantity
 from planetary_twin_py.recording.ros2.topics import AXES_STATE
 from planetary_twin_py.terminal.console import make_console
 
+from .measured_rows import beside_rows
 from .remote import Remote
 from .reports import real_time_figures
 
@@ -25,6 +27,7 @@ _BARS = "▁▂▃▄▅▆▇█"
 _HISTORY = 40  # values that a sparkline shows
 _LIVE_PERIOD = 0.25  # [s] between two values in a terminal
 _PLAIN_PERIOD = 1.0  # [s] between two tables in a file or a pipe
+_LATCHED = QoSProfile(depth=100, durability=DurabilityPolicy.TRANSIENT_LOCAL)
 _SILENCE = 10.0  # [s] longest wait for a state
 
 
@@ -100,12 +103,16 @@ class Monitor(Remote):
         self.state: GearboxState | None = None
         self.axes: AxesState | None = None
         self.report: dict[str, str] = {}
+        self.estimate: FollowerEstimate | None = None
+        self.events: dict[int, FollowerEvent] = {}
         self._histories = {
             figure.field: deque[float](maxlen=_HISTORY) for figure in (*FIGURES, *OF_AXES)
         }
         self.node.create_subscription(GearboxState, "gearbox_state", self._on_state, 10)
         self.node.create_subscription(AxesState, AXES_STATE, self._on_axes, 10)
         self.node.create_subscription(DiagnosticArray, "/diagnostics", self._on_diagnostics, 10)
+        self.node.create_subscription(FollowerEstimate, "follower/estimate", self._on_estimate, 10)
+        self.node.create_subscription(FollowerEvent, "follower/event", self._on_event, _LATCHED)
 
     def table(self, width: int) -> Table:
         """
@@ -138,6 +145,10 @@ class Monitor(Remote):
                 figure.quantity.unit,
                 sparkline(list(history)[-shown_history:]),
             )
+        if self.estimate is not None:
+            table.add_section()
+            for row in beside_rows(self.estimate, state, self.events.values()):
+                table.add_row(*row)
         table.add_section()
         for name, key in (
             ("real time x", "real_time_factor"),
@@ -155,6 +166,12 @@ class Monitor(Remote):
 
     def _on_axes(self, message: AxesState) -> None:
         self.axes = message
+
+    def _on_estimate(self, message: FollowerEstimate) -> None:
+        self.estimate = message
+
+    def _on_event(self, message: FollowerEvent) -> None:
+        self.events[message.number] = message
 
     def _on_diagnostics(self, message: DiagnosticArray) -> None:
         self.report = real_time_figures(message, self.namespace) or self.report

@@ -27,6 +27,16 @@ def replay() -> int:
     return _run("replay")
 
 
+def follower() -> int:
+    """Run the follower node."""
+    return _run("follower")
+
+
+def plant() -> int:
+    """Run the plant node."""
+    return _run("plant")
+
+
 def twin() -> int:
     """Run the simulation and the logger in one process."""
     return _run("composed")

@@ -17,21 +17,28 @@ from .qos import to_words
 UNKNOWN_NODE = "_NODE_NAME_UNKNOWN_"
 """Name in rmw for the node of an endpoint until discovery finds it, which may never happen."""
 _EVERYWHERE = ("/diagnostics", "/tf")
+_BELOW = ("measured", "follower")  # of the namespace: a measured gearbox, and what is made of it
+_OF_ROS = ("/rosout", "/parameter_events")
 
 
 def wanted_topics(node: Node, chosen: Sequence[str]) -> list[str]:
     """
     Return the names of existing topics to record.
 
-    These are the topics in `chosen`; if it is empty, those directly in the namespace of `node`,
-    /diagnostics and /tf.
+    These are the topics in `chosen`; if it is empty, those directly in the namespace of `node` and
+    in `measured` and `follower` below it, /diagnostics and /tf.
     """
     names = {name for name, _ in node.get_topic_names_and_types()}
     if chosen:
         return sorted(names & {node.resolve_topic_name(name) for name in chosen})
     namespace = node.get_namespace().rstrip("/") + "/"
-    direct = {name for name in names if name.rpartition("/")[0] + "/" == namespace}
-    return sorted((direct | set(_EVERYWHERE)) & names - {"/rosout", "/parameter_events"})
+    places = {namespace, *(f"{namespace}{below}/" for below in _BELOW)}
+    here = {
+        name
+        for name in names - set(_OF_ROS)
+        if name.rpartition("/")[0] + "/" in places and not name.endswith("/transition_event")
+    }
+    return sorted((here | set(_EVERYWHERE)) & names)
 
 
 def describe(name: str, publishers: Sequence[TopicEndpointInfo]) -> Topic:

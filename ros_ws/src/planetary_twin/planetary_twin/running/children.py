@@ -54,6 +54,11 @@ class Child:
         """Id of the process."""
         return self._process.pid
 
+    @property
+    def returncode(self) -> int | None:
+        """Exit code; None while the process runs."""
+        return self._process.poll()
+
     def __enter__(self) -> Self:
         return self
 
@@ -68,7 +73,7 @@ class Child:
 
     def check(self) -> None:
         """Raise `RunError` if the process has ended."""
-        code = self._process.poll()
+        code = self.returncode
         if code is None:
             return
         if code < 0:

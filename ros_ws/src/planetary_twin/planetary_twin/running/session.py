@@ -3,11 +3,9 @@
 from __future__ import annotations
 
 import contextlib
-import fcntl
 import os
 import shutil
 import signal
-import tempfile
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -18,6 +16,7 @@ from planetary_twin_py.tolerance import AUTOMATIC
 
 from ..network import stay_on_this_machine
 from ..telemetry import STALL
+from .alone import alone, conflict
 from .children import Child, RunError
 from .operator import Operator
 from .outcome import Outcome, read_outcome
@@ -51,7 +50,7 @@ def run_session(plan: Plan, console: Console) -> Outcome:
     The progress is shown on `console`. Raises `RunError` if a node fails.
     """
     stay_on_this_machine()
-    with _alone(plan.namespace):
+    with alone(plan.namespace):
         return _run(plan, console)
 
 
@@ -73,7 +72,7 @@ def _run(plan: Plan, console: Console) -> Outcome:
                 _begin(operator, simulation)
             with contextlib.suppress(KeyboardInterrupt), _named_on_failure(plan.folder):
                 _drive(operator, plan, show)
-            with _undisturbed():
+            with undisturbed():
                 _finish(operator)
         if logger.stop() != 0:
             raise RunError(logger.last_line() or "logger: ended with an error")
@@ -125,39 +124,7 @@ def _start(operator: Operator) -> None:
 def _refuse_other_publishers(operator: Operator) -> None:
     """Raise `RunError` if other nodes publish here: their messages would be recorded, too."""
     if others := operator.other_publishers():
-        raise RunError(_conflict(", ".join(others)))
-
-
-def _conflict(others: str = "another twin") -> str:
-    return f"{others} runs on ROS_DOMAIN_ID = {_domain()}: end it, or choose another domain"
-
-
-def _domain() -> str:
-    return os.environ.get("ROS_DOMAIN_ID", "0")
-
-
-@contextlib.contextmanager
-def _alone(namespace: str) -> Iterator[None]:
-    """
-    Raise `RunError` if another run of this user is active in the same domain and namespace.
-
-    A lock is used because discovery may take longer than a short run; it ends with its process.
-    """
-    name = f"planetary_twin_{os.getuid()}_{_domain()}{namespace.replace('/', '_')}.lock"
-    path = os.path.join(tempfile.gettempdir(), name)
-    lock = os.open(path, os.O_RDWR | os.O_CREAT | os.O_NOFOLLOW, 0o600)
-    try:
-        _take(lock)
-        yield
-    finally:
-        os.close(lock)
-
-
-def _take(lock: int) -> None:
-    try:
-        fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
-    except BlockingIOError:
-        raise RunError(_conflict()) from None
+        raise RunError(conflict(", ".join(others)))
 
 
 @contextlib.contextmanager
@@ -166,7 +133,7 @@ def _removed_on_failure(logger: Child, folder: Path) -> Iterator[None]:
     try:
         yield
     except (RunError, KeyboardInterrupt):
-        with _undisturbed():
+        with undisturbed():
             logger.stop()
             if f"recording into {folder.absolute()}{os.sep}" in logger.output():
                 shutil.rmtree(folder, ignore_errors=True)
@@ -220,7 +187,7 @@ def _finish(operator: Operator) -> None:
 
 
 @contextlib.contextmanager
-def _undisturbed() -> Iterator[None]:
+def undisturbed() -> Iterator[None]:
     """Ignore further signals: the block is short and must be completed."""
     handlers = {number: signal.signal(number, signal.SIG_IGN) for number in _INTERRUPTS}
     try:

@@ -1,0 +1,186 @@
+"""Reads measured readings and encoder samples from ROS 2 messages, live or from a recording.
+
+Fields that a message leaves empty, and NaN, are missing readings. Temperatures are in degrees
+Celsius, as sensor_msgs defines them.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from .checks import InputError
+from .follower import EncoderFormat, EncoderSamples, Readings
+from .sensors import JointNames
+
+JOINTS = ("sensor_msgs/msg/JointState", "control_msgs/msg/DynamicJointState")
+TEMPERATURE = "sensor_msgs/msg/Temperature"
+ENCODERS = "planetary_twin_msgs/msg/EncoderBlock"
+KINDS = (*JOINTS, TEMPERATURE, ENCODERS)
+"""Types of messages that are read."""
+ZERO_CELSIUS = 273.15  # [K]
+INTERFACES = {"velocity": "speed", "effort": "torque"}
+"""Quantities by the interfaces of a joint."""
+SET = 1.0  # [s] by which stamps of blocks may run apart from their numbers; more: a clock was set
+
+
+class Arrived(NamedTuple):
+    """A message that has arrived."""
+
+    sender: str
+    """Its topic."""
+    kind: str
+    """Its type, one of `KINDS`."""
+    time: float
+    """Time of arrival by the clock of the receiver [s]."""
+    message: Any
+
+
+class _Row(NamedTuple):
+    """Readings of one message."""
+
+    sender: str
+    stamp: float  # [s]
+    arrival: float  # [s]
+    values: dict[str, float]  # by channel, in SI
+
+
+class MessageReader:
+    """Converts messages in the order of their arrival.
+
+    Args:
+        joints: names of the joints of input and output.
+    """
+
+    def __init__(self, joints: JointNames) -> None:
+        self._joints = joints
+        self._number: int | None = None  # of a device's sample 0, in periods since time 0
+        self._format: EncoderFormat | None = None
+
+    def read(self, arrived: Iterable[Arrived]) -> Iterator[Readings | EncoderSamples]:
+        """Convert messages.
+
+        Args:
+            arrived: the messages of a short time, in the order of their arrival.
+
+        Returns:
+            Their contents: readings in the same order, in one block where they follow one another
+            with the same sender and channels, then samples of encoders as one block. Which of both
+            comes first changes nothing in what a follower estimates.
+
+        Raises:
+            InputError: a block of encoder samples has another format than the one before, or none.
+        """
+        rows: list[_Row] = []
+        samples: list[EncoderSamples] = []
+        for one in arrived:
+            if one.kind == ENCODERS:
+                samples.append(self._samples(one))
+                continue
+            values = self._values(one)
+            if values:
+                row = _Row(one.sender, stamp_of(one.message), one.time, values)
+                if rows and not _same_channels(rows[-1], row):
+                    yield _together(rows)
+                    rows = []
+                rows.append(row)
+        if rows:
+            yield _together(rows)
+        if samples:
+            yield _joined(samples)
+
+    def _values(self, one: Arrived) -> dict[str, float]:
+        if one.kind == TEMPERATURE:
+            return {"oil_temperature": float(one.message.temperature) + ZERO_CELSIUS}
+        return _joint_values(one.message, self._joints)
+
+    def _samples(self, one: Arrived) -> EncoderSamples:
+        """Samples of a block, numbered from time 0 of the stamps."""
+        block = one.message
+        counts = np.array([block.input_counts, block.output_counts], dtype=np.int64)
+        found = EncoderFormat(
+            (int(block.input_counts_per_turn), int(block.output_counts_per_turn)),
+            float(block.sample_period),
+        )
+        if self._format is None:
+            _check(one.sender, found)
+            self._format = found
+        if found != self._format:
+            raise InputError(
+                f"{one.sender}: counts per turn and period are {_words(found)}: must be "
+                f"{_words(self._format)} as in the blocks before"
+            )
+        begin = round(stamp_of(block) / found.period)
+        first = int(block.first_sample)
+        apart = 0 if self._number is None else abs(self._number + first - begin)
+        if self._number is None or apart * found.period > SET:
+            self._number = begin - first
+        return EncoderSamples(
+            self._number + first + np.arange(counts.shape[1], dtype=np.int64), counts.T, found
+        )
+
+
+def stamp_of(message: Any) -> float:
+    """Stamp of a message [s]."""
+    stamp = message.header.stamp
+    return float(stamp.sec + 1e-9 * stamp.nanosec)
+
+
+def _check(sender: str, found: EncoderFormat) -> None:
+    if min(found.counts_per_turn) < 1 or not 0.0 < found.period < 1.0:
+        raise InputError(
+            f"{sender}: counts per turn and period are {_words(found)}: must be at least 1 and "
+            "within 0 and 1 s"
+        )
+
+
+def _words(found: EncoderFormat) -> str:
+    first, second = found.counts_per_turn
+    return f"{first}, {second}, {found.period:g} s"
+
+
+def _joint_values(message: Any, joints: JointNames) -> dict[str, float]:
+    """Readings of both shafts in a message, by channel."""
+    names = list(message.joint_names if hasattr(message, "joint_names") else message.name)
+    values = {}
+    for side, joint in (("input", joints.input), ("output", joints.output)):
+        if joint not in names:
+            continue
+        place = names.index(joint)
+        for interface, quantity in INTERFACES.items():
+            value = _interface(message, place, interface)
+            if value is not None:
+                values[f"{side}_{quantity}"] = value
+    return values
+
+
+def _interface(message: Any, place: int, interface: str) -> float | None:
+    """Value of an interface of a joint; None if the message does not have it."""
+    if hasattr(message, "interface_values"):
+        found = message.interface_values[place]
+        pairs = zip(found.interface_names, found.values, strict=False)
+        return next((float(value) for name, value in pairs if name == interface), None)
+    values = getattr(message, interface)
+    return float(values[place]) if len(values) > place else None
+
+
+def _same_channels(one: _Row, other: _Row) -> bool:
+    return one.sender == other.sender and [*one.values] == [*other.values]
+
+
+def _together(rows: list[_Row]) -> Readings:
+    """The rows as one block."""
+    columns = {name: np.array([row.values[name] for row in rows]) for name in rows[0].values}
+    stamp, arrival = (np.array([row[k] for row in rows]) for k in (1, 2))
+    return Readings(stamp, columns, arrival, rows[0].sender)
+
+
+def _joined(samples: list[EncoderSamples]) -> EncoderSamples:
+    """The samples as one block."""
+    return EncoderSamples(
+        np.concatenate([one.sample for one in samples]),
+        np.concatenate([one.counts for one in samples]),
+        samples[0].format,
+    )

@@ -1,0 +1,89 @@
+"""Sets a running simulation to what a follower estimates, so that it shows what is inside."""
+
+from __future__ import annotations
+
+import math
+import time
+from collections.abc import Mapping
+
+from planetary_twin_msgs.srv import SetOperatingPoint
+from rclpy.node import Node
+from rclpy.task import Future
+
+from planetary_twin_py.following.follower import Following
+from planetary_twin_py.following.train import FollowedTrain
+
+PERIOD = 1.0  # [s] least time between two changes
+RAMP = 1.0  # [s] of a change: some 50 periods of the couplings, which a step would excite
+_SMALL = 0.005  # of torque and speed of the scene, below which nothing changes
+_COOL = 0.5  # [K] likewise
+_LOG_PERIOD = 10.0  # [s]
+
+
+class TwinBeside:
+    """
+    Sends torque, speed and oil temperature to the simulation `name` as linear changes.
+
+    There is at most one in a second, and only if a quantity has changed by 0.5 % of its value in
+    the scene of `train`, or 0.5 K.
+    """
+
+    def __init__(self, node: Node, name: str, train: FollowedTrain) -> None:
+        self._node = node
+        self._client = node.create_client(SetOperatingPoint, f"{name}/set_operating_point")
+        self._steps = {
+            "input_torque": _SMALL * train.torque,
+            "input_speed": _SMALL * train.speed,
+            "oil_temperature": _COOL,
+        }
+        self._sent: dict[str, float] = {}
+        self._next = 0.0
+        self._waiting: Future | None = None
+
+    def follow(self, said: Following) -> None:
+        """Send what has changed; never waits."""
+        now = time.monotonic()
+        if now < self._next:
+            return
+        self._next = now + PERIOD
+        if not self._client.service_is_ready():
+            self._sent = {}
+            return
+        values = _values(said)
+        if all(self._near(name, value) for name, value in values.items()):
+            return
+        if self._waiting is not None and not self._waiting.done():
+            self._client.remove_pending_request(self._waiting)
+        request = SetOperatingPoint.Request(
+            names=list(values), values=list(values.values()), ramp=RAMP
+        )
+        self._sent = dict(values)
+        self._waiting = self._client.call_async(request)
+        self._waiting.add_done_callback(self._answered)
+
+    def close(self) -> None:
+        """Destroy the client."""
+        self._node.destroy_client(self._client)
+
+    def _near(self, name: str, value: float) -> bool:
+        return abs(self._sent.get(name, math.inf) - value) < self._steps[name]
+
+    def _answered(self, future: Future) -> None:
+        answer = future.result()
+        if answer is not None and not answer.success:
+            self._node.get_logger().warning(
+                f"the simulation refuses estimates: {answer.message}",
+                throttle_duration_sec=_LOG_PERIOD,
+            )
+
+
+def _values(said: Following) -> Mapping[str, float]:
+    """Return the operating point as far as it is estimated."""
+    torque = said["input_torque"]
+    speed, oil = said.operating
+    values = {
+        "input_torque": torque.value if torque.status == "ESTIMATED" else math.nan,
+        "input_speed": speed,
+        "oil_temperature": oil,
+    }
+    return {name: value for name, value in values.items() if math.isfinite(value)}

@@ -1,0 +1,113 @@
+"""Reports of the follower in /diagnostics: inputs, clock, estimator and condition."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from typing import NamedTuple
+
+from diagnostic_msgs.msg import DiagnosticStatus, KeyValue
+
+from planetary_twin_py.following.follower import Following
+from planetary_twin_py.recording.ros2.topics import status_name
+
+REPORTS = "inputs", "clock", "estimator", "condition"
+_SPOILT = ("late", "doubled", "outlying", "ahead", "encoder_late", "encoder_lost")
+
+
+class Limits(NamedTuple):
+    """Beyond which a condition is an error."""
+
+    friction: float
+    tooth: float
+
+
+class Feed(NamedTuple):
+    """How readings arrive."""
+
+    silent: float
+    """Time since the last new estimate [s]."""
+    timeout: float
+    """Above which it is too long [s]."""
+    refusal: str
+    """Why the readings cannot be those of the gearbox; empty if they can."""
+    jumps: int
+    """Times that stamps have jumped back."""
+    behind: float
+    """Time that the last messages waited to be used [s]."""
+
+
+def statuses(
+    said: Following, feed: Feed, limits: Limits, hardware: str, namespace: str
+) -> list[DiagnosticStatus]:
+    """Return the four reports of the follower in `namespace` on a gearbox named `hardware`."""
+    parts = _inputs(said, feed), _clock(said, feed), _estimator(said), _condition(said, limits)
+    return [
+        DiagnosticStatus(
+            level=level,
+            name=status_name(f"follower: {report}", namespace),
+            message=message,
+            hardware_id=hardware,
+            values=[KeyValue(key=key, value=value) for key, value in values.items()],
+        )
+        for report, (level, message, values) in zip(REPORTS, parts, strict=True)
+    ]
+
+
+_Part = tuple[bytes, str, Mapping[str, str]]
+
+
+def _inputs(said: Following, feed: Feed) -> _Part:
+    values = {name: str(count) for name, count in said.counters.items()}
+    if feed.refusal:
+        return DiagnosticStatus.ERROR, feed.refusal, values
+    if math.isnan(said.time):
+        return DiagnosticStatus.STALE, "no readings yet", values
+    if feed.silent > feed.timeout:
+        return DiagnosticStatus.STALE, f"no readings for {feed.silent:.1f} s", values
+    spoilt = {name: said.counters[name] for name in _SPOILT if said.counters.get(name)}
+    if spoilt:
+        words = ", ".join(f"{name} {count}" for name, count in spoilt.items())
+        return DiagnosticStatus.OK, f"received; not used: {words}", values
+    return DiagnosticStatus.OK, "received", values
+
+
+def _clock(said: Following, feed: Feed) -> _Part:
+    lines = [line for line in said.remarks if line.startswith("clock")]
+    if feed.jumps:
+        lines.append(f"stamps have jumped back {feed.jumps} times")
+    level = DiagnosticStatus.WARN if lines else DiagnosticStatus.OK
+    values = {"jumps": str(feed.jumps), "behind": f"{feed.behind:.3f}"}
+    return level, "; ".join(lines) or "stamps run with their arrival", values
+
+
+def _estimator(said: Following) -> _Part:
+    values = {one.name: one.status for one in said.estimates}
+    lines = [line for line in said.remarks if not line.startswith("clock")]
+    level = DiagnosticStatus.WARN if lines else DiagnosticStatus.OK
+    estimated = sum(one.status == "ESTIMATED" for one in said.estimates)
+    return (
+        level,
+        "; ".join(lines) or f"{estimated} of {len(values)} quantities are estimated",
+        values,
+    )
+
+
+def _condition(said: Following, limits: Limits) -> _Part:
+    """Return WARN for a change that was found, ERROR where a size is surely above its limit."""
+    lines = [f"{event.what}: {event.evidence}" for event in said.events]
+    values = {f"event {n}": line for n, line in enumerate(lines, 1)}
+    friction = next(one for one in said.estimates if one.name == "friction_level")
+    worst = [
+        f"friction level above {limits.friction:g}: {friction.low:.3g} to {friction.high:.3g}"
+    ] * (friction.low > limits.friction)
+    worst += [
+        f"{tooth.gear} tooth {tooth.tooth}: more than {100 * limits.tooth:g} % of stiffness lost"
+        for tooth in said.teeth
+        if tooth.loss.low > limits.tooth
+    ]
+    if worst:
+        return DiagnosticStatus.ERROR, "; ".join(worst), values
+    if lines:
+        return DiagnosticStatus.WARN, "; ".join(lines), values
+    return DiagnosticStatus.OK, "no change found", values

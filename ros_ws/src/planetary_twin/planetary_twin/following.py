@@ -1,0 +1,193 @@
+"""Follows a measured gearbox in a thread: messages in, what they tell out."""
+
+from __future__ import annotations
+
+import math
+import threading
+import time
+from collections.abc import Callable, Sequence
+from typing import Protocol
+
+from planetary_twin_py.following.checks import InputError
+from planetary_twin_py.following.follower import Following
+from planetary_twin_py.following.measured_messages import Arrived, MessageReader, stamp_of
+
+from .follower_parameters import FollowerOptions
+
+_TICK = 0.04  # [s] between two looks for messages
+_DISCOVERY = 0.2  # [s] between two looks for publishers
+_JUMP = 1.0  # [s] by which stamps go back in a jump
+_JUMPED = 5  # messages in a row
+_LONGEST_END = 60.0  # [s] for what is waiting when following ends
+
+
+class Source(Protocol):
+    """Where messages come from."""
+
+    def follow_publishers(self) -> None:
+        """Subscribe as the publishers offer."""
+
+    def take(self) -> list[Arrived]:
+        """Return the messages that have arrived since the last call, in order."""
+
+
+class Audience(Protocol):
+    """Hears what the follower says, in its thread."""
+
+    def started(self) -> None:
+        """Forget what was said: the follower restarts."""
+
+    def said(self, following: Following) -> None:
+        """Publish something new."""
+
+    def refused(self, reason: str) -> None:
+        """Report readings that cannot be those of the gearbox."""
+
+    def jumped(self, seconds: float) -> None:
+        """Report stamps that have gone back by so many seconds."""
+
+    def broke(self, defect: Exception) -> None:
+        """Report that following has ended."""
+
+
+class JumpWatch:
+    """Recognises stamps of a sender that go back for good: single late ones are no jump."""
+
+    def __init__(self) -> None:
+        self._newest: dict[str, float] = {}
+        self._behind: dict[str, int] = {}
+
+    def add(self, one: Arrived) -> float | None:
+        """Return by how many seconds the stamps have jumped back, at the last of five messages."""
+        stamp = stamp_of(one.message)
+        newest = self._newest.setdefault(one.sender, stamp)
+        if stamp >= newest - _JUMP:
+            self._newest[one.sender] = max(newest, stamp)
+            self._behind[one.sender] = 0
+            return None
+        self._behind[one.sender] = self._behind.get(one.sender, 0) + 1
+        if self._behind[one.sender] < _JUMPED:
+            return None
+        self._newest[one.sender], self._behind[one.sender] = stamp, 0
+        return newest - stamp
+
+
+class LiveFollower:
+    """
+    Feeds a follower with the messages of `source` and tells `audience` what follows from them.
+
+    What is said depends on the messages and their order alone: neither on when the thread runs nor
+    on how many messages it takes at once.
+    """
+
+    def __init__(self, options: FollowerOptions, source: Source, audience: Audience) -> None:
+        self._options, self._source, self._audience = options, source, audience
+        self._begin()
+        self.behind = 0.0
+        """Time that the last messages waited for this thread [s]."""
+        self._advanced = time.monotonic()
+        self._spoken = -math.inf
+        self._stop, self._restart = threading.Event(), threading.Event()
+        self._thread = threading.Thread(target=self._run, name="follower", daemon=True)
+        self._thread.start()
+
+    def stop(self) -> None:
+        """Use what has arrived, say the last word, and end the thread."""
+        self._stop.set()
+        if self._thread is not threading.current_thread():
+            self._thread.join(_LONGEST_END)
+
+    def reset(self) -> None:
+        """Forget everything; readings that have not been used yet are the first ones."""
+        self._restart.set()
+
+    @property
+    def silent(self) -> float:
+        """Time since the last new estimate [s]."""
+        return time.monotonic() - self._advanced
+
+    @property
+    def refusal(self) -> str:
+        """Reason why the readings cannot be those of the gearbox; empty if they can."""
+        return self._refusal
+
+    def _begin(self) -> None:
+        self._audience.started()
+        self._follower = self._options.follower()
+        self.latest: Following = self._follower.estimate()
+        """What was said last."""
+        self._reader = MessageReader(self._options.joints)
+        self._jumps = JumpWatch()
+        self._refusal = ""
+        self._stale = True  # nothing has been said that could become stale
+
+    def _run(self) -> None:
+        try:
+            self._follow()
+        except Exception as defect:
+            self._audience.broke(defect)
+
+    def _follow(self) -> None:
+        looked = -math.inf
+        while not self._stop.wait(_TICK):
+            if time.monotonic() > looked + _DISCOVERY:
+                looked = time.monotonic()
+                self._source.follow_publishers()
+            if self._restart.is_set():
+                self._restart.clear()
+                self._begin()
+                self._say(self.latest)
+            self._use(self._source.take())
+        self._use(self._source.take())
+        if not self._refusal:
+            self._checked(self._follower.finish)
+            self._say(self._follower.estimate())
+
+    def _use(self, arrived: Sequence[Arrived]) -> None:
+        """Feed the messages, and say what is new."""
+        if arrived:
+            self.behind = max(time.time() - arrived[0].time, 0.0)
+        if self._refusal:
+            return
+        begin = 0
+        for n, one in enumerate(arrived):
+            if (back := self._jumps.add(one)) is None:
+                continue
+            self._audience.jumped(back)
+            if self._options.reset_on_time_jump:
+                self._feed(arrived[begin:n])
+                self._begin()
+                begin = n
+        self._feed(arrived[begin:])
+        self._say_what_is_new()
+
+    def _feed(self, arrived: Sequence[Arrived]) -> None:
+        def feed() -> None:
+            for block in self._reader.read(arrived):
+                self._follower.add(block)
+
+        self._checked(feed)
+
+    def _checked(self, step: Callable[[], None]) -> None:
+        """Make a step; readings of another unit, sign or shaft end following."""
+        try:
+            step()
+        except InputError as fault:
+            self._refusal = str(fault)
+            self._audience.refused(self._refusal)
+
+    def _say_what_is_new(self) -> None:
+        follower, now = self._follower, time.monotonic()
+        if follower.time > self.latest.time or math.isnan(self.latest.time) > math.isnan(
+            follower.time
+        ):
+            self._advanced, self._stale = now, False
+            if now >= self._spoken + 1.0 / self._options.publish_rate - 0.5 * _TICK:
+                self._say(follower.estimate())
+        elif not self._stale and now > self._advanced + self._options.sensor_timeout:
+            self._stale = True
+            self._say(follower.estimate(now=math.inf))
+
+    def _say(self, said: Following) -> None:
+        self.latest, self._spoken = said, time.monotonic()
+        self._audience.said(said)

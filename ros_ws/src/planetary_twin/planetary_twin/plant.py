@@ -1,0 +1,141 @@
+"""The plant node: plays a gearbox with hidden changes on the measured topics."""
+
+from __future__ import annotations
+
+import itertools
+import sys
+import traceback
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import rclpy
+from planetary_twin_msgs.msg import EncoderBlock
+from rclpy.duration import Duration
+from rclpy.lifecycle import LifecyclePublisher
+from rclpy.qos import QoSProfile
+from sensor_msgs.msg import JointState, Temperature
+
+import planetary_twin_py as pt
+from planetary_twin_py.plant.hidden import Hidden, read_hidden
+from planetary_twin_py.plant.readings import Plant as Played
+from planetary_twin_py.plant.timeline import Measured, timeline
+
+from .audience import Audience
+from .managed import ManagedNode, run_node
+from .parameters import declare_bounded, declare_fixed
+from .plant_player import PlantMessages, PlantPlayer
+
+_TOPICS = {
+    JointState: "measured/joint_states",
+    Temperature: "measured/oil_temperature",
+    EncoderBlock: "measured/encoders",
+}
+_KEPT = QoSProfile(depth=1000)
+_LAST = Duration(seconds=10.0)  # longest wait until the last messages have arrived
+
+
+class Plant(ManagedNode):
+    """Plays once, in real time; the node ends with the play."""
+
+    def __init__(self) -> None:
+        super().__init__("plant")
+        declare_fixed(self, "scene", "paper", "packaged scene, or path of a YAML file")
+        declare_fixed(
+            self, "hidden", "", "YAML file with laws, duty, changes and sensors; empty: perfect"
+        )
+        declare_bounded(self, "duration", 60.0, (0.1, 86_400.0), "of the play [s]")
+        declare_fixed(self, "input_joint", "input_joint", "joint of the input")
+        declare_fixed(self, "output_joint", "output_joint", "joint of the output")
+        declare_fixed(self, "frame_id", "gearbox", "base frame of the gearbox")
+        # rclpy derives the type of a list from its first element.
+        declare_fixed(self, "wait_for", [""], "nodes that must have subscribed before the play")
+        self._measured: Iterator[Measured] = iter(())
+        self._messages: PlantMessages | None = None
+        self._audiences: list[Audience] = []
+        self._player: PlantPlayer | None = None
+        self._outlets: dict[type, LifecyclePublisher] = {}
+
+    def configure(self) -> None:
+        """Create the publishers, and compute how the plant vibrates."""
+        given = {n: p.value for n, p in self.get_parameters_by_prefix("").items()}
+        hidden = self._hidden(given["hidden"])
+        played = Played(pt.load_scene(given["scene"]), hidden, given["duration"])
+        encoders = hidden.sensors.encoders
+        self._outlets = {
+            kind: self.create_lifecycle_publisher(kind, topic, _KEPT)
+            for kind, topic in _TOPICS.items()
+            if kind is not EncoderBlock or encoders.rate
+        }
+        joints = given["input_joint"], given["output_joint"]
+        self._messages = PlantMessages(joints, encoders, given["frame_id"])
+        self._audiences = [Audience(self, name) for name in given["wait_for"] if name]
+        measured = timeline(played)
+        self._measured = itertools.chain([next(measured)], measured)  # the first takes seconds
+
+    def activate(self) -> None:
+        """Play from the beginning, or from where it was paused."""
+        if self._messages is None:
+            raise ValueError("the node is not configured")
+        for audience in self._audiences:
+            audience.begin()
+        self._player = PlantPlayer(self._measured, self._messages, self)
+        self.get_logger().info(f"plays {self.get_parameter('scene').value}")
+
+    def deactivate(self) -> None:
+        """Pause the play."""
+        if self._player is not None:
+            self._player.stop()
+            self._player = None
+
+    def close(self) -> None:
+        """Release the publishers."""
+        self.deactivate()
+        for publisher in self._outlets.values():
+            self.destroy_lifecycle_publisher(publisher)
+        self._outlets, self._messages = {}, None
+
+    # Called by the player, in its thread.
+
+    def ready(self) -> bool:
+        """Return whether the nodes in `wait_for` have subscribed."""
+        return all(audience.present() for audience in self._audiences)
+
+    def now(self) -> int:
+        """Return the ROS time [ns]."""
+        return int(self.get_clock().now().nanoseconds)
+
+    def play(self, message: Any) -> None:
+        """Publish a message."""
+        self._outlets[type(message)].publish(message)
+
+    def ended(self, defect: Exception | None) -> None:
+        """End the process, once the last messages have arrived."""
+        if not self.context.ok():
+            return
+        if defect is not None:
+            self.get_logger().error("".join(traceback.format_exception(defect)))
+            self.fail(f"the play stopped: {defect}")
+            return
+        for publisher in self._outlets.values():
+            publisher.wait_for_all_acked(_LAST)
+        self.get_logger().info("the play has ended")
+        rclpy.try_shutdown(context=self.context)
+
+    def _hidden(self, name: str) -> Hidden:
+        if not name:
+            return Hidden()
+        path = Path(name).expanduser()
+        try:
+            return read_hidden(path)
+        except OSError as reason:
+            raise ValueError(f"hidden = {str(path)!r}: {reason.strerror}") from None
+
+
+def main(args: list[str] | None = None) -> int:
+    """Run the node until the play or a signal ends it; returns the exit code."""
+    return run_node(Plant, args)
+
+
+if __name__ == "__main__":
+    sys.exit(main())

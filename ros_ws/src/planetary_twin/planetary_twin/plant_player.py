@@ -1,0 +1,132 @@
+"""Plays a plant on the measured topics in real time."""
+
+from __future__ import annotations
+
+import math
+import threading
+import time
+from collections.abc import Iterator
+from typing import Any, Protocol
+
+from planetary_twin_msgs.msg import EncoderBlock
+from sensor_msgs.msg import JointState, Temperature
+
+from planetary_twin_py.following.measured_messages import INTERFACES, ZERO_CELSIUS
+from planetary_twin_py.plant.hidden import EncoderErrors
+from planetary_twin_py.plant.timeline import CountPacket, Measured, OilReading, ShaftReading
+
+from .messages import set_stamp
+
+_SIDES = "input", "output"
+
+
+class Stage(Protocol):
+    """Where a plant is played."""
+
+    def ready(self) -> bool:
+        """Return whether the play may begin."""
+
+    def now(self) -> int:
+        """Return the ROS time [ns]."""
+
+    def play(self, message: Any) -> None:
+        """Publish a message."""
+
+    def ended(self, defect: Exception | None) -> None:
+        """Learn that the play has ended; `defect` is the reason unless it is complete."""
+
+
+class PlantMessages:
+    """
+    Converts what is measured to messages in `frame`.
+
+    `joints` are the names of the joints of input and output.
+    """
+
+    def __init__(self, joints: tuple[str, str], encoders: EncoderErrors, frame: str) -> None:
+        self._joints, self._frame = joints, frame
+        self._encoders, self._blocks = encoders, 0
+
+    def message(self, measured: Measured, origin: int) -> JointState | Temperature | EncoderBlock:
+        """Return a message; `origin` is the ROS time [ns] of time 0 of the plant."""
+        if isinstance(measured, CountPacket):
+            self._blocks += 1
+            return self._block(measured, origin)
+        if isinstance(measured, OilReading):
+            found = Temperature(temperature=measured.temperature - ZERO_CELSIUS)
+        else:
+            found = self._shafts(measured)
+        self._stamp(found, origin, measured.time)
+        return found
+
+    def _shafts(self, reading: ShaftReading) -> JointState:
+        fields = {
+            field: [reading.values[f"{side}_{quantity}"] for side in _SIDES]
+            for field, quantity in INTERFACES.items()
+        }
+        return JointState(name=list(self._joints), position=list(reading.angles), **fields)
+
+    def _block(self, packet: CountPacket, origin: int) -> EncoderBlock:
+        errors = self._encoders
+        found = EncoderBlock(
+            sequence=self._blocks,
+            first_sample=packet.first,
+            sample_period=1.0 / errors.rate,
+            input_counts_per_turn=2**errors.bits,
+            output_counts_per_turn=2**errors.bits,
+        )
+        found.input_counts, found.output_counts = (column.tolist() for column in packet.counts.T)
+        self._stamp(found, origin, packet.first / errors.rate)
+        return found
+
+    def _stamp(self, message: Any, origin: int, seconds: float) -> None:
+        message.header.frame_id = self._frame
+        set_stamp(message.header.stamp, origin + round(seconds * 1e9))
+
+
+class PlantPlayer:
+    """Publishes each of the `measured` at its time, from the first on, in a thread."""
+
+    def __init__(
+        self, measured: Iterator[Measured], messages: PlantMessages, stage: Stage
+    ) -> None:
+        self._measured, self._messages, self._stage = measured, messages, stage
+        self.played = 0.0
+        """Time of what was published last [s]."""
+        self._stop = threading.Event()
+        self._thread = threading.Thread(target=self._run, name="plant", daemon=True)
+        self._thread.start()
+
+    def stop(self) -> None:
+        """End the play."""
+        self._stop.set()
+        if self._thread is not threading.current_thread():
+            self._thread.join()
+
+    def _run(self) -> None:
+        try:
+            complete = self._play()
+        except Exception as defect:
+            self._stage.ended(defect)
+        else:
+            if complete:
+                self._stage.ended(None)
+
+    def _play(self) -> bool:
+        """Return whether the play is complete."""
+        while not self._stage.ready():
+            if self._stop.wait(0.05):
+                return False
+        begin, origin = math.nan, 0
+        for one in self._measured:
+            if math.isnan(begin):
+                begin, origin = (
+                    time.monotonic() - one.time,
+                    self._stage.now() - round(one.time * 1e9),
+                )
+            message = self._messages.message(one, origin)
+            if self._stop.wait(max(begin + one.time - time.monotonic(), 0.0)):
+                return False
+            self._stage.play(message)
+            self.played = one.time
+        return True
