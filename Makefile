@@ -112,7 +112,7 @@ lock: setup
 		--no-header --no-annotate --upgrade pyproject.toml --output-file requirements.lock
 
 clean:
-	rm -rf $(VENV) build *.egg-info planetary_twin_py/_core/*.so planetary_twin_py/_core/*.pyi ros_ws/build ros_ws/install ros_ws/log docs/_build
+	rm -rf $(VENV) build *.egg-info planetary_twin_py/_core/*.so planetary_twin_py/_core/fmu planetary_twin_py/_core/*.pyi ros_ws/build ros_ws/install ros_ws/log docs/_build
 
 $(STAMPS)/dependencies: requirements.lock
 	$(eval FOUND := $(shell PYTHON='$(PYTHON)' tools/check_machine 2>&1))

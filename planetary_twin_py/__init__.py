@@ -33,6 +33,7 @@ if TYPE_CHECKING:
     from .batch import Outcome, simulate_many
     from .commands import Commands
     from .dynamics_choice import DynamicsChoice, choose_dynamics
+    from .fmu.export import export_fmu
     from .following.checks import InputError
     from .following.estimate import Estimate, Event
     from .following.follower import (
@@ -89,6 +90,7 @@ _EXPORTS = {
     ),
     "following.sensors": ("Sensors",),
     "following.teeth": ("ToothState",),
+    "fmu.export": ("export_fmu",),
     "ledger_check": ("LedgerWarning",),
     "modal.modes": ("NaturalModes",),
     "modal.natural": ("natural_modes",),
@@ -150,6 +152,7 @@ __all__ = [
     "Window",
     "amplitude_spectrum",
     "choose_dynamics",
+    "export_fmu",
     "friction_table",
     "load_scene",
     "load_sharing",
