@@ -1,4 +1,4 @@
-"""Variables of an FMU: what its description, its records and its library number alike."""
+"""Variables of an FMU, numbered equally in its description, its records and its library."""
 
 from __future__ import annotations
 

@@ -8,7 +8,7 @@
 
 namespace fmu {
 
-// What can go wrong is told in one line. An empty one: all is well.
+// What went wrong, in one line; empty: nothing.
 using Complaint = std::string;
 
 // All that changes in a run; its owner deletes it.

@@ -1,6 +1,7 @@
 #pragma once
 
-// What FMI 2.0 and 3.0 have in common: an instance with its phase, and who is told of errors.
+// What FMI 2.0 and 3.0 have in common: an instance with its phase, and who receives
+// the messages of errors.
 
 #include <cstddef>
 #include <functional>
@@ -49,7 +50,8 @@ public:
     }
 
     Status exit_initialization() {
-        if (phase_ != Phase::INITIALIZING) return refuse("initialisation: has not begun");
+        if (phase_ != Phase::INITIALIZING)
+            return refuse("initialisation: must be entered before it is left");
         phase_ = Phase::STEPPING;
         return answer(instance_->start());
     }
