@@ -25,7 +25,7 @@ struct OperatingPoint {
 
 // How they depend on it in a scene.
 struct alignas(64) PointLaws {
-    Load constant;            // what depends on nothing
+    Load constant;  // what depends on nothing
     double play;  // half the backlash along the line of action per backlash, or all of it where the
                   // force grows from zero [-]
     bool from_zero;           // whether the force grows from a DTE of zero
