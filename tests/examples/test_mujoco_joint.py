@@ -27,7 +27,7 @@ NO_LOSS = {
 
 @pytest.fixture(scope="module")
 def scene():
-    return pt.load_scene(ROOT / "docs" / "examples" / "robot_joint.yaml")
+    return pt.load_scene(ROOT / "docs" / "examples" / "geared_joint.yaml")
 
 
 def motor_inertia(scene):
