@@ -16,7 +16,7 @@ ifneq ($(AMENT_PREFIX_PATH)$(_ROS_WHEELS_BOOTSTRAP_COMPLETE),)
 unexport LD_LIBRARY_PATH _ROS_WHEELS_BOOTSTRAP_COMPLETE
 endif
 
-.PHONY: setup run test test-all test-exhaustive test-model test-nodes test-fast sanitize soak bench view picture sample studies gallery measured docs lint lock clean
+.PHONY: setup run test test-all test-exhaustive test-model test-nodes test-cosimulation test-fast sanitize soak bench view picture sample studies gallery measured docs lint lock clean
 
 setup: $(STAMPS)/interfaces $(STAMPS)/model $(STAMPS)/core $(STAMPS)/nodes
 
@@ -52,6 +52,11 @@ test-nodes: setup
 sanitize: setup
 	tools/build_core $(VENV) sanitized
 	tools/run_sanitized $(VENV) $(or $(ARGS),tests/core tests/stability tests/integrators)
+
+# An FMU in FMPy and a joint in MuJoCo, which are installed first: 30 MB.
+test-cosimulation: setup
+	$(BIN)/uv pip install --quiet --python $(BIN)/python --group cosimulation
+	$(BIN)/pytest --quiet tests/fmu tests/examples $(ARGS)
 
 test-fast: setup
 	$(PYTEST) -m "not slow and not exhaustive" $(ARGS)
@@ -112,7 +117,7 @@ lock: setup
 		--no-header --no-annotate --upgrade pyproject.toml --output-file requirements.lock
 
 clean:
-	rm -rf $(VENV) build *.egg-info planetary_twin_py/_core/*.so planetary_twin_py/_core/*.pyi ros_ws/build ros_ws/install ros_ws/log docs/_build
+	rm -rf $(VENV) build *.egg-info planetary_twin_py/_core/*.so planetary_twin_py/_core/fmu planetary_twin_py/_core/*.pyi ros_ws/build ros_ws/install ros_ws/log docs/_build
 
 $(STAMPS)/dependencies: requirements.lock
 	$(eval FOUND := $(shell PYTHON='$(PYTHON)' tools/check_machine 2>&1))

@@ -33,6 +33,7 @@ if TYPE_CHECKING:
     from .batch import Outcome, simulate_many
     from .commands import Commands
     from .dynamics_choice import DynamicsChoice, choose_dynamics
+    from .fmu.export import export_fmu
     from .following.balance_filter import Innovation
     from .following.baseline import LearnedCell
     from .following.checks import InputError
@@ -93,6 +94,7 @@ _EXPORTS = {
     ),
     "following.sensors": ("Sensors",),
     "following.teeth": ("ToothState",),
+    "fmu.export": ("export_fmu",),
     "ledger_check": ("LedgerWarning",),
     "modal.modes": ("NaturalModes",),
     "modal.natural": ("natural_modes",),
@@ -156,6 +158,7 @@ __all__ = [
     "Window",
     "amplitude_spectrum",
     "choose_dynamics",
+    "export_fmu",
     "friction_table",
     "load_scene",
     "load_sharing",

@@ -9,6 +9,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 from fractions import Fraction
+from types import ModuleType
 from typing import Any, NoReturn
 
 import numpy as np
@@ -24,16 +25,20 @@ from ._core import (
     Load,
     March,
     Model,
+    PointLaws,
     Report,
     Train,
     WindowEnd,
+    deflection_at,
+    keep_given,
 )
 from .dynamics.cycle import common_cycles, turns_per_cycle
 from .dynamics.library import library
 from .dynamics.mesh_sums import MeshSums, clear, mesh_sums
 from .dynamics.oil import build_oil
+from .dynamics.point_laws import record_of
 from .dynamics.speed_loop import SpeedLoopCheck, bandwidth
-from .dynamics.start import LoadBuilder, keep_given, start_state
+from .dynamics.start import LoadBuilder, start_state
 from .dynamics.static_load import mesh_force, static_torques
 from .dynamics.train import build_train, held_axes, lightest_body
 from .integrators.clock import (
@@ -59,13 +64,13 @@ FIRST_STEP = 1e-6  # [s]
 SETTLING = 1.0  # of the period of the speed loop, for which steady running must last to count
 WATCHED = Fraction(1, 10)  # [s] from one check of a run against its limits to the next
 LONGEST_UNWATCHED = float(WATCHED)
-LIGHTEST_MESH_LOAD = 1.0  # [N] smaller mesh forces do not tighten the tolerance further
 
 
 class _Scale:
     """Deflections to which tolerances are relative."""
 
-    def __init__(self, scene: Scene, train: Train) -> None:
+    def __init__(self, scene: Scene, train: Train, laws: PointLaws) -> None:
+        self._laws = laws
         self._per_torque = abs(mesh_force(scene, 1.0))
         self._stiffness = float(train.stiffness.min())
         self._shares = np.abs(static_torques(scene)[::2])
@@ -75,9 +80,7 @@ class _Scale:
 
     def deflection(self, point: OperatingPoint) -> float:
         """Deflection of the meshes under the torques of steady running [m]."""
-        strongest = abs(point.input_torque) + point.torque_ripple
-        force = max(self._per_torque * strongest, LIGHTEST_MESH_LOAD)
-        return force / self._stiffness + 0.5 * point.backlash
+        return deflection_at(self._laws, record_of(point))
 
     def yielding(self, load: Load) -> np.ndarray:
         """Deflection of the meshes under each input's acceleration [m s^2/rad].
@@ -87,6 +90,16 @@ class _Scale:
         inertia = load.inertia.diagonal()[: len(self._own)]
         torque: np.ndarray = np.maximum(inertia - self._own, 0.0) / self._shares
         return self._per_torque * torque / self._stiffness
+
+
+def new_march(core: ModuleType, method: str) -> March:
+    """A march before its first step; `core` is that of the scene, `method` as in `Engine`."""
+    march: March = core.March()
+    control = march.control
+    control.step = control.next_step = control.next_stiff = FIRST_STEP
+    control.longest = LONGEST_STEP
+    control.method = METHODS[method]
+    return march
 
 
 class Engine:
@@ -111,23 +124,20 @@ class Engine:
         self.train = build_train(scene)
         self._core = library(scene)
         self.model: Model = self._core.Model(train=self.train)
-        self.march: March = self._core.March()
+        self.march = new_march(self._core, method)
         # Parts of the march that every window reads, because each look-up costs time.
         self._end, self._scratch = self.march.end, self.march.scratch
         self._periodic, self._last = self.march.periodic, self.march.last
         self._shown: tuple[float | Fraction, Samples] | None = None
         self._limits = Limits(scene, self.train)
         self._failure: RunawayError | None = None
-        control = self.march.control
-        control.step = control.next_step = control.next_stiff = FIRST_STEP
-        control.longest = LONGEST_STEP
-        control.method = METHODS[method]
         self._speed_loop = SpeedLoopCheck(scene, build_train(held_axes(scene)))
         for speed in (scene.drive.speed_control.start_speed, scene.operating_point.input_speed):
             if speed is not None:
                 where = scene.operating_point.model_copy(update={"input_speed": speed})
                 self._speed_loop.check(where)
-        self._loads, self._scale = LoadBuilder(scene, self.train), _Scale(scene, self.train)
+        self._loads = LoadBuilder(scene, self.train)
+        self._scale = _Scale(scene, self.train, self._loads.laws)
         self._given = False
         self._oil_at: tuple[float, float] | None = None
         self._cycles: dict[bool, int] = {}
@@ -317,6 +327,11 @@ class Engine:
     def reached(self) -> Fraction:
         """End of the last step [s], at or after the end of the last window."""
         return int(self._end.seconds) + Fraction(float(self._end.time))
+
+    @property
+    def laws(self) -> PointLaws:
+        """How the loads depend on the operating point."""
+        return self._loads.laws
 
     @property
     def control(self) -> Control:

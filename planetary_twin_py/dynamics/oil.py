@@ -13,8 +13,8 @@ from .._core import (
     Oil,
     ShearThinning,
     Traction,
-    boundary_shear,
     half_width,
+    prescribe,
 )
 from ..lubrication.film import FILM_LAWS
 from ..lubrication.hertz import contact_modulus
@@ -23,8 +23,6 @@ from ..lubrication.viscosity import viscosity_at
 from ..scene import OperatingPoint, Scene
 from ..scene.friction_table import AXES, FrictionTable
 from ..scene.lubrication import Lubrication
-
-THINNEST = 1e-12  # lambda ratio used for 0: the film carries 0.04 %
 
 
 def build_oil(scene: Scene, point: OperatingPoint) -> Oil:
@@ -39,11 +37,9 @@ def build_oil(scene: Scene, point: OperatingPoint) -> Oil:
         data.viscosity_slope,
         data.oil_density,
     )
-    asperities = _asperities(data, modulus)
-    printed_asperities = data.asperities == "printed"
-    return Oil(
+    oil = Oil(
         film=FILM_LAWS[data.film],
-        asperities=asperities,
+        asperities=_asperities(data, modulus),
         traction_law=TRACTION_LAWS[data.traction],
         traction=_traction(data, modulus, viscosity),
         shear_thinning=_shear_thinning(data, viscosity, contact_factor, width),
@@ -58,10 +54,7 @@ def build_oil(scene: Scene, point: OperatingPoint) -> Oil:
         density=data.oil_density,
         kinematic=viscosity / data.oil_density,
         prescribed=data.lambda_ratio == "prescribed",
-        lambda_ratio=point.lambda_ratio,
-        log_lambda=math.log(max(point.lambda_ratio, THINNEST)),
-        asperity_shear=boundary_shear(asperities, printed_asperities, point.lambda_ratio),
-        printed_asperities=printed_asperities,
+        printed_asperities=data.asperities == "printed",
         sharing=data.boundary == "load_sharing",
         boundary_coefficient=data.boundary_coefficient,
         rolling=data.rolling == "goksem_hargreaves",
@@ -69,6 +62,8 @@ def build_oil(scene: Scene, point: OperatingPoint) -> Oil:
         presliding=data.presliding_displacement,
         table=_friction_table(data.friction_table),
     )
+    prescribe(oil, point.lambda_ratio)
+    return oil
 
 
 def _friction_table(data: FrictionTable | None) -> _core.FrictionTable:

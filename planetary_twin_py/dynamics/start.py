@@ -16,13 +16,14 @@ from .._core import (
     PortStates,
     State,
     Train,
+    load_at,
 )
 from ..integrators.clock import Instant
 from ..scene import OperatingPoint, Scene
 from .bodies import MOTOR
 from .library import library
-from .speed_loop import bandwidth, speed_loop_gains
-from .static_load import mesh_force, static_torques
+from .point_laws import point_laws, record_of
+from .static_load import mesh_force
 
 _CAUSALITIES = {"machine": BY_MACHINE, "torque": BY_TORQUE, "motion": BY_MOTION}
 
@@ -36,48 +37,15 @@ class LoadBuilder:
     """
 
     def __init__(self, scene: Scene, train: Train) -> None:
-        control = scene.drive.speed_control
-        gains = speed_loop_gains(scene, train, bandwidth(scene))
-        self._mesh, self._angle = scene.mesh, scene.gearset.pressure_angle
-        self._axes, self._torques = train.axes, static_torques(scene)
-        self._constant = Load(
-            release=1.0 if scene.mesh.backlash == "dead_zone" else 0.0,
-            slew_rate=control.slew_rate,
-            ripple_order=float(control.ripple_order),
-            inertia=gains.inertia,
-            proportional=gains.proportional,
-            trim_gain=gains.trim,
-            load_proportional=gains.load_proportional,
-            port=[_CAUSALITIES[port] for port in scene.drive.ports],
-        )
-        self._start_speed = control.start_speed
-        self._ratios = train.ratio[train.coupling[: len(scene.drive.ports), 0], 0]
+        self.laws = point_laws(scene, train, [_CAUSALITIES[port] for port in scene.drive.ports])
 
     def build(self, point: OperatingPoint) -> Load:
         """Loads at an operating point.
 
         Given torques and speeds are those of steady running there.
         """
-        load = self._constant.copy()
-        half, offset = self._mesh.flanks(point.backlash, self._angle)
-        load.half_backlash, load.offset = half, offset
-        load.inner_squared = (half - offset) ** 2
-        load.target_speed = [point.input_speed, point.second_input_speed][: self._axes]
-        load.torque = point.input_torque * self._torques
-        load.ripple = point.torque_ripple
-        started = self._start_speed
-        load.speed = self._ratios * (point.input_speed if started is None else started)
+        load: Load = load_at(self.laws, record_of(point))
         return load
-
-
-def keep_given(before: Load, load: Load) -> None:
-    """Let given torques and motions stay as they were before a change of other loads."""
-    torque, rate = load.torque.copy(), load.torque_rate.copy()
-    given = before.port == BY_TORQUE
-    torque[given], rate[given] = before.torque[given], before.torque_rate[given]
-    load.torque, load.torque_rate = torque, rate
-    load.speed, load.acceleration = before.speed, before.acceleration
-    load.since_seconds, load.since = before.since_seconds, before.since
 
 
 def begin_given(load: Load, now: Instant, shown: PortStates) -> None:

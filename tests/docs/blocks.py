@@ -19,6 +19,7 @@ REASONS = {
     "set-up": "sets up, builds or tests the project itself, which tests/setup and CI do",
     "cluster": "needs machines of a cluster",
     "minutes": "takes minutes",
+    "cosimulation": "needs FMPy or MuJoCo; make test-cosimulation runs the same",
 }
 
 

@@ -8,6 +8,7 @@ from collections.abc import Callable
 import numpy as np
 
 from planetary_twin_py._core import (
+    LIGHTEST_MESH_LOAD,
     Model,
     derivative,
     frame_cycle_rate,
@@ -19,7 +20,6 @@ from planetary_twin_py.dynamics.oil import build_oil
 from planetary_twin_py.dynamics.start import build_load, start_state
 from planetary_twin_py.dynamics.static_load import mesh_force
 from planetary_twin_py.dynamics.train import build_train, lightest_body
-from planetary_twin_py.engine import LIGHTEST_MESH_LOAD
 from planetary_twin_py.scene import Scene
 
 CALLS = 100_000  # of the right-hand side, to time it

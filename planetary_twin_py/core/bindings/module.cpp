@@ -24,6 +24,8 @@ NB_MODULE(CORE_MODULE, m) {
     gearbox::bind_integrators(m);
     gearbox::bind_run(m);
     gearbox::bind_ports(m);
+    gearbox::bind_operating_point(m);
+    gearbox::bind_exported(m);
     gearbox::bind_peers(m);
     gearbox_axes::bind_axes(m);
 }

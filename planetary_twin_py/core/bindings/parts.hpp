@@ -13,6 +13,8 @@ void bind_quasi_static(nanobind::module_& m);
 void bind_integrators(nanobind::module_& m);
 void bind_run(nanobind::module_& m);
 void bind_ports(nanobind::module_& m);
+void bind_operating_point(nanobind::module_& m);
+void bind_exported(nanobind::module_& m);
 void bind_peers(nanobind::module_& m);
 
 }  // namespace gearbox

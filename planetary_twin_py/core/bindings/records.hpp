@@ -17,6 +17,7 @@
 #include "quasi_static/springs.hpp"
 #include "run/figures.hpp"
 #include "run/limits.hpp"
+#include "run/operating_point.hpp"
 #include "run/problem.hpp"
 #include "run/report.hpp"
 #include "run/window.hpp"
@@ -275,6 +276,24 @@ inline void bind_records(nb::module_& m) {
         .FIELD(ToothPairs, bristle_gain)
         .FIELD(ToothPairs, lost);
     record<DragOfMeshes>(m, "DragOfMeshes").FIELD(DragOfMeshes, torque).FIELD(DragOfMeshes, power);
+    record<OperatingPoint>(m, "OperatingPoint")
+        .FIELD(OperatingPoint, backlash)
+        .FIELD(OperatingPoint, lambda_ratio)
+        .FIELD(OperatingPoint, input_speed)
+        .FIELD(OperatingPoint, second_input_speed)
+        .FIELD(OperatingPoint, input_torque)
+        .FIELD(OperatingPoint, torque_ripple);
+    record<PointLaws>(m, "PointLaws")
+        .FIELD(PointLaws, constant)
+        .FIELD(PointLaws, play)
+        .FIELD(PointLaws, from_zero)
+        .FIELD(PointLaws, torque)
+        .FIELD(PointLaws, ratio)
+        .FIELD(PointLaws, starts_elsewhere)
+        .FIELD(PointLaws, start_speed)
+        .FIELD(PointLaws, force_share)
+        .FIELD(PointLaws, force_lever)
+        .FIELD(PointLaws, stiffness);
     record<Model>(m, "Model").FIELD(Model, train).FIELD(Model, oil).FIELD(Model, load);
     record<Evaluation>(m, "Evaluation")
         .FIELD(Evaluation, force)

@@ -25,10 +25,6 @@ struct Action {
     bool operator==(const Action&) const = default;
 };
 
-Instant instant_of(std::int64_t ticks) {
-    return {ticks / TICKS, static_cast<double>(ticks % TICKS) / static_cast<double>(TICKS)};
-}
-
 // What acts at a port, so many seconds after the instant of the load.
 Action acting(const Load& load, int port, double passed) {
     if (load.port[port] == BY_MOTION)

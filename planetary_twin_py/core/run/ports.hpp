@@ -17,6 +17,10 @@ namespace gearbox {
 constexpr int PORTS = 2;                           // MOTOR and LOAD_MACHINE
 constexpr std::int64_t TICKS = 1'000'000'000'000;  // per second, of the clock of the caller
 
+inline Instant instant_of(std::int64_t ticks) {
+    return {ticks / TICKS, static_cast<double>(ticks % TICKS) / static_cast<double>(TICKS)};
+}
+
 // What is given at the ports; a NaN: what acts stays as it is.
 struct Command {
     double torque[PORTS];  // on the shaft [N m]

@@ -1,0 +1,45 @@
+"""`planetary-twin export-fmu`: a scene as a functional mock-up unit for co-simulation."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from ..terminal.arguments import SceneArgument, SetOption
+from ..terminal.messages import fail
+from ..terminal.output_files import output_file
+from ..terminal.settings import changed_scene, settings
+from ..tolerance import LIVE_TOLERANCE
+
+
+def export_fmu(
+    scene: SceneArgument,
+    out: Annotated[
+        Path,
+        typer.Option(metavar="FILE.fmu", help="Write this file.", callback=output_file),
+    ],
+    fmi: Annotated[str, typer.Option(help="Version of FMI: 3.0 or 2.0.")] = "3.0",
+    tolerance: Annotated[
+        float, typer.Option(help="Relative tolerance, unless the importing tool sets another.")
+    ] = LIVE_TOLERANCE,
+    set_: SetOption = None,
+) -> None:
+    """Export SCENE as a functional mock-up unit (FMU) for co-simulation.
+
+    Inputs and outputs follow from drive.input.port and drive.output.port. The FMU runs on Linux on
+    x86-64 without Python.
+
+    Example: planetary-twin export-fmu paper --set drive.input.port=torque --out paper.fmu
+    """
+    from ..fmu.export import export_fmu as export
+    from ..fmu.export import exported_levels
+
+    try:
+        loaded = changed_scene(scene, settings(set_ or []))
+        export(loaded, out, version=fmi, tolerance=tolerance)
+    except (ValueError, OSError) as error:
+        fail(error)
+    size = out.stat().st_size / 1e6
+    typer.echo(f"{out}: FMI {fmi}, {size:.1f} MB, x86-64 {', '.join(exported_levels())}")

@@ -1,0 +1,119 @@
+#pragma once
+
+// What FMI 2.0 and 3.0 have in common: an instance with its phase, and who receives
+// the messages of errors.
+
+#include <cstddef>
+#include <functional>
+#include <memory>
+#include <string>
+
+#include "fmu/instance.hpp"
+
+namespace fmu {
+
+enum Status { OK, WARNING, DISCARD, ERROR, FATAL };
+
+enum class Phase { MADE, INITIALIZING, STEPPING, STOPPED, FAILED };
+
+class Component {
+public:
+    using Tell = std::function<void(Status, const char*)>;
+
+    Component(std::unique_ptr<Instance> instance, Tell tell)
+        : instance_(std::move(instance)), tell_(std::move(tell)) {}
+
+    Status get(const std::uint32_t* references, std::size_t count, double* values) {
+        if (phase_ == Phase::MADE) return refuse("outputs: are known from the initialisation on");
+        for (std::size_t n = 0; n < count; ++n)
+            if (Status status = answer(instance_->get(references[n], values[n]))) return status;
+        return OK;
+    }
+
+    Status set(const std::uint32_t* references, std::size_t count, const double* values) {
+        if (phase_ > Phase::STEPPING) return refuse("values: cannot be set after the end");
+        for (std::size_t n = 0; n < count; ++n)
+            if (Status status = answer(instance_->set(references[n], values[n]))) return status;
+        return OK;
+    }
+
+    Status set_experiment(bool with_tolerance, double tolerance, double start_time) {
+        if (phase_ != Phase::MADE) return refuse("initialisation: must follow the instantiation");
+        instance_->begin_at(start_time);
+        return with_tolerance ? answer(instance_->set_tolerance(tolerance)) : OK;
+    }
+
+    Status enter_initialization() {
+        if (phase_ != Phase::MADE) return refuse("initialisation: must follow the instantiation");
+        phase_ = Phase::INITIALIZING;
+        return OK;
+    }
+
+    Status exit_initialization() {
+        if (phase_ != Phase::INITIALIZING)
+            return refuse("initialisation: must be entered before it is left");
+        phase_ = Phase::STEPPING;
+        return answer(instance_->start());
+    }
+
+    Status step(double from, double size) {
+        if (phase_ != Phase::STEPPING) return refuse("step: must follow the initialisation");
+        const Status status = answer(instance_->step(from, from + size));
+        if (status == ERROR) phase_ = Phase::FAILED;
+        return status;
+    }
+
+    Status terminate() {
+        if (phase_ != Phase::STEPPING) return refuse("termination: must follow the initialisation");
+        phase_ = Phase::STOPPED;
+        return OK;
+    }
+
+    Status reset() {
+        instance_->reset();
+        phase_ = Phase::MADE;
+        return OK;
+    }
+
+    // A copy of all that changes; `state` may hold one, which it then replaces.
+    Status get_state(void** state) {
+        free_state(state);
+        *state = new State{phase_, std::unique_ptr<Snapshot>(instance_->snapshot())};
+        return OK;
+    }
+
+    Status set_state(const void* state) {
+        if (!state) return refuse("FMU state: is missing");
+        const auto* saved = static_cast<const State*>(state);
+        instance_->restore(*saved->snapshot);
+        phase_ = saved->phase;
+        return OK;
+    }
+
+    static Status free_state(void** state) {
+        if (state) {
+            delete static_cast<State*>(*state);
+            *state = nullptr;
+        }
+        return OK;
+    }
+
+    Status refuse(const std::string& reason) {
+        tell_(ERROR, reason.c_str());
+        return ERROR;
+    }
+
+private:
+    struct State {
+        Phase phase;
+        std::unique_ptr<Snapshot> snapshot;
+    };
+
+    std::unique_ptr<Instance> instance_;
+    Tell tell_;
+    Phase phase_ = Phase::MADE;
+
+    Status answer(const Complaint& complaint) { return complaint.empty() ? OK : refuse(complaint); }
+};
+
+}  // namespace fmu

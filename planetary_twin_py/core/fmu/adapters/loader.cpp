@@ -1,0 +1,48 @@
+#include "fmu/adapters/loader.hpp"
+
+#include <dlfcn.h>
+#include <unistd.h>
+
+namespace fmu {
+
+namespace {
+
+struct Level {
+    const char* name;
+    bool runs;  // on this processor
+};
+
+// Levels of x86-64, the best first, by the instructions that planetary_twin_py/_core/levels.py
+// lists.
+const Level* levels() {
+    __builtin_cpu_init();
+    const bool v3 = __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma") &&
+                    __builtin_cpu_supports("bmi") && __builtin_cpu_supports("bmi2");
+    const bool v4 = v3 && __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512bw") &&
+                    __builtin_cpu_supports("avx512cd") && __builtin_cpu_supports("avx512dq") &&
+                    __builtin_cpu_supports("avx512vl");
+    static const Level found[] = {{"v4", v4}, {"v3", v3}, {"v1", true}, {nullptr, false}};
+    return found;
+}
+
+}  // namespace
+
+std::unique_ptr<Instance> load(const std::string& resources, Complaint& complaint) {
+    for (const Level* level = levels(); level->name; ++level) {
+        const std::string path = resources + "/" + level->name + ".so";
+        if (!level->runs || access(path.c_str(), R_OK) != 0) continue;
+        void* library = dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL);  // stays until the end
+        void* make = library ? dlsym(library, "make_instance") : nullptr;
+        if (!make) {
+            complaint = dlerror();
+            return nullptr;
+        }
+        const std::string records = resources + "/scene.bin";
+        auto make_instance = reinterpret_cast<MakeInstance>(make);
+        return std::unique_ptr<Instance>(make_instance(records.c_str(), complaint));
+    }
+    complaint = resources + ": has no library for this processor; export the FMU from a wheel";
+    return nullptr;
+}
+
+}  // namespace fmu

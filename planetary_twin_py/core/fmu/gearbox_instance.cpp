@@ -1,0 +1,227 @@
+// The gearbox behind `fmu::Instance`: variables, errors and snapshots of a run.
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <cstring>
+#include <memory>
+
+#include "fmu/gearbox_run.hpp"
+#include "fmu/instance.hpp"
+#include "integrators/step_control.hpp"
+
+namespace gearbox {
+
+extern const char* const SOURCES;  // digest of the sources, of a file that the build writes
+
+namespace {
+
+using fmu::Complaint;
+
+constexpr double SAME_INSTANT = 1e-9;  // [s] by which communication points may miss one another
+
+struct Saved : fmu::Snapshot {
+    RunState run;
+};
+
+std::string number(double value) {
+    char text[32];
+    std::snprintf(text, sizeof text, "%g", value);
+    return text;
+}
+
+std::string name_of(const Variable& variable) {
+    return reinterpret_cast<const char*>(variable.name);
+}
+
+double* field(OperatingPoint& point, std::int64_t index) {
+    double* const fields[] = {&point.backlash,           &point.lambda_ratio, &point.input_speed,
+                              &point.second_input_speed, &point.input_torque, &point.torque_ripple};
+    return fields[index];
+}
+
+class GearboxInstance : public fmu::Instance {
+public:
+    explicit GearboxInstance(std::unique_ptr<Exported> scene) : scene_(std::move(scene)) {
+        GearboxInstance::reset();
+    }
+
+    Complaint set(std::uint32_t reference, double value) override {
+        const Variable* variable = find(reference);
+        if (!variable) return "value reference " + std::to_string(reference) + ": no such variable";
+        if (variable->given == NOT_GIVEN)
+            return name_of(*variable) + ": is an output and cannot be set";
+        if (variable->given == BEFORE_THE_END && run_.running)
+            return name_of(*variable) + ": is fixed once the initialisation has ended";
+        if (!(variable->lowest <= value && value <= variable->highest))
+            return name_of(*variable) + " = " + number(value) + ": must be within " +
+                   number(variable->lowest) + " and " + number(variable->highest);
+        put(*variable, value);
+        run_.dirty = true;
+        return {};
+    }
+
+    Complaint get(std::uint32_t reference, double& value) override {
+        const Variable* variable = find(reference);
+        if (!variable) return "value reference " + std::to_string(reference) + ": no such variable";
+        if (variable->kind == POINT) {
+            value = *field(run_.wanted, variable->index);
+            return {};
+        }
+        if (Complaint complaint = settle(); !complaint.empty()) return complaint;
+        value = show(*variable);
+        return {};
+    }
+
+    Complaint set_tolerance(double tolerance) override {
+        if (!(scene_->tolerances[0] <= tolerance && tolerance <= scene_->tolerances[1]))
+            return "tolerance = " + number(tolerance) + ": must be within " +
+                   number(scene_->tolerances[0]) + " and " + number(scene_->tolerances[1]);
+        run_.tolerance = tolerance;
+        run_.dirty = true;
+        return {};
+    }
+
+    void begin_at(double time) override { run_.origin = time; }
+
+    Complaint start() override {
+        Complaint complaint = settle();
+        run_.running = complaint.empty();
+        return complaint;
+    }
+
+    Complaint step(double from, double to) override {
+        if (run_.failed) return "the run has been stopped and cannot go on";
+        const double missed = from - run_.origin - time();
+        if (!(std::fabs(missed) <= SAME_INSTANT))
+            return "communication point = " + number(from) + " s: must be " +
+                   number(run_.origin + time()) + " s, the end of the last step";
+        const double ticks = std::nearbyint((to - run_.origin) * static_cast<double>(TICKS));
+        const auto end = static_cast<std::int64_t>(ticks);
+        if (!(to > from) || !(ticks < 9e18) || end <= run_.ticks)
+            return "step size = " + number(to - from) + " s: must be above 0";
+        run_.dirty = shown_ = false;
+        return go_to(end);
+    }
+
+    void reset() override {
+        prepare(*scene_, run_);
+        shown_ = false;
+        run_.dirty = true;
+    }
+
+    fmu::Snapshot* snapshot() const override {
+        auto* saved = new Saved;
+        saved->run = run_;
+        return saved;
+    }
+
+    void restore(const fmu::Snapshot& snapshot) override {
+        run_ = static_cast<const Saved&>(snapshot).run;
+        shown_ = false;
+    }
+
+private:
+    std::unique_ptr<Exported> scene_;
+    RunState run_;
+    MeshesShown meshes_;
+    bool shown_ = false;  // `meshes_` is up to date
+
+    const Variable* find(std::uint32_t reference) const {
+        const bool known = reference < static_cast<std::uint64_t>(scene_->variables);
+        return known ? &scene_->variable[reference] : nullptr;
+    }
+
+    double time() const { return static_cast<double>(run_.ticks) / static_cast<double>(TICKS); }
+
+    void put(const Variable& variable, double value) {
+        if (variable.kind == POINT)
+            *field(run_.wanted, variable.index) = value;
+        else if (variable.kind == TORQUE)
+            run_.command.torque[variable.index] = value;
+        else
+            run_.command.speed[variable.index] = value;
+    }
+
+    // Before the end of the initialisation, put the run at the start that is now wanted.
+    Complaint settle() {
+        if (run_.running || !run_.dirty) return {};
+        try {
+            gearbox::start(*scene_, run_);
+        } catch (const NoFiniteState&) {
+            return "no finite state at the start";
+        }
+        run_.dirty = shown_ = false;
+        return {};
+    }
+
+    Complaint go_to(std::int64_t end) {
+        Outcome outcome = Outcome::NOT_FINITE;
+        try {
+            change_point(*scene_, run_);
+            outcome = make_step(*scene_, run_, end);
+        } catch (const NoFiniteState&) {
+        }
+        if (outcome == Outcome::WITHIN_LIMITS) return {};
+        run_.failed = true;
+        const std::string when = "the run stops near " + number(run_.origin + time()) + " s: ";
+        if (outcome == Outcome::EXCEEDED)
+            return when + "a speed, a torque or a mesh deflection exceeds what a gearbox can show";
+        return when + "no finite state can be reached";
+    }
+
+    double show(const Variable& variable) {
+        const PortStates& ports = run_.shown;
+        const std::int64_t at = variable.index;
+        switch (variable.kind) {
+            case TIME:
+                return run_.origin + time();
+            case ANGLE:
+                return ports.angle[at];
+            case SPEED:
+                return shown_at_port(variable, run_.command.speed[at], ports.speed[at]);
+            case TORQUE:
+                return shown_at_port(variable, run_.command.torque[at], ports.torque[at]);
+        }
+        if (!shown_) show_meshes(*scene_, run_, meshes_);
+        shown_ = true;
+        switch (variable.kind) {
+            case MESH_DTE:
+                return meshes_.mesh[DTE][at];
+            case MESH_LOAD:
+                return meshes_.mesh[MESH_FORCE][at];
+            case MESH_FRICTION:
+                return meshes_.mesh[BOUNDARY][at] + meshes_.mesh[VISCOUS][at];
+        }
+        return meshes_.power_loss;
+    }
+
+    // An input has the value that was set, and until then the one that acts.
+    static double shown_at_port(const Variable& variable, double commanded, double acting) {
+        return variable.given != NOT_GIVEN && !std::isnan(commanded) ? commanded : acting;
+    }
+};
+
+std::unique_ptr<Exported> read_records(const char* path, Complaint& complaint) {
+    char digest[DIGEST] = {};
+    auto scene = std::make_unique<Exported>();
+    std::FILE* file = std::fopen(path, "rb");  // streams would ask for a newer C library
+    if (!file || std::fread(digest, DIGEST, 1, file) != 1)
+        complaint = std::string(path) + ": cannot be read";
+    else if (std::strncmp(digest, SOURCES, DIGEST) != 0)
+        complaint = std::string(path) + ": was written for another build of the core";
+    else if (std::fread(static_cast<void*>(scene.get()), sizeof(Exported), 1, file) != 1)
+        complaint = std::string(path) + ": is incomplete";
+    if (file) std::fclose(file);
+    return complaint.empty() ? std::move(scene) : nullptr;
+}
+
+}  // namespace
+
+}  // namespace gearbox
+
+extern "C" __attribute__((visibility("default"))) fmu::Instance* make_instance(
+    const char* records, fmu::Complaint& complaint) {
+    auto scene = gearbox::read_records(records, complaint);
+    return scene ? new gearbox::GearboxInstance(std::move(scene)) : nullptr;
+}

@@ -1,0 +1,159 @@
+#include "fmu/gearbox_run.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <memory>
+
+#include "integrators/march.hpp"
+#include "integrators/radau.hpp"
+#include "integrators/step_control.hpp"
+#include "train/energy.hpp"
+#include "train/initial_state.hpp"
+
+namespace gearbox {
+
+namespace {
+
+constexpr Instant NEVER{0, std::numeric_limits<double>::infinity()};
+constexpr double NOTHING = std::numeric_limits<double>::quiet_NaN();
+
+Instant now(const RunState& run) {
+    return instant_of(run.ticks);
+}
+
+bool same(const OperatingPoint& a, const OperatingPoint& b) {
+    return a.backlash == b.backlash && a.lambda_ratio == b.lambda_ratio &&
+           a.input_speed == b.input_speed && a.second_input_speed == b.second_input_speed &&
+           a.input_torque == b.input_torque && a.torque_ripple == b.torque_ripple;
+}
+
+void set_nodes(const Exported& scene, RunState& run) {
+    for (int n = 0; n < NODE_CHOICES; ++n) {
+        if (!(run.tolerance > scene.least_tolerance[n])) continue;
+        if (run.march.run.nodes.count != scene.points[n])
+            radau(static_cast<int>(scene.points[n]), run.march.run.nodes);
+        return;
+    }
+}
+
+// Put the operating point that is wanted into the model, and scale the tolerances by it.
+void load_point(const Exported& scene, RunState& run) {
+    const OperatingPoint& point = run.wanted;
+    Model& model = run.model;
+    Control& control = run.march.control;
+    if (!run.started || point.lambda_ratio != run.point.lambda_ratio)
+        prescribe(model.oil, point.lambda_ratio);
+    Load load = load_at(scene.laws, point);
+    if (run.started) keep_given(model.load, load);
+    model.load = load;
+    control.tolerance = run.tolerance;
+    control.deflection = deflection_at(scene.laws, point);
+    set_nodes(scene, run);
+    control.changed = true;
+    const Repetition& repetition = scene.repetition[load.ripple != 0.0];
+    run.march.periodic.cycles = repetition.cycles;
+    run.march.periodic.numerator = repetition.numerator;
+    run.march.periodic.denominator = repetition.denominator;
+    run.point = point;
+}
+
+// Samples of one instant, of all quantities.
+struct OneSample {
+    double mesh[QUANTITIES * MESHES], turns[AXES], angle[BODIES], speed[BODIES],
+        drag[SAMPLE_DRAGS] = {};
+
+    Samples room(const Train& train) {
+        return {1, QUANTITIES, train.meshes, train.bodies, AXES, mesh, turns, angle, speed, drag};
+    }
+};
+
+void take_sample(RunState& run, OneSample& sample) {
+    advance(run.model, run.march, now(run), NEVER, {}, {}, sample.room(run.model.train));
+}
+
+// Let the sums of the meshes and the ledger begin now.
+void clear_books(RunState& run) {
+    OneSample sample;
+    take_mesh_sums(run.model, run.march, now(run), run.books.sums);
+    take_books(run.model, run.march, run.books);
+    take_sample(run, sample);
+}
+
+}  // namespace
+
+void prepare(const Exported& scene, RunState& run) {
+    run = std::move(*std::make_unique<RunState>());  // which is too large for some stacks
+    run.model = scene.model;
+    run.march.control = scene.control;
+    run.march.periodic.pause = scene.pause;
+    run.point = run.wanted = scene.point;
+    run.command = {{NOTHING, NOTHING}, {NOTHING, NOTHING}};
+    run.tolerance = scene.tolerance;
+}
+
+void start(const Exported& scene, RunState& run) {
+    const OperatingPoint wanted = run.wanted;
+    const Command command = run.command;
+    const double origin = run.origin, tolerance = run.tolerance;
+    prepare(scene, run);
+    run.wanted = wanted;
+    run.command = command;
+    run.origin = origin;
+    run.tolerance = tolerance;
+    load_point(scene, run);
+    March& march = run.march;
+    double speed[AXES] = {start_speed(scene.laws, run.point), run.point.second_input_speed};
+    march.end = initial_state(run.model, speed, mesh_force(scene.laws, run.model.load.torque[0]));
+    march.begin = march.end;
+    begin_step(run.model, march);
+    march.end = march.begin;  // tooth pairs may have started to stick
+    OneSample sample;
+    take_sample(run, sample);
+    stored(run.model, march.end, march.scratch);
+    take_mesh_sums(run.model, march, now(run), run.books.sums);
+    cut(run.model, march, now(run));
+    take_books(run.model, march, run.books);
+    take_sample(run, sample);
+    read_ports(run.model, march, now(run), run.shown);
+    run.started = true;
+}
+
+void change_point(const Exported& scene, RunState& run) {
+    if (same(run.wanted, run.point)) return;
+    if (run.stepped) clear_books(run);
+    cut(run.model, run.march, now(run));
+    run.march.sums.total = {};
+    run.march.sums.taken = run.march.control.step;
+    load_point(scene, run);
+    take_books(run.model, run.march, run.books);
+    OneSample sample;
+    take_sample(run, sample);
+    run.stepped = false;
+}
+
+Outcome make_step(const Exported& scene, RunState& run, std::int64_t end) {
+    PortStep step{run.ticks, end, run.command, scene.linear};
+    if (check(run.model.load, scene.ranges, step.command) != Answer::OBEYED)
+        return Outcome::REFUSED;
+    run.command = {{NOTHING, NOTHING}, {NOTHING, NOTHING}};
+    const Outcome outcome =
+        step_ports(run.model, run.march, step, scene.limits, run.books, run.shown);
+    run.ticks = end;
+    run.stepped = true;
+    return outcome;
+}
+
+void show_meshes(const Exported& scene, RunState& run, MeshesShown& out) {
+    const Train& train = run.model.train;
+    OneSample sample;
+    take_sample(run, sample);
+    out.power_loss = sample.drag[0] + sample.drag[1];
+    for (std::int64_t i = 0; i < scene.report.meshes; ++i) {
+        for (int q = 0; q < QUANTITIES; ++q)
+            out.mesh[q][i] = sample.mesh[q * train.meshes + scene.report.mesh[i]];
+        out.power_loss += out.mesh[POWER_LOSS][i];
+    }
+}
+
+}  // namespace gearbox

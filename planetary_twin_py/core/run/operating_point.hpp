@@ -1,0 +1,99 @@
+#pragma once
+
+// What an operating point means for the records of a run: the loads, the prescribed lambda ratio,
+// and the deflection to which tolerances are relative.
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+
+#include "train/load.hpp"
+#include "tribology/boundary.hpp"
+#include "tribology/oil.hpp"
+
+namespace gearbox {
+
+// The quantities that may change while a run goes on, as far as records depend on them here.
+struct OperatingPoint {
+    double backlash;            // total, along the line of action or on the pitch circle [m]
+    double lambda_ratio;        // [-]
+    double input_speed;         // [rad/s]
+    double second_input_speed;  // [rad/s]
+    double input_torque;        // [N m]
+    double torque_ripple;       // [N m]
+};
+
+// How they depend on it in a scene.
+struct alignas(64) PointLaws {
+    Load constant;  // what depends on nothing
+    double play;  // half the backlash along the line of action per backlash, or all of it where the
+                  // force grows from zero [-]
+    bool from_zero;           // whether the force grows from a DTE of zero
+    double torque[MACHINES];  // of each machine per torque of the first motor [-]
+    double ratio[MACHINES];   // speed of the shafts of motor and load per speed of the motor [-]
+    bool starts_elsewhere;    // whether a run starts at another speed
+    double start_speed;       // that speed [rad/s]
+    double force_share[2];    // teeth of the sun and of the first motor's member: mesh force
+    double force_lever;       // per torque is their quotient over this lever [m]
+    double stiffness;         // of the softest tooth pair [N/m]
+};
+
+constexpr double LIGHTEST_MESH_LOAD = 1.0;  // [N] smaller ones do not tighten tolerances further
+constexpr double THINNEST = 1e-12;          // lambda ratio in place of 0: the film carries 0.04 %
+
+// Mean force of each mesh [N] at a torque of the first motor [N m].
+inline double mesh_force(const PointLaws& laws, double torque) {
+    return torque * laws.force_share[0] / laws.force_share[1] / laws.force_lever;
+}
+
+// Speed of the first motor at the start [rad/s].
+inline double start_speed(const PointLaws& laws, const OperatingPoint& point) {
+    return laws.starts_elsewhere ? laws.start_speed : point.input_speed;
+}
+
+// Loads at an operating point; given torques and speeds are those of steady running there.
+inline Load load_at(const PointLaws& laws, const OperatingPoint& point) {
+    Load load = laws.constant;
+    load.half_backlash = point.backlash * laws.play;
+    load.offset = laws.from_zero ? 0.0 : load.half_backlash;
+    const double inner = load.half_backlash - load.offset;
+    load.inner_squared = inner * inner;
+    load.target_speed[0] = point.input_speed;
+    load.target_speed[1] = point.second_input_speed;
+    load.ripple = point.torque_ripple;
+    for (int m = 0; m < MACHINES; ++m) {
+        load.torque[m] = point.input_torque * laws.torque[m];
+        load.speed[m] = laws.ratio[m] * start_speed(laws, point);
+    }
+    return load;
+}
+
+// Let the torques and motions that are given stay as they were before a change of other loads.
+inline void keep_given(const Load& before, Load& load) {
+    for (int m = 0; m < MACHINES; ++m) {
+        if (before.port[m] == BY_TORQUE) {
+            load.torque[m] = before.torque[m];
+            load.torque_rate[m] = before.torque_rate[m];
+        }
+        load.speed[m] = before.speed[m];
+        load.acceleration[m] = before.acceleration[m];
+    }
+    load.since_seconds = before.since_seconds;
+    load.since = before.since;
+}
+
+// Let the oil have a prescribed lambda ratio.
+inline void prescribe(Oil& oil, double lambda_ratio) {
+    oil.lambda_ratio = lambda_ratio;
+    oil.log_lambda = std::log(std::max(lambda_ratio, THINNEST));
+    oil.asperity_shear = boundary_shear(oil.asperities, oil.printed_asperities, lambda_ratio);
+}
+
+// Deflection of the meshes under the torques of steady running [m].
+inline double deflection_at(const PointLaws& laws, const OperatingPoint& point) {
+    const double strongest = std::fabs(point.input_torque) + point.torque_ripple;
+    const double force = std::fabs(mesh_force(laws, 1.0)) * strongest;
+    return std::max(force, LIGHTEST_MESH_LOAD) / laws.stiffness + 0.5 * point.backlash;
+}
+
+}  // namespace gearbox

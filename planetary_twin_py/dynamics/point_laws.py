@@ -1,0 +1,69 @@
+"""How the records of a run depend on its operating point, for the compiled equations."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from .. import _core
+from .._core import Load, PointLaws, Train
+from ..scene import OperatingPoint, Scene
+from .bodies import base_radii
+from .speed_loop import bandwidth, speed_loop_gains
+from .static_load import parts, static_torques
+
+
+def point_laws(scene: Scene, train: Train, port: list[int]) -> PointLaws:
+    """Collect what depends on the operating point, and what does not.
+
+    Args:
+        scene: scene of the drive.
+        train: of `build_train`.
+        port: what acts on the shafts of motor and load.
+
+    Returns:
+        The laws, see core/run/operating_point.hpp.
+    """
+    control, mesh = scene.drive.speed_control, scene.mesh
+    gains = speed_loop_gains(scene, train, bandwidth(scene))
+    play, least = mesh.flanks(1.0, scene.gearset.pressure_angle)
+    started, torques = control.start_speed, parts(scene)
+    return PointLaws(
+        constant=Load(
+            release=1.0 if mesh.backlash == "dead_zone" else 0.0,
+            slew_rate=control.slew_rate,
+            ripple_order=float(control.ripple_order),
+            inertia=gains.inertia,
+            proportional=gains.proportional,
+            trim_gain=gains.trim,
+            load_proportional=gains.load_proportional,
+            port=port,
+        ),
+        play=play,
+        from_zero=least == 0.0,
+        torque=static_torques(scene),
+        ratio=train.ratio[train.coupling[: len(scene.drive.ports), 0], 0],
+        starts_elsewhere=started is not None,
+        start_speed=0.0 if started is None else started,
+        force_share=[torques["sun"], torques[scene.drive.input.member]],
+        force_lever=base_radii(scene)["sun"] * scene.gearset.planets,
+        stiffness=float(np.min(train.stiffness)),
+    )
+
+
+def record_of(point: OperatingPoint) -> _core.OperatingPoint:
+    """An operating point as a record.
+
+    Args:
+        point: the operating point.
+
+    Returns:
+        The record, without the temperature, of which the records of an oil are built.
+    """
+    return _core.OperatingPoint(
+        backlash=point.backlash,
+        lambda_ratio=point.lambda_ratio,
+        input_speed=point.input_speed,
+        second_input_speed=point.second_input_speed,
+        input_torque=point.input_torque,
+        torque_ripple=point.torque_ripple,
+    )

@@ -1,0 +1,104 @@
+"""A scene as the records that the library of an FMU reads, see core/fmu/exported.hpp."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+
+from .. import _core
+from .._core import DIGEST, SOURCES, VARIABLE_KINDS, Exported
+from ..driven_engine import DrivenEngine
+from ..dynamics.bodies import body_names, build_report, mesh_names
+from ..dynamics.cycle import common_cycles, turns_per_cycle
+from ..dynamics.point_laws import record_of
+from ..engine import POINTS, new_march
+from ..runaway import Limits
+from ..scene import Scene
+from ..tolerance import TOLERANCES
+from .variables import Variable
+
+SETTABLE = {"input": 1, "tunable": 1, "fixed": 2}
+"""When a variable may be set: at any time, or up to the end of the initialisation."""
+
+
+def build_records(scene: Scene, tolerance: float) -> Exported:
+    """Collect the records of a scene.
+
+    Args:
+        scene: the scene.
+        tolerance: relative local error tolerance.
+
+    Returns:
+        The records, without the variables.
+
+    Raises:
+        ValueError: the tolerance is out of range, or the scene cannot be built.
+    """
+    engine = DrivenEngine(scene, tolerance)
+    control, own = new_march(_core, "auto").control.copy(), engine.march
+    control.yielding, control.quickness = own.control.yielding, own.control.quickness
+    least, points = zip(*POINTS, strict=True)
+    exported = Exported(
+        model=engine.model,
+        control=control,
+        pause=own.periodic.pause,
+        limits=Limits(scene, engine.train).record,
+        ranges=engine.port_ranges,
+        report=build_report(_core, body_names(scene), mesh_names(scene)),
+        laws=engine.laws,
+        point=record_of(scene.operating_point),
+        linear=scene.drive.interpolation == "linear",
+        tolerance=tolerance,
+        tolerances=TOLERANCES,
+        least_tolerance=least,
+        points=points,
+    )
+    _put_repetitions(scene, engine, exported)
+    return exported
+
+
+def _put_repetitions(scene: Scene, engine: DrivenEngine, exported: Exported) -> None:
+    """After how many mesh cycles all repeats, without and with torque ripple."""
+    load = engine.model.load.copy()
+    for place, ripple in zip(exported.repetition, (0.0, 1.0), strict=True):
+        load.ripple = ripple
+        cycles = 0 if scene.drive.ports.given else common_cycles(engine.train, load)
+        turns = abs(cycles * turns_per_cycle(engine.train)) if cycles else Fraction(0)
+        place.cycles, place.numerator, place.denominator = (
+            cycles, turns.numerator, turns.denominator,
+        )  # fmt: skip
+
+
+def put_variables(exported: Exported, variables: list[Variable]) -> None:
+    """Write the variables into the records.
+
+    Args:
+        exported: the records.
+        variables: in the order of their value references.
+
+    Raises:
+        ValueError: there is no room for so many, or for a name.
+    """
+    if len(variables) > _core.VARIABLES:
+        raise ValueError(f"an FMU has room for {_core.VARIABLES} variables, not {len(variables)}")
+    exported.variables = len(variables)
+    for place, variable in zip(exported.variable, variables, strict=False):
+        name = variable.name.encode()
+        if len(name) >= _core.NAME:
+            raise ValueError(f"{variable.name}: must have fewer than {_core.NAME} characters")
+        place.kind, place.index = VARIABLE_KINDS[variable.kind], variable.index
+        settable = variable.causality if variable.causality == "input" else variable.variability
+        place.given = SETTABLE.get(settable, 0)
+        place.lowest, place.highest = variable.minimum, variable.maximum
+        place.name = list(name)
+
+
+def file_of(exported: Exported) -> bytes:
+    """The file that the library reads: digest of the core, then the records.
+
+    Args:
+        exported: the records.
+
+    Returns:
+        Its bytes.
+    """
+    return SOURCES.encode().ljust(DIGEST, b"\0") + exported.raw().tobytes()

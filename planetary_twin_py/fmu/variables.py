@@ -1,0 +1,170 @@
+"""Variables of an FMU, numbered equally in its description, its records and its library."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import Literal
+
+import numpy as np
+
+from .._core import Exported
+from ..dynamics.bodies import LOAD_MACHINE, MOTOR, mesh_names
+from ..dynamics.speed_loop import SpeedLoopCheck
+from ..dynamics.train import build_train
+from ..scene import OperatingPoint, Scene
+from ..scene.drive import Causality
+
+POINT_FIELDS = (
+    "backlash",
+    "lambda_ratio",
+    "input_speed",
+    "second_input_speed",
+    "input_torque",
+    "torque_ripple",
+)
+"""Fields of the operating point that an FMU knows, by their index in its records."""
+
+
+@dataclass(frozen=True)
+class Variable:
+    """A real variable; the place in the list of all of them is its value reference."""
+
+    name: str
+    """In the model description."""
+    kind: str
+    """One of `_core.VARIABLE_KINDS`."""
+    description: str
+    """In words."""
+    unit: str = ""
+    """SI unit; empty for a dimensionless number."""
+    index: int = 0
+    """Of the port, the mesh or the field of the operating point."""
+    causality: Literal["independent", "input", "output", "parameter"] = "output"
+    """As FMI calls it."""
+    variability: Literal["continuous", "tunable", "fixed"] = "continuous"
+    """As FMI calls it."""
+    start: float | None = None
+    """Of an input or a parameter."""
+    minimum: float = 0.0
+    """Of an input or a parameter."""
+    maximum: float = 0.0
+    """Of an input or a parameter."""
+
+
+SPEEDS = 33  # at which the speed loop is examined
+PORTS = {"input": MOTOR, "output": LOAD_MACHINE}
+SHOWN = {
+    "angle": ("angle of the {} shaft since the start", "rad"),
+    "speed": ("speed of the {} shaft", "rad/s"),
+    "torque": ("torque on the {} shaft, positive if it acts counter-clockwise", "N m"),
+}
+MESH = {
+    "dte": ("dynamic transmission error along the line of action", "m"),
+    "mesh_force": ("normal force, negative on the coast flanks", "N"),
+    "friction": ("magnitude of boundary plus viscous friction", "N"),
+}
+GIVEN = {"torque": "torque", "motion": "speed"}
+"""Input variable of a port by its causality."""
+
+
+def variables(scene: Scene, exported: Exported) -> list[Variable]:
+    """List the variables of a scene.
+
+    Args:
+        scene: the scene.
+        exported: its records, for values at the start and ranges.
+
+    Returns:
+        The variables in the order of their value references.
+    """
+    return [
+        Variable("time", "time", "time", "s", causality="independent"),
+        *_of_ports(scene, exported),
+        *_of_meshes(scene),
+        Variable("power_loss", "power_loss", "tooth friction, bearings and churning, now", "W"),
+        *_of_point(scene),
+    ]
+
+
+def _of_ports(scene: Scene, exported: Exported) -> Iterator[Variable]:
+    load, ranges = exported.model.load, exported.ranges
+    start = {"torque": load.torque, "speed": load.speed}
+    most = {"torque": ranges.torque, "speed": ranges.speed}
+    for side, place in PORTS.items():
+        port: Causality = getattr(scene.drive.ports, side)
+        for kind, (text, unit) in SHOWN.items():
+            name, description = f"{side}.{kind}", text.format(side)
+            if kind != GIVEN.get(port):
+                yield Variable(name, kind, description, unit, place)
+                continue
+            largest = float(most[kind][place])
+            yield Variable(
+                name, kind, description, unit, place, "input",
+                start=float(start[kind][place]), minimum=-largest, maximum=largest,
+            )  # fmt: skip
+
+
+def _of_meshes(scene: Scene) -> Iterator[Variable]:
+    for place, mesh in enumerate(mesh_names(scene).names):
+        for kind, (text, unit) in MESH.items():
+            yield Variable(f"{mesh}.{kind}", kind, f"{mesh}: {text}", unit, place)
+
+
+def _of_point(scene: Scene) -> Iterator[Variable]:
+    """Fields of the operating point that the records follow without the scene."""
+    for name, variability in _variabilities(scene).items():
+        tunable = scene.tunables[name]
+        yield Variable(
+            f"operating_point.{name}", "point", tunable.description, tunable.unit,
+            POINT_FIELDS.index(name), "parameter", variability,
+            float(getattr(scene.operating_point, name)), tunable.minimum, tunable.maximum,
+        )  # fmt: skip
+
+
+def _variabilities(scene: Scene) -> dict[str, Literal["tunable", "fixed"]]:
+    """Fields that can be given: at any time (tunable), or up to the start of a run (fixed).
+
+    Others keep their values of the scene: those that have no effect; those on which other parts of
+    the scene set bounds; the speed, if the speed loop is not stable at every one.
+    """
+    ports = scene.drive.ports
+    found: dict[str, Literal["tunable", "fixed"]] = {}
+    if scene.lubrication.lambda_ratio == "prescribed":
+        found["lambda_ratio"] = "tunable"
+    if _holds_any_speed(scene):
+        found["input_speed"] = "tunable" if ports.hold_speed else "fixed"
+    if _accepts_any_load(scene):
+        found["backlash"] = "tunable"
+        found["input_torque"] = "tunable" if "machine" in ports else "fixed"
+        if ports.input == "machine":
+            found["torque_ripple"] = "tunable"
+    return {name: found[name] for name in OperatingPoint.model_fields if name in found}
+
+
+def _accepts_any_load(scene: Scene) -> bool:
+    """Whether backlash and torques have no other bounds than their own.
+
+    Runout and tip relief have bounds that depend on them, strictest without load and backlash.
+    """
+    least = {"backlash": scene.tunables["backlash"].minimum, "input_torque": 0.0}
+    try:
+        scene.point_with(scene.operating_point, least)
+    except ValueError:
+        return False
+    return True
+
+
+def _holds_any_speed(scene: Scene) -> bool:
+    """Whether the speed loop is stable at every speed that the drive allows.
+
+    Mesh damping that follows the speed is lowest at the highest speed, where the loop is least
+    stable; speeds below are examined, too.
+    """
+    loop = SpeedLoopCheck(scene, build_train(scene))
+    try:
+        for speed in np.linspace(0.0, scene.drive.speed_limit, SPEEDS):
+            loop.check(scene.operating_point.model_copy(update={"input_speed": float(speed)}))
+    except ValueError:
+        return False
+    return True

@@ -1,0 +1,213 @@
+"""An FMU makes the steps of `Twin`, bit for bit, in a process that knows only the FMI."""
+
+import zipfile
+
+import numpy as np
+import pytest
+from fmu.importer import Refused, Slave
+from ports.ports_of_paper import PAPER, driven
+
+import planetary_twin_py as pt
+
+SHOWN = [f"{side}.{kind}" for side in ("input", "output") for kind in ("angle", "speed", "torque")]
+TOLERANCE = 3e-3
+
+
+def slave_of(scene, folder, **options):
+    path = pt.export_fmu(scene, folder / "gearbox.fmu", tolerance=TOLERANCE)
+    return Slave(path, folder / "unpacked", **options)
+
+
+def shown(states):
+    """What the ports of a twin show, in the order of SHOWN."""
+    names = [name.replace(".", "_") for name in SHOWN]
+    return [getattr(states, name) for name in names]
+
+
+def commands(scene, count):
+    """Random commands at both ports, as they take them: arguments of `Twin.step`."""
+    rng = np.random.default_rng(4)
+    mean = {"torque": (63.0, 147.0), "motion": (104.7, -44.88)}
+    swing = {"torque": 9.0, "motion": 0.05}
+    names = {"torque": "torque", "motion": "speed"}
+    for _ in range(count):
+        given = {}
+        for place, side in enumerate(("input", "output")):
+            port = getattr(scene.drive.ports, side)
+            if port != "machine" and rng.random() < 0.8:
+                value = mean[port][place] + swing[port] * rng.standard_normal()
+                given[f"{side}_{names[port]}"] = float(value)
+        yield float(rng.choice([1e-3, 4e-4, 1.7e-3])), given
+
+
+@pytest.mark.parametrize("interpolation", ["hold", "linear"])
+@pytest.mark.parametrize(
+    "ports",
+    [("torque", "motion"), ("motion", "torque"), ("torque", "torque"), ("machine", "torque")],
+    ids="-".join,
+)
+def test_the_same_commands_have_the_same_bits_by_fmu_and_in_python(tmp_path, ports, interpolation):
+    scene = driven(*ports, **{"drive.interpolation": interpolation})
+    slave, twin = slave_of(scene, tmp_path), pt.Twin(scene, tolerance=TOLERANCE)
+    assert slave.get(*SHOWN) == shown(twin.port_states)
+    for dt, given in commands(scene, 60):
+        slave.set(**{name.replace("_", "__"): value for name, value in given.items()})
+        slave.step(dt)
+        assert slave.get(*SHOWN) == shown(twin.step(dt, **given))
+    slave.end()
+
+
+def test_tunable_parameters_have_the_effect_of_set(tmp_path):
+    scene = driven("machine", "torque")
+    slave, twin = slave_of(scene, tmp_path), pt.Twin(scene, tolerance=TOLERANCE)
+    changes = [
+        {"backlash": 5e-6},
+        {"lambda_ratio": 0.7},
+        {"input_speed": 140.0, "input_torque": 50.0},
+        {"torque_ripple": 5.0, "backlash": 0.0},
+        {"lambda_ratio": 0.0},
+    ]
+    for change in changes:
+        twin.set(**change)
+        slave.set(**{f"operating_point__{name}": value for name, value in change.items()})
+        for n in range(10):
+            slave.set(output__torque=140.0 + n)
+            slave.step(1e-3)
+            assert slave.get(*SHOWN) == shown(twin.step(1e-3, output_torque=140.0 + n))
+    before = slave.get("operating_point.backlash", "operating_point.input_speed")
+    assert before == [0.0, 140.0]
+
+
+@pytest.mark.parametrize("tolerance", [None, 1e-4])
+def test_a_run_of_machines_repeats_its_cycles_as_a_twin_does(tmp_path, tolerance):
+    """Values before the start, and steps long enough for cycles to be repeated."""
+    start = {"input_speed": 200.0, "backlash": 2e-6}
+    names = {f"operating_point__{name}": value for name, value in start.items()}
+    slave = slave_of(PAPER, tmp_path, tolerance=tolerance, start=names)
+    twin = pt.Twin(PAPER.replace(**start), tolerance=tolerance or TOLERANCE)
+    for _ in range(100):
+        slave.step(0.05)
+        assert slave.get(*SHOWN) == shown(twin.step(0.05))
+    assert twin.advance(0.01).repeated
+
+
+def test_meshes_show_the_samples_of_a_window(tmp_path):
+    scene = driven("torque", "motion")
+    step = 3.7e-4  # of no simple ratio to the mesh cycle, 2 ms
+    slave, twin = slave_of(scene, tmp_path), pt.Twin(scene, 1.0 / step, TOLERANCE)
+    wanted = [
+        f"{mesh}.{kind}" for mesh in twin.meshes for kind in ("dte", "mesh_force", "friction")
+    ]
+    losses = []
+    for n in range(540):
+        slave.set(input__torque=63.0)
+        slave.step(step)
+        wave = twin.advance(step, input_torque=63.0).waveform
+        row = np.column_stack([wave.dte[0], wave.mesh_force[0], wave.friction[0]]).ravel()
+        values = slave.get(*wanted, "power_loss", "time")
+        assert values[:-2] == pytest.approx(row, rel=1e-6)
+        assert values[-1] == pytest.approx(step * (n + 1), abs=1e-12)
+        losses.append(values[-2])
+    window = pt.Twin(scene, tolerance=TOLERANCE).advance(0.2, input_torque=63.0)
+    assert np.mean(losses) == pytest.approx(window.power_loss, rel=0.01)
+
+
+def test_a_state_of_an_fmu_leads_to_the_same_future(tmp_path):
+    scene = driven("torque", "torque")
+    slave = slave_of(scene, tmp_path)
+
+    def future():
+        for n in range(20):
+            slave.set(input__torque=60.0 + n, operating_point__lambda_ratio=1.0 + 0.02 * n)
+            slave.step(1e-3)
+        return slave.get(*SHOWN, "sun_planet_1.dte")
+
+    slave.step(5e-3)
+    state = slave.state()
+    first = future()
+    slave.restore(state)
+    assert future() == first
+    slave.restore(state)
+    slave.free(state)
+    assert future() == first
+
+
+def test_reset_begins_again(tmp_path):
+    slave = slave_of(driven("torque", "torque"), tmp_path)
+    first = slave.get(*SHOWN)
+    slave.set(input__torque=10.0, operating_point__backlash=1e-5)
+    slave.step(0.01)
+    assert slave.get(*SHOWN) != first
+    slave.reset()
+    slave.begin()
+    assert slave.get(*SHOWN) == first
+
+
+def test_time_begins_where_the_importing_tool_says(tmp_path):
+    slave = slave_of(driven("torque", "torque"), tmp_path, start_time=100.0)
+    slave.step(0.25)
+    assert slave.get("time", "input.angle")[0] == 100.25
+
+
+@pytest.mark.parametrize(
+    ("values", "message"),
+    [
+        ({"input__torque": 1e9}, "input.torque = 1e+09: must be within -1000 and 1000"),
+        ({"input__torque": float("nan")}, "input.torque = nan: must be within"),
+        ({"operating_point__backlash": -1.0}, "operating_point.backlash = -1: must be within 0"),
+        ({"input__speed": 1.0}, "input.speed: is an output and cannot be set"),
+        ({"operating_point__input_speed": 1.0}, "is fixed once the initialisation has ended"),
+    ],
+)
+def test_a_value_that_cannot_be_is_refused_in_one_line(tmp_path, values, message):
+    slave = slave_of(driven("torque", "torque"), tmp_path)
+    with pytest.raises(Refused) as refused:
+        slave.set(**values)
+    assert message in str(refused.value)
+    slave.step(1e-3)
+
+
+def test_a_step_from_elsewhere_is_refused(tmp_path):
+    slave = slave_of(driven("torque", "torque"), tmp_path)
+    slave.step(1e-3)
+    slave.time = 0.5
+    with pytest.raises(Refused, match=r"must be 0\.001 s, the end of the last step"):
+        slave.step(1e-3)
+
+
+def test_a_runaway_ends_the_fmu(tmp_path):
+    scene = driven("torque", "torque", **{"drive.speed_limit": 120.0})
+    slave = slave_of(scene, tmp_path)
+    slave.set(input__torque=1000.0, output__torque=-2000.0)
+    with pytest.raises(Refused, match="exceeds what a gearbox can show"):
+        for _ in range(1000):
+            slave.step(1e-3)
+    with pytest.raises(Refused, match="step: must follow the initialisation"):
+        slave.step(1e-3)
+
+
+def test_records_of_another_core_are_refused(tmp_path):
+    path = pt.export_fmu(driven("torque", "torque"), tmp_path / "gearbox.fmu")
+    folder = tmp_path / "unpacked"
+    Slave(path, folder)
+    records = folder / "resources" / "scene.bin"
+    content = records.read_bytes()
+
+    def instance(changed, name):
+        records.write_bytes(changed)
+        archive = tmp_path / f"{name}.fmu"
+        repack(folder, archive)
+        return Slave(archive, tmp_path / name)
+
+    with pytest.raises(Refused, match="was written for another build of the core"):
+        instance(b"0" * 16 + content[16:], "other")
+    with pytest.raises(Refused, match="is incomplete"):
+        instance(content[:-1], "shorter")
+
+
+def repack(folder, archive):
+    """An archive of a folder."""
+    with zipfile.ZipFile(archive, "w") as out:
+        for path in folder.rglob("*"):
+            if path.is_file():
+                out.write(path, path.relative_to(folder))
