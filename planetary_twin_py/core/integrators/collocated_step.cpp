@@ -118,10 +118,12 @@ double first_trial(March& march, double longest, double event) {
     return std::min(planned(event, std::min(h, longest), STRETCH), longest);
 }
 
-// Length of a step whose error is allowed, and by how much the next may be longer; 0: none.
+// Length of a step whose error is allowed, and by how much the next may be longer; 0: none, and for
+// how many steps the other method is to take over.
 struct Accepted {
     double step;
     double error;
+    std::int64_t detour = 0;
 };
 
 template <int L>
@@ -131,14 +133,14 @@ Accepted accepted_step(const Model& model, March& march, double h, bool fresh) {
     int restless = 0;
     while (true) {
         if (control.method != COLLOCATION && !resolves(march.run, model.train.bodies, h))
-            return {0.0, 0.0};
+            return {0.0, 0.0, BRIEF_DETOUR};
         Outcome tried = collocate<L>(model, march, h, fresh);
         if (tried.error <= 1.0 || (h <= SHORTEST_STEP && tried.error < ASTRAY))
             return {h, tried.error};
         restless += tried.settled ? 0 : 1;
         double shorter = h * std::max(SHRINK, growth_of_step(tried.error, order));
         if (h <= SHORTEST_STEP || outdone(control, shorter, tried.settled, restless))
-            return {0.0, 0.0};
+            return {0.0, 0.0, DETOUR};
         ++control.rejected;
         h = std::max(shorter, SHORTEST_STEP);
     }
@@ -164,8 +166,11 @@ std::int64_t make_step(const Model& model, March& march, double longest, const N
     const bool fresh = control.changed;
     run.place = fresh ? 0 : run.place + 1;
     double first = first_trial(march, longest, event.time);
-    auto [h, error] = accepted_step<L>(model, march, first, fresh);
-    if (h == 0.0) return FAILED;
+    auto [h, error, detour] = accepted_step<L>(model, march, first, fresh);
+    if (h == 0.0) {
+        control.detour = detour;
+        return FAILED;
+    }
     double factor = growth_of_step(error, static_cast<double>(run.nodes.count));
     control.next_step = h * std::min(GROW, std::max(SHRINK, factor));
     if (fresh) {
