@@ -17,9 +17,10 @@ namespace gearbox {
 
 namespace {
 
-constexpr double ON_EDGE = 1e-13;  // [s] to which a step ends on the edge of a tooth pair
-constexpr double WITHIN = 0.1;     // of the step, by which its end is moved for that at most
-constexpr double STRETCH = 1.2;    // by which a planned step is stretched to end on an event
+constexpr double ON_EDGE = 1e-13;   // [s] to which a step ends on the edge of a tooth pair
+constexpr double WITHIN = 0.1;      // of the step, by which its end is moved for that at most
+constexpr double CUT_SHORT = 1e-3;  // of the step that was to be made
+constexpr double STRETCH = 1.2;     // by which a planned step is stretched to end on an event
 constexpr int LANDINGS = 3;
 
 // Whether Rosenbrock's method is to be taken rather than collocation over h seconds: where the
@@ -172,7 +173,9 @@ std::int64_t make_step(const Model& model, March& march, double longest, const N
         return FAILED;
     }
     double factor = growth_of_step(error, static_cast<double>(run.nodes.count));
-    control.next_step = h * std::min(GROW, std::max(SHRINK, factor));
+    // A step between edges that nearly coincide says nothing about the steps to come.
+    const bool cut_short = h == event.time && h < CUT_SHORT * control.next_step;
+    if (!cut_short) control.next_step = h * std::min(GROW, std::max(SHRINK, factor));
     if (fresh) {
         contacts_of(run).step = control.next_step;
         remember<L>(model, march);
