@@ -32,6 +32,13 @@ bool outdone(const Control& control, double h, bool settled, int restless) {
     return control.slow && h < control.next_stiff;
 }
 
+// Whether the teeth are helical: at the pitch point contact lines grow to both sides.
+bool has_contact_lines(const Train& train) {
+    for (std::int64_t p = 0; p < train.present[0][0]; ++p)
+        if (train.travel[0][0][p] != 1.0) return true;
+    return false;
+}
+
 // Free waves h seconds after the start, most often just beside the last node.
 template <int L>
 void find_end_waves(Propagation& run, double h) {
@@ -180,7 +187,11 @@ std::int64_t make_step(const Model& model, March& march, double longest, const N
         contacts_of(run).step = control.next_step;
         remember<L>(model, march);
     }
-    if (h < std::min(event.time, longest) && outdone(control, h, true, 0)) control.detour = DETOUR;
+    // Edges of helical teeth crowd: there a step that may grow was short by its trial, after one
+    // between close edges, not by its error.
+    const bool held_back =
+        h < std::min(event.time, longest) && (factor < GROW || !has_contact_lines(model.train));
+    if (held_back && outdone(control, h, true, 0)) control.detour = DETOUR;
     control.collocated = true;
     control.changed = false;
     march.end = march.begin;
