@@ -72,10 +72,12 @@ def limits(scene: Scene) -> tuple[Limit, ...]:
     """Limits of the model that apply to `scene`."""
     statics = (STATICS_ONLY,) if scene.dynamics == "quasi_static" else ()
     helix = (HELIX,) if scene.gearset.helix_angle != 0.0 else ()
-    axes = Limit("translation of axes", meaning_of_held_axes(scene))
     if scene.tilting_axes:
         return (SHUTTLING, *NOMINAL_LINES, *NOT_MODELLED)
-    return (*statics, *helix, IN_PLANE if scene.moving_axes else axes, FLAT, *NOT_MODELLED)
+    if scene.moving_axes:
+        return (*helix, IN_PLANE, FLAT, *NOT_MODELLED)
+    axes = Limit("translation of axes", meaning_of_held_axes(scene))
+    return (*statics, *helix, axes, FLAT, *NOT_MODELLED)
 
 
 def terms(scene: Scene) -> tuple[Term, ...]:

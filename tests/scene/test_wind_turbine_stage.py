@@ -81,7 +81,7 @@ PITCH_POINT = {
 
 def test_schlenks_regression_pair_by_pair_is_near_its_value_at_the_pitch_point():
     found = loss_coefficients("schlenk")
-    assert found["planet_ring"][1] == pytest.approx(7.9e3, rel=0.02)
+    assert found["planet_ring"][1] == pytest.approx(8.2e3, rel=0.02)
     for side, (mu, _) in found.items():
         assert mu == pytest.approx(PITCH_POINT[side], rel=0.15)
 
@@ -91,5 +91,5 @@ def test_default_law_is_near_schlenks_in_the_sun_meshes_and_below_it_in_the_ring
     almost as a Newtonian fluid, for which the regression of loaded test gears has no term."""
     found = loss_coefficients("eyring")
     assert found["sun_planet"][0] == pytest.approx(PITCH_POINT["sun_planet"], rel=0.3)
-    assert 0.5 < found["planet_ring"][0] / PITCH_POINT["planet_ring"] < 0.7
-    assert found["planet_ring"][1] == pytest.approx(4.6e3, rel=0.02)
+    assert 0.4 < found["planet_ring"][0] / PITCH_POINT["planet_ring"] < 0.6
+    assert found["planet_ring"][1] == pytest.approx(4.06e3, rel=0.02)

@@ -17,9 +17,10 @@ namespace gearbox {
 
 namespace {
 
-constexpr double ON_EDGE = 1e-13;  // [s] to which a step ends on the edge of a tooth pair
-constexpr double WITHIN = 0.1;     // of the step, by which its end is moved for that at most
-constexpr double STRETCH = 1.2;    // by which a planned step is stretched to end on an event
+constexpr double ON_EDGE = 1e-13;   // [s] to which a step ends on the edge of a tooth pair
+constexpr double WITHIN = 0.1;      // of the step, by which its end is moved for that at most
+constexpr double CUT_SHORT = 1e-3;  // of the step that was to be made
+constexpr double STRETCH = 1.2;     // by which a planned step is stretched to end on an event
 constexpr int LANDINGS = 3;
 
 // Whether Rosenbrock's method is to be taken rather than collocation over h seconds: where the
@@ -29,6 +30,13 @@ bool outdone(const Control& control, double h, bool settled, int restless) {
     if (control.method == COLLOCATION) return false;
     if (!settled && (restless > 1 || h < control.next_stiff)) return true;
     return control.slow && h < control.next_stiff;
+}
+
+// Whether the teeth are helical: at the pitch point contact lines grow to both sides.
+bool has_contact_lines(const Train& train) {
+    for (std::int64_t p = 0; p < train.present[0][0]; ++p)
+        if (train.travel[0][0][p] != 1.0) return true;
+    return false;
 }
 
 // Free waves h seconds after the start, most often just beside the last node.
@@ -118,10 +126,12 @@ double first_trial(March& march, double longest, double event) {
     return std::min(planned(event, std::min(h, longest), STRETCH), longest);
 }
 
-// Length of a step whose error is allowed, and by how much the next may be longer; 0: none.
+// Length of a step whose error is allowed, and by how much the next may be longer; 0: none, and for
+// how many steps the other method is to take over.
 struct Accepted {
     double step;
     double error;
+    std::int64_t detour = 0;
 };
 
 template <int L>
@@ -131,14 +141,14 @@ Accepted accepted_step(const Model& model, March& march, double h, bool fresh) {
     int restless = 0;
     while (true) {
         if (control.method != COLLOCATION && !resolves(march.run, model.train.bodies, h))
-            return {0.0, 0.0};
+            return {0.0, 0.0, BRIEF_DETOUR};
         Outcome tried = collocate<L>(model, march, h, fresh);
         if (tried.error <= 1.0 || (h <= SHORTEST_STEP && tried.error < ASTRAY))
             return {h, tried.error};
         restless += tried.settled ? 0 : 1;
         double shorter = h * std::max(SHRINK, growth_of_step(tried.error, order));
         if (h <= SHORTEST_STEP || outdone(control, shorter, tried.settled, restless))
-            return {0.0, 0.0};
+            return {0.0, 0.0, DETOUR};
         ++control.rejected;
         h = std::max(shorter, SHORTEST_STEP);
     }
@@ -164,15 +174,24 @@ std::int64_t make_step(const Model& model, March& march, double longest, const N
     const bool fresh = control.changed;
     run.place = fresh ? 0 : run.place + 1;
     double first = first_trial(march, longest, event.time);
-    auto [h, error] = accepted_step<L>(model, march, first, fresh);
-    if (h == 0.0) return FAILED;
+    auto [h, error, detour] = accepted_step<L>(model, march, first, fresh);
+    if (h == 0.0) {
+        control.detour = detour;
+        return FAILED;
+    }
     double factor = growth_of_step(error, static_cast<double>(run.nodes.count));
-    control.next_step = h * std::min(GROW, std::max(SHRINK, factor));
+    // A step between edges that nearly coincide says nothing about the steps to come.
+    const bool cut_short = h == event.time && h < CUT_SHORT * control.next_step;
+    if (!cut_short) control.next_step = h * std::min(GROW, std::max(SHRINK, factor));
     if (fresh) {
         contacts_of(run).step = control.next_step;
         remember<L>(model, march);
     }
-    if (h < std::min(event.time, longest) && outdone(control, h, true, 0)) control.detour = DETOUR;
+    // Edges of helical teeth crowd: there a step that may grow was short by its trial, after one
+    // between close edges, not by its error.
+    const bool held_back =
+        h < std::min(event.time, longest) && (factor < GROW || !has_contact_lines(model.train));
+    if (held_back && outdone(control, h, true, 0)) control.detour = DETOUR;
     control.collocated = true;
     control.changed = false;
     march.end = march.begin;

@@ -105,10 +105,7 @@ void one_step(const Model& model, March& march, double longest) {
     bool collocates = asked && !control.creeping;
     if (collocates && (control.detour == 0 || control.method == COLLOCATION)) {
         changing = collocated_step(model, march, longest, event);
-        if (changing == FAILED) {
-            control.detour = DETOUR;
-            control.changed = true;
-        }
+        if (changing == FAILED) control.changed = true;
     }
     if (changing == FAILED) changing = stiff_step(model, march, longest, event.time);
     accept(model, march, changing);
