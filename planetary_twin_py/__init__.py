@@ -33,6 +33,7 @@ if TYPE_CHECKING:
     from .batch import Outcome, simulate_many
     from .commands import Commands
     from .dynamics_choice import DynamicsChoice, choose_dynamics
+    from .fleet.fleet import Fleet, FleetEstimate, FleetEvent
     from .following.checks import InputError
     from .following.estimate import Estimate, Event
     from .following.follower import (
@@ -82,6 +83,7 @@ _EXPORTS = {
     "dynamics_choice": ("DynamicsChoice", "choose_dynamics"),
     "commands": ("Commands",),
     "batch": ("Outcome", "simulate_many"),
+    "fleet.fleet": ("Fleet", "FleetEstimate", "FleetEvent"),
     "following.checks": ("InputError",),
     "following.estimate": ("Estimate", "Event"),
     "following.follower": (
@@ -121,6 +123,9 @@ __all__ = [
     "Energy",
     "Estimate",
     "Event",
+    "Fleet",
+    "FleetEstimate",
+    "FleetEvent",
     "Follower",
     "Following",
     "InputError",
