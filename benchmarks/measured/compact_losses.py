@@ -230,8 +230,8 @@ def rig_estimates() -> Iterator[Row]:
             verdict(abs(_value(scene, name) - found.values[place]) < reach),
             "bound: the 95 % interval of the estimate from 54 steady runs. Friction is not that of "
             "the plastic: friction of planet pins and an error of the motor's torque constant, "
-            "which grow with the load, too, are in it. The rig commands its motor torque and "
-            "does not measure it: an error of 5 % is half of the loss that grows with the load.",
+            "which grow with the load, too, are in it. The rig commands its motor torque and does "
+            "not measure it: an error of 5 % of it is half of the loss that grows with the load.",
         )
     trend, reach = speed_trend(points, base, slopes, found)
     yield Row(
