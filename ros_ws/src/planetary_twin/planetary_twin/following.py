@@ -116,7 +116,7 @@ class LiveFollower:
         self._follower = self._options.follower()
         self.latest: Following = self._follower.estimate()
         """What was said last."""
-        self._reader = MessageReader(self._options.joints)
+        self._reader = MessageReader(self._options.joints, self._options.scale)
         self._jumps = JumpWatch()
         self._refusal = ""
         self._stale = True  # nothing has been said that could become stale
