@@ -149,7 +149,7 @@ class LiveFollower:
             self.behind = max(time.time() - arrived[0].time, 0.0)
         if self._refusal:
             return
-        begin = 0
+        started, begin = time.monotonic(), 0
         for n, one in enumerate(arrived):
             if (back := self._jumps.add(one)) is None:
                 continue
@@ -159,6 +159,7 @@ class LiveFollower:
                 self._begin()
                 begin = n
         self._feed(arrived[begin:])
+        self._advanced += time.monotonic() - started  # time of computing is no silence
         self._say_what_is_new()
 
     def _feed(self, arrived: Sequence[Arrived]) -> None:
