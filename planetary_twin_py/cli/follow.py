@@ -87,7 +87,7 @@ def follow(
         known = read_sensors(sensors) if sensors is not None else Sensors()
         factors = known.scale | _factors(scale or [])
         follower = Follower(loaded, known, _format(known, encoders), factors)
-        readings = _readings(from_, known)
+        readings = _readings(from_, known, factors)
         samples = _samples(encoders, follower.encoders)
         with console.status("following"):
             said = list(play_back(follower, readings, samples))
@@ -126,7 +126,9 @@ def _factors(given: list[str]) -> dict[str, float]:
     return found
 
 
-def _readings(path: Path, sensors: Sensors) -> list[Readings | EncoderSamples]:
+def _readings(
+    path: Path, sensors: Sensors, factors: dict[str, float]
+) -> list[Readings | EncoderSamples]:
     if path.suffix in (".csv", ".parquet"):
         from ..following.measured_tables import read_readings
 
@@ -136,7 +138,7 @@ def _readings(path: Path, sensors: Sensors) -> list[Readings | EncoderSamples]:
         return [found.readings]
     from ..following.measured_recording import read_recording
 
-    return read_recording(path, sensors.joints)
+    return read_recording(path, sensors.joints, factors)
 
 
 def _samples(path: Path | None, shape: EncoderFormat | None) -> EncoderSamples | None:

@@ -6,13 +6,14 @@ Celsius, as sensor_msgs defines them.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Mapping
 from typing import Any, NamedTuple
 
 import numpy as np
 
 from .checks import InputError
 from .follower import EncoderFormat, EncoderSamples, Readings
+from .position_check import PositionCheck
 from .sensors import JointNames
 
 JOINTS = ("sensor_msgs/msg/JointState", "control_msgs/msg/DynamicJointState")
@@ -20,6 +21,7 @@ TEMPERATURE = "sensor_msgs/msg/Temperature"
 ENCODERS = "planetary_twin_msgs/msg/EncoderBlock"
 KINDS = (*JOINTS, TEMPERATURE, ENCODERS)
 """Types of messages that are read."""
+SIDES = "input", "output"
 ZERO_CELSIUS = 273.15  # [K]
 INTERFACES = {"velocity": "speed", "effort": "torque"}
 """Quantities by the interfaces of a joint."""
@@ -52,10 +54,16 @@ class MessageReader:
 
     Args:
         joints: names of the joints of input and output.
+        scale: factors on readings by channel, with which the unit of speeds is checked.
     """
 
-    def __init__(self, joints: JointNames) -> None:
+    def __init__(self, joints: JointNames, scale: Mapping[str, float] | None = None) -> None:
         self._joints = joints
+        factors = scale or {}
+        self._positions = {
+            side: PositionCheck(f"{side}_speed", factors.get(f"{side}_speed", 1.0))
+            for side in SIDES
+        }
         self._number: int | None = None  # of a device's sample 0, in periods since time 0
         self._format: EncoderFormat | None = None
 
@@ -71,7 +79,8 @@ class MessageReader:
             comes first changes nothing in what a follower estimates.
 
         Raises:
-            InputError: a block of encoder samples has another format than the one before, or none.
+            InputError: a block of encoder samples has another format than the one before, or none;
+                or positions show that a speed has another unit.
         """
         rows: list[_Row] = []
         samples: list[EncoderSamples] = []
@@ -94,7 +103,16 @@ class MessageReader:
     def _values(self, one: Arrived) -> dict[str, float]:
         if one.kind == TEMPERATURE:
             return {"oil_temperature": float(one.message.temperature) + ZERO_CELSIUS}
-        return _joint_values(one.message, self._joints)
+        values: dict[str, float] = {}
+        for side, joint in zip(SIDES, (self._joints.input, self._joints.output), strict=True):
+            found = _shaft(one.message, joint)
+            values |= {
+                f"{side}_{INTERFACES[name]}": found[name] for name in INTERFACES if name in found
+            }
+            if "position" in found and "velocity" in found:
+                stamp = stamp_of(one.message)
+                self._positions[side].add(stamp, found["position"], found["velocity"])
+        return values
 
     def _samples(self, one: Arrived) -> EncoderSamples:
         """Samples of a block, numbered from time 0 of the stamps."""
@@ -141,19 +159,14 @@ def _words(found: EncoderFormat) -> str:
     return f"{first}, {second}, {found.period:g} s"
 
 
-def _joint_values(message: Any, joints: JointNames) -> dict[str, float]:
-    """Readings of both shafts in a message, by channel."""
+def _shaft(message: Any, joint: str) -> dict[str, float]:
+    """What a message holds of a joint, by interface."""
     names = list(message.joint_names if hasattr(message, "joint_names") else message.name)
-    values = {}
-    for side, joint in (("input", joints.input), ("output", joints.output)):
-        if joint not in names:
-            continue
-        place = names.index(joint)
-        for interface, quantity in INTERFACES.items():
-            value = _interface(message, place, interface)
-            if value is not None:
-                values[f"{side}_{quantity}"] = value
-    return values
+    if joint not in names:
+        return {}
+    place = names.index(joint)
+    found = {name: _interface(message, place, name) for name in ("position", *INTERFACES)}
+    return {name: value for name, value in found.items() if value is not None}
 
 
 def _interface(message: Any, place: int, interface: str) -> float | None:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from pathlib import Path
 
 from mcap.exceptions import McapError
@@ -18,24 +18,28 @@ from .sensors import JointNames
 PART = 0.5  # [s] of messages that are converted at once
 
 
-def read_recording(path: Path, joints: JointNames) -> list[Readings | EncoderSamples]:
+def read_recording(
+    path: Path, joints: JointNames, scale: Mapping[str, float] | None = None
+) -> list[Readings | EncoderSamples]:
     """Read measured messages in the order in which they were recorded.
 
     Args:
         path: an MCAP file, or a folder with one or more.
         joints: names of the joints and of the topics.
+        scale: factors on readings by channel, with which the unit of speeds is checked.
 
     Returns:
         Readings of each topic and message type in a row, and encoder samples, in order of arrival.
 
     Raises:
-        ValueError: the file is not a recording, or has no message with these joints.
+        ValueError: the file is not a recording, has no message with these joints, or positions show
+            that a speed has another unit.
         OSError: the file cannot be read.
     """
     files = sorted(path.glob("*.mcap")) if path.is_dir() else [path]
     if not files:
         raise ValueError(f"{path}: has no .mcap file")
-    reader = MessageReader(joints)
+    reader = MessageReader(joints, scale)
     found = [
         block
         for file in files

@@ -23,7 +23,7 @@ from .conftest import Start
 from .peer import LATCHED, LONG, TRANSITION, TWIN, Peer
 from .recordings import counts
 
-NAMES = ("simulation", "logger")
+NAMES = ("simulation", "logger", "follower", "plant")
 LEGAL = {
     "unconfigured": {"configure": "inactive", "shutdown": "finalized"},
     "inactive": {"cleanup": "unconfigured", "activate": "active", "shutdown": "finalized"},

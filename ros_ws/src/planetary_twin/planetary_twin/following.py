@@ -116,7 +116,7 @@ class LiveFollower:
         self._follower = self._options.follower()
         self.latest: Following = self._follower.estimate()
         """What was said last."""
-        self._reader = MessageReader(self._options.joints)
+        self._reader = MessageReader(self._options.joints, self._options.scale)
         self._jumps = JumpWatch()
         self._refusal = ""
         self._stale = True  # nothing has been said that could become stale
@@ -149,7 +149,7 @@ class LiveFollower:
             self.behind = max(time.time() - arrived[0].time, 0.0)
         if self._refusal:
             return
-        begin = 0
+        started, begin = time.monotonic(), 0
         for n, one in enumerate(arrived):
             if (back := self._jumps.add(one)) is None:
                 continue
@@ -159,6 +159,7 @@ class LiveFollower:
                 self._begin()
                 begin = n
         self._feed(arrived[begin:])
+        self._advanced += time.monotonic() - started  # time of computing is no silence
         self._say_what_is_new()
 
     def _feed(self, arrived: Sequence[Arrived]) -> None:

@@ -1,0 +1,76 @@
+"""Recognises the unit of a measured speed by the positions beside it.
+
+Positions may be given within one turn: speed times the time between two readings must be their
+difference, up to whole turns.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from .checks import CHECKED, RPM, InputError
+
+FITS = 0.02  # turns by which it may deviate, median
+FEWEST = 50  # pairs of readings
+LEAST = 0.0025  # turns between two readings, below which they stand still
+UNITS = {"rpm": 1.0 / RPM, "deg/s": math.pi / 180.0}
+
+
+@dataclass
+class PositionCheck:
+    """Compares the first seconds of a shaft.
+
+    Args:
+        channel: of the speed.
+        scale: factor on its readings.
+    """
+
+    channel: str
+    scale: float = 1.0
+    _rows: list[tuple[float, float, float]] = field(default_factory=list)
+    _done: bool = False
+
+    def add(self, stamp: float, position: float, speed: float) -> None:
+        """Take a reading.
+
+        Args:
+            stamp: of it [s].
+            position: of the shaft [rad].
+            speed: of the shaft, by definition in rad/s.
+
+        Raises:
+            InputError: another unit of the speed fits the positions, and rad/s does not.
+        """
+        if self._done or not all(map(math.isfinite, (stamp, position, speed))):
+            return
+        if self._rows and stamp <= self._rows[-1][0]:
+            return
+        self._rows.append((stamp, position, self.scale * speed))
+        if stamp - self._rows[0][0] >= CHECKED:
+            self._done = True
+            self._check()
+            self._rows.clear()
+
+    def _check(self) -> None:
+        stamp, position, speed = np.array(self._rows).T
+        turned = 0.5 * (speed[1:] + speed[:-1]) * np.diff(stamp) / (2.0 * math.pi)
+        moved = np.diff(position) / (2.0 * math.pi)
+        if len(turned) < FEWEST or _deviation(turned, moved) < FITS:
+            return
+        for unit, factor in UNITS.items():
+            enough = float(np.median(np.abs(turned * factor))) > LEAST
+            if enough and _deviation(turned * factor, moved) < FITS:
+                raise InputError(
+                    f"{self.channel} = {float(np.median(speed)):.4g} rad/s: the positions of this "
+                    f"shaft give {float(np.median(speed)) * factor:.4g}; it is probably in {unit}: "
+                    f"scale {self.channel} by {factor * self.scale:.6g}"
+                )
+
+
+def _deviation(turned: np.ndarray, moved: np.ndarray) -> float:
+    """Median deviation from whole turns."""
+    apart = turned - moved
+    return float(np.median(np.abs(apart - np.round(apart))))

@@ -1,0 +1,45 @@
+"""The unit of a speed is recognised by the positions beside it."""
+
+import math
+
+import numpy as np
+import pytest
+
+from planetary_twin_py.following.checks import InputError
+from planetary_twin_py.following.position_check import PositionCheck
+
+TURN = 2.0 * math.pi
+
+
+def read(speed, factor, rate=100.0, scale=1.0, wrapped=True, turning=1.0):
+    """Let the check read 6 s of a shaft whose speed wanders; readings are `factor` times rad/s."""
+    check, time = PositionCheck("input_speed", scale), np.arange(0.0, 6.0, 1.0 / rate)
+    wander = 1.0 + 0.05 * np.sin(time)
+    angle = turning * speed * (time + 0.05 * (1.0 - np.cos(time)))
+    for t, p, v in zip(time, np.mod(angle, TURN) if wrapped else angle, wander, strict=True):
+        check.add(t, p, v * speed * factor)
+
+
+@pytest.mark.parametrize("wrapped", [True, False])
+@pytest.mark.parametrize("speed", [104.72, -44.88, 3.0, 0.0])
+def test_speeds_in_radians_per_second_pass(speed, wrapped):
+    read(speed, 1.0, wrapped=wrapped)
+
+
+@pytest.mark.parametrize(("factor", "unit"), [(30 / math.pi, "rpm"), (180 / math.pi, "deg/s")])
+@pytest.mark.parametrize("speed", [104.72, -44.88])
+def test_another_unit_is_named_with_its_factor(speed, factor, unit):
+    with pytest.raises(InputError, match=f"in {unit}: scale input_speed by {1 / factor:.6g}"):
+        read(speed, factor)
+
+
+def test_the_factor_mends_it():
+    read(104.72, 30 / math.pi, scale=math.pi / 30)
+
+
+def test_positions_that_no_unit_fits_are_left_alone():
+    read(104.72, 1.0, turning=0.3)  # of another shaft
+
+
+def test_slow_readings_are_left_alone():
+    read(104.72, 30 / math.pi, rate=5.0)
