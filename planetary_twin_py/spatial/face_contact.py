@@ -1,4 +1,4 @@
-"""Whether flanks that tilt against each other touch all along the face, as the model takes them to."""
+"""Whether flanks that tilt touch all along the face, as the model takes them to."""
 
 from __future__ import annotations
 
