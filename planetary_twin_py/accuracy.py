@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING, NamedTuple
 from ._core import CREEPING, Control
 from .dynamics.bodies import rigid_ratios
 from .scene import OperatingPoint, Scene
+from .spatial.face_contact import face_warning
 
 if TYPE_CHECKING:
     from .result import Result
@@ -91,6 +92,8 @@ def accuracy_warnings(scene: Scene, run: Result) -> Iterator[str]:
     Returns:
         A sentence per warning.
     """
+    if line := face_warning(scene, run):
+        yield line
     stats, rate = run.stats, settling_rate(scene, scene.operating_point)
     elapsed = max(run.duration, float(run.time[-1]))  # the time of settling counts, too
     missing = unsettled(elapsed * rate, rate)

@@ -16,7 +16,7 @@ from .._core import AXES, MovingAxes, axes
 from ..planar.rows import COAST, DRIVE, PlanarRows, planar_rows
 from ..scene import Scene
 from ..scene.supports import Support
-from ..spatial.rows import LeaningRow, MeshOfKind, leaning_row
+from ..spatial.rows import row_of_scene
 from .bodies import (
     CENTRAL,
     Bodies,
@@ -153,21 +153,13 @@ def _meshes(scene: Scene) -> Iterator[tuple[float, str, int]]:
                 yield side, name, number
 
 
-def _leaning(scene: Scene, side: float, name: str, number: int) -> LeaningRow:
-    gearset, internal = scene.gearset, name == "ring"
-    mesh = gearset.geometry.meshes[int(internal)]
-    radii = mesh.pitch_radii[::-1] if internal else mesh.pitch_radii
-    kind = MeshOfKind(internal, mesh.pressure_angle, gearset.base_helix, *radii)
-    return leaning_row(kind, side, gearset.planet_angles[number])
-
-
 def _beyond_plane(
     scene: Scene, side: float, name: str, number: int
 ) -> tuple[list[str], list[float]]:
     """Axial displacements and tilts of both gears of an entry, and their factors in its row."""
     if not scene.tilting_axes:
         return [], []
-    row, radii = _leaning(scene, side, name, number), tilting_radii(scene)
+    row, radii = row_of_scene(scene, side, name, number), tilting_radii(scene)
     coordinates, factors = [], []
     for k, (gear, kind) in enumerate(((name, name), (f"planet_{number + 1}", "planet"))):
         coordinates += [f"{gear}.{motion}" for motion in ("z", *tilts_of(gear))]
@@ -179,7 +171,7 @@ def _slopes(scene: Scene, bodies: Bodies) -> tuple[np.ndarray, np.ndarray]:
     """Tilts of both gears of each entry, and the slope of its squeeze per tilt, (entries, 4)."""
     radii, places, slopes = tilting_radii(scene), [], []
     for side, name, number in _meshes(scene):
-        row, planet = _leaning(scene, side, name, number), f"planet_{number + 1}"
+        row, planet = row_of_scene(scene, side, name, number), f"planet_{number + 1}"
         places.append([bodies.place[f"{g}.{m}"] for g in (name, planet) for m in tilts_of(g)])
         slopes.append([*(row.slope[0] / radii[name]), *(row.slope[1] / radii["planet"])])
     return np.array(places), np.array(slopes)

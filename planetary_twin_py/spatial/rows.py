@@ -20,6 +20,8 @@ from typing import NamedTuple
 
 import numpy as np
 
+from ..scene import Scene
+
 
 class MeshOfKind(NamedTuple):
     """What determines the rows of a mesh."""
@@ -70,3 +72,22 @@ def leaning_row(mesh: MeshOfKind, side: float, psi: float) -> LeaningRow:
     return LeaningRow(
         sense * along, (-sense * along * place)[:, None] * across, sense[:, None] * slope
     )
+
+
+def row_of_scene(scene: Scene, side: float, central: str, planet: int) -> LeaningRow:
+    """Row of one side of a mesh of a scene.
+
+    Args:
+        scene: gives gears and planet positions.
+        side: `planar.rows.DRIVE` or `COAST`.
+        central: "sun" or "ring".
+        planet: counted from 0.
+
+    Returns:
+        The row beyond the plane.
+    """
+    gearset, internal = scene.gearset, central == "ring"
+    mesh = gearset.geometry.meshes[int(internal)]
+    radii = mesh.pitch_radii[::-1] if internal else mesh.pitch_radii
+    kind = MeshOfKind(internal, mesh.pressure_angle, gearset.base_helix, *radii)
+    return leaning_row(kind, side, gearset.planet_angles[planet])

@@ -1,0 +1,62 @@
+"""Whether flanks that tilt touch all along the face, as the model takes them to."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from ..dynamics.mean_stiffness import mean_stiffness
+from ..dynamics.train import build_train, held_axes
+from ..planar.rows import COAST, DRIVE
+from ..scene import Scene
+from .rows import row_of_scene
+
+if TYPE_CHECKING:
+    from ..result import Result
+
+
+def uneven_squeeze(scene: Scene, run: Result) -> float:
+    """By how much the squeeze differs at an end of the face.
+
+    Args:
+        scene: whose axes tilt.
+        run: its result.
+
+    Returns:
+        Mean slope times half of the face width over the mean squeeze, of the worst mesh. Above 1,
+        the flanks of a mesh part at an end of the face. 0 if axes do not tilt or nothing is loaded.
+    """
+    if run.axes is None or run.axes.tilting is None or not len(run.time):
+        return 0.0
+    tilt, planets = run.axes.tilting.tilt.mean(axis=0), scene.gearset.planets
+    stiffness = mean_stiffness(build_train(held_axes(scene)))
+    worst = 0.0
+    for mesh, force in enumerate(run.mesh["mesh_force_mean"]):
+        if force == 0.0:
+            continue
+        kind, planet = divmod(mesh, planets)
+        side = DRIVE if force > 0.0 else COAST
+        row = row_of_scene(scene, side, ("sun", "ring")[kind], planet)
+        slope = row.slope[0] @ tilt[kind] + row.slope[1] @ tilt[3 + planet]
+        at_end = 0.5 * scene.gearset.face_width * abs(float(slope))
+        worst = max(worst, at_end * float(stiffness[kind]) / abs(float(force)))
+    return worst
+
+
+def face_warning(scene: Scene, run: Result) -> str | None:
+    """A warning where flanks part at an end of the face.
+
+    Args:
+        scene: of the run.
+        run: its result.
+
+    Returns:
+        A sentence, or None.
+    """
+    uneven = uneven_squeeze(scene, run)
+    if uneven <= 1.0:
+        return None
+    return (
+        f"gears tilt so far that the squeeze of a mesh differs by {uneven:.2g} times its mean at "
+        "the ends of the face: there flanks part, which is not modelled, so tilts and moments are "
+        "less accurate; give bearings more tilting stiffness (supports.*.tilting)"
+    )
