@@ -64,6 +64,7 @@ MESH = {
     "mesh_force": ("normal force, negative on the coast flanks", "N"),
     "friction": ("magnitude of boundary plus viscous friction", "N"),
 }
+LOSS = "tooth friction, mean of the last step, bearings and churning at its end"
 GIVEN = {"torque": "torque", "motion": "speed"}
 """Input variable of a port by its causality."""
 
@@ -82,7 +83,7 @@ def variables(scene: Scene, exported: Exported) -> list[Variable]:
         Variable("time", "time", "time", "s", causality="independent"),
         *_of_ports(scene, exported),
         *_of_meshes(scene),
-        Variable("power_loss", "power_loss", "tooth friction, bearings and churning, now", "W"),
+        Variable("power_loss", "power_loss", LOSS, "W"),
         *_of_point(scene),
     ]
 

@@ -67,7 +67,9 @@ def levels_in(names):
 def test_the_wheel_holds_the_core_and_its_stub_but_no_source(wheel):
     held = zipfile.ZipFile(wheel).namelist()
     core = [name for name in held if name.startswith("planetary_twin_py/_core/")]
-    assert levels_in(core) == {"v1"}
+    of_fmus = [name for name in core if name.startswith("planetary_twin_py/_core/fmu/")]
+    assert levels_in(set(core) - set(of_fmus)) == {"v1"}
+    assert levels_in(of_fmus) == {"v1", "fmi"}
     assert "planetary_twin_py/_core/__init__.pyi" in core
     assert not [name for name in held if name.endswith((".hpp", ".cpp", "CMakeLists.txt"))]
     assert "-none-" not in wheel.name

@@ -72,6 +72,15 @@ void take_sample(RunState& run, OneSample& sample) {
     advance(run.model, run.march, now(run), NEVER, {}, {}, sample.room(run.model.train));
 }
 
+// Mean loss of tooth friction [W] in the step that has been made.
+double mean_loss(const Exported& scene, RunState& run, double duration) {
+    take_mesh_sums(run.model, run.march, now(run), run.books.sums);
+    double lost = 0.0;
+    for (std::int64_t i = 0; i < scene.report.meshes; ++i)
+        lost += run.books.sums.integral[POWER_LOSS][scene.report.mesh[i]];
+    return lost / duration;
+}
+
 // Let the sums of the meshes and the ledger begin now.
 void clear_books(RunState& run) {
     OneSample sample;
@@ -133,7 +142,8 @@ void change_point(const Exported& scene, RunState& run) {
 }
 
 Outcome make_step(const Exported& scene, RunState& run, std::int64_t end) {
-    PortStep step{run.ticks, end, run.command, scene.linear};
+    const double duration = static_cast<double>(end - run.ticks) / static_cast<double>(TICKS);
+    PortStep step{run.ticks, end, run.command, scene.linear, true};
     if (check(run.model.load, scene.ranges, step.command) != Answer::OBEYED)
         return Outcome::REFUSED;
     run.command = {{NOTHING, NOTHING}, {NOTHING, NOTHING}};
@@ -141,6 +151,7 @@ Outcome make_step(const Exported& scene, RunState& run, std::int64_t end) {
         step_ports(run.model, run.march, step, scene.limits, run.books, run.shown);
     run.ticks = end;
     run.stepped = true;
+    if (outcome == Outcome::WITHIN_LIMITS) run.tooth_loss = mean_loss(scene, run, duration);
     return outcome;
 }
 
@@ -148,12 +159,13 @@ void show_meshes(const Exported& scene, RunState& run, MeshesShown& out) {
     const Train& train = run.model.train;
     OneSample sample;
     take_sample(run, sample);
-    out.power_loss = sample.drag[0] + sample.drag[1];
+    double lost = 0.0;
     for (std::int64_t i = 0; i < scene.report.meshes; ++i) {
         for (int q = 0; q < QUANTITIES; ++q)
             out.mesh[q][i] = sample.mesh[q * train.meshes + scene.report.mesh[i]];
-        out.power_loss += out.mesh[POWER_LOSS][i];
+        lost += out.mesh[POWER_LOSS][i];
     }
+    out.power_loss = sample.drag[0] + sample.drag[1] + (run.ticks ? run.tooth_loss : lost);
 }
 
 }  // namespace gearbox

@@ -21,8 +21,9 @@ struct alignas(64) RunState {
     std::int64_t ticks;  // since the start
     double origin;       // time at the start [s]
     double tolerance;
-    bool running;  // the initialisation is over
-    bool dirty;    // what has been set has had no effect yet
+    double tooth_loss;  // of tooth friction, mean of the last step [W]
+    bool running;       // the initialisation is over
+    bool dirty;         // what has been set has had no effect yet
     bool started;
     bool stepped;  // since the operating point changed
     bool failed;   // no step leads on
@@ -44,7 +45,7 @@ Outcome make_step(const Exported& scene, RunState& run, std::int64_t end);
 // What the meshes show now.
 struct MeshesShown {
     double mesh[QUANTITIES][MESHES];
-    double power_loss;  // of tooth friction, bearings and churning [W]
+    double power_loss;  // of bearings and churning now, and of tooth friction in the step [W]
 };
 
 void show_meshes(const Exported& scene, RunState& run, MeshesShown& out);

@@ -156,8 +156,9 @@ Outcome step_ports(Model& model, March& march, const PortStep& step, const Limit
     const double duration = static_cast<double>(step.end - step.begin) / static_cast<double>(TICKS);
     Actions actions = actions_of(model.load, now, step.command, step.linear ? duration : 0.0);
     bool finite = true;
-    march.sums.unasked = is_driven(model.load);
+    march.sums.unasked = is_driven(model.load) && !step.sums;
     try {
+        if (actions.change && step.sums) count_until(model, march, delay(march.begin, now));
         if (actions.change) act(model, march, now, actions);
         advance(model, march, until, NEVER, {}, {});
     } catch (const NoFiniteState&) {

@@ -60,7 +60,8 @@ struct PortStep {
     std::int64_t begin;  // [ticks]
     std::int64_t end;    // [ticks]
     Command command;
-    bool linear;  // whether the values are reached along straight lines, at its end
+    bool linear;        // whether the values are reached along straight lines, at its end
+    bool sums = false;  // whether the meshes are summed up although commands act
 };
 
 // Give the command, integrate to the end of the step without samples, and fill `out` and, with what
