@@ -37,6 +37,7 @@ test:
 test-all:
 	@echo "make test, then what takes longer: about half an hour on 2 idle cores"
 	@$(MAKE) --no-print-directory test
+	@$(MAKE) --no-print-directory test-cosimulation
 	@$(MAKE) --no-print-directory --jobs=2 test-exhaustive soak DURATION=$(or $(DURATION),300)
 
 test-exhaustive: setup
@@ -53,10 +54,10 @@ sanitize: setup
 	tools/build_core $(VENV) sanitized
 	tools/run_sanitized $(VENV) $(or $(ARGS),tests/core tests/stability tests/integrators)
 
-# An FMU in FMPy and a joint in MuJoCo, which are installed first: 30 MB.
+# An FMU in FMPy and a joint in MuJoCo, beside .venv: FMPy wants another CMake than the set-up.
 test-cosimulation: setup
-	$(BIN)/uv pip install --quiet --python $(BIN)/python --group cosimulation
-	$(BIN)/pytest --quiet tests/fmu tests/examples $(ARGS)
+	$(BIN)/uv pip install --quiet --python $(BIN)/python --target build/cosimulation --group cosimulation
+	PYTHONPATH=build/cosimulation $(PYTEST) tests/fmu tests/examples $(ARGS)
 
 test-fast: setup
 	$(PYTEST) -m "not slow and not exhaustive" $(ARGS)
