@@ -1,9 +1,10 @@
 """How often the 95 % intervals of `follow` contain the truth: `python benchmarks/coverage.py`.
 
 Each run takes a law of the plant (the follower's own, another film, another friction, bearings on
-the planets), draws errors of both torque sensors and a load, plays 60 s, and compares every
-estimate with the truth. The column z rms is the root mean square of the errors over the stated
-standard deviations: 1 where intervals are as wide as they should be, less where they are too wide.
+the planets), draws errors of both torque sensors, a drag that the scene lacks and a load, plays
+60 s, and compares every estimate with the truth. The column z rms is the root mean square of the
+errors over the stated standard deviations: 1 where intervals are as wide as they should be, less
+where they are too wide.
 """
 
 from __future__ import annotations
@@ -17,7 +18,9 @@ import numpy as np
 
 sys.path.insert(0, str(Path(__file__).parents[1] / "tests"))
 
-from following.plants import LAWS, balance_of, friction_level
+from following.plants import LAWS, balance_of, friction_level, paper
+
+from planetary_twin_py.following.balance_filter import DRAG
 
 DUTIES = "steady", "varied", "reversing"
 DURATION = 60.0  # [s]
@@ -30,8 +33,8 @@ def truths(plant: object, follower: object) -> dict[str, float]:
     return {
         "friction_level": friction_level(plant),
         "torque_zero": sensors.input_torque.zero + ratio * sensors.output_torque.zero,
-        "drag": 0.0,
-        "torque_gain": sensors.output_torque.gain - sensors.input_torque.gain,
+        "drag": plant.hidden.changes[0].drag,
+        "torque_gain": sensors.input_torque.gain - sensors.output_torque.gain,
         "inertia": follower.train.inertia,
     }
 
@@ -46,7 +49,10 @@ def main() -> None:
         scores: dict[str, list[tuple[float, float]]] = defaultdict(list)
         for run in range(runs):
             law = LAWS[[*LAWS][run % len(LAWS)]]
-            plant, follower = balance_of(duty, law, DURATION, FIRST_SEED + run)
+            chance = np.random.default_rng([FIRST_SEED + run, 23])
+            drag = DRAG * paper().operating_point.input_torque * abs(chance.standard_normal())
+            hidden = ({"at": 0.0, "drag": float(drag)},)
+            plant, follower = balance_of(duty, law, DURATION, FIRST_SEED + run, hidden)
             follower.finish()
             true = truths(plant, follower)
             for one in follower.estimates():

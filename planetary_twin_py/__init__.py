@@ -33,6 +33,7 @@ if TYPE_CHECKING:
     from .batch import Outcome, simulate_many
     from .commands import Commands
     from .dynamics_choice import DynamicsChoice, choose_dynamics
+    from .fleet.fleet import Fleet, FleetEstimate, FleetEvent
     from .fmu.export import export_fmu
     from .following.balance_filter import Innovation
     from .following.baseline import LearnedCell
@@ -85,6 +86,7 @@ _EXPORTS = {
     "dynamics_choice": ("DynamicsChoice", "choose_dynamics"),
     "commands": ("Commands",),
     "batch": ("Outcome", "simulate_many"),
+    "fleet.fleet": ("Fleet", "FleetEstimate", "FleetEvent"),
     "following.balance_filter": ("Innovation",),
     "following.baseline": ("LearnedCell",),
     "following.checks": ("InputError",),
@@ -127,6 +129,9 @@ __all__ = [
     "Energy",
     "Estimate",
     "Event",
+    "Fleet",
+    "FleetEstimate",
+    "FleetEvent",
     "Follower",
     "Following",
     "Innovation",

@@ -81,6 +81,27 @@ class LossMap:
         warm = self._at(self._table(drives, k + 1), torque, speed)
         return Loss(*(one + h * (other - one) for one, other in zip(cold, warm, strict=True)))
 
+    @property
+    def knots(self) -> tuple[Array, Array, Array]:
+        """Torques [N m], speeds [rad/s] and temperatures [K] of the table, in rising order."""
+        return self._torques, self._speeds, self._heat
+
+    def tables(self, drives: bool) -> tuple[Array, Array]:
+        """The whole table for one sign of the power.
+
+        Args:
+            drives: whether the input drives.
+
+        Returns:
+            Loss torque of tooth friction over the torque [-], and that of the rest [N m],
+            (temperatures, speeds, torques) each.
+
+        Raises:
+            RunawayError: a point has no equilibrium.
+        """
+        parts = [self._table(drives, k) for k in range(len(self._heat))]
+        return np.stack([teeth for teeth, _ in parts]), np.stack([rest for _, rest in parts])
+
     def _at(self, tables: tuple[Array, Array], torque: float, speed: float) -> Loss:
         """Loss at a temperature of the table."""
         size, rate = max(abs(torque), 1e-9), max(abs(speed), 1e-9)
@@ -103,15 +124,28 @@ class LossMap:
             teeth, rest = np.empty(shape), np.empty(shape)
             for m, n in np.ndindex(shape):
                 torque = float(self._torques[n])
-                found = self._run(torque if drives else -torque, float(self._speeds[m]), k)
+                at = float(self._speeds[m]), float(self._heat[k])
+                found = self.run(torque if drives else -torque, *at)
                 teeth[m, n], rest[m, n] = found[0] / torque, found[1]
             self._tables[drives, k] = teeth, rest
         return self._tables[drives, k]
 
-    def _run(self, torque: float, speed: float, k: int) -> tuple[float, float]:
-        """Loss torques of tooth friction and of the rest [N m]."""
+    def run(self, torque: float, speed: float, temperature: float) -> tuple[float, float]:
+        """Simulate an operating point.
+
+        Args:
+            torque: at the input [N m].
+            speed: of the input [rad/s], above 0.
+            temperature: of the oil [K].
+
+        Returns:
+            Loss torques of tooth friction and of the rest [N m].
+
+        Raises:
+            RunawayError: there is no equilibrium.
+        """
         there = self._scene.replace(
-            input_torque=torque, input_speed=speed, oil_temperature=float(self._heat[k])
+            input_torque=torque, input_speed=speed, oil_temperature=temperature
         )
         duration = CYCLES * 2.0 * math.pi / (self._cycles * speed)
         run = simulate(there, duration, 4.0 / duration, tolerance=TOLERANCE)

@@ -62,7 +62,7 @@ class Sensors(Section):
     )
     drag: float | None = quantity(
         "N m",
-        "standard deviation of a drag at the input that the scene lacks; default: 0.1 % of the "
+        "standard deviation of a drag at the input that the scene lacks; default: 0.05 % of the "
         "torque of the scene",
         None,
         gt=0.0,

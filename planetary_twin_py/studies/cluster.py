@@ -4,10 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator
 from itertools import islice
-from typing import Any
+from typing import Any, TypeVar
 
-from .plan import Point
-from .work import Failure, Found
+from .work import Failure
+
+Task = TypeVar("Task")
+Answer = TypeVar("Answer")
 
 AHEAD = 4  # points per thread of the cluster that run or are queued
 _TIMEOUT = 30.0  # [s] for the scheduler to answer, and for its first worker
@@ -43,14 +45,14 @@ class Cluster:
                 )
 
     def do(
-        self, work: Callable[[Point], Found], points: Iterable[Point]
-    ) -> Iterator[tuple[Point, Found]]:
+        self, work: Callable[[Task], Answer], points: Iterable[Task]
+    ) -> Iterator[tuple[Task, Answer | Failure]]:
         """Yield every point with its result, in order of completion."""
         from distributed import as_completed
 
         waiting = iter(points)
         under_way = as_completed()
-        asked: dict[Any, Point] = {}
+        asked: dict[Any, Task] = {}
 
         def ask(count: int) -> None:
             for point in islice(waiting, count):
@@ -79,7 +81,7 @@ def core_digest() -> str:
     return SOURCES
 
 
-def _found(future: Any) -> Found:
+def _found(future: Any) -> Any:
     """Result of a point; a point that killed several workers is a failure."""
     from distributed.scheduler import KilledWorker
 

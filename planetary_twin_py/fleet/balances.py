@@ -1,0 +1,199 @@
+"""Kalman filters of the torque balances of many gearboxes, one after the other in arrays.
+
+For each gearbox, with torques at both ends and the speed ratio i:
+
+    T_in + i T_out - J a = s (phi L(T, w, oil) + R(w, oil) + d) + b + g T + n
+    phi = f + f_T ln(|T|/T0) + f_w ln(|w|/w0),   s = sign(w)
+
+as in `following.balance_filter`, whose parameters, priors and memories these are. The torque T
+itself has no memory at these rates. It is the mean of both ends, weighted by the inverse variances
+of their readings: then its error does not correlate with the noise n of the balance, which would
+otherwise bias the parameters (errors in variables, Fuller 1987, Measurement Error Models).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass, field
+from functools import reduce
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..following.balance_filter import (
+    DRAG,
+    GATE,
+    INERTIA,
+    LAW,
+    LEAST,
+    NOISE_MEMORY,
+    STANDSTILL,
+    Memory,
+)
+from ..following.sensors import Sensors, torque_gain, torque_noise, torque_zero
+from ..following.train import FollowedTrain
+from .loss_table import LossTable
+
+Array = NDArray[np.float64]
+
+PARAMETERS = "friction_level", "torque_zero", "drag", "torque_gain", "law_torque", "law_speed"
+F, B, D, G, F_T, F_W = range(len(PARAMETERS))
+OWN = [0, 1, 2, 3, 5, 6]  # places of these in a `Memory`, which has the inertia, too
+
+
+class Row(NamedTuple):
+    """One reading of every gearbox, in SI, (n,) each; NaN where there is none."""
+
+    input_torque: Array
+    output_torque: Array
+    input_speed: Array
+    oil_temperature: Array
+    acceleration: Array
+    """Of the input [rad/s^2]."""
+
+
+class Innovations(NamedTuple):
+    """Measured less expected balances, (n,) each."""
+
+    value: Array
+    """[N m], at the input; NaN without a reading."""
+    sd: Array
+    """Expected standard deviation [N m]."""
+
+
+@dataclass
+class Balances:
+    """The filters of n gearboxes of one type.
+
+    Args:
+        train: of the type.
+        table: of its losses.
+        sensors: what is known of them.
+        memory: how parameters may change.
+        count: number of gearboxes.
+    """
+
+    train: FollowedTrain
+    table: LossTable
+    sensors: Sensors
+    memory: Memory
+    count: int
+    x: Array = field(init=False)
+    """Expected parameters, (n, 6)."""
+    p: Array = field(init=False)
+    """Their covariances, (n, 6, 6)."""
+
+    def __post_init__(self) -> None:
+        sensors, train = self.sensors, self.train
+        self.mean = np.array([1.0, 0.0, 0.0, 0.0, 0.0, 0.0])
+        self.sd = np.array(
+            [
+                sensors.friction, torque_zero(sensors, train),
+                sensors.drag or DRAG * train.torque, torque_gain(sensors), *LAW,
+            ]
+        )  # fmt: skip
+        noise = torque_noise(sensors, train)
+        self._noise = noise[0] ** 2, (train.ratio * noise[1]) ** 2
+        self._inertia = train.inertia if sensors.inertia is None else sensors.inertia
+        self._fall, self._walk = self.memory.fall[OWN], self.memory.walk[OWN]
+        self.x = np.tile(self.mean, (self.count, 1))
+        self.p = np.tile(np.diag(self.sd**2), (self.count, 1, 1))
+        self.excess = np.ones(self.count)
+        """Variances of the innovations over those of the sensors' noise, at least 1, (n,)."""
+
+    def restart(self, which: NDArray[np.bool_]) -> None:
+        """Forget everything of some gearboxes.
+
+        Args:
+            which: (n,).
+        """
+        self.x[which], self.p[which], self.excess[which] = self.mean, np.diag(self.sd**2), 1.0
+
+    def reopen(self, which: NDArray[np.bool_]) -> None:
+        """Doubt friction, zero and drag as before any reading, after a step of the loss.
+
+        Args:
+            which: (n,).
+        """
+        for state in (F, B, D):
+            self.p[which, state, state] += self.sd[state] ** 2
+
+    def update(self, row: Row, step: float) -> Innovations:
+        """Take one reading of every gearbox.
+
+        Args:
+            row: the readings.
+            step: time since the last row [s].
+
+        Returns:
+            The innovations.
+        """
+        self._predict(step)
+        train, x = self.train, self.x
+        turning = np.abs(row.input_speed) > STANDSTILL * train.speed
+        driving = row.input_torque - self._inertia * row.acceleration
+        driven = train.ratio * row.output_torque
+        good = np.isfinite(driving) & np.isfinite(driven) & turning
+        speed = np.where(good, row.input_speed, train.speed)
+        first = np.where(good, driving, train.torque)
+        oil = np.where(np.isfinite(row.oil_temperature), row.oil_temperature, train.oil_temperature)
+        sign = np.sign(speed)
+        losses = self.table(first, speed, oil)
+        phi, over = self._friction(first, speed)
+        lost = sign * (phi * losses.teeth + losses.rest + x[:, D]) + x[:, B] + x[:, G] * first
+        # Both ends, by the inverse variances of their readings.
+        share = self._noise[1] / sum(self._noise)
+        torque = share * first + (1.0 - share) * (lost - np.where(good, driven, lost - first))
+        losses = self.table(torque, speed, oil)
+        phi, over = self._friction(torque, speed)
+        slope = np.stack(
+            [
+                sign * losses.teeth, np.ones(self.count), sign, torque,
+                sign * losses.teeth * over[0], sign * losses.teeth * over[1],
+            ], axis=1,
+        )  # fmt: skip
+        expected = sign * (phi * losses.teeth + losses.rest + x[:, D]) + x[:, B] + x[:, G] * torque
+        noise = self.excess * sum(self._noise)
+        noise += (INERTIA * self._inertia * np.where(good, row.acceleration, 0.0)) ** 2
+        return self._take(np.where(good, driving + driven - expected, np.nan), slope, noise, step)
+
+    def _friction(self, torque: Array, speed: Array) -> tuple[Array, tuple[Array, Array]]:
+        """Friction level at operating points, and the logarithms of torque and speed, (n,) each."""
+        over_t = np.log(np.maximum(np.abs(torque) / self.train.torque, LEAST))
+        over_w = np.log(np.maximum(np.abs(speed) / self.train.speed, LEAST))
+        x = self.x
+        return x[:, F] + x[:, F_T] * over_t + x[:, F_W] * over_w, (over_t, over_w)
+
+    def _predict(self, step: float) -> None:
+        keep = np.exp(-step / self._fall)
+        self.x = self.mean + keep * (self.x - self.mean)
+        self.p *= np.outer(keep, keep)
+        fresh = (1.0 - keep**2) * self.sd**2 + self._walk**2 * step
+        self.p[:, range(len(keep)), range(len(keep))] += fresh
+
+    def _take(self, innovation: Array, slope: Array, noise: Array, step: float) -> Innovations:
+        """Scalar updates in Joseph's form, of the gearboxes with a reading that fits.
+
+        (1 - k h') P (1 - k h')' + R k k' = P - k a' - a k' + (h' a + R) k k', with a = P h. Sums
+        are taken element by element, so that a gearbox has the same bits in any group.
+        """
+        along = _sum(self.p[:, :, k] * slope[:, k, None] for k in range(len(PARAMETERS)))
+        variance = _sum(slope[:, k] * along[:, k] for k in range(len(PARAMETERS))) + noise
+        sd = np.sqrt(variance)
+        score = innovation / sd
+        fits = np.abs(score) <= GATE  # false without a reading
+        gain = np.where(fits[:, None], along / variance[:, None], 0.0)
+        self.x = self.x + gain * np.where(fits, innovation, 0.0)[:, None]
+        cross = gain[:, :, None] * along[:, None, :]
+        square = variance[:, None, None] * (gain[:, :, None] * gain[:, None, :])
+        self.p = self.p - (cross + np.swapaxes(cross, 1, 2)) + square
+        share = min(step / NOISE_MEMORY, 0.1)
+        over = np.where(np.isfinite(score), np.minimum(score**2, GATE**2), 1.0)
+        self.excess = np.maximum(1.0, self.excess * (1.0 + share * (over - 1.0)))
+        return Innovations(innovation, sd)
+
+
+def _sum(parts: Iterable[Array]) -> Array:
+    """Sum of arrays, from the first to the last."""
+    return reduce(np.add, parts)

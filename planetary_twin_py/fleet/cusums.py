@@ -1,0 +1,134 @@
+"""Cumulative sums of standardised innovations of many gearboxes, see `following.cusum`."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..following.cusum import CLIP, CORRELATED, KAPPA, MEMORY, TRUSTED
+
+Array = NDArray[np.float64]
+
+TERM = 60.0  # [s] over which innovations are averaged: single readings are too noisy for 5 %
+YEAR = 365.25 * 86_400.0  # [s] in which the whole fleet has one false alarm
+OVERSHOOT = 1.166  # of a sum beyond its limit (Siegmund 1985, Sequential Analysis, ch. 10)
+
+
+def limit(count: int, step: float) -> float:
+    """Limit of a sum, with one false alarm of the fleet in a year of white normal innovations.
+
+    The average run length of one sum is 2 exp(h + 1.166) terms for kappa = 1/2 (Siegmund 1985);
+    each gearbox has two.
+
+    Args:
+        count: number of gearboxes.
+        step: from one reading to the next [s].
+
+    Returns:
+        The limit h.
+    """
+    return math.log(count * YEAR / max(step, TERM)) - OVERSHOOT
+
+
+class Steps(NamedTuple):
+    """Steps that were found at one time, (m,) each."""
+
+    gearbox: NDArray[np.int64]
+    """Places in the arrays."""
+    since: Array
+    """Times at which the sums have left zero [s]."""
+    size: Array
+    """Means of the innovations since then [N m]."""
+
+
+NONE = Steps(np.zeros(0, dtype=np.int64), *np.zeros((2, 0)))
+
+
+@dataclass
+class Cusums:
+    """Two sums, one for each sign, of each gearbox.
+
+    Args:
+        count: number of gearboxes.
+        limit: of a sum.
+    """
+
+    count: int
+    limit: float
+
+    def __post_init__(self) -> None:
+        shape = 2, self.count
+        self._value, self._since = np.zeros(shape), np.full(shape, math.nan)
+        self._total, self._weight = np.zeros(shape), np.zeros(shape)
+        self._held = np.zeros(shape, dtype=bool)
+        self.correlation = np.zeros(self.count)
+        """Of successive innovations, (n,)."""
+        self._sums = np.zeros((4, self.count))  # scores, readings, weighted values, weights
+        self._begin = math.nan
+        self._last, self._known = np.full(self.count, math.nan), np.zeros(self.count)
+
+    def add(self, time: float, value: Array, sd: Array, step: float) -> Steps:
+        """Take an innovation of each gearbox.
+
+        Args:
+            time: of it [s].
+            value: [N m], (n,); NaN without a reading.
+            sd: expected standard deviations [N m], (n,).
+            step: from one reading to the next [s].
+
+        Returns:
+            Steps that are found now; their sums then start from zero.
+        """
+        score = np.clip(value / sd, -CLIP, CLIP)
+        there = np.isfinite(score)
+        self._correlate(score, there, step)
+        weight = 1.0 / sd**2
+        terms = np.stack([score, np.ones(self.count), weight * value, weight])
+        self._sums += np.where(there, terms, 0.0)
+        if math.isnan(self._begin):
+            self._begin, self._since[:] = time - step, time - step
+        if time < self._begin + TERM - 0.5 * step:
+            return NONE
+        self._begin = time
+        return self._end_term(time)
+
+    def _end_term(self, time: float) -> Steps:
+        score, readings, value, weight = self._sums
+        there = readings > 0.0
+        term = score / np.sqrt(np.maximum(readings, 1.0))
+        held = (self._known >= TRUSTED) & (self.correlation > CORRELATED)
+        for sign, place in ((1.0, 0), (-1.0, 1)):
+            sums = self._value[place]
+            sums[there] += (sign * term - KAPPA)[there]
+            zero = sums <= 0.0
+            sums[zero] = 0.0
+            self._total[place][zero] = self._weight[place][zero] = 0.0
+            self._since[place][zero], self._held[place][zero] = time, held[zero]
+            grows = there & ~zero
+            self._total[place][grows] += value[grows]
+            self._weight[place][grows] += weight[grows]
+        self._sums[:] = 0.0
+        found = (self._value > self.limit) & ~self._held
+        side, gearbox = np.nonzero(found)
+        if not len(gearbox):
+            return NONE
+        weight = self._weight[side, gearbox]
+        steps = Steps(
+            gearbox, self._since[side, gearbox].copy(), self._total[side, gearbox] / weight
+        )
+        self._value[:, gearbox] = self._total[:, gearbox] = self._weight[:, gearbox] = 0.0
+        self._since[:, gearbox] = time
+        return steps
+
+    def _correlate(self, score: Array, there: NDArray[np.bool_], step: float) -> None:
+        """Correlation of successive innovations, over a minute or ten of them."""
+        both = there & np.isfinite(self._last)
+        share = min(step / MEMORY, 0.02)
+        change = np.where(both, score * self._last - self.correlation, 0.0)
+        self.correlation += share * change
+        self._known += np.where(both, 1.0, 0.0)
+        self._last = np.where(there, score, self._last)

@@ -1,0 +1,171 @@
+"""Follows the losses of many gearboxes of one type by readings of a SCADA system."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..following.balance import TELLING
+from ..following.balance_filter import alarm_memory, interval_memory
+from ..following.estimate import CONFIDENT
+from ..following.sensors import Sensors
+from ..following.train import followed_train
+from ..scene import Scene
+from .balances import PARAMETERS, Balances, F, Row
+from .cusums import Cusums, Steps, limit
+from .loss_table import loss_table
+
+Array = NDArray[np.float64]
+
+CHANNELS = ("input_torque", "output_torque", "input_speed", "oil_temperature")
+SLOWEST, FASTEST = 60.0, 0.1  # [s] from one reading to the next
+
+
+class FleetEstimate(NamedTuple):
+    """One parameter of all gearboxes, (n,) each."""
+
+    value: Array
+    """In SI; NaN where the readings do not determine it."""
+    low: Array
+    """Low end of the 95 % interval, likewise."""
+    high: Array
+    """High end."""
+
+
+class FleetEvent(NamedTuple):
+    """A step of the loss torque of one gearbox."""
+
+    gearbox: int
+    """Its place."""
+    since: float
+    """Earliest time at which it may have started [s]."""
+    found: float
+    """[s]."""
+    size: float
+    """Mean of the innovations since then [N m], at the input; positive: a larger loss. The step
+    itself is larger: the filter has followed a part of it."""
+    share: float
+    """Size over the loss torque that the scene has there."""
+
+
+@dataclass
+class Fleet:
+    """Estimates friction, drag and torque sensors of many gearboxes of one type.
+
+    The table of losses is computed once. Each reading then costs some array operations for all
+    gearboxes together. The same readings give the same estimates to the last bit.
+
+    Args:
+        scene: of the type, with one input.
+        count: number of gearboxes.
+        period: from one reading to the next [s].
+        sensors: what is known of the torque sensors; noise is that of one row.
+        fleet_size: gearboxes of the whole fleet, if these are a part of it; they share one false
+            alarm in a year.
+
+    Raises:
+        SceneError: the scene has two inputs, or cannot be simulated.
+        ValueError: the number or the period is out of range.
+    """
+
+    scene: Scene
+    count: int
+    period: float = 1.0
+    sensors: Sensors = field(default_factory=Sensors)
+    fleet_size: int | None = None
+    events: list[FleetEvent] = field(init=False, default_factory=list)
+    """Steps found so far, in the order in which they were found."""
+
+    def __post_init__(self) -> None:
+        if self.count < 1:
+            raise ValueError(f"count = {self.count}: must be at least 1")
+        if not FASTEST <= self.period <= SLOWEST:
+            raise ValueError(
+                f"period = {self.period!r} s: must be within {FASTEST:g} and {SLOWEST:g}"
+            )
+        self.train, self.table = followed_train(self.scene), loss_table(self.scene)
+        made = self.train, self.table, self.sensors
+        self._wide = Balances(*made, interval_memory(), self.count)
+        self._slow = Balances(*made, alarm_memory(self.train), self.count)
+        self._cusums = Cusums(self.count, limit(self.fleet_size or self.count, self.period))
+        self._time, self._speed = math.nan, np.full(self.count, math.nan)
+        self._oil = np.full(self.count, self.train.oil_temperature)
+        self.readings = np.zeros(self.count, dtype=np.int64)
+        """Balances that were used, (n,)."""
+
+    def add(self, time: float, readings: Mapping[str, Array]) -> None:
+        """Take one reading of every gearbox.
+
+        Args:
+            time: of it [s], after that of the last one.
+            readings: of `CHANNELS` in SI with the signs of gearbox_state, (n,) each; NaN where
+                there is none.
+
+        Raises:
+            ValueError: a channel is missing or has another length, or time does not increase.
+        """
+        row = {}
+        for name in CHANNELS:
+            values = np.asarray(readings.get(name, np.nan), dtype=float)
+            if name == "oil_temperature" and values.ndim == 0:
+                values = np.full(self.count, math.nan)
+            if values.shape != (self.count,):
+                raise ValueError(f"{name}: must have {self.count} values, one for each gearbox")
+            row[name] = values
+        if time <= self._time:
+            raise ValueError(f"time = {time:g} s: must be after {self._time:g} s")
+        step = self.period if math.isnan(self._time) else time - self._time
+        speed = row["input_speed"]
+        change = speed - self._speed
+        acceleration = np.where(np.isfinite(change), change / step, 0.0)
+        self._time, self._speed = time, speed
+        self._oil = np.where(np.isfinite(row["oil_temperature"]), row["oil_temperature"], self._oil)
+        taken = Row(row["input_torque"], row["output_torque"], speed, self._oil, acceleration)
+        self._wide.update(taken, step)
+        found = self._slow.update(taken, step)
+        self.readings += np.isfinite(found.value)
+        self._alarm(time, taken, self._cusums.add(time, found.value, found.sd, self.period))
+
+    def _alarm(self, time: float, row: Row, steps: Steps) -> None:
+        gearbox, since, size = steps
+        if not len(gearbox):
+            return
+        oil = row.oil_temperature[gearbox]
+        lost = self.table(row.input_torque[gearbox], row.input_speed[gearbox], oil)
+        sense = np.sign(row.input_speed[gearbox])
+        for place, n in enumerate(gearbox):
+            value = float(sense[place] * size[place])
+            whole = float(lost.teeth[place] + lost.rest[place])
+            self.events.append(FleetEvent(int(n), float(since[place]), time, value, value / whole))
+        which = np.zeros(self.count, dtype=bool)
+        which[gearbox] = True
+        self._slow.restart(which)
+        self._wide.reopen(which)
+
+    def estimate(self, name: str) -> FleetEstimate:
+        """Estimate of one parameter for all gearboxes.
+
+        Args:
+            name: friction_level, torque_zero, drag or torque_gain.
+
+        Returns:
+            Values and 95 % intervals; NaN where the standard deviation is above half of what was
+            known before any reading. That of the friction level includes the error of the table.
+
+        Raises:
+            ValueError: there is no such parameter.
+        """
+        if name not in PARAMETERS[:4]:
+            raise ValueError(f"{name!r}: must be one of {', '.join(PARAMETERS[:4])}")
+        state, wide = PARAMETERS.index(name), self._wide
+        sd = np.sqrt(np.maximum(wide.p[:, state, state], 0.0))
+        known = sd < TELLING * wide.sd[state]
+        if state == F:
+            sd = np.hypot(sd, self.table.error * wide.x[:, F] / CONFIDENT)
+        value = np.where(known, wide.x[:, state], math.nan)
+        return FleetEstimate(value, value - CONFIDENT * sd, value + CONFIDENT * sd)

@@ -1,0 +1,124 @@
+"""Follows the gearboxes of a table in groups, on this machine or on a cluster."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Protocol
+
+import numpy as np
+
+from ..following.sensors import Sensors
+from ..scene import Scene
+from ..studies.work import Failure
+from .balances import PARAMETERS
+from .fleet import Fleet, FleetEvent
+from .tables import read_fleet
+
+SIZE = 200  # gearboxes of a group: arrays of a day at 1 Hz take 0.5 GB
+
+Group = tuple[str, ...]
+"""Names of the gearboxes of a group."""
+
+
+@dataclass(frozen=True)
+class GearboxResult:
+    """What is known of one gearbox at the end of a table."""
+
+    gearbox: str
+    readings: int
+    """Balances that were used."""
+    estimates: dict[str, tuple[float, float, float]]
+    """Value and 95 % interval in SI by parameter; NaN where the readings do not determine it."""
+    events: tuple[FleetEvent, ...]
+    """Steps of its loss; `FleetEvent.gearbox` is its place in the group."""
+
+
+@dataclass(frozen=True)
+class FollowGroup:
+    """Follows one group; it is pickled for other processes, which read the table themselves.
+
+    Args:
+        path: of the table, as all workers see it.
+        scene: of the type of gearbox.
+        count: gearboxes of the whole fleet, which set the limit of false alarms.
+        sensors: what is known of the torque sensors.
+    """
+
+    path: Path
+    scene: Scene
+    count: int
+    sensors: Sensors = field(default_factory=Sensors)
+
+    def __call__(self, group: Group) -> tuple[GearboxResult, ...] | Failure:
+        """Follow a group from the first to the last row of the table."""
+        try:
+            return self._follow(group)
+        except (ValueError, ArithmeticError, OSError) as reason:
+            return Failure(f"gearboxes {group[0]} to {group[-1]}: {reason}")
+
+    def _follow(self, group: Group) -> tuple[GearboxResult, ...]:
+        read = read_fleet(self.path, group)
+        if len(read.time) < 2:
+            raise ValueError(f"{self.path}: must have at least two times")
+        period = float(np.median(np.diff(read.time)))
+        fleet = Fleet(self.scene, len(group), period, self.sensors, fleet_size=self.count)
+        for row, time in enumerate(read.time):
+            fleet.add(float(time), {name: values[row] for name, values in read.columns.items()})
+        estimates = {name: fleet.estimate(name) for name in PARAMETERS[:4]}
+        return tuple(
+            GearboxResult(
+                name,
+                int(fleet.readings[n]),
+                {
+                    key: (float(one.value[n]), float(one.low[n]), float(one.high[n]))
+                    for key, one in estimates.items()
+                },
+                tuple(event for event in fleet.events if event.gearbox == n),
+            )
+            for n, name in enumerate(group)
+        )
+
+
+class Executor(Protocol):
+    """Runs groups: `studies.local.Threads` or `studies.cluster.Cluster`."""
+
+    def do(
+        self,
+        work: Callable[[Group], tuple[GearboxResult, ...] | Failure],
+        points: Iterable[Group],
+    ) -> Iterator[tuple[Group, tuple[GearboxResult, ...] | Failure]]:
+        """Yield every group with its result, in order of completion."""
+
+
+def follow_groups(
+    work: FollowGroup,
+    gearboxes: Sequence[str],
+    executor: Executor,
+    report: Callable[[int], None] = lambda done: None,
+    size: int = SIZE,
+) -> list[GearboxResult]:
+    """Follow all gearboxes of a table.
+
+    Args:
+        work: follows one group.
+        gearboxes: names, in the order of the result.
+        executor: runs the groups.
+        report: called with the number of gearboxes that are done since the last call.
+        size: gearboxes of a group.
+
+    Returns:
+        A result for each gearbox.
+
+    Raises:
+        ValueError: a group cannot be followed.
+    """
+    groups = [tuple(gearboxes[n : n + size]) for n in range(0, len(gearboxes), size)]
+    found: dict[Group, tuple[GearboxResult, ...]] = {}
+    for group, result in executor.do(work, groups):
+        if isinstance(result, Failure):
+            raise ValueError(result.reason)
+        found[group] = result
+        report(len(group))
+    return [one for group in groups for one in found[group]]

@@ -1,0 +1,130 @@
+"""Loss torque of a type of gearbox over torque, speed and oil temperature, for arrays of points."""
+
+from __future__ import annotations
+
+from functools import lru_cache
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..following.loss_map import LossMap, loss_map
+from ..scene import Scene
+
+Array = NDArray[np.float64]
+
+CHECKED = 12  # points between those of the table at which its error is measured
+SAFETY = 1.5  # bound over the largest error found at them
+
+
+class Losses(NamedTuple):
+    """Loss torques at the input [N m], against the rotation, (n,) each."""
+
+    teeth: Array
+    """Of tooth friction."""
+    rest: Array
+    """Of bearings, drag and churning as the scene has them."""
+
+
+class LossTable:
+    """The table of `LossMap`, filled as a whole, with a measured error.
+
+    Args:
+        losses: of the scene.
+    """
+
+    def __init__(self, losses: LossMap) -> None:
+        self._torques, self._speeds, self._heat = losses.knots
+        tables = [losses.tables(drives) for drives in (False, True)]
+        self._teeth = np.stack([teeth for teeth, _ in tables])
+        self._rest = np.stack([rest for _, rest in tables])
+        self.error = self._measured_error(losses)
+        """Bound of the relative error of the loss torque within the table."""
+
+    def __call__(self, torque: Array, speed: Array, temperature: Array) -> Losses:
+        """Losses at operating points; interpolated as in `LossMap`.
+
+        Args:
+            torque: at the input [N m], (n,).
+            speed: of the input [rad/s], (n,).
+            temperature: of the oil [K], (n,).
+
+        Returns:
+            The loss torques.
+        """
+        size, rate = np.maximum(np.abs(torque), 1e-9), np.maximum(np.abs(speed), 1e-9)
+        drives = (torque * speed >= 0.0).astype(np.int64)
+        k, h = _place(self._heat, temperature)
+        m, v = _place(np.log(self._speeds), np.log(rate))
+        n, u = _place(np.log(self._torques), np.log(size))
+        teeth = _between(self._teeth, drives, (k, m, n), (h, v, u)) * size
+        v = _share(self._speeds, m, rate)
+        u = _share(self._torques, n, size)
+        return Losses(teeth, _between(self._rest, drives, (k, m, n), (h, v, u)))
+
+    def _measured_error(self, losses: LossMap) -> float:
+        """Largest relative error at random points within the table, times a safety factor."""
+        chance = np.random.default_rng(0)
+        part = chance.random((3, CHECKED))
+        ends = [np.log(knots[[0, -1]]) for knots in (self._torques, self._speeds)]
+        torque, speed = (
+            np.exp(low + share * (high - low))
+            for share, (low, high) in zip(part, ends, strict=False)
+        )
+        low, high = self._heat[[0, -1]]
+        temperature = low + part[2] * (high - low)
+        found = self(torque, speed, temperature)
+        worst = 0.0
+        for place in range(CHECKED):
+            at = float(torque[place]), float(speed[place]), float(temperature[place])
+            true = sum(losses.run(*at))
+            worst = max(worst, abs(float(found.teeth[place] + found.rest[place]) / true - 1.0))
+        return SAFETY * worst
+
+
+def _place(knots: Array, value: Array) -> tuple[NDArray[np.int64], Array]:
+    """Index of the interval of each value, and its place within it from 0 to 1."""
+    n = np.clip(np.searchsorted(knots, value, "right") - 1, 0, len(knots) - 2)
+    return n, np.clip(_share(knots, n, value), 0.0, 1.0)
+
+
+def _share(knots: Array, n: NDArray[np.int64], value: Array) -> Array:
+    return np.asarray((value - knots[n]) / (knots[n + 1] - knots[n]))
+
+
+def _between(
+    table: Array,
+    drives: NDArray[np.int64],
+    place: tuple[NDArray[np.int64], NDArray[np.int64], NDArray[np.int64]],
+    share: tuple[Array, Array, Array],
+) -> Array:
+    """Linear between the eight corners of a cell; the table is (2, heat, speeds, torques)."""
+    (k, m, n), (h, v, u) = place, share
+    found = np.zeros(len(u))
+    for a in (0, 1):
+        for b in (0, 1):
+            for c in (0, 1):
+                weight = (h if a else 1.0 - h) * (v if b else 1.0 - v) * (u if c else 1.0 - u)
+                found += weight * table[drives, k + a, m + b, n + c]
+    return found
+
+
+def loss_table(scene: Scene) -> LossTable:
+    """Compute the table of a type of gearbox; once in a process.
+
+    Args:
+        scene: of the type, with one input.
+
+    Returns:
+        The table.
+
+    Raises:
+        SceneError: the scene has two inputs.
+        RunawayError: a point of the table has no equilibrium.
+    """
+    return _table_of(scene.model_dump_json())
+
+
+@lru_cache(maxsize=16)
+def _table_of(text: str) -> LossTable:
+    return LossTable(loss_map(Scene.model_validate_json(text)))

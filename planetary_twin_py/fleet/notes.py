@@ -1,0 +1,46 @@
+"""Writes the state of a fleet as a table."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+
+import numpy as np
+
+from ..following.balance import UNITS
+from ..recording.tables.message_tables import Column
+from ..recording.tables.table_files import FORMATS
+from .groups import GearboxResult
+
+
+def write_state(path: Path, found: Sequence[GearboxResult]) -> None:
+    """Write one row for each gearbox.
+
+    Args:
+        path: of the table: .csv, .parquet or .npz.
+        found: results, in the order of the rows.
+
+    Raises:
+        ValueError: the format is not known.
+        OSError: the file cannot be written.
+    """
+    kind = path.suffix.removeprefix(".")
+    if kind not in FORMATS:
+        raise ValueError(f"must end in {', '.join('.' + name for name in FORMATS)}")
+    batch: dict[str, np.ndarray] = {
+        "gearbox": np.array([one.gearbox for one in found]),
+        "readings": np.array([one.readings for one in found]),
+    }
+    units = {"gearbox": "", "readings": "", "events": "", "last_event": "s", "last_size": "N m"}
+    for name in found[0].estimates:
+        for part, heading in enumerate((name, f"{name}_low", f"{name}_high")):
+            batch[heading] = np.array([one.estimates[name][part] for one in found])
+            units[heading] = UNITS[name]
+    batch["events"] = np.array([len(one.events) for one in found])
+    last = [one.events[-1] if one.events else None for one in found]
+    batch["last_event"] = np.array([np.nan if one is None else one.found for one in last])
+    batch["last_size"] = np.array([np.nan if one is None else one.size for one in last])
+    columns = [Column(name, units[name], values.dtype) for name, values in batch.items()]
+    table = FORMATS[kind](path, columns)
+    table.write(batch)
+    table.close()

@@ -1,0 +1,110 @@
+"""Friction levels and steps of simulated fleets."""
+
+import numpy as np
+import pytest
+from fleet.fleets import Played, paper
+
+from planetary_twin_py.fleet.cusums import Cusums, limit
+from planetary_twin_py.fleet.fleet import Fleet
+
+OTHER = {"losses.planet_bearing": {"mean_diameter": 0.012}}
+
+
+def followed(played, rows, change=None):
+    fleet = Fleet(played.scene, played.count, played.period)
+    for number in range(1, rows + 1):
+        time = number * played.period
+        if change is not None and number == change:
+            played.friction[:10] *= 1.1
+        fleet.add(time, played.row(time))
+    return fleet
+
+
+@pytest.mark.parametrize("changes", [{}, OTHER], ids=["same law", "with bearings"])
+def test_intervals_of_friction_hold_the_truth(changes):
+    played = Played(300, 1, paper(**changes))
+    fleet = followed(played, 600)
+    found, true = fleet.estimate("friction_level"), played.level()
+    inside = (found.low < true) & (true < found.high)
+    assert np.isfinite(found.value).all() and not fleet.events
+    assert 0.90 <= inside.mean() <= 0.995
+    assert np.std(found.value - true) < 0.15
+
+
+def test_a_step_of_ten_percent_is_found_and_nothing_else():
+    fleet = followed(Played(200, 2), 2400, 1200)
+    assert {event.gearbox for event in fleet.events} == set(range(10))
+    for event in fleet.events:
+        assert 1200.0 < event.found < 1900.0 and event.size > 0.0
+        assert 0.0 < event.share < 0.11  # of the step: the filter follows a part of it
+
+
+def test_slow_readings_find_it_too():
+    played = Played(100, 3, period=10.0)
+    fleet = followed(played, 1080, 360)
+    assert {event.gearbox for event in fleet.events} == set(range(10))
+
+
+def test_drag_zero_and_gain_are_not_identifiable_from_one_direction():
+    fleet = followed(Played(20, 4), 300)
+    for name in ("drag", "torque_zero", "torque_gain"):
+        assert np.isnan(fleet.estimate(name).value).all()
+
+
+def test_missing_readings_of_one_gearbox_leave_the_others_as_they_are():
+    whole, holes = Fleet(paper(), 5), Fleet(paper(), 5)
+    played = Played(5, 5)
+    for time in range(1, 200):
+        row = played.row(float(time))
+        whole.add(float(time), row)
+        row = {name: values.copy() for name, values in row.items()}
+        row["input_torque"][2] = np.nan if time % 2 else row["input_torque"][2]
+        holes.add(float(time), row)
+    others = [0, 1, 3, 4]
+    first, second = whole.estimate("friction_level"), holes.estimate("friction_level")
+    assert np.array_equal(first.value[others], second.value[others])
+    assert holes.readings[2] < whole.readings[2] and np.isfinite(second.value[2])
+
+
+def test_a_group_gives_the_same_bits_as_the_whole_fleet():
+    played = Played(40, 6)
+    whole = Fleet(played.scene, 40)
+    part = Fleet(played.scene, 10, fleet_size=40)
+    for time in range(1, 200):
+        row = played.row(float(time))
+        whole.add(float(time), row)
+        part.add(float(time), {name: values[:10] for name, values in row.items()})
+    one, other = whole.estimate("friction_level"), part.estimate("friction_level")
+    assert np.array_equal(one.value[:10], other.value)
+
+
+def test_white_innovations_reach_the_limit_as_rarely_as_stated():
+    """With one gearbox and a limit for a false alarm in 200 terms, of two sums."""
+    terms, chance = 200, np.random.default_rng(7)
+    low = np.log(terms) - 1.166  # see `limit`, which has a year in place of 200 terms
+    assert limit(1, 60.0) == pytest.approx(np.log(365.25 * 1440.0) - 1.166)
+    sums, count, found = Cusums(400, low), 1000, 0
+    for number in range(1, count + 1):
+        steps = sums.add(60.0 * number, chance.standard_normal(400), np.ones(400), 60.0)
+        found += len(steps.gearbox)
+    assert found == pytest.approx(400 * count / terms, rel=0.15)
+
+
+@pytest.mark.parametrize(
+    ("change", "message"),
+    [
+        ({"input_torque": np.zeros(2)}, "input_torque: must have 3 values"),
+        ({"time": -1.0}, "must be after"),
+    ],
+)
+def test_wrong_rows_are_refused_in_one_line(change, message):
+    fleet, played = Fleet(paper(), 3), Played(3, 8)
+    fleet.add(0.0, played.row(0.0))
+    row = played.row(1.0) | {name: v for name, v in change.items() if name != "time"}
+    with pytest.raises(ValueError, match=message):
+        fleet.add(change.get("time", 1.0), row)
+
+
+def test_a_period_out_of_range_is_refused():
+    with pytest.raises(ValueError, match=r"period = 0\.01 s: must be within 0\.1 and 60"):
+        Fleet(paper(), 3, 0.01)

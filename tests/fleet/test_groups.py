@@ -1,0 +1,108 @@
+"""A table of a fleet is followed in groups, here or by a cluster of which a worker is killed."""
+
+import csv
+import json
+import os
+import signal
+
+import numpy as np
+import pytest
+from command_line import run
+from fleet.fleets import Played, paper
+from studies.test_cluster import scheduler, until  # noqa: F401 - a fixture
+
+from planetary_twin_py.fleet.groups import FollowGroup, follow_groups
+from planetary_twin_py.fleet.tables import gearboxes_of, read_fleet
+from planetary_twin_py.studies.cluster import Cluster
+from planetary_twin_py.studies.local import Threads
+
+ROWS, COUNT = 60, 12
+
+
+@pytest.fixture(scope="module")
+def table(tmp_path_factory):
+    """Readings of twelve gearboxes, in minutes and with speeds in rpm; one has a gap."""
+    path = tmp_path_factory.mktemp("fleet") / "scada.csv"
+    played = Played(COUNT, 1, period=10.0)
+    with path.open("w", newline="") as file:
+        rows = csv.writer(file)
+        rows.writerow(
+            ["gearbox", "time", "input_torque", "output_torque", "input_speed [rpm]",
+             "oil_temperature [degC]"]
+        )  # fmt: skip
+        for number in range(1, ROWS + 1):
+            row = played.row(10.0 * number)
+            for n in range(COUNT):
+                if n == 3 and 20 < number < 30:
+                    continue
+                rows.writerow(
+                    [f"G{n:02d}", 10.0 * number, row["input_torque"][n], row["output_torque"][n],
+                     row["input_speed"][n] * 30.0 / np.pi, row["oil_temperature"][n] - 273.15]
+                )  # fmt: skip
+    return path
+
+
+def test_a_table_is_read_by_gearbox_and_time(table):
+    assert gearboxes_of(table) == tuple(f"G{n:02d}" for n in range(COUNT))
+    read = read_fleet(table, ("G03", "G07"))
+    assert len(read.time) == ROWS
+    missing = np.isnan(read.columns["input_torque"])
+    assert missing[:, 0].sum() == 9 and not missing[:, 1].any()
+    assert read.columns["input_speed"][0, 1] == pytest.approx(104.7)
+    assert read.columns["oil_temperature"][0, 1] == pytest.approx(343.15, abs=1.0)
+
+
+def test_groups_give_the_same_bits_as_one(table):
+    work = FollowGroup(table, paper(), COUNT)
+    names = gearboxes_of(table)
+    whole = follow_groups(work, names, Threads(1))
+    assert repr(follow_groups(work, names, Threads(2), size=5)) == repr(whole)  # NaN, too
+    assert [one.gearbox for one in whole] == list(names)
+    assert whole[3].readings == ROWS - 9 and whole[4].readings == ROWS
+
+
+def test_a_group_that_cannot_be_read_is_named(table, tmp_path):
+    work = FollowGroup(tmp_path / "none.csv", paper(), COUNT)
+    with pytest.raises(ValueError, match="gearboxes G00 to G11"):
+        follow_groups(work, gearboxes_of(table), Threads(1))
+
+
+@pytest.mark.slow
+def test_a_killed_worker_changes_no_bit(table, scheduler):  # noqa: F811
+    address, workers = scheduler
+    work, names = FollowGroup(table, paper(), COUNT), gearboxes_of(table)
+    cluster, done = Cluster(address), []
+
+    def report(count):
+        done.append(count)
+        if len(done) == 1:
+            os.kill(workers[0].pid, signal.SIGKILL)
+
+    try:
+        until(lambda: len(cluster._client.nthreads()) == 2)
+        found = follow_groups(work, names, cluster, report, size=1)
+    finally:
+        cluster.close()
+    assert workers[0].wait(10) == -signal.SIGKILL
+    assert sum(done) == COUNT
+    assert repr(found) == repr(follow_groups(work, names, Threads(1)))
+
+
+def test_the_command_writes_a_row_for_each_gearbox(table, tmp_path):
+    said = run(
+        "fleet", "paper", "--from", table, "--out", tmp_path / "state.csv",
+        "--json", tmp_path / "state.json",
+    )  # fmt: skip
+    assert f"{COUNT} gearboxes" in said.stdout, said.stderr
+    with (tmp_path / "state.csv").open() as file:
+        rows = list(csv.DictReader(file))
+    assert [row["gearbox"] for row in rows] == list(gearboxes_of(table))
+    figures = json.loads((tmp_path / "state.json").read_text())
+    assert float(rows[5]["friction_level"]) == figures["G05"]["estimates"]["friction_level"][0]
+
+
+def test_a_table_without_a_channel_is_refused_in_one_line(tmp_path):
+    path = tmp_path / "scada.csv"
+    path.write_text("gearbox,time,input_torque\nA,1,2\nA,2,2\n")
+    with pytest.raises(ValueError, match=r"column 'output_torque': missing"):
+        read_fleet(path, ("A",))
