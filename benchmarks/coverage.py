@@ -43,9 +43,11 @@ def main() -> None:
     """Print coverage by duty and quantity."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--runs", type=int, default=50, help="runs of each duty")
-    runs = parser.parse_args().runs
+    parser.add_argument("--duty", choices=DUTIES, help="only this one")
+    given = parser.parse_args()
+    runs = given.runs
     print(f"{'duty':<10} {'quantity':<15} {'estimated':>9} {'inside':>7} {'z rms':>6} {'sd':>9}")
-    for duty in DUTIES:
+    for duty in DUTIES if given.duty is None else (given.duty,):
         scores: dict[str, list[tuple[float, float]]] = defaultdict(list)
         for run in range(runs):
             law = LAWS[[*LAWS][run % len(LAWS)]]

@@ -48,7 +48,7 @@ NOISE_MEMORY = 60.0  # [s]
 GAP = 2.0  # [s] without a bin, after which nothing is known of the torque
 FAR = 10.0  # standard deviation of a torque of which nothing is known, over that of the scene
 FALL = 600.0  # [s] in which the law of friction falls back to its prior by 1/e
-SLOW_FALL = 3600.0  # [s], of friction level, zero, gain, drag and inertia
+SLOW_FALL = 21_600.0  # [s], of friction level, zero, gain, drag and inertia: see coverage.py
 CLEAR = 5.0  # standard deviations above which an acceleration is used for the inertia
 
 
