@@ -22,6 +22,7 @@ from .runs_test import Runs, count_runs
 
 CONFIDENCE = 0.95
 LEAST = 1e-9  # [N m] of noise
+NEAR = 1e-2  # of the scale of a parameter, within which it is at an end of its range
 SLOW = 0.01  # of the largest speed of the course, below which the sign of the loss is not known
 LARGEST = 0.98  # correlation of successive residuals that is taken into account
 
@@ -194,11 +195,12 @@ def course_remarks(found: FittedCourse) -> Iterator[str]:
         names = " and ".join(found.parameters[k].name for k in members)
         yield f"{names}: not identifiable from this manoeuvre"
     for k, parameter in enumerate(found.parameters):
-        if estimate.identifiable(k) and estimate.at_bound[k]:
+        value, near = float(estimate.values[k]), NEAR * parameter.scale
+        if value - parameter.low <= near or parameter.high - value <= near:
+            end = parameter.low if value - parameter.low <= near else parameter.high
             yield (
-                f"{parameter.name}: is at the end of its range, {estimate.values[k]:.3g} "
-                f"{parameter.unit}".rstrip()
-                + f"; without the range it would be {estimate.unbounded[k]:.3g} (linear estimate)"
+                f"{parameter.name}: is at the end of its range, {end:.3g} {parameter.unit}".rstrip()
+                + "; the model lacks something, or another field is wrong"
             )
     if found.runs is not None and not found.runs.noise:
         yield (
