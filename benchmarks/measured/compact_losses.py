@@ -231,7 +231,7 @@ def rig_estimates() -> Iterator[Row]:
             "bound: the 95 % interval of the estimate from 54 steady runs. Friction is not that of "
             "the plastic: friction of planet pins and an error of the motor's torque constant, "
             "which grow with the load, too, are in it. The rig commands its motor torque and does "
-            "not measure it: an error of 5 % of it is half of the loss that grows with the load.",
+            "not measure it, so 5 % of error is half of the loss that grows with the load.",
         )
     trend, reach = speed_trend(points, base, slopes, found)
     yield Row(

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
@@ -11,12 +12,14 @@ from ..terminal.arguments import FileArgument, JsonOption, NamespaceOption
 from ..terminal.durations import SECONDS
 from ..terminal.json_output import console_beside, put_figures
 from ..terminal.messages import fail, need, remark
+from ..terminal.output_files import output_file
 from ..terminal.settings import settings
 
 if TYPE_CHECKING:
     from rich.console import Console
 
     from ..studies.fit.identify import Identified
+    from ..studies.fit.report import Report
 
 
 def fit(  # noqa: PLR0913 - an argument for each option
@@ -50,22 +53,42 @@ def fit(  # noqa: PLR0913 - an argument for each option
             "fitted.",
         ),
     ] = None,
+    scene: Annotated[
+        str | None,
+        typer.Option(metavar="SCENE", help="Of the gearbox, if FILE is a manoeuvre."),
+    ] = None,
+    report: Annotated[
+        Path | None,
+        typer.Option(
+            metavar="FILE", help="Write a report: .html, or .md and pictures.", callback=output_file
+        ),
+    ] = None,
     namespace: NamespaceOption = None,
     json_: JsonOption = None,
 ) -> None:
     """Estimate scene parameters from FILE with confidence intervals, if they are identifiable.
 
-    Without --from and --to, up to one second with a constant operating point is used. Parameters
-    that the readings do not determine are reported in a warning; the exit code is still 0.
+    FILE is a recording, or the manoeuvre of a rig: a .csv, .parquet or .mat file with the courses
+    of input_torque, output_torque and input_speed over time.
+
+    Of a recording, without --from and --to, up to one second with a constant operating point is
+    used. Parameters that the readings do not determine are reported in a warning; the exit code is
+    still 0.
 
     Example: planetary-twin fit recordings/NAME --free lambda_ratio,input_torque
     """
     need("recording", "mcap", "rosbags")
+    if report is not None:
+        need("plots", "matplotlib")
 
+    from ..studies.fit.course import SUFFIXES
     from ..studies.fit.identify import Search, identify
     from ..studies.fit.remarks import remarks
 
     console = console_beside(json_)
+    if file.suffix in SUFFIXES:
+        _manoeuvre(console, file, scene, free, (from_, to, hold_out), (report, json_))
+        return
     try:
         search = Search(
             free=tuple(name for name, _ in map(_pair, _parts(free))),
@@ -88,6 +111,46 @@ def fit(  # noqa: PLR0913 - an argument for each option
     for line in warnings:
         remark(f"warning: {line}")
     put_figures(_figures(found) | {"remarks": warnings}, json_)
+    if report is not None:
+        from ..studies.fit.report import report_of_points
+
+        _write_report(report, report_of_points(found))
+
+
+def _manoeuvre(
+    console: Console,
+    file: Path,
+    scene: str | None,
+    free: str,
+    parts: tuple[float | None, float | None, str | None],
+    out: tuple[Path | None, str | None],
+) -> None:
+    """Fit a manoeuvre: `parts` are --from, --to and --hold-out, `out` --report and --json."""
+    from ._fit_course import course_figures, fit_manoeuvre
+
+    begin, end, hold_out = parts
+    try:
+        given = dict(map(_pair, _parts(free)))
+        span = _span(hold_out)
+        found, warnings = fit_manoeuvre(console, file, scene, given, (begin, end), span)
+    except (ValueError, ArithmeticError) as error:
+        fail(error)
+    except OSError as error:
+        fail(f"{error.filename}: {error.strerror}")
+    put_figures(course_figures(found, warnings), out[1])
+    if out[0] is not None:
+        from ..studies.fit.report import report_of_course
+
+        _write_report(out[0], report_of_course(found))
+
+
+def _write_report(path: Path, report: Report) -> None:
+    from ..studies.fit.report import write_report
+
+    try:
+        write_report(path, report)
+    except (ValueError, OSError) as error:
+        fail(f"--report = {str(path)!r}: {error}")
 
 
 def _name(text: str) -> str:

@@ -1,0 +1,119 @@
+"""`planetary-twin fit` of a table or a MAT file: the courses of a manoeuvre."""
+
+from __future__ import annotations
+
+import math
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from ..terminal.messages import remark
+
+if TYPE_CHECKING:
+    from rich.console import Console
+
+    from ..studies.fit.fit_course import FittedCourse
+
+
+def fit_manoeuvre(
+    console: Console,
+    file: Path,
+    scene: str | None,
+    free: dict[str, str],
+    span: tuple[float | None, float | None],
+    hold_out: tuple[float, float] | None,
+) -> tuple[FittedCourse, list[str]]:
+    """Fit a scene to a manoeuvre, and print the estimates.
+
+    Args:
+        console: to print on.
+        file: see `read_course`.
+        scene: name or file of the scene.
+        free: initial values by name of the free fields; empty: that of the scene.
+        span: begin and end of the part that is fitted [s].
+        hold_out: another part, which is predicted [s].
+
+    Returns:
+        The estimates, and the warnings.
+
+    Raises:
+        ValueError: a name, a value or the file is invalid.
+        ArithmeticError: the scene cannot be simulated.
+        OSError: the file cannot be read.
+    """
+    from ..studies.fit.fit_course import course_remarks, fit_course
+    from ..terminal.settings import changed_scene
+
+    if scene is None:
+        raise ValueError(f"--scene: required for the manoeuvre {file}")
+    begin, end = span
+    limits = (-math.inf if begin is None else begin, math.inf if end is None else end)
+    start = {name: value for name, value in free.items() if value}
+    with console.status("simulating") as status:
+        found = fit_course(
+            file, changed_scene(scene, {}), tuple(free), start, limits, hold_out,
+            lambda count: status.update(f"{count} simulated points"),
+        )  # fmt: skip
+    _print(console, found)
+    warnings = list(course_remarks(found))
+    for line in warnings:
+        remark(f"warning: {line}")
+    return found, warnings
+
+
+def _print(console: Console, found: FittedCourse) -> None:
+    from rich.table import Table
+
+    course, estimate = found.course, found.estimate
+    table = Table(title=f"{found.scene.name}, {course.time[0]:.4g} to {course.time[-1]:.4g} s")
+    for heading in ("field", "estimate", "95 % interval", "unit"):
+        table.add_column(heading, justify="right")
+    for k, parameter in enumerate(found.parameters):
+        low, high, _ = estimate.intervals[k]
+        value = f"{estimate.values[k]:.6g}" if estimate.identifiable(k) else "not identifiable"
+        span = "-" if math.isnan(low) else f"{low:.6g} to {high:.6g}"
+        table.add_row(parameter.name, value, span, parameter.unit)
+    console.print(table)
+    if found.held_out is not None:
+        console.print(
+            f"held out: {len(found.held_out.time)} bins, {100.0 * found.inside:.3g} % within their "
+            "95 % intervals",
+            highlight=False,
+        )
+    console.print(
+        f"{found.simulations} simulated points, {found.processor_time:.1f} s of processor time for "
+        f"{course.time[-1] - course.time[0]:.1f} s of data",
+        highlight=False,
+    )
+
+
+def course_figures(found: FittedCourse, warnings: list[str]) -> dict[str, Any]:
+    """Results for `--json`.
+
+    Args:
+        found: the estimates.
+        warnings: about them.
+    """
+    estimate = found.estimate
+
+    def finite(value: float) -> float | None:
+        return float(value) if math.isfinite(value) else None
+
+    return {
+        "parameters": {
+            p.name: {
+                "estimate": float(estimate.values[k]) if estimate.identifiable(k) else None,
+                "low": finite(estimate.intervals[k].low),
+                "high": finite(estimate.intervals[k].high),
+                "unit": p.unit,
+                "identifiable": estimate.identifiable(k),
+                "at_bound": estimate.at_bound[k],
+            }
+            for k, p in enumerate(found.parameters)
+        },
+        "noise": found.noise,
+        "correlation": found.correlation,
+        "inside": finite(found.inside),
+        "simulations": found.simulations,
+        "processor_time_s": found.processor_time,
+        "remarks": warnings,
+    }

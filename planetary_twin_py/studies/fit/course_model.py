@@ -1,0 +1,105 @@
+"""Torque at the input that a scene needs for a measured manoeuvre.
+
+The torque at the output and the speed are given. The torque at the input is that of the static
+balance, with the losses of quasi-static runs at every torque and speed, and that of the inertia:
+
+    T_in = -i T_out + s L(T_in, w, oil) + J a,   s = sign(w)
+
+Vibrations are not in it; means over bins of a manoeuvre do not have them either.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from ...following.loss_map import LossMap
+from ...following.train import followed_train
+from ...scene import Scene
+from .course import Array, Course
+
+INERTIAS = "drive.input.inertia", "drive.output.inertia"  # on which steady losses do not depend
+PASSES = 2  # of the fixed point: the loss changes by some percent of a change of the torque
+
+
+@dataclass
+class CourseModel:
+    """Input torques of a course for values of the free parameters; results are cached.
+
+    Args:
+        scene: of the gearbox.
+        free: names of the free parameters.
+        report: called with the number of evaluated points so far.
+    """
+
+    scene: Scene
+    free: tuple[str, ...]
+    report: Callable[[int], None] = lambda count: None
+    _known: dict[tuple[float, ...], tuple[LossMap, float, float]] = field(default_factory=dict)
+    _losses: dict[tuple[float, ...], LossMap] = field(default_factory=dict)
+
+    @property
+    def count(self) -> int:
+        """Number of evaluated points so far."""
+        return len(self._known)
+
+    def at(self, values: Array, course: Course) -> Array | None:
+        """Input torque [N m] over a course, (n,); None if the scene cannot be simulated.
+
+        Args:
+            values: of the free parameters in SI, (p,).
+            course: the manoeuvre.
+        """
+        try:
+            losses, inertia, ratio = self._at(values)
+            return _torque(course, losses, inertia, ratio)
+        except (ValueError, ArithmeticError):
+            return None
+
+    def _at(self, values: Array) -> tuple[LossMap, float, float]:
+        key = tuple(values.tolist())
+        if key not in self._known:
+            changes: Mapping[str, float] = dict(zip(self.free, key, strict=True))
+            scene = self.scene.replace(**changes)
+            train = followed_train(scene)
+            lossy = tuple(value for name, value in changes.items() if name not in INERTIAS)
+            losses = self._losses.setdefault(lossy, LossMap(scene))  # filled where it is needed
+            self._known[key] = losses, train.inertia, train.ratio
+            self.report(self.count)
+        return self._known[key]
+
+    def residuals(
+        self, course: Course, weight: float
+    ) -> Callable[[Sequence[Array]], list[Array | None]]:
+        """Function that returns weighted residuals at several points, see `least_squares`.
+
+        Args:
+            course: the manoeuvre.
+            weight: factor on the difference of simulated and measured torque [1/(N m)].
+        """
+
+        def residuals(points: Sequence[Array]) -> list[Array | None]:
+            found = [self.at(point, course) for point in points]
+            return [
+                None if torque is None else weight * (torque - course.input_torque)
+                for torque in found
+            ]
+
+        return residuals
+
+
+def _torque(course: Course, losses: LossMap, inertia: float, ratio: float) -> Array:
+    held = -ratio * course.output_torque
+    sign = np.sign(course.speed)
+    torque = held
+    for _ in range(PASSES):
+        lost = [
+            sum(losses(*at)[::2])
+            for at in zip(
+                torque.tolist(), course.speed.tolist(), course.oil_temperature.tolist(), strict=True
+            )
+        ]
+        torque = held + sign * np.array(lost)
+    return np.asarray(torque + inertia * course.acceleration)

@@ -1,0 +1,211 @@
+"""Estimation of scene parameters from the course of a manoeuvre: reversal, run-up or ramp."""
+
+from __future__ import annotations
+
+import math
+import time
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from ...following.train import followed_train
+from ...scene import Scene
+from .course import FEWEST, Array, Course, read_course
+from .course_model import CourseModel
+from .estimate import Estimate, conclude
+from .least_squares import Minimum, differentiate, minimise
+from .parameter import Parameter, read_parameters
+from .runs_test import Runs, count_runs
+
+CONFIDENCE = 0.95
+LEAST = 1e-9  # [N m] of noise
+NEAR = 1e-2  # of the scale of a parameter, within which it is at an end of its range
+SLOW = 0.01  # of the largest speed of the course, below which the sign of the loss is not known
+LARGEST = 0.98  # correlation of successive residuals that is taken into account
+
+
+@dataclass(frozen=True)
+class FittedCourse:
+    """Estimated parameters of a manoeuvre."""
+
+    scene: Scene
+    parameters: tuple[Parameter, ...]
+    estimate: Estimate
+    course: Course
+    """That was fitted."""
+    simulated: Array
+    """Input torque at the estimate [N m], (n,)."""
+    noise: float
+    """Standard deviation of the residuals [N m]."""
+    correlation: float
+    """Of successive residuals."""
+    runs: Runs | None
+    held_out: Course | None
+    predicted: Array | None
+    """Input torque over the part that was held out [N m]."""
+    reach: Array | None
+    """Half of its 95 % interval [N m]."""
+    simulations: int
+    processor_time: float
+    """[s]"""
+
+    @property
+    def inside(self) -> float:
+        """Share of the readings that were held out within their intervals; NaN without any."""
+        if self.held_out is None or self.predicted is None or self.reach is None:
+            return math.nan
+        return float(np.mean(np.abs(self.predicted - self.held_out.input_torque) <= self.reach))
+
+
+def fit_course(
+    path: Path,
+    scene: Scene,
+    free: Sequence[str],
+    start: Mapping[str, Any] | None = None,
+    span: tuple[float, float] = (-math.inf, math.inf),
+    hold_out: tuple[float, float] | None = None,
+    report: Callable[[int], None] = lambda count: None,
+) -> FittedCourse:
+    """Estimate free parameters from the torque at the input over a manoeuvre.
+
+    Residuals of successive bins are counted as 1/n of independent ones as an autoregressive process
+    of first order has them (Bartlett 1946).
+
+    Args:
+        path: see `read_course`.
+        scene: of the gearbox.
+        free: dotted names of fields of the scene.
+        start: initial values, by name.
+        span: begin and end of the part that is fitted [s].
+        hold_out: begin and end of a part that is predicted [s].
+        report: called with the number of simulated points.
+
+    Returns:
+        The estimates.
+
+    Raises:
+        ValueError: a name, a value or the file is invalid, or a part has too few bins.
+        ArithmeticError: the scene cannot be simulated.
+        OSError: the file cannot be read.
+    """
+    began = time.process_time()
+    whole = _turning(read_course(path, followed_train(scene)))
+    course = _part(whole, span)
+    if hold_out is not None and hold_out[0] < course.time[-1] and hold_out[1] > course.time[0]:
+        raise ValueError(
+            f"hold_out = {hold_out[0]:g} to {hold_out[1]:g} s: overlaps the fitted part, "
+            f"{course.time[0]:g} to {course.time[-1]:g} s"
+        )
+    parameters = read_parameters(scene, free, start or {})
+    model = CourseModel(scene, tuple(free), report)
+    minimum, noise, correlation = _minimise(model, course, parameters)
+    weight = _weight(noise, correlation)
+    freedom = max(len(course.time) * (1.0 - correlation) / (1.0 + correlation), 2.0)
+    found = conclude(model.residuals(course, weight), parameters, minimum, freedom, CONFIDENCE)
+    simulated = _known(model.at(minimum.values, course))
+    runs = count_runs(simulated - course.input_torque)
+    other = predicted = reach = None
+    if hold_out is not None:
+        other = _part(whole, hold_out)
+        predicted, reach = _predict(model, other, parameters, found, noise, freedom)
+    return FittedCourse(
+        scene, parameters, found, course, simulated, noise, correlation, runs, other, predicted,
+        reach, model.count, time.process_time() - began,
+    )  # fmt: skip
+
+
+def _minimise(
+    model: CourseModel, course: Course, parameters: tuple[Parameter, ...]
+) -> tuple[Minimum, float, float]:
+    """The minimum with its weight, and standard deviation and correlation of the residuals there.
+
+    The weight is the same for all bins, so the minimum does not depend on it.
+    """
+    start = np.array([p.start for p in parameters])
+    least = minimise(model.residuals(course, 1.0), parameters, start)
+    left = least.residuals
+    square = float(left @ left)
+    noise = max(math.sqrt(square / max(len(left) - len(parameters), 1)), LEAST)
+    along = float(left[1:] @ left[:-1]) / square if square > 0.0 else 0.0
+    correlation = min(max(along, 0.0), LARGEST)
+    weight = _weight(noise, correlation)
+    return (
+        Minimum(least.values, weight * least.residuals, weight * least.slopes), noise, correlation
+    )  # fmt: skip
+
+
+def _weight(noise: float, correlation: float) -> float:
+    return math.sqrt((1.0 - correlation) / (1.0 + correlation)) / noise
+
+
+def _predict(
+    model: CourseModel,
+    course: Course,
+    parameters: tuple[Parameter, ...],
+    found: Estimate,
+    noise: float,
+    freedom: float,
+) -> tuple[Array, Array]:
+    """Input torque over another part, and half of its interval [N m]."""
+    from scipy.stats import t
+
+    predicted = _known(model.at(found.values, course))
+    slopes = differentiate(model.residuals(course, 1.0), parameters, found.values)
+    own = np.einsum("mp,pq,mq->m", slopes, found.covariance, slopes)
+    quantile = float(t.ppf(0.5 + 0.5 * CONFIDENCE, freedom))
+    return predicted, quantile * np.sqrt(own + noise**2)
+
+
+def _turning(course: Course) -> Course:
+    """Without standstill, where the sense of the loss is not known."""
+    turning = np.abs(course.speed) > SLOW * float(np.abs(course.speed).max())
+    return Course(*(values[turning] for values in course))
+
+
+def _part(course: Course, span: tuple[float, float]) -> Course:
+    part = course.between(*span)
+    if len(part.time) < FEWEST:
+        raise ValueError(
+            f"{span[0]:g} to {span[1]:g} s: {len(part.time)} bins while the train turns, must be "
+            f"at least {FEWEST}"
+        )
+    return part
+
+
+def _known(found: Array | None) -> Array:
+    if found is None:
+        raise ArithmeticError("the manoeuvre cannot be simulated with these parameters")
+    return found
+
+
+def course_remarks(found: FittedCourse) -> Iterator[str]:
+    """Warn about parameters and residuals.
+
+    Args:
+        found: from `fit_course`.
+
+    Returns:
+        A line per warning.
+    """
+    estimate = found.estimate
+    for members in estimate.not_identifiable:
+        names = " and ".join(found.parameters[k].name for k in members)
+        yield f"{names}: not identifiable from this manoeuvre"
+    for k, parameter in enumerate(found.parameters):
+        value, near = float(estimate.values[k]), NEAR * parameter.scale
+        if value - parameter.low <= near or parameter.high - value <= near:
+            end = parameter.low if value - parameter.low <= near else parameter.high
+            yield (
+                f"{parameter.name}: is at the end of its range, {end:.3g} {parameter.unit}".rstrip()
+                + "; the model lacks something, or another field is wrong"
+            )
+    if found.runs is not None and not found.runs.noise:
+        yield (
+            f"the residuals are not noise: {found.runs.runs} runs of one sign, "
+            f"{found.runs.expected:.0f} expected in random order, correlation "
+            f"{found.correlation:.2f}; the model misses something that changes slowly, intervals "
+            "are widened accordingly"
+        )

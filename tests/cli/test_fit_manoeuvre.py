@@ -1,0 +1,33 @@
+"""`planetary-twin fit` of a manoeuvre, with its report."""
+
+import json
+from pathlib import Path
+
+import pytest
+from command_line import run
+
+RAMP = Path(__file__).parents[1] / "data/compact/ramp.parquet"
+DRAG = "losses.sun_drag.coulomb"
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("suffix", [".html", ".md"])
+def test_a_manoeuvre_is_fitted_and_reported(tmp_path, suffix):
+    report, figures = tmp_path / f"report{suffix}", tmp_path / "fit.json"
+    done = run(
+        "fit", RAMP, "--scene", "compact_actuator", "--free", DRAG, "--from", 8, "--to", 20,
+        "--hold-out", "20.2:30", "--report", report, "--json", figures,
+    )  # fmt: skip
+    assert done.returncode == 0, done.stderr
+    assert "held out: " in done.stdout and "of processor time" in done.stdout
+    found = json.loads(figures.read_text())["parameters"][DRAG]
+    assert found["low"] < found["estimate"] < found["high"]
+    text = report.read_text()
+    assert DRAG in text and f"{found['estimate']:.6g}" in text and "Held out" in text
+    picture = (tmp_path / "report-1.png").exists()
+    assert picture if suffix == ".md" else "data:image/png;base64," in text
+
+
+def test_a_manoeuvre_without_a_scene_is_refused_in_one_line():
+    done = run("fit", RAMP, "--free", DRAG)
+    assert done.returncode != 0 and "--scene: required" in done.stderr

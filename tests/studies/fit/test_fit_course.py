@@ -1,0 +1,117 @@
+"""Manoeuvres: friction, drag and inertia of a plant, and of readings of a test rig."""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+from scipy.io import savemat
+
+import planetary_twin_py as pt
+from planetary_twin_py.following.loss_map import LossMap
+from planetary_twin_py.following.train import followed_train
+from planetary_twin_py.studies.fit.course import read_course
+from planetary_twin_py.studies.fit.fit_course import course_remarks, fit_course
+
+RIG = Path(__file__).parents[2] / "data/compact"
+FRICTION, DRAG = "lubrication.boundary_coefficient", "losses.sun_drag.coulomb"
+MOTOR = "drive.input.inertia"
+NOISE = 0.01  # [N m] of the torque at the input
+RATE = 50.0  # [Hz]
+SCENE = pt.load_scene("compact_actuator").replace(**{MOTOR: 2e-3})
+
+
+def manoeuvre(path, kind, slow_error=0.0, seed=0):
+    """Readings of a gearbox with friction 0.5, drag 0.05 N m and another motor."""
+    true = SCENE.replace(**{FRICTION: 0.5, DRAG: 0.05, MOTOR: 3e-3})
+    train, losses = followed_train(true), LossMap(true)
+    time = np.arange(1, 1001) / RATE
+    if kind == "reversal":
+        speed = 20.0 * np.cos(2.0 * np.pi * time / 10.0)
+        torque = np.sign(speed) * np.where(np.sin(2.0 * np.pi * time / 7.0) > 0.0, 1.5, 0.7)
+    else:  # run-up
+        speed, torque = 2.0 + 1.5 * time, 0.5 + 0.05 * time
+    acceleration = np.gradient(speed, time)
+    lost = np.sign(speed) * [sum(losses(*at, train.oil_temperature)[::2])
+                             for at in zip(torque, speed, strict=True)]  # fmt: skip
+    noise = np.random.default_rng(seed)
+    savemat(
+        path,
+        {
+            "time": time,
+            "input_torque": torque + train.inertia * acceleration
+            + NOISE * noise.standard_normal(len(time)) + slow_error * np.sin(time),
+            "output_torque": (lost - torque) / train.ratio,
+            "input_speed": speed,
+        },
+    )  # fmt: skip
+    return path
+
+
+@pytest.mark.slow
+def test_a_reversal_determines_friction_drag_and_inertia(tmp_path):
+    path = manoeuvre(tmp_path / "rig.mat", "reversal")
+    found = fit_course(path, SCENE, (FRICTION, DRAG, MOTOR), hold_out=(15.0, 20.0), span=(0, 14.9))
+    for (low, high, _), true in zip(found.estimate.intervals, (0.5, 0.05, 3e-3), strict=True):
+        assert low < true < high
+    assert found.estimate.values[2] == pytest.approx(3e-3, rel=0.1)
+    assert found.inside >= 0.9
+    assert list(course_remarks(found)) == []
+
+
+@pytest.mark.slow
+def test_a_run_up_determines_friction_and_drag(tmp_path):
+    path = manoeuvre(tmp_path / "rig.mat", "run-up")
+    found = fit_course(path, SCENE.replace(**{MOTOR: 3e-3}), (FRICTION, DRAG))
+    for (low, high, _), true in zip(found.estimate.intervals, (0.5, 0.05), strict=True):
+        assert low < true < high
+    assert found.estimate.values[1] == pytest.approx(0.05, rel=0.2)
+
+
+def test_a_slow_error_is_remarked_upon_and_widens_the_intervals(tmp_path):
+    clean, wrong = (
+        fit_course(manoeuvre(tmp_path / "rig.mat", "run-up", error), SCENE, (DRAG,))
+        for error in (0.0, 0.05)
+    )
+    assert any("residuals are not noise" in line for line in course_remarks(wrong))
+    widths = [one.estimate.intervals[0].high - one.estimate.intervals[0].low
+              for one in (clean, wrong)]  # fmt: skip
+    assert widths[1] > 3.0 * widths[0]
+
+
+def test_an_estimate_at_the_end_of_its_range_is_remarked_upon(tmp_path):
+    path = manoeuvre(tmp_path / "rig.mat", "run-up")
+    dragging = SCENE.replace(**{DRAG: 0.2, MOTOR: 3e-3})  # more than the whole loss
+    found = fit_course(path, dragging, (FRICTION,))
+    assert any("is at the end of its range, 0" in line for line in course_remarks(found))
+
+
+@pytest.mark.slow
+def test_a_run_of_the_rig_predicts_its_end_within_a_second_of_processor_time_per_second():
+    scene = pt.load_scene("compact_actuator")
+    found = fit_course(
+        RIG / "ramp.parquet", scene, (FRICTION, DRAG), span=(1.0, 20.0), hold_out=(20.2, 34.0)
+    )
+    assert 0.9 <= found.inside <= 1.0
+    low, high, _ = found.estimate.intervals[1]
+    assert low < scene.losses.sun_drag.coulomb < high  # estimated from steady runs
+    assert found.estimate.values[0] == pytest.approx(0.825, rel=0.1)
+    assert found.simulations < 60
+
+
+def test_files_that_are_no_manoeuvre_are_refused_in_one_line(tmp_path):
+    train = followed_train(SCENE)
+    (tmp_path / "no.mat").write_text("text")
+    with pytest.raises(ValueError, match="not a MAT file"):
+        read_course(tmp_path / "no.mat", train)
+    savemat(tmp_path / "short.mat", {"time": np.arange(3.0), "input_torque": np.zeros(3)})
+    with pytest.raises(ValueError, match="column 'output_torque': missing"):
+        read_course(tmp_path / "short.mat", train)
+    savemat(tmp_path / "uneven.mat", {"time": np.arange(3.0), "input_torque": np.zeros(4)})
+    with pytest.raises(ValueError, match="must be a vector as long as time"):
+        read_course(tmp_path / "uneven.mat", train)
+
+
+def test_a_part_that_overlaps_is_refused(tmp_path):
+    path = manoeuvre(tmp_path / "rig.mat", "run-up")
+    with pytest.raises(ValueError, match="overlaps the fitted part"):
+        fit_course(path, SCENE, (DRAG,), span=(0.0, 15.0), hold_out=(10.0, 20.0))
