@@ -7,10 +7,10 @@ import pytest
 from lubrication.pitch_point import LOAD, oil_of, pitch_point
 
 from planetary_twin_py._core import film_share, lambda_ratio_of, tooth_contact
-from planetary_twin_py.dynamics.oil import THINNEST
 from planetary_twin_py.scene import load_scene
 
 SLIDING = 0.2  # slide-to-roll ratio
+THINNEST = 1e-12  # lambda ratio, in place of 0: its logarithm is finite
 FULL_FILM = (1 / 0.82) ** (1 / 0.28)  # lambda ratio from which the film carries all
 MIXED = load_scene("paper").replace(
     **{

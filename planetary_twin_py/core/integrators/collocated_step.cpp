@@ -141,7 +141,7 @@ Accepted accepted_step(const Model& model, March& march, double h, bool fresh) {
     int restless = 0;
     while (true) {
         if (control.method != COLLOCATION && !resolves(march.run, model.train.bodies, h))
-            return {0.0, 0.0, BRIEF_DETOUR};
+            return {0.0, 0.0, has_contact_lines(model.train) ? BRIEF_DETOUR : DETOUR};
         Outcome tried = collocate<L>(model, march, h, fresh);
         if (tried.error <= 1.0 || (h <= SHORTEST_STEP && tried.error < ASTRAY))
             return {h, tried.error};
@@ -180,17 +180,17 @@ std::int64_t make_step(const Model& model, March& march, double longest, const N
         return FAILED;
     }
     double factor = growth_of_step(error, static_cast<double>(run.nodes.count));
-    // A step between edges that nearly coincide says nothing about the steps to come.
-    const bool cut_short = h == event.time && h < CUT_SHORT * control.next_step;
+    // A step between the crowded edges of helical teeth says nothing about the steps to come.
+    const bool helical = has_contact_lines(model.train);
+    const bool cut_short = helical && h == event.time && h < CUT_SHORT * control.next_step;
     if (!cut_short) control.next_step = h * std::min(GROW, std::max(SHRINK, factor));
     if (fresh) {
         contacts_of(run).step = control.next_step;
         remember<L>(model, march);
     }
-    // Edges of helical teeth crowd: there a step that may grow was short by its trial, after one
-    // between close edges, not by its error.
-    const bool held_back =
-        h < std::min(event.time, longest) && (factor < GROW || !has_contact_lines(model.train));
+    // There a step that may grow was short by its trial, after one between close edges, not by its
+    // error.
+    const bool held_back = h < std::min(event.time, longest) && (factor < GROW || !helical);
     if (held_back && outdone(control, h, true, 0)) control.detour = DETOUR;
     control.collocated = true;
     control.changed = false;

@@ -68,9 +68,19 @@ void stiffness_matrix(const Train& train, const ContactState& modes, const doubl
                    modes.stiffness[i] * train.moving.face_square, scale);
 }
 
+// What mode m does to the bodies, and to the ground beyond them: nothing.
+struct FormOfMode {
+    double way[BODIES] = {};
+
+    FormOfMode(const Train& train, const ModeMatrices& matrices, std::int64_t m) {
+        std::copy_n(matrices.form()[m], train.bodies, way);
+    }
+};
+
 // What mode m does to the bearings without clearance, which damp it.
 void damp_by_bearings(const Train& train, ContactState& modes, std::int64_t m) {
-    const double* form = modes.matrices.form()[m];
+    const FormOfMode mode(train, modes.matrices, m);
+    const double* form = mode.way;
     for (std::int64_t b = 0; b < linear_bearings(train); ++b) {
         for (const BearingRow& row : rows_of_bearing(train, b)) {
             if (row.radial && train.moving.clearance[b] > 0.0) continue;
@@ -84,7 +94,8 @@ void damp_by_bearings(const Train& train, ContactState& modes, std::int64_t m) {
 // What mode m does to the meshes, and what damps it.
 void spread_mode(const Train& train, ContactState& modes, std::int64_t m) {
     ModeMatrices& matrices = modes.matrices;
-    const double* form = matrices.form()[m];
+    const FormOfMode mode(train, matrices, m);
+    const double* form = mode.way;
     for (std::int64_t i = 0; i < train.meshes; ++i) {
         double motion = 0.0;
         for (int a = 0; a < entries_of(train); ++a)
