@@ -176,7 +176,7 @@ class Balances:
         """Scalar updates in Joseph's form, of the gearboxes with a reading that fits.
 
         (1 - k h') P (1 - k h')' + R k k' = P - k a' - a k' + (h' a + R) k k', with a = P h. Sums
-        are taken element by element, so that a gearbox has the same bits in any group.
+        are taken element by element, so that a gearbox has the same bits beside any others
         """
         along = _sum(self.p[:, :, k] * slope[:, k, None] for k in range(len(PARAMETERS)))
         variance = _sum(slope[:, k] * along[:, k] for k in range(len(PARAMETERS))) + noise

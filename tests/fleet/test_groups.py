@@ -85,7 +85,7 @@ def test_a_killed_worker_changes_no_bit(table, scheduler):  # noqa: F811
         cluster.close()
     assert workers[0].wait(10) == -signal.SIGKILL
     assert sum(done) == COUNT
-    assert repr(found) == repr(follow_groups(work, names, Threads(1)))
+    assert repr(found) == repr(follow_groups(work, names, Threads(1), size=1))
 
 
 def test_the_command_writes_a_row_for_each_gearbox(table, tmp_path):

@@ -9,7 +9,6 @@ from studies.fit.rig import PAPER, record
 import planetary_twin_py as pt
 from planetary_twin_py.recording.tables.export import Export, export
 from planetary_twin_py.recording.tables.rig_recording import write_measured
-from planetary_twin_py.studies.fit import excerpt
 from planetary_twin_py.studies.fit.excerpt import read_excerpt
 from planetary_twin_py.studies.fit.identify import Search, identify
 
@@ -69,8 +68,7 @@ def test_an_unmeasured_quantity_cannot_be_observed(tmp_path, observe, reason):
         identify(tmp_path / "rig", Search(("lambda_ratio",), (observe,)))
 
 
-def test_without_angles_a_late_interval_starts_in_steady_running(exported, tmp_path, monkeypatch):
-    monkeypatch.setattr(excerpt, "HISTORY", 0.1)
+def test_a_late_interval_of_a_table_starts_in_steady_running(exported, tmp_path):
     table = parquet.read_table(exported).select(["simulated_time", "power_loss", "input_torque"])
     parquet.write_table(table, tmp_path / "rig.parquet")
     write_measured(tmp_path / "rig.parquet", PAPER, tmp_path / "rig")
@@ -78,7 +76,7 @@ def test_without_angles_a_late_interval_starts_in_steady_running(exported, tmp_p
         tmp_path / "rig", Search(("lambda_ratio",), ("power_loss",), confidence=0.999),
         begin=0.2, end=0.3,
     )  # fmt: skip
-    assert found.excerpt.begins == pytest.approx(0.1)
+    assert found.excerpt.before == ()  # nothing earlier is simulated
     assert_identified(found, lambda_ratio=0.7)
 
 
