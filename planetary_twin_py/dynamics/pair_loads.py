@@ -25,10 +25,19 @@ Array = NDArray[np.float64]
 
 
 class PairLoads(NamedTuple):
-    """Tooth pairs of one mesh at n instants, both arrays (n, PAIRS)."""
+    """Tooth pairs of one mesh at n instants, all arrays (n, PAIRS).
+
+    Of helical teeth, the part of a pair before the pitch point and that after it are pairs of their
+    own: see `mesh.overlap`.
+    """
 
     position: Array
-    """Distance past the pitch point [base pitches]."""
+    """Distance of the middle of the line of contact past the pitch point [base pitches]."""
+    ahead: Array
+    """By how much that is further than where the middle of the face stands [base pitches]; 0 for
+    spur teeth."""
+    face: Array
+    """Length of the line of contact along the axis, as a part of the face width."""
     load: Array
     """[N], 0 if there is no pair or if it does not touch."""
 
@@ -44,7 +53,7 @@ def pair_loads(scene: Scene, mesh: int, angle: Mapping[str, Array], force: Array
         force: force of the mesh [N] (n,), negative on the coast flanks.
 
     Returns:
-        Positions [base pitches] and loads [N], (n, PAIRS) each.
+        The contacts of the pairs.
     """
     scene = held_axes(scene)
     train, count = build_train(scene), len(force)
@@ -52,7 +61,7 @@ def pair_loads(scene: Scene, mesh: int, angle: Mapping[str, Array], force: Array
     for f, fault in enumerate(scene.faults):
         member = f"planet_{fault.planet}" if fault.gear == "planet" else fault.gear
         counted[:, f] = _cycles(scene, member, angle)
-    found = PairLoads(np.zeros((count, PAIRS)), np.zeros((count, PAIRS)))
+    found = PairLoads(*(np.zeros((count, PAIRS)) for _ in PairLoads._fields))
     place = int(mesh_names(scene).place[mesh])
     cycle = _cycles(scene, "sun", angle)
     share_force(train, StepConstants(), place, cycle, counted, np.asarray(force, float), *found)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 from dataclasses import dataclass
 
 import numpy as np
@@ -26,9 +27,31 @@ class TriangleMesh:
             np.concatenate((self.faces, other.faces + np.uint32(len(self.vertices)))),
         )
 
+    def twisted(self, rate: float) -> TriangleMesh:
+        """The same body with each section turned about the z axis in proportion to its z.
+
+        Args:
+            rate: turn [rad] per z [m].
+
+        Returns:
+            The twisted body; its normals are turned with their sections.
+        """
+        turn = rate * self.vertices[:, 2]
+        c, s = np.cos(turn), np.sin(turn)
+
+        def turned(points: NDArray[np.float32]) -> NDArray[np.float32]:
+            x, y, z = points.T
+            return np.column_stack((c * x - s * y, s * x + c * y, z)).astype(np.float32)
+
+        return TriangleMesh(turned(self.vertices), turned(self.normals), self.faces)
+
 
 def extrude(
-    inner: NDArray[np.float64] | float, outer: NDArray[np.float64] | float, low: float, high: float
+    inner: NDArray[np.float64] | float,
+    outer: NDArray[np.float64] | float,
+    low: float,
+    high: float,
+    layers: int = 1,
 ) -> TriangleMesh:
     """Solid between two closed outlines about the z axis; faces share no vertices.
 
@@ -39,6 +62,7 @@ def extrude(
         outer: as `inner`.
         low: lowest z [m].
         high: highest z [m].
+        layers: number of layers of the walls along z, for a body that is twisted afterwards.
 
     Returns:
         The closed surface.
@@ -56,10 +80,12 @@ def extrude(
     thick = np.linalg.norm(outside - inside, axis=1) > 1e-9 * np.abs(outside).max()
     walled = thick | np.roll(thick, -1)  # no solid where the outlines coincide
     mesh = _face(inside, outside, high, up=True) + _face(inside, outside, low, up=False)
-    mesh += _wall(outside, walled, low, high)
-    if np.allclose(inside, 0.0):
-        return mesh
-    return mesh + _wall(inside[::-1], np.roll(walled[::-1], -1), low, high)
+    levels = np.linspace(low, high, layers + 1)
+    for below, above in itertools.pairwise(levels):
+        mesh += _wall(outside, walled, below, above)
+        if not np.allclose(inside, 0.0):
+            mesh += _wall(inside[::-1], np.roll(walled[::-1], -1), below, above)
+    return mesh
 
 
 def circle(radius: float, points: int = 64) -> NDArray[np.float64]:

@@ -20,21 +20,23 @@ SUN, PLANET, RING, CARRIER, PIN, MARK = (
     (250, 250, 250),  # of tooth 0, so that slow turning shows
 )
 
+_LAYER = 0.02  # [rad], largest twist of a layer of helical teeth
+
 
 def sun(gearset: Gearset) -> TriangleMesh:
     """The sun: a toothed wheel with a bore for its shaft."""
-    return _wheel(gearset, gearset.geometry.sun, bore=0.3)
+    return _wheel(gearset, gearset.geometry.sun, gearset.twist.sun, bore=0.3)
 
 
 def planet(gearset: Gearset) -> TriangleMesh:
     """A planet: a toothed wheel with a bore for its pin."""
-    return _wheel(gearset, gearset.geometry.planet, bore=0.35)
+    return _wheel(gearset, gearset.geometry.planet, gearset.twist.planet, bore=0.35)
 
 
 def ring(gearset: Gearset) -> TriangleMesh:
     """The ring: an annulus with internal teeth."""
     gear = gearset.geometry.ring
-    return _toothed_rim(gear, rim(gear), 0.5 * gearset.face_width)
+    return _toothed_rim(gear, rim(gear), 0.5 * gearset.face_width, gearset.twist.ring)
 
 
 def pin(gearset: Gearset) -> TriangleMesh:
@@ -101,20 +103,24 @@ def _arm(angle: NDArray[np.float64], length: float, width: float) -> NDArray[np.
     return np.where(along > 0.0, reach, 0.0)
 
 
-def _wheel(gearset: Gearset, gear: SpurGear, bore: float) -> TriangleMesh:
+def _wheel(gearset: Gearset, gear: SpurGear, twist: float, bore: float) -> TriangleMesh:
     """Teeth on a rim, a thinner web inside it, and a hub around the bore."""
     half = 0.5 * gearset.face_width
     root = gear.root_radius
     rim = max(root - 1.8 * gear.module, 0.7 * root)
     hub = min(1.35 * bore * root, 0.9 * rim)
-    body = _toothed_rim(gear, rim, half) + extrude(bore * root, circle(hub), -half, half)
+    body = _toothed_rim(gear, rim, half, twist)
+    body += extrude(bore * root, circle(hub), -half, half)
     return body + extrude(hub, circle(rim), -0.82 * half, 0.82 * half)
 
 
-def _toothed_rim(gear: SpurGear, edge: float, half: float) -> TriangleMesh:
-    """The teeth, and separately the plain rim between the root circle and radius `edge`."""
+def _toothed_rim(gear: SpurGear, edge: float, half: float, twist: float) -> TriangleMesh:
+    """The teeth, twisted if they are helical, and the plain rim between the root circle and radius
+    `edge`."""
     outline = gear.outline()
     root = np.column_stack((np.full(len(outline), gear.root_radius), outline[:, 1]))
-    if gear.internal:
-        return extrude(outline, root, -half, half) + extrude(root, edge, -half, half)
-    return extrude(root, outline, -half, half) + extrude(edge, root, -half, half)
+    edges = (outline, root) if gear.internal else (root, outline)
+    layers = max(1, math.ceil(2.0 * half * abs(twist) / _LAYER))
+    teeth = extrude(*edges, -half, half, layers).twisted(twist)
+    plain = (root, edge) if gear.internal else (edge, root)
+    return teeth + extrude(*plain, -half, half).twisted(twist)

@@ -164,6 +164,13 @@ class Gearset(Section):
         return mount(self.tooth_numbers, self.planet_angles, lead)
 
     @property
+    def twist(self) -> PerGear:
+        """Turn of the sections of helical gears per way along the axis [rad/m]; 0 of spur gears."""
+        teeth = self.tooth_numbers
+        rise = math.tan(self.helix_angle) * 2.0 / self.module
+        return PerGear(rise / teeth.sun, -rise / teeth.planet, -rise / teeth.ring)
+
+    @property
     def rim_masses(self) -> EquivalentMasses:
         """J/r^2 [kg], given or from the moments of inertia."""
         if self.inertia is None:

@@ -1,13 +1,15 @@
-"""Tooth pairs in contact: a line across the face width where two flanks touch.
+"""Tooth pairs in contact: the line where two flanks touch, across the face width of spur teeth,
+across a part of it and inclined of helical teeth.
 
-The line is brighter and thicker for a larger load. Its front end is bent in the direction of the
-force of the first gear on the second, in proportion to the load. The loaded flank (drive or coast)
-is drawn; an open mesh has no line. /gears/carrier/contact/MESH moves with the carrier, in which the
-line of action is fixed.
+The line is brighter and thicker for a larger load. From its end it goes on to the front of the
+gears and is bent there in the direction of the force of the first gear on the second, in proportion
+to the load. The loaded flank (drive or coast) is drawn; an open mesh has no line.
+/gears/carrier/contact/MESH moves with the carrier, in which the line of action is fixed.
 """
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from dataclasses import dataclass
 
@@ -38,15 +40,19 @@ _NEAR = 2e-4  # [s], largest time difference between a sample and its use
 
 @dataclass(frozen=True)
 class Contacts:
-    """Tooth pairs of one mesh at n times, at most p pairs each.
+    """Tooth pairs of one mesh at n times, at most p pairs each, in the carrier."""
 
-    `point` (n, p, 2) is the position in the carrier [m], `push` (n, p, 2) the unit vector of the
-    force, `load` (n, p) the load [N], 0 without contact.
-    """
-
-    point: Array
+    ends: Array
+    """Both ends of the line of contact [m], that with the lower z first, (n, p, 2, 3)."""
     push: Array
+    """Unit vector of the force on the second gear, (n, p, 2)."""
     load: Array
+    """[N], 0 without contact, (n, p)."""
+
+    @property
+    def point(self) -> Array:
+        """Middle of the line of contact, x and y [m], (n, p, 2)."""
+        return np.asarray(self.ends[..., :2].mean(axis=2))
 
 
 def log_contacts(layer: Layer, scene: Scene, recording: Recording, motion: Motion) -> None:
@@ -94,35 +100,40 @@ def contacts(scene: Scene, mesh: int, angle: Mapping[str, Array], force: Array) 
         force: force of the mesh [N] (n,), negative on the coast flanks.
 
     Returns:
-        Positions, directions and loads.
+        Lines of contact, directions and loads.
     """
     gearset = scene.gearset
     ring, planet = divmod(mesh, gearset.planets)
     working = gearset.geometry.meshes[ring]
     radius, pitch = working.pitch_radii[ring], working.base_pitch
-    position, load = pair_loads(scene, mesh, angle, force)
-    point, push = np.zeros((*load.shape, 2)), np.zeros((*load.shape, 2))
+    pairs = pair_loads(scene, mesh, angle, force)
+    half = 0.5 * pairs.face[..., None] * gearset.face_width * np.array([-1.0, 1.0])
+    ends, push = np.zeros((*half.shape, 3)), np.zeros((*half.shape[:2], 2))
     for flank in (DRIVE, COAST):
         rows = np.sign(force) == flank
         line = line_of_action(
             gearset.planet_angles[planet], radius, working.pressure_angle, flank, bool(ring)
         )
-        point[rows] = line.at(pitch * position[rows])
+        lead = flank * math.tan(gearset.base_helix)  # of a slice, per way along the axis
+        middle = pitch * pairs.ahead[rows, :, None] / lead if lead else 0.0
+        place = pitch * pairs.position[rows, :, None] + lead * half[rows]
+        ends[rows, ..., :2] = line.at(place)
+        ends[rows, ..., 2] = middle + half[rows]
         push[rows] = line.direction
-    return Contacts(point, push, load)
+    return Contacts(ends, push, pairs.load)
 
 
 def _strips(gearset: Gearset, mesh: Contacts, full: float) -> rr.ComponentColumnList:
     """One row per time, with a strip for each loaded pair."""
     carries = mesh.load > 0.0
     level = np.minimum(mesh.load[carries] / full, 1.0)
-    half = 0.5 * gearset.face_width
-    front = half * (1.0 + 2.0 * _OVERHANG)
+    front = (0.5 + _OVERHANG) * gearset.face_width
     bend = mesh.load[carries, None] / full * _LONGEST * gearset.module * mesh.push[carries]
-    strips = np.empty((len(level), 3, 3), dtype=np.float32)
-    strips[:, :2, :2] = mesh.point[carries][:, None]
-    strips[:, 2, :2] = mesh.point[carries] + bend
-    strips[:, :, 2] = (-half, front, front)
+    strips = np.empty((len(level), 4, 3), dtype=np.float32)
+    strips[:, :2] = mesh.ends[carries]
+    strips[:, 2:, :2] = mesh.ends[carries][:, 1:, :2]
+    strips[:, 3, :2] += bend
+    strips[:, 2:, 2] = front
     return rr.LineStrips3D.columns(
         strips=MILLIMETRES * strips,
         colors=shade(level),

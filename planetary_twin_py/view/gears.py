@@ -40,16 +40,16 @@ MILLIMETRES = 1e3
 
 def log_gears(layer: Layer, gearset: Gearset) -> None:
     """Log the gearset's solids."""
-    gears = gearset.geometry
-    _solid(layer, "gears/sun", sun(gearset), SUN, gears.sun)
-    _solid(layer, "gears/ring", ring(gearset), RING, gears.ring)
+    gears, twist = gearset.geometry, gearset.twist
+    _gear(layer, "gears/sun", sun(gearset), SUN, gears.sun, twist.sun)
+    _gear(layer, "gears/ring", ring(gearset), RING, gears.ring, twist.ring)
     _solid(layer, "gears/carrier", spider(gearset), CARRIER)
     for i, psi in enumerate(gearset.planet_angles):
         radius = MILLIMETRES * carrier_radius(gearset)
         centre = rr.Transform3D(translation=[radius * math.cos(psi), radius * math.sin(psi), 0.0])
         layer.log(_pin(i), centre, static=True)
         _solid(layer, _pin(i), pin(gearset), PIN)
-        _solid(layer, _planet(i), planet(gearset), PLANET, gears.planet)
+        _gear(layer, _planet(i), planet(gearset), PLANET, gears.planet, twist.planet)
 
 
 Moved = Mapping[str, NDArray[np.float64]]
@@ -87,17 +87,27 @@ def _planet(i: int) -> str:
     return f"{_pin(i)}/planet_{i + 1}"
 
 
+Colour = tuple[int, int, int]
+
+
+def _gear(
+    layer: Layer, path: str, solid: TriangleMesh, colour: Colour, gear: SpurGear, twist: float
+) -> None:
+    """Log a gear; its tooth 0, at angle zero in the middle of the face, is marked."""
+    _solid(layer, path, solid, colour, _of_tooth_zero(solid.twisted(-twist), gear))
+
+
 def _solid(
     layer: Layer,
     path: str,
     solid: TriangleMesh,
-    colour: tuple[int, int, int],
-    gear: SpurGear | None = None,
+    colour: Colour,
+    marked: NDArray[np.bool_] | None = None,
 ) -> None:
-    """Log a static mesh; tooth 0 of a gear, at angle zero, is marked."""
+    """Log a static mesh, some of its vertices marked."""
     colours = np.tile(np.array(colour, dtype=np.uint8), (len(solid.vertices), 1))
-    if gear is not None:
-        colours[_of_tooth_zero(solid, gear)] = MARK
+    if marked is not None:
+        colours[marked] = MARK
     mesh = rr.Mesh3D(
         vertex_positions=MILLIMETRES * solid.vertices,
         vertex_normals=solid.normals,

@@ -17,6 +17,7 @@ from planetary_twin_py.view.contacts import contacts, forces, newtons
 PAPER = load_scene("paper")
 FIVE = PAPER.replace(**{"gearset.planet_angles": tuple(2 * np.pi * k / 5 for k in range(5))})
 HELD_RING = load_scene("wind_turbine_stage")
+HELICAL = load_scene("helical_stage")
 SUN_ANGLE = np.linspace(-0.7, 0.9, 301)  # against the carrier
 
 
@@ -32,11 +33,12 @@ def turned(scene):
 def off_flank(gear, angle, point):
     """Distance [m] from points (n, p, 2) about the gear's centre to the nearest of its flanks.
 
-    Counted along the base circle, where flanks of one kind are a base pitch apart: that is their
-    distance along the normal. Both kinds of flank are given, (2, n, p).
+    `angle` (n, p) is that of tooth 0 in the sections of the points. Distances are counted along the
+    base circle, where flanks of one kind are a base pitch apart: that is their distance along the
+    normal. Both kinds of flank are given, (2, n, p).
     """
     radius = np.hypot(point[..., 0], point[..., 1])
-    local = np.arctan2(point[..., 1], point[..., 0]) - angle[:, None]
+    local = np.arctan2(point[..., 1], point[..., 0]) - angle
     pitch = 2 * math.pi / gear.teeth
     half = gear.half_thickness(radius)
     away = [np.mod(local - side * half + 0.5 * pitch, pitch) - 0.5 * pitch for side in (1, -1)]
@@ -72,12 +74,30 @@ def test_contacts_are_on_the_loaded_flanks_of_both_gears(scene, flank):
         there = found.load > 0.0
         facing = (-flank, flank) if mesh >= scene.gearset.planets else (flank, flank)
         for (gear, angle, centre), side in zip(gears_of_mesh(scene, mesh), facing, strict=True):
-            counter_clockwise, clockwise = off_flank(gear, angle, found.point - centre)
-            own, other = counter_clockwise, clockwise
-            if side < 0:
-                own, other = other, own
-            assert own[there].max() < 1e-9
-            assert other[there].min() > 0.2 * gear.module
+            hand = 1.0 if gear is scene.gearset.geometry.sun else -1.0
+            screw = hand * math.tan(scene.gearset.helix_angle) / gear.pitch_radius
+            for end in (0, 1):
+                section = angle[:, None] + screw * found.ends[:, :, end, 2]
+                place = found.ends[:, :, end, :2] - centre
+                counter_clockwise, clockwise = off_flank(gear, section, place)
+                own, other = counter_clockwise, clockwise
+                if side < 0:
+                    own, other = other, own
+                assert own[there].max() < 1e-9
+                assert other[there].min() > 0.2 * gear.module
+
+
+def test_lines_of_contact_of_helical_teeth_cover_the_path_of_contact_on_the_face():
+    """Of a pair, the sections on the path of contact touch: no more, and none is left out."""
+    gearset = HELICAL.gearset
+    for mesh, path in ((1, sun_planet_path), (4, planet_ring_path)):
+        reach = path(gearset.tooth_numbers, gearset.pressure_angle, gearset.addendum)
+        found = contacts(HELICAL, mesh, turned(HELICAL), np.full(len(SUN_ANGLE), 1000.0))
+        there = found.load > 0.0
+        z = found.ends[there][..., 2]
+        assert np.abs(z).max() == pytest.approx(0.5 * gearset.face_width, rel=1e-9)
+        length = (np.ptp(found.ends[..., 2], axis=2) * there).sum(axis=1)
+        assert length.mean() == pytest.approx(reach.contact_ratio * gearset.face_width, rel=0.01)
 
 
 @pytest.mark.parametrize("flank", [1.0, -1.0], ids=["drive", "coast"])

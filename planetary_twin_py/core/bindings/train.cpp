@@ -133,19 +133,24 @@ void bind_form(nb::module_& m) {
     m.def(
         "share_force",
         [](const Train& train, StepConstants& step, std::int64_t i, const Vector& cycles,
-           const Table& counted, const Vector& force, const Rows& position, const Rows& load) {
-            std::size_t count = force.size();
+           const Table& counted, const Vector& force, const Rows& position, const Rows& ahead,
+           const Rows& face, const Rows& load) {
+            std::size_t count = force.size(), size = count * PAIRS;
             const double* own = entries(counted, count * FAULTS);
-            double *at = entries(position, count * PAIRS), *loads = entries(load, count * PAIRS);
+            PairContacts all{entries(position, size), entries(ahead, size), entries(face, size),
+                             entries(load, size)};
             const double* reached = entries(cycles, count);
             Unlocked unlocked;
-            for (std::size_t n = 0; n < count; ++n)
-                if (force.data()[n] != 0.0)
-                    share_force(train, step, i, reached[n], own + n * FAULTS, force.data()[n],
-                                at + n * PAIRS, loads + n * PAIRS);
+            for (std::size_t n = 0; n < count; ++n) {
+                if (force.data()[n] == 0.0) continue;
+                std::size_t row = n * PAIRS;
+                share_force(train, step, i, reached[n], own + n * FAULTS, force.data()[n],
+                            {all.position + row, all.ahead + row, all.face + row, all.load + row});
+            }
         },
-        "train"_a, "step"_a, "i"_a, "cycles"_a, "counted"_a, "force"_a, "position"_a, "load"_a,
-        "Fill positions and loads (n, PAIRS) of the pairs of mesh i from forces (n,).");
+        "train"_a, "step"_a, "i"_a, "cycles"_a, "counted"_a, "force"_a, "position"_a, "ahead"_a,
+        "face"_a, "load"_a,
+        "Fill the contacts (n, PAIRS) of the pairs of mesh i from forces (n,).");
 }
 
 void bind_contact(nb::module_& m) {

@@ -37,11 +37,19 @@ inline void balance_pairs(const Train& train, const StepConstants& step, std::in
     }
 }
 
-// Fill position [base pitches] and load [N] (PAIRS,) of the pairs of mesh i under a force [N] that
-// is not zero. `cycles` are those of the train, `counted` (FAULTS,) the same by the gear of each
-// fault; `step` is room for the faults.
+// The contacts of the pairs of a mesh, (PAIRS,) each.
+struct PairContacts {
+    double* position;  // of the middle of the line of contact [base pitches]
+    double* ahead;     // of the middle before where the middle of the face stands [base pitches]
+    double* face;      // part of the face in contact
+    double* load;      // [N]
+};
+
+// Fill the contacts of the pairs of mesh i under a force [N] that is not zero. `cycles` are those
+// of the train, `counted` (FAULTS,) the same by the gear of each fault; `step` is room for the
+// faults.
 inline void share_force(const Train& train, StepConstants& step, std::int64_t i, double cycles,
-                        const double* counted, double force, double* position, double* load) {
+                        const double* counted, double force, const PairContacts& contact) {
     std::int64_t kind = train.kind[i], side = force > 0.0 ? DRIVE_SIDE : COAST_SIDE;
     double cycle = cycle_on_side(train, i, side, cycles, 1);
     std::int64_t segment = find_segment(train, kind, cycle, 1.0);
@@ -50,10 +58,15 @@ inline void share_force(const Train& train, StepConstants& step, std::int64_t i,
         auto whole = static_cast<std::int64_t>(std::nearbyint(own - cycle));
         mark_fault(train, i, side, segment, f, whole, step.faulty);
     }
-    for (int p = 0; p < PAIRS; ++p)
-        position[p] = train.centre[kind][segment][p] + train.travel[kind][segment][p] * cycle;
+    for (int p = 0; p < PAIRS; ++p) {
+        double place = train.centre[kind][segment][p] + train.travel[kind][segment][p] * cycle;
+        contact.position[p] = place;
+        contact.ahead[p] = place - cycle - std::floor(train.shift[kind][segment][p]);
+        contact.face[p] =
+            train.face[kind][segment][p] + train.face_growth[kind][segment][p] * cycle;
+    }
     double u = cycle - train.edge[kind][segment];
-    balance_pairs(train, step, i, segment, u, std::abs(force), load);
+    balance_pairs(train, step, i, segment, u, std::abs(force), contact.load);
 }
 
 }  // namespace gearbox
