@@ -75,10 +75,10 @@ class LossMap:
         """
         k, h = _place(self._heat, temperature)
         drives = torque * speed >= 0.0
-        cold = self._at(self._table(drives, k), torque, speed)
+        cold = self._at(drives, k, torque, speed)
         if h == 0.0:
             return cold
-        warm = self._at(self._table(drives, k + 1), torque, speed)
+        warm = self._at(drives, k + 1, torque, speed)
         return Loss(*(one + h * (other - one) for one, other in zip(cold, warm, strict=True)))
 
     @property
@@ -99,36 +99,40 @@ class LossMap:
         Raises:
             RunawayError: a point has no equilibrium.
         """
-        parts = [self._table(drives, k) for k in range(len(self._heat))]
+        whole = slice(None)
+        parts = [self._part(drives, k, whole, whole) for k in range(len(self._heat))]
         return np.stack([teeth for teeth, _ in parts]), np.stack([rest for _, rest in parts])
 
-    def _at(self, tables: tuple[Array, Array], torque: float, speed: float) -> Loss:
+    def _at(self, drives: bool, k: int, torque: float, speed: float) -> Loss:
         """Loss at a temperature of the table."""
         size, rate = max(abs(torque), 1e-9), max(abs(speed), 1e-9)
         m, v = _place(self._logarithms[1], math.log(rate))
         n, u = _place(self._logarithms[0], math.log(size))
-        (a, b), (c, d) = tables[0][m : m + 2, n : n + 2].tolist()
+        teeth, rest = self._part(drives, k, slice(m, m + 2), slice(n, n + 2))
+        (a, b), (c, d) = teeth.tolist()
         low, high = a + v * (c - a), b + v * (d - b)
         part = low + u * (high - low)
         bend = (high - low) / float(self._logarithms[0][n + 1] - self._logarithms[0][n])
-        (a, b), (c, d) = tables[1][m : m + 2, n : n + 2].tolist()
+        (a, b), (c, d) = rest.tolist()
         v = _share(self._speeds, m, rate)
         low, high = a + v * (c - a), b + v * (d - b)
-        rest = low + _share(self._torques, n, size) * (high - low)
-        return Loss(part * size, part + (bend if 0.0 < u < 1.0 else 0.0), rest)
+        lost = low + _share(self._torques, n, size) * (high - low)
+        return Loss(part * size, part + (bend if 0.0 < u < 1.0 else 0.0), lost)
 
-    def _table(self, drives: bool, k: int) -> tuple[Array, Array]:
-        """Loss torque of tooth friction over torque, and of the rest, (speeds, torques) each."""
-        if (drives, k) not in self._tables:
-            shape = len(self._speeds), len(self._torques)
-            teeth, rest = np.empty(shape), np.empty(shape)
-            for m, n in np.ndindex(shape):
-                torque = float(self._torques[n])
-                at = float(self._speeds[m]), float(self._heat[k])
-                found = self.run(torque if drives else -torque, *at)
-                teeth[m, n], rest[m, n] = found[0] / torque, found[1]
-            self._tables[drives, k] = teeth, rest
-        return self._tables[drives, k]
+    def _part(self, drives: bool, k: int, speeds: slice, torques: slice) -> tuple[Array, Array]:
+        """Part of the table: loss torque of tooth friction over torque, and of the rest,
+        (speeds, torques) each."""
+        shape = len(self._speeds), len(self._torques)
+        teeth, rest = self._tables.setdefault(
+            (drives, k), (np.full(shape, np.nan), np.full(shape, np.nan))
+        )
+        unknown = np.argwhere(np.isnan(teeth[speeds, torques]))
+        for m, n in unknown + [speeds.start or 0, torques.start or 0]:
+            torque = float(self._torques[n])
+            at = float(self._speeds[m]), float(self._heat[k])
+            found = self.run(torque if drives else -torque, *at)
+            teeth[m, n], rest[m, n] = found[0] / torque, found[1]
+        return teeth[speeds, torques], rest[speeds, torques]
 
     def run(self, torque: float, speed: float, temperature: float) -> tuple[float, float]:
         """Simulate an operating point.

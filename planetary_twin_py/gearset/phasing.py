@@ -10,6 +10,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from fractions import Fraction
+from functools import lru_cache
 
 from .clearance import Size, are_clear
 from .kinematics import Teeth
@@ -94,6 +95,15 @@ def mesh_phases(
         Phases of the sun-planet meshes and of the planet-ring meshes [cycles], (planets,) each,
         exact.
     """
+    sun, ring = _exact_phases(Teeth(*teeth), tuple(angles), leads)
+    return list(sun), list(ring)
+
+
+@lru_cache(maxsize=64)  # fractions are slow, and the building of a train asks many times
+def _exact_phases(
+    teeth: Teeth, angles: tuple[float, ...], leads: tuple[float, float]
+) -> tuple[tuple[Fraction, ...], tuple[Fraction, ...]]:
     offset = Fraction(1 - teeth.planet % 2, 2) + (Fraction(leads[0]) - Fraction(leads[1])) / 2
     turns = [Fraction(place, teeth.sun + teeth.ring) for place in _places(teeth, angles)]
-    return [teeth.sun * turn for turn in turns], [offset - teeth.ring * turn for turn in turns]
+    sun = tuple(teeth.sun * turn for turn in turns)
+    return sun, tuple(offset - teeth.ring * turn for turn in turns)

@@ -148,7 +148,10 @@ class Ledger:
             state.set_speed = state.speed = speed
             rate = frame_cycle_rate(model.train, state)
             if rate != 0.0:
-                (phase, _, _), _ = self._divide(model, state)
+                cycle, both_flanks = self._divide(model, state)
+                if self._repeats and self._is_steady():  # then this is the cycle that repeats
+                    self._cycle, self._cycle_both_flanks = cycle, both_flanks
+                phase = cycle[0]
                 first = frame_cycle(model.train, state, 1)
                 return np.mod(first + math.copysign(1.0, rate) * phase[:-1], 1.0)
         return self._edges
