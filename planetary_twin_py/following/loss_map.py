@@ -127,7 +127,7 @@ class LossMap:
             (drives, k), (np.full(shape, np.nan), np.full(shape, np.nan))
         )
         unknown = np.argwhere(np.isnan(teeth[speeds, torques]))
-        for m, n in unknown + [speeds.start or 0, torques.start or 0]:
+        for m, n in np.add(unknown, [speeds.start or 0, torques.start or 0]):
             torque = float(self._torques[n])
             at = float(self._speeds[m]), float(self._heat[k])
             found = self.run(torque if drives else -torque, *at)

@@ -119,8 +119,9 @@ def _toothed_rim(gear: SpurGear, edge: float, half: float, twist: float) -> Tria
     `edge`."""
     outline = gear.outline()
     root = np.column_stack((np.full(len(outline), gear.root_radius), outline[:, 1]))
-    edges = (outline, root) if gear.internal else (root, outline)
     layers = max(1, math.ceil(2.0 * half * abs(twist) / _LAYER))
-    teeth = extrude(*edges, -half, half, layers).twisted(twist)
-    plain = (root, edge) if gear.internal else (edge, root)
-    return teeth + extrude(*plain, -half, half).twisted(twist)
+    if gear.internal:
+        teeth, plain = extrude(outline, root, -half, half, layers), extrude(root, edge, -half, half)
+    else:
+        teeth, plain = extrude(root, outline, -half, half, layers), extrude(edge, root, -half, half)
+    return (teeth + plain).twisted(twist)

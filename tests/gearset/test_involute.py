@@ -135,3 +135,16 @@ def test_extruded_mesh_is_closed_and_faces_outwards(inner, outer):
     assert volume == pytest.approx(0.02 * (area(outer) - area(inner)), rel=1e-5)
     facing = np.einsum("ij,ij->i", np.cross(b - a, c - a), solid.normals[solid.faces[:, 0]])
     assert np.all(facing > 0)
+
+
+def test_a_twisted_body_keeps_its_volume_and_its_faces_look_outwards():
+    """Sections are turned, not changed (Cavalieri); layers approach the twisted walls."""
+    body = extrude(5e-3, SUN.outline(), -0.01, 0.01, layers=16).twisted(30.0)
+    a, b, c = (body.vertices[body.faces[:, k]].astype(float) for k in range(3))
+    straight = extrude(5e-3, SUN.outline(), -0.01, 0.01)
+    d, e, f = (straight.vertices[straight.faces[:, k]].astype(float) for k in range(3))
+    volumes = [np.einsum("ij,ij->", p, np.cross(q, r)) for p, q, r in ((a, b, c), (d, e, f))]
+    assert volumes[0] == pytest.approx(volumes[1], rel=2e-3)
+    facing = np.einsum("ij,ij->i", np.cross(b - a, c - a), body.normals[body.faces[:, 0]])
+    assert np.all(facing > 0)
+    assert np.hypot(*body.vertices[:, :2].T).max() == pytest.approx(SUN.tip_radius, rel=1e-6)
