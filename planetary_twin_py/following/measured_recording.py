@@ -40,12 +40,12 @@ def read_recording(
             that a speed has another unit.
         OSError: the file cannot be read.
     """
-    told = [] if remarks is None else remarks
+    lines = [] if remarks is None else remarks
     reader = MessageReader(joints, scale)
     found = [
         block
         for file in files_of(path)
-        for part in _in_parts(_arrived(file, joints, told))
+        for part in _in_parts(_arrived(file, joints, lines))
         for block in reader.read(part)
     ]
     named = (block.columns for block in found if isinstance(block, Readings))
