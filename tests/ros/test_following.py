@@ -39,7 +39,7 @@ class Taken:
         return self._portions.pop(0)
 
 
-class Heard:
+class Received:
     """Keeps what is said."""
 
     def __init__(self) -> None:
@@ -88,12 +88,12 @@ def said(portions: list[list[Arrived]]) -> list[Following]:
     options = FollowerOptions(
         pt.load_scene("paper"), pt.Sensors(), joints, {}, 0.1, 10.0, 3600.0, False, "", "", ""
     )
-    source, heard = Taken(portions), Heard()
-    live = LiveFollower(options, source, heard)
+    source, received = Taken(portions), Received()
+    live = LiveFollower(options, source, received)
     assert source.empty.wait(120.0)
     live.stop()
-    assert heard.faults == []
-    return heard.followings
+    assert received.faults == []
+    return received.followings
 
 
 @pytest.fixture(scope="module")

@@ -74,9 +74,7 @@ def read_followed(path: Path, namespace: str, topics: frozenset[str]) -> Followe
     found: dict[str, list[Any]] = {name: [] for name in wanted.values()}
     for file in files_of(path):
         decoder = Decoder(file, wanted.__contains__)
-        for record in records_of(
-            file, []
-        ):  # what is damaged has been told with the twin's messages
+        for record in records_of(file, []):  # remarks: of the twin's messages
             if (message := decoder.read(record)) is not None:
                 found[wanted[message[0]]].append(message[1])
     if not found[ESTIMATE]:

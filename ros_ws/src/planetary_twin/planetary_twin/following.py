@@ -146,7 +146,7 @@ class LiveFollower:
         """What was said last."""
         self._reader = MessageReader(self._options.joints, self._options.scale)
         self._portions = Portions(self._options.period)
-        self._told = -math.inf  # stamp of the newest estimate, said or not [s]
+        self._newest = -math.inf  # stamp of the newest estimate, said or not [s]
         self._due = -math.inf  # stamp of the next one to say [s]
         self._jumps = JumpWatch()
         self._refusal = ""
@@ -216,9 +216,9 @@ class LiveFollower:
     def _say_what_is_new(self) -> None:
         """Say an estimate whenever stamps have grown by the period of publishing."""
         now = self._follower.time
-        if not now > self._told:
+        if not now > self._newest:
             return
-        self._told = now
+        self._newest = now
         self._advanced, self._stale = time.monotonic(), False
         if now >= self._due:
             self._due = now + 1.0 / self._options.publish_rate - 0.5 * self._options.period
