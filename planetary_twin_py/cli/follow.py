@@ -138,7 +138,11 @@ def _readings(
         return [found.readings]
     from ..following.measured_recording import read_recording
 
-    return read_recording(path, sensors.joints, factors)
+    damaged: list[str] = []
+    found_in = read_recording(path, sensors.joints, factors, damaged)
+    for line in damaged:
+        remark(f"warning: {line}")
+    return found_in
 
 
 def _samples(path: Path | None, shape: EncoderFormat | None) -> EncoderSamples | None:

@@ -25,7 +25,8 @@ from .operating_point import TUNABLES, OperatingPoint, Tunable
 from .paths import NoSuchPath, paths, put
 from .quantity import SceneError, Section, listed, quantity
 from .supports import Supports
-from .yaml_text import LONGEST, read_yaml
+from .yaml_file import read_text
+from .yaml_text import read_yaml
 
 SPECIFIC_STIFFNESS = 2e10  # [Pa], of a mesh per face width (ISO 6336-1, 20 N/(mm um))
 _LIMITS = {  # fields of the drive that limit a quantity
@@ -374,17 +375,10 @@ def load_scene(name_or_path: str | Path) -> Scene:
 def _read(path: Path) -> str:
     """Text of a regular file, up to the longest scene."""
     try:
-        if path.exists() and not path.is_file():
-            raise SceneError(f"scene = {str(path)!r}: must be a file")
-        with path.open("rb") as stream:
-            return stream.read(4 * LONGEST + 1).decode()  # a character has at most 4 bytes
-    except UnicodeDecodeError as error:
-        raise SceneError(
-            f"scene = {str(path)!r}: must be in UTF-8, byte {error.start + 1} is not"
-        ) from None
+        return read_text(path)
+    except SceneError as error:
+        raise SceneError(f"scene = {str(path)!r}: {error}") from None
     except (OSError, ValueError) as error:
-        if isinstance(error, SceneError):
-            raise
         reason = error.strerror if isinstance(error, OSError) else error
         raise SceneError(
             f"scene = {str(path)!r}: neither a readable file ({reason}) nor "
