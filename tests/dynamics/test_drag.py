@@ -99,3 +99,18 @@ def test_drag_passes_through_standstill_as_bearings_do():
         apply_drag(engine.model, engine.march.end, np.zeros(BODIES), out)
         found.append(float(out.rubbing[train.sun] * train.radius[train.sun]))
     assert found == pytest.approx([0.3, 0.15, 0.0, -0.15, -0.3], rel=1e-6)
+
+
+@pytest.mark.filterwarnings("ignore::planetary_twin_py.accuracy.AccuracyWarning")
+@pytest.mark.parametrize("speed", [0.0, 1.0])
+def test_drag_of_a_light_member_costs_steps_of_its_motion_not_of_the_nanoseconds_of_its_drag(speed):
+    """0.1 N m that reverses within 0.01 rad/s stops 6.6e-8 kg m^2 within 7 ns."""
+    scene = pt.load_scene("compact_actuator").replace(
+        **{"dynamics": "torsional", "input_speed": speed, "input_torque": 0.05,
+           "lubrication.boundary_coefficient": 0.3}
+    )  # fmt: skip
+    coarse, fine = (pt.simulate(scene, 0.005, tolerance=t) for t in (1e-4, 1e-6))
+    assert coarse.stats.steps + coarse.stats.rejected_steps < 3000
+    assert coarse.energy.bearing == pytest.approx(fine.energy.bearing, rel=1e-3, abs=1e-12)
+    assert abs(coarse.energy.residual) < 1e-6 * fine.energy.put_in + 1e-15
+    assert coarse.mesh["dte_mean"] == pytest.approx(fine.mesh["dte_mean"], rel=1e-3)

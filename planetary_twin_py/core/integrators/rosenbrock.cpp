@@ -10,6 +10,7 @@
 #include "mesh/stiffness.hpp"
 #include "train/bearings.hpp"
 #include "train/body_speed.hpp"
+#include "train/drag.hpp"
 #include "train/equations.hpp"
 #include "tribology/tooth_friction.hpp"
 #include "vector/cholesky.hpp"
@@ -101,6 +102,7 @@ void assemble(const Model& model, const State& state, const StepConstants& const
         else
             friction_damping(train, first.pairs, first.force, h, work.row, work.system);
     }
+    drag_damping(model, state, first.now.push, first.force, h, work.system);
     for (std::int64_t j = 0; j <= train.bodies; ++j) work.system[j][j] += train.mass[j] / step;
     free_given(model, h, work);
 }

@@ -97,6 +97,7 @@ void find_first_forces(const Model& model, March& march) {
     } else {  // forces do not depend on the frame in which x is measured
         std::memcpy(first.force, last.force, sizeof first.force);
         std::memcpy(first.power, last.power, sizeof first.power);
+        std::memcpy(first.now.push, last.now.push, sizeof first.now.push);
         copy_friction(last.pairs, first.pairs);
     }
 }

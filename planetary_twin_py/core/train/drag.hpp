@@ -10,6 +10,7 @@
 #include "train/body_speed.hpp"
 #include "train/evaluation.hpp"
 #include "train/model.hpp"
+#include "tribology/tooth_friction.hpp"
 
 namespace gearbox {
 
@@ -31,6 +32,40 @@ inline double pin_load(const Train& train, const State& state, const double* pus
     return train.pin_share * std::abs(sum);
 }
 
+// Magnitude [N m] of the drag of joint b at a speed [rad/s], where its sense has not faded out.
+inline double joint_drag(const Model& model, const State& state, const double* push, std::int64_t b,
+                         double speed) {
+    const Train& train = model.train;
+    double load = pin_load(train, state, push, train.joint_planet[b]);
+    double torque = train.joint_coulomb[b] + train.joint_viscous[b] * std::abs(speed);
+    torque += bearing_torque(train.joint_idle[b], train.joint_rubbing[b], model.oil.kinematic,
+                             speed, load);
+    return torque * train.body_copies[train.joint_body[b][0]];
+}
+
+// Add to `matrix` what the drag of joints adds to the damping matrix.
+//
+// A light member whose drag changes its sense within SLOWEST_DRAG_TURN settles in nanoseconds. As
+// in `friction_damping`, the slope is that of the chord to rest where `force` would turn the
+// rotation round within h seconds.
+inline void drag_damping(const Model& model, const State& state, const double* push,
+                         const double* force, double h, Matrix matrix) {
+    const Train& train = model.train;
+    for (std::int64_t b = 0; b < train.joints; ++b) {
+        const std::int64_t* body = train.joint_body[b];
+        double speed =
+            body_speed(train, state, state.v, body[0]) - body_speed(train, state, state.v, body[1]);
+        double row[2] = {train.inverse_radius[body[0]], -train.inverse_radius[body[1]]};
+        double gain = h * (row[0] * force[body[0]] / train.mass[body[0]] +
+                           row[1] * force[body[1]] / train.mass[body[1]]);
+        double square = speed * speed + SLOWEST_DRAG_TURN * SLOWEST_DRAG_TURN;
+        double chord = joint_drag(model, state, push, b, speed) / std::sqrt(square);
+        double tangent = chord * SLOWEST_DRAG_TURN * SLOWEST_DRAG_TURN / square;
+        double slope = speed * (speed + gain) < 0.0 ? chord : tangent;
+        add_outer(matrix, body, row, 2, slope);
+    }
+}
+
 // Add the drag of joints and discs under the pushes of the meshes to `rubbing`; book it in `power`.
 inline void apply_drag(const Model& model, const State& state, const double* v, const double* push,
                        double* rubbing, double* power) {
@@ -39,11 +74,7 @@ inline void apply_drag(const Model& model, const State& state, const double* v, 
     for (std::int64_t b = 0; b < train.joints; ++b) {
         std::int64_t inner = train.joint_body[b][0], outer = train.joint_body[b][1];
         double speed = body_speed(train, state, v, inner) - body_speed(train, state, v, outer);
-        double load = pin_load(train, state, push, train.joint_planet[b]);
-        double torque = train.joint_coulomb[b] + train.joint_viscous[b] * std::abs(speed);
-        torque +=
-            bearing_torque(train.joint_idle[b], train.joint_rubbing[b], oil.kinematic, speed, load);
-        torque *= drag_sense(speed) * train.body_copies[inner];
+        double torque = joint_drag(model, state, push, b, speed) * drag_sense(speed);
         rubbing[inner] -= torque / train.radius[inner];
         rubbing[outer] += torque / train.radius[outer];
         power[BEARING] += torque * speed;
