@@ -10,6 +10,7 @@ from ..result import Result
 from ..scene import Scene
 from ..studies.clipping import clipping_of_run
 from ..studies.measures import clipped_friction
+from .turning import turning_warnings
 
 
 def remarks(scene: Scene, run: Result, tolerance: float) -> Iterator[str]:
@@ -23,5 +24,6 @@ def remarks(scene: Scene, run: Result, tolerance: float) -> Iterator[str]:
     if line := ledger_warning(balance_of_run(run.energy), tolerance):
         yield line
     yield from accuracy_warnings(scene, run)
+    yield from turning_warnings(scene, run)
     if line := clipping_of_run(clipped_friction(scene, run)):
         yield line

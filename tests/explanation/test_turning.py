@@ -1,0 +1,31 @@
+"""Runs of less than a mesh cycle, and at another speed than asked for, are reported."""
+
+import pytest
+
+import planetary_twin_py as pt
+from planetary_twin_py.explanation.turning import turning_warnings
+
+PAPER = pt.load_scene("paper")  # 30 teeth of the sun, carrier held: 500 Hz at 1000 rpm
+
+
+@pytest.mark.parametrize("dynamics", ["torsional", "quasi_static"])
+def test_less_than_a_mesh_cycle_is_reported_with_the_time_of_one(dynamics):
+    scene = PAPER.replace(input_speed=pt.rpm(1000.0), dynamics=dynamics)
+    (line,) = turning_warnings(scene, pt.simulate(scene, 0.001))
+    assert "covers 0.5 of a mesh cycle" in line and "takes 0.002 s" in line
+    assert list(turning_warnings(scene, pt.simulate(scene, 0.004))) == []
+
+
+def test_gears_that_are_to_stand_still_are_not_reported():
+    scene = PAPER.replace(input_speed=0.0)
+    assert list(turning_warnings(scene, pt.simulate(scene, 0.001))) == []
+
+
+def test_a_mean_speed_that_the_speed_loop_does_not_hold_is_reported():
+    """Slow gears under load stop where the mesh gets stiffer, until the loop pushes them on."""
+    scene = PAPER.replace(input_speed=pt.rpm(10.0), input_torque=150.0)
+    run = pt.simulate(scene, 0.6, 1000.0, settling=0.6)
+    share = abs(run.mean_speed[run.bodies.index("sun")]) / pt.rpm(10.0)
+    assert abs(share - 1.0) > 0.05
+    (line,) = turning_warnings(scene, run)
+    assert f"turn at {share:.3g} of the speed" in line
