@@ -101,6 +101,8 @@ def read_encoders(path: Path, period: float) -> EncoderSamples:
         sample = np.round(number).astype(np.int64)
     else:
         raise ValueError(f"{path}: column {SAMPLE!r} or {TIME[0]!r}: missing")
+    if not len(sample):
+        raise ValueError(f"{path}: has no rows")
     return EncoderSamples(sample, counts)
 
 

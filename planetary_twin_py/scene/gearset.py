@@ -92,7 +92,7 @@ class Gearset(Section):
     """
 
     teeth: ToothNumbers = Field(description="tooth numbers")
-    module: float = quantity("m", "module, in the transverse plane", gt=0.0, le=1.0)
+    module: float = quantity("m", "module, in the transverse plane", gt=0.0, le=0.2)
     pressure_angle: float = quantity(
         "rad", "pressure angle, in the transverse plane", ge=0.15, le=0.6
     )

@@ -52,6 +52,11 @@ def test_a_table_without_a_reading_is_refused(write):
             read_readings(write(HEADING, *rows), {})
 
 
+def test_a_table_without_a_sample_of_the_encoders_is_refused(write):
+    with pytest.raises(ValueError, match="has no rows"):
+        read_encoders(write("sample,input_counts,output_counts"), 5e-5)
+
+
 def test_a_course_with_a_gap_of_centuries_takes_the_memory_of_its_rows(write):
     rows = [f"A,{n * 10**10},60,-140,100" for n in range(20)]
     course = read_course(write(HEADING, *rows), SimpleNamespace(oil_temperature=343.0))
