@@ -9,7 +9,7 @@ import typer
 
 from ..terminal.arguments import SceneArgument, SetOption
 from ..terminal.messages import fail
-from ..terminal.output_files import output_file
+from ..terminal.output_files import file_ending_in
 from ..terminal.settings import changed_scene, settings
 from ..tolerance import LIVE_TOLERANCE
 
@@ -18,7 +18,7 @@ def export_fmu(
     scene: SceneArgument,
     out: Annotated[
         Path,
-        typer.Option(metavar="FILE.fmu", help="Write this file.", callback=output_file),
+        typer.Option(metavar="FILE.fmu", help="Write this file.", callback=file_ending_in(".fmu")),
     ],
     fmi: Annotated[str, typer.Option(help="Version of FMI: 3.0 or 2.0.")] = "3.0",
     tolerance: Annotated[

@@ -12,7 +12,7 @@ from ..terminal.arguments import FileArgument, JsonOption, NamespaceOption
 from ..terminal.durations import SECONDS
 from ..terminal.json_output import console_beside, put_figures
 from ..terminal.messages import fail, need, remark
-from ..terminal.output_files import output_file
+from ..terminal.output_files import file_ending_in
 from ..terminal.settings import settings
 
 if TYPE_CHECKING:
@@ -60,7 +60,9 @@ def fit(  # noqa: PLR0913 - an argument for each option
     report: Annotated[
         Path | None,
         typer.Option(
-            metavar="FILE", help="Write a report: .html, or .md and pictures.", callback=output_file
+            metavar="FILE",
+            help="Write a report: .html, or .md and pictures.",
+            callback=file_ending_in(".md", ".html"),
         ),
     ] = None,
     namespace: NamespaceOption = None,

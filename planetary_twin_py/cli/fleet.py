@@ -13,7 +13,7 @@ import typer
 from ..terminal.arguments import JsonOption, SceneArgument, SetOption
 from ..terminal.json_output import console_beside, put_figures
 from ..terminal.messages import fail, need
-from ..terminal.output_files import output_file
+from ..terminal.output_files import TABLES, file_ending_in
 from ..terminal.settings import changed_scene, settings
 from ._study import progress
 
@@ -46,7 +46,7 @@ def fleet(
         typer.Option(
             metavar="FILE",
             help="Write a row for each gearbox to a .csv, .parquet or .npz table.",
-            callback=output_file,
+            callback=file_ending_in(*TABLES),
         ),
     ] = None,
     scheduler: Annotated[

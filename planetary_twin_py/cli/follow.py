@@ -13,7 +13,7 @@ import typer
 from ..terminal.arguments import JsonOption, SceneArgument, SetOption
 from ..terminal.json_output import console_beside, put_figures
 from ..terminal.messages import fail, need, note, remark
-from ..terminal.output_files import output_file
+from ..terminal.output_files import TABLES, file_ending_in
 from ..terminal.settings import changed_scene, settings
 
 if TYPE_CHECKING:
@@ -63,7 +63,7 @@ def follow(
         typer.Option(
             metavar="FILE",
             help="Write the estimates of every second to a .csv, .parquet or .npz table.",
-            callback=output_file,
+            callback=file_ending_in(*TABLES),
         ),
     ] = None,
     json_: JsonOption = None,

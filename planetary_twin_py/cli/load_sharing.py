@@ -10,7 +10,7 @@ import typer
 from ..terminal.arguments import JsonOption, SceneArgument, SetOption
 from ..terminal.json_output import console_beside, put_figures
 from ..terminal.messages import fail, need, remark
-from ..terminal.output_files import output_file
+from ..terminal.output_files import PICTURES, file_ending_in
 from ..terminal.settings import changed_scene, settings
 
 if TYPE_CHECKING:
@@ -25,7 +25,9 @@ def load_sharing(
     set_: SetOption = None,
     picture: Annotated[
         Path | None,
-        typer.Option(metavar="FILE.png", help="Draw shares and orbits.", callback=output_file),
+        typer.Option(
+            metavar="FILE.png", help="Draw shares and orbits.", callback=file_ending_in(*PICTURES)
+        ),
     ] = None,
     json_: JsonOption = None,
 ) -> None:

@@ -11,7 +11,7 @@ import typer
 from ..terminal.arguments import JsonOption, SceneArgument, SetOption
 from ..terminal.json_output import console_beside, put_figures
 from ..terminal.messages import fail, need, remark
-from ..terminal.output_files import output_file
+from ..terminal.output_files import PICTURES, file_ending_in
 from ..terminal.settings import changed_scene, settings
 from ._study import progress
 
@@ -38,7 +38,7 @@ def lost_motion(
     set_: SetOption = None,
     picture: Annotated[
         Path | None,
-        typer.Option(metavar="FILE.png", help="Draw the loop.", callback=output_file),
+        typer.Option(metavar="FILE.png", help="Draw the loop.", callback=file_ending_in(*PICTURES)),
     ] = None,
     json_: JsonOption = None,
 ) -> None:

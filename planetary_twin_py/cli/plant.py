@@ -10,7 +10,7 @@ import typer
 from ..terminal.arguments import SceneArgument, SetOption
 from ..terminal.console import make_console
 from ..terminal.messages import fail, need
-from ..terminal.output_files import output_file
+from ..terminal.output_files import TABLES, file_ending_in
 from ..terminal.settings import changed_scene, settings
 
 if TYPE_CHECKING:
@@ -25,7 +25,7 @@ def plant(
         typer.Option(
             metavar="FILE",
             help="Readings of torque and speed, a .csv, .parquet or .npz table.",
-            callback=output_file,
+            callback=file_ending_in(*TABLES),
         ),
     ],
     hidden: Annotated[
@@ -38,7 +38,9 @@ def plant(
     encoders: Annotated[
         Path | None,
         typer.Option(
-            metavar="FILE", help="Samples of both encoders, a table.", callback=output_file
+            metavar="FILE",
+            help="Samples of both encoders, a table.",
+            callback=file_ending_in(*TABLES),
         ),
     ] = None,
     duration: Annotated[float, typer.Option(help="Played time [s].")] = 60.0,

@@ -3,14 +3,16 @@
 from __future__ import annotations
 
 import os
+from collections.abc import Callable
 from pathlib import Path
-from typing import TypeVar
+from typing import Any, TypeVar
 
 import typer
 
 from .messages import fail
 
 PICTURES = (".png", ".svg", ".pdf")  # formats of pictures
+TABLES = (".parquet", ".csv", ".npz")  # formats of tables
 Target = TypeVar("Target", Path, str)
 
 
@@ -21,6 +23,26 @@ def output_file(
     if value is not None and str(value) != "-" and not context.resilient_parsing:
         check_file(_option(param), Path(value))
     return value
+
+
+def file_ending_in(*suffixes: str) -> Callable[..., Any]:
+    """Callback as `output_file` of an option whose file has one of some formats.
+
+    Args:
+        suffixes: of the formats, with their dots.
+
+    Returns:
+        The callback, which also ends the command if the file has another suffix.
+    """
+
+    def check(
+        context: typer.Context, param: typer.CallbackParam, value: Target | None
+    ) -> Target | None:
+        if value is not None and Path(value).suffix not in suffixes:
+            _refuse(_option(param), Path(value), f"must end in {', '.join(suffixes)}")
+        return output_file(context, param, value)
+
+    return check
 
 
 def check_file(option: str, path: Path) -> None:

@@ -29,6 +29,24 @@ COMMANDS = [
     ("view", "recordings/none", "--screenshot", "{}/c.png"),
     ("import", "rig.csv", "--out", "{}/c.mcap"),
 ]
+ENDINGS = [
+    ("follow", "paper", "--from", "rig.csv", "--out", "a.txt"),
+    ("fleet", "paper", "--from", "rig.csv", "--out", "a.txt"),
+    ("fit", "rig.csv", "--free", "backlash", "--scene", "paper", "--report", "a.txt"),
+    ("plant", "paper", "--duration", "1e6", "--out", "a.txt"),
+    ("plant", "paper", "--duration", "1e6", "--out", "a.csv", "--encoders", "a.txt"),
+    ("lost-motion", "paper", "--picture", "a.txt"),
+    ("load-sharing", "paper", "--picture", "a.txt"),
+    ("export-fmu", "paper", "--out", "a.txt"),
+]
+
+
+@pytest.mark.parametrize("command", ENDINGS, ids=" ".join)
+def test_a_file_name_with_another_ending_is_refused_at_once(command, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    done = CliRunner().invoke(build_app(), command)
+    assert done.exit_code == 2
+    assert "= 'a.txt': must end in ." in done.stderr and done.stderr.count("\n") == 1
 
 
 @pytest.mark.parametrize("command", COMMANDS, ids=" ".join)
