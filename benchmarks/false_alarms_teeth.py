@@ -18,6 +18,7 @@ import argparse
 import sys
 import time
 from pathlib import Path
+from typing import NamedTuple
 
 import numpy as np
 
@@ -41,8 +42,18 @@ LEARNING = 24  # hunting periods of a baseline
 DAY = 86_400.0  # [s]
 
 
-def played_z(laws: dict[str, object], seconds: float, seed: int) -> tuple[np.ndarray, int]:
-    """Z of every tooth in each judged hunting period, (n, teeth), and alarms."""
+class Quiet(NamedTuple):
+    """What a healthy play gave."""
+
+    z: np.ndarray
+    """Of every tooth in each judged hunting period, (n, teeth)."""
+    largest: float
+    """Of any tooth in any window."""
+    alarms: int
+
+
+def follow(laws: dict[str, object], seconds: float, seed: int) -> Quiet:
+    """Follow a healthy plant."""
     encoders = {"rate": RATE, "lost": 0.003}
     hidden = Hidden.model_validate(
         {"scene": laws, "duty": {"torque_wander": 0.02}, "sensors": {"encoders": encoders},
@@ -57,21 +68,22 @@ def played_z(laws: dict[str, object], seconds: float, seed: int) -> tuple[np.nda
         true = plant.course.torque_at(np.linspace(begin, end, 50)).mean()
         return float(true) + 0.011 * noise.standard_normal()
 
-    found = []
+    found, largest = [], -np.inf
     for packets in play_encoders(plant):
         before = follower.blocks
         follower.add(packets.sample, packets.counts)
         follower.judge(np.inf, torque)
         if follower.blocks != before and follower.every_z:
             found.append(follower.every_z)
-    return np.array(found), len(follower.events)
+            largest = max(largest, follower.outstanding)
+    return Quiet(np.array(found), largest, len(follower.events))
 
 
 def windows(scores: np.ndarray, sd: np.ndarray) -> float:
     """Largest z of any tooth in any window; scores have the baseline taken off, (n, teeth)."""
     sums = np.concatenate([np.zeros((1, scores.shape[1])), np.cumsum(scores, axis=0)])
     largest = -np.inf
-    for count in (count for count in WINDOWS if count <= len(scores)):
+    for count in WINDOWS:
         means = (sums[count:] - sums[:-count]) / count
         noise = sd * np.sqrt(1.0 / count + 1.0 / LEARNING)
         largest = max(largest, float(np.max(means / noise)))
@@ -118,9 +130,7 @@ def main() -> None:
     )
     for n, (name, laws) in enumerate(TEETH_LAWS.items()):
         begin = time.process_time()
-        z, alarms = played_z(laws, 60.0 * given.minutes, SEED + n)
-        own = z * np.sqrt(1.0 + 1.0 / LEARNING)
-        largest = windows(own, np.ones(own.shape[1]))
+        z, largest, alarms = follow(laws, 60.0 * given.minutes, SEED + n)
         centred = z - z.mean()
         sd = float(np.std(z))
         kurtosis = float(np.mean(centred**4) / sd**4 - 3.0)
