@@ -19,7 +19,8 @@ from ..terminal.settings import changed_scene, settings
 if TYPE_CHECKING:
     from rich.console import Console
 
-    from ..following.follower import EncoderFormat, EncoderSamples, Follower, Following, Readings
+    from ..following.follower import EncoderFormat, EncoderSamples, Follower, Following
+    from ..following.measured_messages import Block
     from ..following.sensors import Sensors
 
 EPOCH = 1e8  # [s] above this, stamps count from 1970
@@ -33,7 +34,7 @@ def follow(
             "--from",
             metavar="FILE",
             help="Readings: a .csv or .parquet table, or a recording (.mcap or its folder) with "
-            "JointState, DynamicJointState, Temperature and EncoderBlock messages.",
+            "JointState, DynamicJointState, Temperature, EncoderBlock and SampledBlock messages.",
         ),
     ],
     encoders: Annotated[
@@ -126,9 +127,7 @@ def _factors(given: list[str]) -> dict[str, float]:
     return found
 
 
-def _readings(
-    path: Path, sensors: Sensors, factors: dict[str, float]
-) -> list[Readings | EncoderSamples]:
+def _readings(path: Path, sensors: Sensors, factors: dict[str, float]) -> list[Block]:
     if path.suffix in (".csv", ".parquet"):
         from ..following.measured_tables import read_readings
 

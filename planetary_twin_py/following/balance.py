@@ -38,10 +38,12 @@ from .loss_map import loss_map
 from .merging import Merge
 from .sensors import Sensors, torque_noise
 from .train import followed_train
+from .vibration import Turning
 
 Array = NDArray[np.float64]
 
 KEPT = 36_000  # bins whose torque is kept for the teeth
+TURNING = 3_000  # bins whose speed is kept for vibration
 PERIOD = 0.1  # [s] of a bin; longer ones let innovations correlate where the duty reverses
 TELLING = 0.5  # of the prior standard deviation, below which a parameter is estimated
 NOISY = 1.25  # standard deviation of innovations over the expected one, that is remarked upon
@@ -122,6 +124,7 @@ class BalanceFollower:
         self.operating = (math.nan, self.train.oil_temperature)
         """Speed of the input [rad/s], NaN before one is measured, and oil temperature [K]."""
         self._torques: deque[tuple[float, float]] = deque(maxlen=KEPT)  # end of bin, torque
+        self._turning: deque[tuple[float, float, float]] = deque(maxlen=TURNING)
 
     @property
     def counters(self) -> Counters:
@@ -161,6 +164,7 @@ class BalanceFollower:
         if math.isfinite(read.input_torque):
             self._torques.append((self.time, read.input_torque))
         if math.isfinite(read.speed):
+            self._turning.append((read.time, read.speed, read.input_torque))
             self.operating = read.speed, read.oil_temperature
         innovation = self._wide.update(read)
         slow = self._slow.update(read)
@@ -272,6 +276,17 @@ class BalanceFollower:
         """
         inside = [torque for time, torque in self._torques if begin < time <= end]
         return float(np.mean(inside)) if inside else math.nan
+
+    def turning_between(self, begin: float, end: float) -> Turning:
+        """Speed and torque of the bins whose middles are within an interval, and one beside it.
+
+        Args:
+            begin: of the interval [s].
+            end: of the interval [s].
+        """
+        reach = 1.5 * self.period
+        inside = [one for one in self._turning if begin - reach < one[0] < end + reach]
+        return Turning(*np.array(inside).reshape(-1, 3).T)
 
     def estimates(self) -> tuple[Estimate, ...]:
         """Torque, loss, and parameters with intervals or with what would tell them."""

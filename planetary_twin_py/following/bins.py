@@ -208,18 +208,21 @@ class Bins:
 
     def _mean(self, name: str, middle: float, time: Array, value: Array) -> Mean:
         """Of the readings of a bin around `middle`, in the order of their stamps."""
-        single = np.concatenate([[True], np.diff(time) > 0.0])
-        self.counters.doubled += int(np.sum(~single))
-        time, value = time[single], value[single]
+        single = time[1:] > time[:-1]
+        if not single.all():
+            self.counters.doubled += int(np.sum(~single))
+            kept = np.concatenate([[True], single])
+            time, value = time[kept], value[kept]
         if len(value) >= ENOUGH:
-            off = np.abs(value - float(np.median(value)))
-            spread = max(self._noise.get(name, 0.0), NORMAL * float(np.median(off)))
+            off = np.abs(value - _median(value))
+            spread = max(self._noise.get(name, 0.0), NORMAL * _median(off))
             inside = off <= OUTLIER * spread if spread > 0.0 else off == 0.0
-            self.counters.outlying += int(np.sum(~inside))
-            time, value = time[inside], value[inside]
+            if not inside.all():
+                self.counters.outlying += int(np.sum(~inside))
+                time, value = time[inside], value[inside]
         n = len(value)
         self.counters.used += n
-        mean, centre = float(np.mean(value)), float(np.mean(time))
+        mean, centre = float(value.sum()) / n, float(time.sum()) / n
         if n < 3:
             return Mean(mean, n, np.nan, np.nan)
         along = time - centre
@@ -228,6 +231,15 @@ class Bins:
         # Where readings are missing, their mean is not that of the bin while the torque changes.
         mean += slope * (middle - centre)
         return Mean(mean, n, slope, float(np.sqrt(left @ left / (n - 2))) if n > 3 else np.nan)
+
+
+def _median(values: Array) -> float:
+    """Median of a few values, at a tenth of the cost of that of numpy."""
+    ordered = np.sort(values)
+    half = len(ordered) // 2
+    if len(ordered) % 2:
+        return float(ordered[half])
+    return 0.5 * float(ordered[half - 1] + ordered[half])
 
 
 def slot_of(time: float, length: float) -> int:

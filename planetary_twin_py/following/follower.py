@@ -20,6 +20,7 @@ from .clock_watch import ClockWatch
 from .estimate import Estimate, Event
 from .sensors import Sensors
 from .teeth import TeethFollower, ToothState
+from .vibration import VibrationFollower, VibrationSamples
 
 Array = NDArray[np.float64]
 
@@ -128,6 +129,7 @@ class Follower:
         self._balance = BalanceFollower(self.scene, self.sensors, self.period)
         self._clocks = ClockWatch()
         self._teeth: TeethFollower | None = None
+        self._vibration: VibrationFollower | None = None
         if self.encoders is not None:
             self._teeth = TeethFollower(self.scene, *self.encoders, self.sensors.learning)
 
@@ -141,7 +143,7 @@ class Follower:
         """Hunting periods that have been judged."""
         return 0 if self._teeth is None else self._teeth.blocks
 
-    def add(self, block: Readings | EncoderSamples) -> None:
+    def add(self, block: Readings | EncoderSamples | VibrationSamples) -> None:
         """Take readings or samples.
 
         Args:
@@ -153,10 +155,29 @@ class Follower:
         """
         if isinstance(block, EncoderSamples):
             self._teeth_of(block).add(block.sample, block.counts)
+        elif isinstance(block, VibrationSamples):
+            self._vibration_of(block).add(block.time, block.values)
         else:
             self._read(block)
-        if self._teeth is not None and math.isfinite(self._balance.time):
-            self._teeth.judge(self._balance.time, self._balance.torque_between)
+        if math.isfinite(self._balance.time):
+            self._judge(self._balance.time)
+
+    def _judge(self, until: float) -> None:
+        """Judge the hunting periods that end by a time."""
+        if self._teeth is not None:
+            self._teeth.judge(until, self._balance.torque_between)
+        if self._vibration is not None:
+            self._vibration.judge(until, self._balance.turning_between)
+
+    def _vibration_of(self, block: VibrationSamples) -> VibrationFollower:
+        """The follower of the vibration, with the channels of the first samples."""
+        if self._vibration is None:
+            self._vibration = VibrationFollower(
+                self._balance.train, block.names, block.period, self.sensors.learning
+            )
+        if (block.names, block.period) != (self._vibration.names, self._vibration.period):
+            raise InputError("vibration: channels and sample period must be as before")
+        return self._vibration
 
     def _teeth_of(self, block: EncoderSamples) -> TeethFollower:
         """The follower of the teeth, with the format that the first samples state."""
@@ -179,6 +200,8 @@ class Follower:
         if self._teeth is not None:
             self._teeth.finish()
             self._teeth.judge(math.inf, self._balance.torque_between)
+        if self._vibration is not None and math.isfinite(self._balance.time):
+            self._vibration.judge(self._balance.time, self._balance.turning_between)
 
     def estimate(self, now: float | None = None) -> Following:
         """What can be said of the gearbox.
@@ -197,6 +220,9 @@ class Follower:
             events += teeth.events
             counters |= {f"encoder_{name}": n for name, n in vars(teeth.counters).items()}
             counters["hunting_periods"] = teeth.blocks
+        if self._vibration is not None:
+            events += self._vibration.events
+            counters |= {f"vibration_{n}": c for n, c in vars(self._vibration.counters).items()}
         if now is not None and not now - balance.time <= TIMEOUT:
             estimates = tuple(
                 one._replace(status="STALE") if one.status == "ESTIMATED" else one
@@ -205,7 +231,8 @@ class Follower:
         return Following(
             balance.time, estimates, () if teeth is None else teeth.teeth,
             tuple(sorted(events, key=lambda event: event.found)), counters,
-            (*balance.remarks(), *self._clocks.remarks(), *self._of_teeth()),
+            (*balance.remarks(), *self._clocks.remarks(), *self._of_teeth(),
+             *self._of_vibration()),
             balance.operating, balance.innovation, balance.scatter,
             () if teeth is None else teeth.every_z, () if teeth is None else teeth.cells,
         )  # fmt: skip
@@ -220,6 +247,10 @@ class Follower:
         if block.arrival is not None:
             self._clocks.add(block.sender, time, np.asarray(block.arrival, dtype=float))
         self._balance.add(time, columns, block.sender)
+
+    def _of_vibration(self) -> Iterator[str]:
+        if self._vibration is not None:
+            yield from self._vibration.remarks()
 
     def _of_teeth(self) -> Iterator[str]:
         if self._teeth is None:

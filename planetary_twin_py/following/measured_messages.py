@@ -15,17 +15,25 @@ from .checks import InputError
 from .follower import EncoderFormat, EncoderSamples, Readings
 from .position_check import PositionCheck
 from .sensors import JointNames
+from .vibration import VibrationSamples
 
 JOINTS = ("sensor_msgs/msg/JointState", "control_msgs/msg/DynamicJointState")
 TEMPERATURE = "sensor_msgs/msg/Temperature"
 ENCODERS = "planetary_twin_msgs/msg/EncoderBlock"
-KINDS = (*JOINTS, TEMPERATURE, ENCODERS)
+VIBRATION = "planetary_twin_msgs/msg/SampledBlock"
+BLOCKS = (ENCODERS, VIBRATION)
+"""Types of messages that have many samples."""
+KINDS = (*JOINTS, TEMPERATURE, *BLOCKS)
 """Types of messages that are read."""
 SIDES = "input", "output"
 ZERO_CELSIUS = 273.15  # [K]
 INTERFACES = {"velocity": "speed", "effort": "torque"}
 """Quantities by the interfaces of a joint."""
 SET = 1.0  # [s] by which stamps of blocks may run apart from their numbers; more: a clock was set
+
+
+Block = Readings | EncoderSamples | VibrationSamples
+"""What messages contain."""
 
 
 class Arrived(NamedTuple):
@@ -66,8 +74,9 @@ class MessageReader:
         }
         self._number: int | None = None  # of a device's sample 0, in periods since time 0
         self._format: EncoderFormat | None = None
+        self._channels: tuple[tuple[str, ...], float] | None = None  # of vibration, and period
 
-    def read(self, arrived: Iterable[Arrived]) -> Iterator[Readings | EncoderSamples]:
+    def read(self, arrived: Iterable[Arrived]) -> Iterator[Block]:
         """Convert messages.
 
         Args:
@@ -75,18 +84,22 @@ class MessageReader:
 
         Returns:
             Their contents: readings in the same order, in one block where they follow one another
-            with the same sender and channels, then samples of encoders as one block. Which of both
-            comes first changes nothing in what a follower estimates.
+            with the same sender and channels, then samples of encoders and of vibration as one
+            block each. Which of them comes first changes nothing in what a follower estimates.
 
         Raises:
-            InputError: a block of encoder samples has another format than the one before, or none;
-                or positions show that a speed has another unit.
+            InputError: a block of samples has another format than the one before, or none; or
+                positions show that a speed has another unit.
         """
         rows: list[_Row] = []
         samples: list[EncoderSamples] = []
+        vibration: list[VibrationSamples] = []
         for one in arrived:
             if one.kind == ENCODERS:
                 samples.append(self._samples(one))
+                continue
+            if one.kind == VIBRATION:
+                vibration.append(self._vibration(one))
                 continue
             values = self._values(one)
             if values:
@@ -99,6 +112,11 @@ class MessageReader:
             yield _together(rows)
         if samples:
             yield _joined(samples)
+        if vibration:
+            yield vibration[0]._replace(
+                time=np.concatenate([one.time for one in vibration]),
+                values=np.concatenate([one.values for one in vibration]),
+            )
 
     def _values(self, one: Arrived) -> dict[str, float]:
         if one.kind == TEMPERATURE:
@@ -138,6 +156,33 @@ class MessageReader:
         return EncoderSamples(
             self._number + first + np.arange(counts.shape[1], dtype=np.int64), counts.T, found
         )
+
+    def _vibration(self, one: Arrived) -> VibrationSamples:
+        """Samples of a block, by channel."""
+        block, names = one.message, tuple(one.message.names)
+        found = names, float(block.sample_period)
+        if self._channels is None:
+            if not names or not 0.0 < found[1] < 1.0:
+                raise InputError(
+                    f"{one.sender}: {len(names)} names and a sample_period of {found[1]:g} s: must "
+                    "be at least 1 and within 0 and 1 s"
+                )
+            self._channels = found
+        if found != self._channels:
+            known = self._channels
+            raise InputError(
+                f"{one.sender}: names and sample_period are {', '.join(names)}, {found[1]:g} s: "
+                f"must be {', '.join(known[0])}, {known[1]:g} s as in the blocks before"
+            )
+        samples = np.asarray(block.samples, dtype=np.float64)
+        if len(samples) % len(names):
+            raise InputError(
+                f"{one.sender}: {len(samples)} samples: must be the same number of each of the "
+                f"{len(names)} channels"
+            )
+        values = samples.reshape(len(names), -1).T
+        time = stamp_of(block) + found[1] * np.arange(len(values), dtype=np.float64)
+        return VibrationSamples(time, values, *found)
 
 
 def stamp_of(message: Any) -> float:

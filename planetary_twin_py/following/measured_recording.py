@@ -11,8 +11,8 @@ from rosbags.typesys.store import Typestore
 from ..recording.container.records import RecordingError, files_of, records_of
 from ..recording.ros2.typestore import DefinitionError, types_of
 from .bins import CHANNELS
-from .follower import EncoderSamples, Readings
-from .measured_messages import JOINTS, KINDS, Arrived, MessageReader
+from .follower import Readings
+from .measured_messages import JOINTS, KINDS, Arrived, Block, MessageReader
 from .sensors import JointNames
 
 PART = 0.5  # [s] of messages that are converted at once
@@ -23,7 +23,7 @@ def read_recording(
     joints: JointNames,
     scale: Mapping[str, float] | None = None,
     remarks: list[str] | None = None,
-) -> list[Readings | EncoderSamples]:
+) -> list[Block]:
     """Read measured messages in the order in which they were recorded.
 
     Args:
@@ -33,7 +33,8 @@ def read_recording(
         remarks: a line is appended for each damaged part, which is left out.
 
     Returns:
-        Readings of each topic and message type in a row, and encoder samples, in order of arrival.
+        Readings of each topic and message type in a row, and samples of encoders and vibration, in
+        order of arrival.
 
     Raises:
         ValueError: the file is not a recording, has no message with these joints, or positions show

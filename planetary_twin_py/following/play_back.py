@@ -8,13 +8,14 @@ from collections.abc import Iterator, Sequence
 import numpy as np
 
 from .follower import EncoderFormat, EncoderSamples, Follower, Following, Readings
+from .measured_messages import Block
 
 EVERY = 1.0  # [s] from one note to the next
 
 
 def play_back(
     follower: Follower,
-    blocks: Sequence[Readings | EncoderSamples],
+    blocks: Sequence[Block],
     samples: EncoderSamples | None,
 ) -> Iterator[Following]:
     """Feed a follower second by second.
@@ -33,7 +34,7 @@ def play_back(
     """
     place, noted = 0, -math.inf
     for block in blocks:
-        if isinstance(block, EncoderSamples):
+        if not isinstance(block, Readings):
             follower.add(block)
             continue
         for rows, until in _seconds(block):

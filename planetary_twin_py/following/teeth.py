@@ -82,6 +82,8 @@ class TeethFollower:
     every_z: tuple[float, ...] = field(init=False, default=())
     """Standard deviations with which every tooth stands out in the last hunting period; empty
     while a baseline is being learned."""
+    outstanding: float = field(init=False, default=-math.inf)
+    """Likewise of the tooth that stands out most in any window that ends with it."""
 
     def __post_init__(self) -> None:
         first, second = self.counts_per_turn
@@ -200,6 +202,7 @@ class TeethFollower:
             z = float(np.max(every))
             if z > best:
                 best, window = z, count
+        self.outstanding = best
         if best < ALARM:
             self._forget()
             return

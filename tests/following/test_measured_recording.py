@@ -8,7 +8,12 @@ from mcap_ros2.writer import Writer
 
 from planetary_twin_py.following.checks import InputError
 from planetary_twin_py.following.follower import EncoderFormat
-from planetary_twin_py.following.measured_messages import ENCODERS, Arrived, MessageReader
+from planetary_twin_py.following.measured_messages import (
+    ENCODERS,
+    VIBRATION,
+    Arrived,
+    MessageReader,
+)
 from planetary_twin_py.following.measured_recording import read_recording
 from planetary_twin_py.following.sensors import JointNames
 
@@ -133,3 +138,42 @@ def test_encoder_blocks_of_another_format_are_refused():
         list(reader.read([block(2, 1.0001, counts=4096)]))
     with pytest.raises(InputError, match="must be at least 1"):
         list(MessageReader(JOINTS).read([block(0, 1.0, counts=0)]))
+
+
+def vibration(stamp, samples, names=("housing", "bearing"), period=1e-3):
+    """A block of vibration."""
+    seconds, part = divmod(round(stamp * 1e9), 10**9)
+    header = SimpleNamespace(stamp=SimpleNamespace(sec=seconds, nanosec=part))
+    message = SimpleNamespace(
+        header=header, sample_period=period, names=list(names), units=["m/s^2"] * len(names),
+        samples=samples,
+    )  # fmt: skip
+    return Arrived("/rig/vibration", VIBRATION, stamp, message)
+
+
+def test_blocks_of_vibration_are_read_channel_by_channel():
+    reader = MessageReader(JOINTS)
+    (found,) = reader.read([vibration(5.0, [1, 2, 10, 20]), vibration(5.002, [3, 30])])
+    assert found.values.tolist() == [[1.0, 10.0], [2.0, 20.0], [3.0, 30.0]]
+    assert found.time == pytest.approx([5.0, 5.001, 5.002])
+    assert (found.names, found.period) == (("housing", "bearing"), 1e-3)
+
+
+@pytest.mark.parametrize(
+    ("block", "said"),
+    [
+        (vibration(6.0, [1, 2], names=("housing", "motor")), "must be housing, bearing, 0.001 s"),
+        (vibration(6.0, [1, 2], period=2e-3), "must be housing, bearing, 0.001 s as in the blocks"),
+        (vibration(6.0, [1, 2, 3]), "3 samples: must be the same number of each of the 2 channels"),
+    ],
+)
+def test_other_blocks_of_vibration_are_refused(block, said):
+    reader = MessageReader(JOINTS)
+    list(reader.read([vibration(5.0, [1, 2])]))
+    with pytest.raises(InputError, match=said):
+        list(reader.read([block]))
+
+
+def test_a_block_of_vibration_needs_names_and_a_period():
+    with pytest.raises(InputError, match="0 names and a sample_period"):
+        list(MessageReader(JOINTS).read([vibration(5.0, [], names=())]))

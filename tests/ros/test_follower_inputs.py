@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 import pytest
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
-from planetary_twin_msgs.msg import EncoderBlock, FollowerEstimate
+from planetary_twin_msgs.msg import EncoderBlock, FollowerEstimate, SampledBlock
 from rclpy.publisher import Publisher
 from rclpy.qos import QoSProfile, ReliabilityPolicy
 from sensor_msgs.msg import JointState, Temperature
@@ -248,6 +248,27 @@ def test_blocks_of_encoders_must_keep_their_format(rig: Rig, start: Start) -> No
         stamp(block, BEGIN)
         rig.encoders.publish(block)
     rig.said("inputs", DiagnosticStatus.ERROR, "must be 1048576, 1048576, 5e-05 s as in the blocks")
+
+
+def test_blocks_of_vibration_are_used_and_must_keep_their_channels(rig: Rig, start: Start) -> None:
+    vibration = rig.user.node.create_publisher(SampledBlock, f"{TWIN}/measured/vibration", 100)
+    begin(start, rig)
+    rig.user.until(lambda: vibration.get_subscription_count() == 1)
+    noise = np.random.default_rng(1)
+
+    def send(second: int, names: list[str]) -> None:
+        block = SampledBlock(sample_period=2.5e-4, names=names, units=["m/s^2"] * len(names))
+        block.samples = noise.standard_normal(4000 * len(names)).astype(np.float32).tolist()
+        stamp(block, BEGIN + second)
+        vibration.publish(block)
+
+    for second in range(6):
+        rig.send(second, second + 1)
+        send(second, ["housing"])
+    counts = rig.counters(lambda c: c.get("vibration_periods", 0) >= 3)
+    assert counts["vibration_used"] > 3 * 0.8 * 4000 and counts["vibration_dropped_periods"] == 0
+    send(6, ["housing", "bearing"])
+    rig.said("inputs", DiagnosticStatus.ERROR, "must be housing, 0.00025 s as in the blocks")
 
 
 def test_parameters_are_refused_in_one_line(rig: Rig, start: Start) -> None:

@@ -12,7 +12,7 @@ from planetary_twin_py.following.bins import closed_by
 from planetary_twin_py.following.checks import InputError
 from planetary_twin_py.following.follower import Following
 from planetary_twin_py.following.measured_messages import (
-    ENCODERS,
+    BLOCKS,
     Arrived,
     MessageReader,
     stamp_of,
@@ -89,7 +89,7 @@ class Portions:
         """Yield the messages in their order; only the first of a portion may close bins."""
         portion: list[Arrived] = []
         for one in arrived:
-            if one.kind != ENCODERS:
+            if one.kind not in BLOCKS:
                 closed = closed_by(stamp_of(one.message), self._length)
                 if closed != self._closed.get(one.sender) and portion:
                     yield portion

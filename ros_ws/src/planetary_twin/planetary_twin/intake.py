@@ -10,7 +10,13 @@ from rclpy.node import Node
 from rclpy.qos import HistoryPolicy, QoSProfile, ReliabilityPolicy
 from rclpy.subscription import Subscription
 
-from planetary_twin_py.following.measured_messages import ENCODERS, JOINTS, TEMPERATURE, Arrived
+from planetary_twin_py.following.measured_messages import (
+    ENCODERS,
+    JOINTS,
+    TEMPERATURE,
+    VIBRATION,
+    Arrived,
+)
 
 from .topics import matching_qos, message_class
 
@@ -19,6 +25,7 @@ MEASURED = {
     "measured/dynamic_joint_states": JOINTS[1],
     "measured/oil_temperature": TEMPERATURE,
     "measured/encoders": ENCODERS,
+    "measured/vibration": VIBRATION,
 }
 """Types of the topics of a measured gearbox, by name."""
 _ANY = QoSProfile(history=HistoryPolicy.KEEP_ALL, reliability=ReliabilityPolicy.BEST_EFFORT)

@@ -1,0 +1,305 @@
+"""Follows vibration: amplitudes at mesh orders and at their sidebands, against a learned baseline.
+
+The path from the teeth to a sensor on a housing is unknown, so amplitudes tell no friction, no
+stiffness and no size of a fault: only that a pattern has grown, and of which gear. A fault of one
+tooth modulates the meshes once per turn of its gear: its sidebands are 1/Z mesh orders apart
+(McFadden 1986, J. Vib. Acoust. 108(2), 165-170).
+
+Amplitudes are those of a Hann window over one hunting period, in the angle of the input: its speed
+is integrated, and scaled by up to `STRETCH` until the first mesh order is largest, since a sensor's
+gain would shift the lines. They grow with the torque and are divided by it.
+"""
+
+from __future__ import annotations
+
+import math
+from collections import deque
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, field, replace
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy import stats
+
+from .estimate import CONFIDENT, Event, estimated, not_identifiable
+from .tooth_search import ALARM
+from .train import FollowedTrain
+
+Array = NDArray[np.float64]
+
+HARMONICS = 3  # of the mesh
+SIDEBANDS = 2  # on each side of a harmonic, for each gear
+STRETCH = 2e-3  # largest relative error of the measured speed
+STEPS = 21  # of the search within it
+CELL = 0.1  # relative distance of torque and speed within which a baseline holds
+WINDOWS = 4, 16  # hunting periods that are judged together
+PRESENT = 0.99  # share of the samples of a hunting period, below which it is not used
+STEADY = 0.02  # relative standard deviation of the speed in a hunting period, likewise
+SLOWEST = 0.05  # of the speed of the scene, below which there is no hunting period
+UNKNOWN = "; size of the fault: NOT IDENTIFIABLE, as the path to the sensor is unknown"
+
+
+class Turning(NamedTuple):
+    """Speed and torque over a time."""
+
+    time: Array
+    """Middles of the bins [s], (n,)."""
+    speed: Array
+    """Of the input [rad/s], (n,)."""
+    torque: Array
+    """At the input [N m], (n,)."""
+
+
+class VibrationSamples(NamedTuple):
+    """Samples of vibration in the order of their arrival."""
+
+    time: Array
+    """Stamps [s], (n,)."""
+    values: Array
+    """In the units of the channels, (n, channels)."""
+    names: tuple[str, ...]
+    """Of the channels."""
+    period: float
+    """Of the samples [s]."""
+
+
+@dataclass
+class VibrationCounters:
+    """What has become of the samples."""
+
+    used: int = 0
+    late: int = 0
+    """Before the begin of the present hunting period, doubled, or not a finite number."""
+    periods: int = 0
+    """Hunting periods that were judged or learned."""
+    dropped_periods: int = 0
+    """With holes, at changing speed, or with no torque."""
+
+
+@dataclass
+class _Baseline:
+    """Amplitudes over torque at one torque and speed."""
+
+    torque: float
+    speed: float
+    learned: list[Array] = field(default_factory=list)
+
+    def covers(self, torque: float, speed: float) -> bool:
+        near = abs(torque - self.torque) <= CELL * abs(self.torque)
+        return near and abs(speed - self.speed) <= CELL * abs(self.speed)
+
+
+class VibrationFollower:
+    """Learns amplitudes of healthy running, and reports which have grown.
+
+    Args:
+        train: whose meshes are expected.
+        names: of the channels.
+        period: of the samples [s].
+        learning: hunting periods of a baseline, for each torque and speed.
+    """
+
+    def __init__(
+        self, train: FollowedTrain, names: tuple[str, ...], period: float, learning: int
+    ) -> None:
+        self.names, self.period, self.counters = names, period, VibrationCounters()
+        self.events: list[Event] = []
+        """Patterns that have grown."""
+        self._train, self._learning = train, learning
+        self._turn = 2.0 * math.pi * train.hunting_cycles / abs(float(train.cycles))
+        self._patterns = tuple(_patterns(train))
+        self._waiting: list[tuple[Array, Array]] = []
+        self._begin = math.nan  # of the present hunting period [s]
+        self._until = math.nan  # of the last call [s]
+        self._baselines: list[_Baseline] = []
+        self._recent: deque[tuple[float, Array]] = deque(maxlen=WINDOWS[-1])
+        self._cell: _Baseline | None = None
+        self._known: dict[tuple[int, int], tuple[int, _Baseline]] = {}
+        """Place of the event, and where it was found, by channel and pattern."""
+        # As rare as a z of ALARM, for a standard deviation from `learning` hunting periods.
+        self._limit = float(stats.t.isf(stats.norm.sf(ALARM), learning - 1))
+
+    def add(self, time: Array, values: Array) -> None:
+        """Take samples.
+
+        Args:
+            time: stamps [s], (n,).
+            values: (n, channels).
+        """
+        there = np.isfinite(time) & np.isfinite(values).all(axis=1) & ~(time < self._begin)
+        self.counters.late += int(np.sum(~there))
+        self._waiting.append((time[there], values[there]))
+
+    def judge(self, until: float, turning: Callable[[float, float], Turning]) -> None:
+        """Judge the hunting periods that end by a time.
+
+        Args:
+            until: time up to which the speed is known [s].
+            turning: bins of speed and torque between two times.
+        """
+        if until == self._until:
+            return
+        self._until = until
+        while self._waiting:
+            if math.isnan(self._begin) and not self._start(turning(-math.inf, until)):
+                return
+            longest = self._turn / (SLOWEST * self._train.speed)
+            course = turning(self._begin, min(until, self._begin + longest))
+            end = _end_of(course, self._turn, self._begin)
+            if end is None:
+                if until > self._begin + longest:  # it stands still
+                    self._take(until)
+                    self._begin = until
+                return
+            newest = max((float(time.max()) for time, _ in self._waiting if len(time)), default=0.0)
+            if end > until or newest < end:
+                return
+            span, self._begin = (self._begin, end), end
+            self._judge(span, *self._take(end), course)
+
+    def _start(self, course: Turning) -> bool:
+        """Begin with the first sample whose speed is known; return whether there is one."""
+        firsts = [float(time.min()) for time, _ in self._waiting if len(time)]
+        if not (firsts and len(course.time)):
+            return False
+        self._begin = max(min(firsts), float(course.time[0]))
+        self._take(self._begin)
+        return True
+
+    def _take(self, until: float) -> tuple[Array, Array]:
+        """Samples before a time, in order, each once; the others stay."""
+        time = np.concatenate([part for part, _ in self._waiting])
+        values = np.concatenate([part for _, part in self._waiting])
+        order = np.argsort(time, kind="stable")
+        time, values = time[order], values[order]
+        single = np.diff(time, prepend=-np.inf) > 0.5 * self.period
+        self.counters.late += int(np.sum(~single))
+        time, values = time[single], values[single]
+        ready = time < until
+        self._waiting = [(time[~ready], values[~ready])] if not ready.all() else []
+        self.counters.used += int(np.sum(ready))
+        return time[ready], values[ready]
+
+    def _judge(
+        self, span: tuple[float, float], time: Array, values: Array, course: Turning
+    ) -> None:
+        inside = (course.time > span[0]) & (course.time < span[1])
+        speeds, torque = course.speed[inside], float(np.mean(course.torque[inside]))
+        speed = float(np.mean(speeds))
+        whole = len(time) >= PRESENT * (span[1] - span[0]) / self.period
+        gaps = np.diff(course.time[inside])
+        steady = float(np.std(speeds)) <= STEADY * abs(speed) and gaps.max() < 3.0 * gaps.min()
+        if not (whole and steady and abs(torque) > CELL * self._train.torque):
+            self.counters.dropped_periods += 1
+            return
+        self.counters.periods += 1
+        found = self._amplitudes(time, values, course) / abs(torque)
+        cell = next((one for one in self._baselines if one.covers(torque, speed)), None)
+        if cell is None:
+            cell = _Baseline(torque, speed)
+            self._baselines.append(cell)
+        if cell is not self._cell:
+            self._cell = cell
+            self._recent.clear()
+        if len(cell.learned) < self._learning:
+            cell.learned.append(found)
+            return
+        self._recent.append((span[0], found))
+        self._decide(cell, span[1])
+
+    def _amplitudes(self, time: Array, values: Array, course: Turning) -> Array:
+        """Root mean square of the amplitudes of every pattern, (channels, patterns)."""
+        middle = np.interp(time, course.time, course.speed)
+        angle = np.concatenate([[0.0], np.cumsum(0.5 * (middle[1:] + middle[:-1]) * np.diff(time))])
+        mesh = angle * abs(float(self._train.cycles))
+        window = np.hanning(len(time) + 2)[1:-1]
+        weighted = (values - values.mean(axis=0)) * (2.0 * window / window.sum())[:, None]
+
+        def at(order: float, stretch: float) -> Array:
+            return np.abs(np.exp(-1j * (order * stretch) * mesh) @ weighted)
+
+        stretches = 1.0 + np.linspace(-STRETCH, STRETCH, STEPS)
+        best = max(stretches, key=lambda one: float(np.sum(at(1.0, one))))
+        squares = [
+            np.mean([at(order, best) ** 2 for order in orders], axis=0)
+            for _, orders, _ in self._patterns
+        ]
+        return np.sqrt(np.stack(squares, axis=1))
+
+    def _decide(self, cell: _Baseline, now: float) -> None:
+        """Report amplitudes that have grown in any window."""
+        learned = np.array(cell.learned)
+        mean, sd = learned.mean(axis=0), learned.std(axis=0, ddof=1)
+        for key, (place, where) in self._known.items():
+            if where is cell:  # another baseline may have been learned with what has grown
+                self._measure(place, key, (mean, sd))
+        for count in WINDOWS:
+            if count > len(self._recent):
+                return
+            recent = list(self._recent)[-count:]
+            grown = np.mean([one for _, one in recent], axis=0) - mean
+            noise = sd * math.sqrt(1.0 / count + 1.0 / self._learning)
+            for channel, pattern in np.argwhere(grown > self._limit * noise).tolist():
+                if (channel, pattern) in self._known:
+                    continue
+                self._known[channel, pattern] = len(self.events), cell
+                name, _, causes = self._patterns[pattern]
+                z = float(grown[channel, pattern] / noise[channel, pattern])
+                size = not_identifiable("vibration_growth", math.nan, "", "the next hunting period")
+                evidence = f"{self.names[channel]}: z = {z:.1f}{UNKNOWN}"
+                what = f"vibration grew: {name}"
+                self.events.append(Event(what, recent[0][0], now, size, causes, evidence))
+
+    def _measure(self, place: int, key: tuple[int, int], baseline: tuple[Array, Array]) -> None:
+        """Growth of a pattern in the hunting periods that began after it was found."""
+        event = self.events[place]
+        since = np.array([one[key] for begin, one in self._recent if begin >= event.found])
+        if not len(since):
+            return
+        mean, sd = (float(one[key]) for one in baseline)
+        own = max(sd, float(np.std(since)))
+        spread = math.sqrt(own**2 / len(since) + sd**2 / self._learning)
+        size = estimated("vibration_growth", (float(since.mean()) - mean) / mean, spread / mean, "")
+        grown = f"amplitude {100 * size.value:+.2g} +- {100 * CONFIDENT * size.sd:.2g} %"
+        evidence = f"{self.names[key[0]]}: {grown}{UNKNOWN}"
+        self.events[place] = replace(event, size=size, evidence=evidence)
+
+    def remarks(self) -> Iterator[str]:
+        """What makes it less certain, a line each."""
+        if self._cell is not None and len(self._cell.learned) < self._learning:
+            yield (
+                f"vibration: {len(self._cell.learned)} of {self._learning} hunting periods of a "
+                "baseline are learned"
+            )
+
+
+def _patterns(train: FollowedTrain) -> Iterator[tuple[str, tuple[float, ...], tuple[str, ...]]]:
+    """Name, orders over that of the mesh, and possible causes of every pattern."""
+    meshes = range(1, HARMONICS + 1)
+    for mesh in meshes:
+        causes = ("wear of all teeth", "another law of the meshes", "the path to the sensor")
+        yield f"mesh harmonic {mesh}", (float(mesh),), causes
+    kinds = {name.partition("_")[0]: count for name, count in train.teeth.items()}
+    for gear, count in kinds.items():
+        orders = [
+            mesh + side * n / count
+            for mesh in meshes
+            for n in range(1, SIDEBANDS + 1)
+            for side in (-1, 1)
+        ]
+        yield f"sidebands of the {gear}", tuple(orders), (f"a tooth of the {gear}", "a runout")
+
+
+def _end_of(course: Turning, angle: float, begin: float) -> float | None:
+    """Time at which the input has turned by an angle since `begin` [s]; None if it has not."""
+    later = course.time > begin
+    if not later.any():
+        return None
+    first = float(np.interp(begin, course.time, course.speed))
+    time = np.concatenate([[begin], course.time[later]])
+    speed = np.abs(np.concatenate([[first], course.speed[later]]))
+    turned = np.concatenate([[0.0], np.cumsum(0.5 * (speed[1:] + speed[:-1]) * np.diff(time))])
+    if turned[-1] < angle:
+        return None
+    return float(np.interp(angle, turned, time))

@@ -1,0 +1,119 @@
+"""Vibration at mesh orders and their sidebands: what has grown, and what is never claimed."""
+
+import numpy as np
+import pytest
+from following.plants import paper
+
+from planetary_twin_py.following.follower import Follower, Readings
+from planetary_twin_py.following.sensors import Sensors
+from planetary_twin_py.following.train import followed_train
+from planetary_twin_py.following.vibration import VibrationSamples
+
+RATE = 4_000.0  # [Hz]
+TRAIN = followed_train(paper())
+TURN = 2.0 * np.pi / TRAIN.speed  # [s] of the input
+TEETH = {"sun": 30, "planet": 20, "ring": 70}
+NAMES = ("housing", "bearing")
+
+
+def signals(duration, grown=lambda time: {}, seed=0, wander=0.0):
+    """Time, torque by reading time, and acceleration of two sensors with unknown paths."""
+    chance = np.random.default_rng(seed)
+    time = np.arange(int(duration * RATE)) / RATE
+    load = 1.0 + wander * np.sin(2.0 * np.pi * time / 7.0)
+    mesh = abs(float(TRAIN.cycles)) * TRAIN.speed * time
+    orders = {f"mesh {k}": {float(k): size} for k, size in ((1, 5.0), (2, 3.0), (3, 1.0))}
+    for gear, count in TEETH.items():
+        orders[gear] = {1.0 + side / count: 0.3 for side in (-1, 1)}
+    values = np.zeros((len(time), 2))
+    for name, lines in orders.items():
+        factor = 1.0 + sum(share * on for share, on in [grown(time).get(name, (0.0, 0.0 * time))])
+        for order, size in lines.items():
+            phases = chance.uniform(0.0, 2.0 * np.pi, 2)
+            paths = chance.uniform(0.2, 2.0, 2)
+            wave = np.cos(order * mesh[:, None] + phases) * paths
+            values += size * (load * factor)[:, None] * wave
+    return time, load, values + 0.5 * chance.standard_normal(values.shape)
+
+
+def followed(duration, grown=lambda time: {}, gain=1.0, cuts=50, wander=0.0, seed=0):
+    """A follower of readings and vibration; the speed sensor has a gain."""
+    time, load, values = signals(duration, grown, seed, wander)
+    read = time[:: int(RATE / 100)]
+    torque = TRAIN.torque * load[:: int(RATE / 100)]
+    columns = {
+        "input_torque": torque,
+        "output_torque": -(torque - 0.8) / TRAIN.ratio,
+        "input_speed": np.full(len(read), gain * TRAIN.speed),
+    }
+    follower = Follower(paper(), Sensors(learning=8))
+    for part in np.array_split(np.arange(len(read)), cuts):
+        rows = slice(part[0], part[-1] + 1)
+        follower.add(Readings(read[rows], {name: v[rows] for name, v in columns.items()}))
+        inside = (time >= read[part[0]]) & (time < read[part[-1]] + 0.01)
+        follower.add(VibrationSamples(time[inside], values[inside], NAMES, 1.0 / RATE))
+    follower.finish()
+    return follower.estimate()
+
+
+def vibration_events(said):
+    return {event.what: event for event in said.events if event.what.startswith("vibration")}
+
+
+@pytest.mark.parametrize("name", ["sun", "planet", "ring"])
+def test_grown_sidebands_name_their_gear_alone(name):
+    said = followed(20.0, lambda time: {name: (2.0, time > 12.0)})
+    events = vibration_events(said)
+    assert set(events) == {f"vibration grew: sidebands of the {name}"}
+    (event,) = events.values()
+    assert event.since < 12.0 < event.found < 16.0
+    assert f"a tooth of the {name}" in event.causes
+
+
+def test_a_grown_harmonic_is_reported_with_its_size():
+    said = followed(20.0, lambda time: {"mesh 2": (0.3, time > 12.0)})
+    events = vibration_events(said)
+    assert set(events) == {"vibration grew: mesh harmonic 2"}
+    size = events["vibration grew: mesh harmonic 2"].size
+    assert size.low < 0.3 < size.high and size.high - size.low < 0.1
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_healthy_vibration_under_a_wandering_load_raises_nothing(seed):
+    said = followed(40.0, wander=0.03, seed=seed)
+    assert vibration_events(said) == {}
+    assert said.counters["vibration_periods"] > 40
+
+
+def test_a_gain_of_the_speed_sensor_does_not_hide_lines():
+    said = followed(20.0, lambda time: {"sun": (2.0, time > 12.0)}, gain=1.001)
+    assert set(vibration_events(said)) == {"vibration grew: sidebands of the sun"}
+
+
+def test_no_size_of_a_fault_is_claimed():
+    said = followed(20.0, lambda time: {"sun": (2.0, time > 12.0)})
+    (event,) = vibration_events(said).values()
+    assert "size of the fault: NOT IDENTIFIABLE" in event.evidence
+    assert all("vibration" not in one.name for one in said.estimates) and said.teeth == ()
+
+
+def test_samples_without_a_speed_tell_nothing():
+    alone = Follower(paper())
+    alone.add(VibrationSamples(np.arange(4.0), np.ones((4, 1)), ("one",), 1.0))
+    alone.finish()
+    assert alone.estimate().events == ()
+
+
+def test_the_same_bits_however_samples_are_cut():
+    def grown(time):
+        return {"ring": (2.0, time > 12.0)}
+
+    one, other = (followed(20.0, grown, cuts=cuts) for cuts in (40, 130))
+    assert repr(one.events) == repr(other.events) and one.events
+
+
+def test_other_channels_are_refused():
+    follower = Follower(paper())
+    follower.add(VibrationSamples(np.zeros(1), np.zeros((1, 1)), ("one",), 1e-4))
+    with pytest.raises(ValueError, match="channels and sample period must be as before"):
+        follower.add(VibrationSamples(np.zeros(1), np.zeros((1, 1)), ("two",), 1e-4))
