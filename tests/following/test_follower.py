@@ -84,7 +84,7 @@ def test_clocks_that_run_apart_are_remarked_upon():
         some = {name: columns[name] for name in names}
         follower.add(Readings(stamp, some, time + delay, sender))
     remarks = follower.estimate().remarks
-    assert "clock of load: runs apart by 200 ppm" in remarks
+    assert "clock of load: skew of 200 ppm" in remarks
     assert any(line.startswith("clocks of motor and load: stamps differ by 1") for line in remarks)
     assert not any(line.startswith("clock of motor") for line in remarks)
 
