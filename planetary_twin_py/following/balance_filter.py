@@ -159,7 +159,7 @@ class BalanceFilter:
         """Variance of the innovations over that of the sensors' noise, at least 1."""
 
     def reopen(self) -> None:
-        """Reset the variances of friction, zero and drag to their priors, after a step of loss."""
+        """Add the prior variances of friction, zero and drag, after a step of the loss."""
         sd = self.prior[1]
         for state in (F, B, D):
             self.p[state, state] += float(sd[state - F]) ** 2
