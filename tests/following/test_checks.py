@@ -69,5 +69,5 @@ def test_good_readings_pass(readings):
 def test_kelvin_taken_for_degrees_celsius_is_named(readings):
     time, columns = readings
     warm = np.full(len(time), 343.15 + 273.15)
-    with pytest.raises(InputError, match="this sender is probably in kelvin"):
+    with pytest.raises(InputError, match="this sender probably uses kelvin"):
         Follower(paper()).add(Readings(time, columns | {"oil_temperature": warm}))
