@@ -10,9 +10,9 @@ from ..driven_engine import DrivenEngine
 from ..dynamics.bodies import body_names, build_report, mesh_names
 from ..dynamics.cycle import common_cycles, turns_per_cycle
 from ..dynamics.point_laws import record_of
-from ..engine import POINTS, new_march
 from ..runaway import Limits
 from ..scene import Scene
+from ..step_scale import POINTS, new_march
 from ..tolerance import TOLERANCES
 from .variables import Variable
 
