@@ -106,14 +106,14 @@ def read_encoders(path: Path, period: float) -> EncoderSamples:
 def _headings(
     path: Path, names: Mapping[str, str], parts: Mapping[str, tuple[str, str | None]]
 ) -> dict[str, str]:
-    """Headings by channel, for columns with other names."""
+    """Headings of the channels that have other names."""
     found = {}
     for name, wanted in names.items():
         if name not in (*CHANNELS, *TIME, ARRIVAL):
             raise ValueError(f"columns.{name}: must be one of {', '.join((*CHANNELS, ARRIVAL))}")
         headings = [heading for heading, (own, _) in parts.items() if wanted in (heading, own)]
         if len(headings) != 1:
-            raise ValueError(f"{path}: {wanted!r}: must name one column of {', '.join(parts)}")
+            raise ValueError(f"{path}: column {wanted!r}: no such column; has {', '.join(parts)}")
         found[name] = headings[0]
     return found
 
