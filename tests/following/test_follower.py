@@ -27,7 +27,7 @@ def machine():
 
 
 def following(machine, cuts, sensors):
-    """What is said at the end, with readings and samples cut in different places."""
+    """Estimates at the end, with readings and samples split at different places."""
     scene, readings, samples = machine
     follower = Follower(scene, sensors, FORMAT)
     parts = []
@@ -75,7 +75,7 @@ def test_stamps_of_estimates_only_grow():
         last = now if np.isfinite(now) else last
 
 
-def test_clocks_that_run_apart_are_remarked_upon():
+def test_clocks_with_different_rates_cause_remarks():
     _, time, columns = played("steady", {}, 100.0)
     follower, delay = Follower(paper()), np.random.default_rng(0).exponential(1e-3, len(time))
     parts = [["input_speed", "input_torque"], ["output_speed", "output_torque"]]
@@ -90,15 +90,15 @@ def test_clocks_that_run_apart_are_remarked_upon():
 
 
 @pytest.mark.parametrize(
-    ("arguments", "said"),
+    ("arguments", "message"),
     [
         ({"scale": {"speed": 2.0}}, "scale: 'speed': must be one of input_speed"),
         ({"period": 0.0}, r"period = 0\.0 s: must be within"),
         ({"encoders": EncoderFormat((0, 4), 1e-4)}, "counts_per_turn = 0, 4"),
     ],
 )
-def test_arguments_are_checked(arguments, said):
-    with pytest.raises(ValueError, match=said):
+def test_arguments_are_checked(arguments, message):
+    with pytest.raises(ValueError, match=message):
         Follower(paper(), **arguments)
 
 
