@@ -35,8 +35,10 @@ from .driven import DrivenRun
 from .dynamics.bodies import body_names, mesh_names
 from .dynamics.mesh_sums import MeshSums, in_order
 from .dynamics_choice import AUTO, choose_dynamics
+from .integrators.clock import samples_until
 from .integrators.interpolant import Samples
 from .ledger_check import LedgerWarning, balance_of_run, ledger_warning
+from .planar.axes_sums import read_axes
 from .planar.motion import axes_motion, joined_flanks
 from .result import Energy, Result, Stats
 from .run import Run, start
@@ -95,16 +97,22 @@ def simulate(
     engine = start(scene, tolerance, method)
     driven = DrivenRun(engine, scene, commands)
     begin = time.perf_counter()
-    passed, end = (_samples(t, sample_rate) for t in (settling, settling + duration))
+    passed, end = (samples_until(t, sample_rate) for t in (settling, settling + duration))
     driven.advance(settling, passed + 1, sample_rate, 0)
     engine.take_ledger()
     engine.take_mesh_sums(settling)
     before = _Start(engine.reached, engine.stored(), passed, _turned(engine, settling))
-    samples = driven.advance(settling + duration, passed + 1, sample_rate, end - passed)
+    axes = None
+    if scene.moving_axes:
+        samples, axes = read_axes(driven, scene, (settling, settling + duration), sample_rate)
+    else:
+        samples = driven.advance(settling + duration, passed + 1, sample_rate, end - passed)
     wall = time.perf_counter() - begin
     speed = (_turned(engine, settling + duration) - before.turned) / duration
     sums = engine.take_mesh_sums(settling + duration)
     result = _result(scene, engine, (samples, speed, sums), sample_rate, before, wall)
+    if result.axes is not None and axes is not None:
+        result = replace(result, axes=replace(result.axes, statistics=axes))
     result = replace(result, choice=choice)
     if text := ledger_warning(balance_of_run(result.energy), tolerance):
         warnings.warn(text, LedgerWarning, stacklevel=2)
@@ -132,11 +140,6 @@ def _angles(engine: Run, samples: Samples) -> np.ndarray:
     train = engine.train
     turned = 2.0 * math.pi * samples.turns @ train.ratio[: train.bodies].T
     return np.asarray(turned + samples.angle)
-
-
-def _samples(time: float, sample_rate: float) -> int:
-    """Number of samples up to `time` [s]."""
-    return math.floor(time * sample_rate + 1e-6)
 
 
 def check_run(duration: float, sample_rate: float, method: str, tolerance: float) -> None:

@@ -29,6 +29,7 @@ def test_teeth_that_yield_by_a_base_pitch_stop_the_run(dynamics):
         pt.simulate(scene.replace(input_torque=1.05 * torque), 0.01)
 
 
+@pytest.mark.exhaustive  # the command that runs away is a test below
 def test_a_drive_that_runs_away_is_stopped_before_its_numbers_overflow():
     """The loop of 3 Hz on a heavy load grows by 1.16/s: put in behind the check."""
     scene = PAPER.replace(**{"drive.output.inertia": 135.0, "lubrication.friction": False})

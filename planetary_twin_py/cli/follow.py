@@ -9,7 +9,7 @@ import typer
 
 from ..terminal.arguments import JsonOption, SceneArgument, SetOption
 from ..terminal.json_output import console_beside, put_figures
-from ..terminal.messages import fail, need, note
+from ..terminal.messages import fail, need, note, remark
 from ..terminal.output_files import output_file
 from ..terminal.settings import changed_scene, settings
 from ._follow_report import print_state, state_figures
@@ -132,7 +132,11 @@ def _readings(
         return [found.readings]
     from ..following.measured_recording import read_recording
 
-    return read_recording(path, sensors.joints, factors)
+    damaged: list[str] = []
+    found_in = read_recording(path, sensors.joints, factors, damaged)
+    for line in damaged:
+        remark(f"warning: {line}")
+    return found_in
 
 
 def _samples(path: Path | None, shape: EncoderFormat | None) -> EncoderSamples | None:

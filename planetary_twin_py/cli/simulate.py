@@ -28,6 +28,7 @@ if TYPE_CHECKING:
     from rich.console import Console
     from rich.table import Table
 
+    from ..planar.axes_sums import AxesStatistics
     from ..planar.motion import AxesMotion
     from ..result import Result
     from ..scene import Scene
@@ -98,8 +99,9 @@ def simulate(
     if train["mean_mesh_force_N"] < 0.0:
         console.print("Forces and DTE are negative where the coast flanks carry the load.")
     console.print(_table(meshes))
-    axes = {} if result.axes is None else _axes(result.axes)
-    if result.axes is not None:
+    axes = {}
+    if result.axes is not None and result.axes.statistics is not None:
+        axes = _axes(result.axes, result.axes.statistics)
         console.print(_axes_table(result.axes, axes))
     warned = [*without_effect(loaded, changes), *remarks(loaded, result, tolerance)]
     for line in warned:
@@ -214,40 +216,29 @@ _TILTING = {
 }
 
 
-def _tilting(bodies: tuple[str, ...], motion: TiltingMotion) -> dict[str, Any]:
-    """Axial motion, tilts, thrusts and moments of all bodies by JSON name."""
-    import numpy as np
-
-    def of_bodies(values: np.ndarray) -> dict[str, float]:
-        return dict(zip(bodies, values.tolist(), strict=True))
-
-    moment = motion.tilting_moment
-    return {
-        "axial_displacement_mean_m": of_bodies(motion.axial_displacement.mean(axis=0)),
-        "tilt_mean_rad": of_bodies(np.linalg.norm(motion.tilt.mean(axis=0), axis=1)),
-        "thrust_mean_N": of_bodies(motion.axial_force.mean(axis=0)),
-        "thrust_peak_N": of_bodies(np.abs(motion.axial_force).max(axis=0)),
-        "tilting_moment_mean_Nm": of_bodies(np.linalg.norm(moment.mean(axis=0), axis=1)),
-        "tilting_moment_peak_Nm": of_bodies(np.linalg.norm(moment, axis=2).max(axis=0)),
-    }
-
-
-def _axes(motion: AxesMotion) -> dict[str, Any]:
+def _axes(motion: AxesMotion, seen: AxesStatistics) -> dict[str, Any]:
     """Displacements and bearing forces of all bodies by JSON name, and the shares of planets."""
     import numpy as np
 
-    found: dict[str, Any] = {}
-    for name, values in (
-        ("displacement", motion.displacement),
-        ("bearing_force", motion.bearing_force),
-    ):
-        unit = "m" if name == "displacement" else "N"
-        mean = np.linalg.norm(values.mean(axis=0), axis=1)
-        peak = np.linalg.norm(values, axis=2).max(axis=0)
-        found[f"{name}_mean_{unit}"] = dict(zip(motion.bodies, mean.tolist(), strict=True))
-        found[f"{name}_peak_{unit}"] = dict(zip(motion.bodies, peak.tolist(), strict=True))
-    if motion.tilting is not None:
-        found |= _tilting(motion.bodies, motion.tilting)
+    def of_bodies(values: np.ndarray) -> dict[str, float]:
+        sizes = values if values.ndim == 1 else np.linalg.norm(values, axis=1)
+        return dict(zip(motion.bodies, sizes.tolist(), strict=True))
+
+    found: dict[str, Any] = {
+        "displacement_mean_m": of_bodies(seen.displacement_mean),
+        "displacement_peak_m": of_bodies(seen.displacement_peak),
+        "bearing_force_mean_N": of_bodies(seen.bearing_force_mean),
+        "bearing_force_peak_N": of_bodies(seen.bearing_force_peak),
+    }
+    if seen.tilting is not None:
+        found |= {
+            "axial_displacement_mean_m": of_bodies(seen.tilting.axial_displacement_mean),
+            "tilt_mean_rad": of_bodies(seen.tilting.tilt_mean),
+            "thrust_mean_N": of_bodies(seen.tilting.axial_force_mean),
+            "thrust_peak_N": of_bodies(seen.tilting.axial_force_peak),
+            "tilting_moment_mean_Nm": of_bodies(seen.tilting.tilting_moment_mean),
+            "tilting_moment_peak_Nm": of_bodies(seen.tilting.tilting_moment_peak),
+        }
     planets = motion.bodies[len(motion.bodies) - motion.load_share.shape[1] :]
     shares = motion.mean_load_share.tolist()
     if all(share == share for share in shares):  # there is a load to share

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 from pathlib import Path
 from typing import NamedTuple
 
@@ -12,13 +11,12 @@ import pyarrow.compute as pc
 from numpy.typing import NDArray
 
 from ..following.bins import CHANNELS as UNITS
-from ..recording.tables.measurements import in_si, read_table
+from ..recording.tables.measurements import read_columns
 from .fleet import CHANNELS
 
 Array = NDArray[np.float64]
 
 GEARBOX, TIME = "gearbox", "time"
-_HEADING = re.compile(r"(.*?)\s*(?:\[(.*)\])?", re.DOTALL)
 
 
 class FleetReadings(NamedTuple):
@@ -44,10 +42,13 @@ def gearboxes_of(path: Path) -> tuple[str, ...]:
         ValueError: the file is not such a table.
         OSError: the file cannot be read.
     """
-    table = read_table(path)
-    if GEARBOX not in table.column_names:
+    found = read_columns(path)
+    if GEARBOX not in found:
         raise ValueError(f"{path}: column {GEARBOX!r}: missing")
-    return tuple(sorted(str(name) for name in pc.unique(table[GEARBOX]).to_pylist()))
+    names = pc.unique(found[GEARBOX].values).to_pylist()
+    if not names:
+        raise ValueError(f"{path}: has no rows")
+    return tuple(sorted(map(str, names)))
 
 
 def read_fleet(path: Path, gearboxes: tuple[str, ...]) -> FleetReadings:
@@ -66,26 +67,21 @@ def read_fleet(path: Path, gearboxes: tuple[str, ...]) -> FleetReadings:
         ValueError: a column is missing, or a unit or a value is invalid.
         OSError: the file cannot be read.
     """
-    table = read_table(path)
-    headings: dict[str, tuple[str, str | None]] = {}
-    for heading in table.column_names:
-        parts = _HEADING.fullmatch(heading.strip())
-        assert parts is not None  # the pattern matches every text
-        headings[parts[1]] = heading, parts[2]
+    found = read_columns(path)
     for name in (GEARBOX, TIME, *CHANNELS[:3]):
-        if name not in headings:
+        if name not in found:
             raise ValueError(f"{path}: column {name!r}: missing")
-    labels = pc.cast(table[headings[GEARBOX][0]], pa.string())
-    table = table.filter(pc.is_in(labels, pa.array(gearboxes)))
-    labels = pc.cast(table[headings[GEARBOX][0]], pa.string())
-    column = np.asarray(pc.index_in(labels, pa.array(gearboxes)))
-    stamps = in_si(TIME, table[headings[TIME][0]], headings[TIME][1], "s")
-    time, row = np.unique(stamps, return_inverse=True)
+    labels = pc.cast(found[GEARBOX].values, pa.string())
+    wanted = pc.is_in(labels, pa.array(gearboxes))
+    found = {
+        name: column._replace(values=column.values.filter(wanted)) for name, column in found.items()
+    }
+    place = np.asarray(pc.index_in(labels.filter(wanted), pa.array(gearboxes)))
+    time, row = np.unique(found[TIME].in_si(TIME, "s"), return_inverse=True)
     columns = {}
     for name in CHANNELS:
         values = np.full((len(time), len(gearboxes)), np.nan)
-        if name in headings:
-            heading, unit = headings[name]
-            values[row, column] = in_si(name, table[heading], unit, UNITS[name])
+        if name in found:
+            values[row, place] = found[name].in_si(name, UNITS[name])
         columns[name] = values
     return FleetReadings(gearboxes, time, columns)

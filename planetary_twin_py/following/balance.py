@@ -30,11 +30,12 @@ from .balance_filter import (
     alarm_memory,
     interval_memory,
 )  # fmt: skip
-from .bins import Bin, Bins, Counters
+from .bins import Bin, Counters
 from .checks import Checks
 from .cusum import Cusum, Step
 from .estimate import CONFIDENT, Estimate, Event, estimated, not_identifiable
 from .loss_map import loss_map
+from .merging import Merge
 from .sensors import Sensors, torque_noise
 from .train import followed_train
 
@@ -111,7 +112,7 @@ class BalanceFollower:
         self._wide = BalanceFilter(self.train, losses, self.sensors, interval_memory())
         self._slow = BalanceFilter(self.train, losses, self.sensors, alarm_memory(self.train))
         noise = torque_noise(self.sensors, self.train)
-        self._bins = Bins(self.period, {"input_torque": noise[0], "output_torque": noise[1]})
+        self._bins = Merge(self.period, {"input_torque": noise[0], "output_torque": noise[1]})
         self._checks = Checks(self.train, self.period)
         self._cusum, self._refusals = Cusum(), _Refusals()
         self._before: tuple[BalanceFilter, Attribution, int] | None = None
@@ -127,18 +128,20 @@ class BalanceFollower:
         """Numbers of readings that were not used, by reason."""
         return self._bins.counters
 
-    def add(self, time: Array, columns: Mapping[str, Array]) -> None:
-        """Add readings in the order of their arrival.
+    def add(self, time: Array, columns: Mapping[str, Array], sender: str = "readings") -> None:
+        """Add readings of a sender in the order of their arrival.
 
         Args:
             time: stamps [s], (n,).
             columns: readings in SI by channel of `bins.CHANNELS`, (n,) each; NaN where a reading
                 is missing. Signs are those of gearbox_state.
+            sender: name of the sender. The order in which messages of several senders alternate has
+                no effect as long as none lags behind by more than the times in `merging`.
 
         Raises:
             InputError: a channel has another unit, sign or shaft, see `checks`.
         """
-        for found in self._bins.add(time, columns):
+        for found in self._bins.add(time, columns, sender):
             self._take(found)
 
     def finish(self) -> None:

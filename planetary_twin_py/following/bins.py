@@ -1,4 +1,4 @@
-"""Puts readings in order of their stamps and averages them over bins of equal length.
+"""Puts readings of a sender in order of their stamps and averages them over bins of equal length.
 
 A reading belongs to the bin of its stamp. The first reading, in the order of arrival, whose stamp
 is later than the end of a bin by `LAG` closes the bin. Readings that arrive later for this bin are
@@ -91,16 +91,24 @@ class Bins:
     Args:
         length: length of a bin [s].
         noise: standard deviation of one reading, by channel; smaller deviations are no outliers.
+        counters: counters of readings that are not used; None: new ones.
     """
 
-    def __init__(self, length: float, noise: Mapping[str, float]) -> None:
+    def __init__(
+        self, length: float, noise: Mapping[str, float], counters: Counters | None = None
+    ) -> None:
         self.length = length
-        self.counters = Counters()
+        self.counters = Counters() if counters is None else counters
         self._noise = noise
         self._pending = {name: _Pending() for name in CHANNELS}
         self._latest = -np.inf  # stamp
         self._closed: int | None = None  # number of the first open bin
         self._held: tuple[Array, dict[str, Array]] | None = None  # a last row, perhaps ahead
+
+    @property
+    def opened(self) -> int | None:
+        """Number of the first bin that is still open; None before the first reading."""
+        return self._closed
 
     def add(self, time: Array, columns: Mapping[str, Array]) -> Iterator[Bin]:
         """Add readings in the order of their arrival.
@@ -115,7 +123,7 @@ class Bins:
         time, rows = self._in_turn(time, columns)
         if len(time):
             self._sort(time, rows)
-            yield from self._close(self._number(self._latest - LAG))
+            yield from self._close(closed_by(self._latest, self.length))
 
     def finish(self) -> Iterator[Bin]:
         """Close the open bins, at the end of a recording.
@@ -127,7 +135,7 @@ class Bins:
             self.counters.ahead += 1
             self._held = None
         if np.isfinite(self._latest):
-            yield from self._close(self._number(self._latest) + 1)
+            yield from self._close(slot_of(self._latest, self.length) + 1)
 
     def _in_turn(self, time: Array, columns: Mapping[str, Array]) -> tuple[Array, dict[str, Array]]:
         """Remove rows with a single stamp far ahead; a last row that may be one is held back."""
@@ -175,9 +183,6 @@ class Bins:
             if kept.any():
                 self._pending[name].parts.append((time[kept], values[kept]))
 
-    def _number(self, time: float) -> int:
-        return int(np.floor(time / self.length + 1e-9))
-
     def _close(self, until: int) -> Iterator[Bin]:
         """Bins below `until`."""
         if self._closed is None or until <= self._closed:
@@ -223,6 +228,26 @@ class Bins:
         # A line, because the mean of incomplete readings is biased while the torque changes.
         mean += slope * (middle - centre)
         return Mean(mean, n, slope, float(np.sqrt(left @ left / (n - 2))) if n > 3 else np.nan)
+
+
+def slot_of(time: float, length: float) -> int:
+    """Number of the bin of a time.
+
+    Args:
+        time: [s].
+        length: of a bin [s].
+    """
+    return int(np.floor(time / length + 1e-9))
+
+
+def closed_by(stamp: float, length: float) -> int:
+    """Number of the first bin that stays open after a reading.
+
+    Args:
+        stamp: of the reading [s].
+        length: of a bin [s].
+    """
+    return slot_of(stamp - LAG, length)
 
 
 def _joined(

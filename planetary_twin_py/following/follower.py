@@ -98,7 +98,8 @@ class Follower:
     """Estimates the state of a gearbox as far as its readings determine it.
 
     The same readings in the same order give the same estimates to the last bit, however they are
-    split into blocks: nothing depends on the clock of the computer.
+    split into blocks: nothing depends on the clock of the computer. Only the order of the readings
+    of each sender counts, as long as none lags behind another by 1 s.
 
     Args:
         scene: scene of the gearbox, with one input.
@@ -218,7 +219,7 @@ class Follower:
         time = np.asarray(block.time, dtype=float)
         if block.arrival is not None:
             self._clocks.add(block.sender, time, np.asarray(block.arrival, dtype=float))
-        self._balance.add(time, columns)
+        self._balance.add(time, columns, block.sender)
 
     def _of_teeth(self) -> Iterator[str]:
         if self._teeth is None:

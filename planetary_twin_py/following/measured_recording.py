@@ -5,10 +5,10 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from pathlib import Path
 
-from mcap.exceptions import McapError
-from mcap.reader import make_reader
+from mcap.records import Channel, Message, Schema
 from rosbags.typesys.store import Typestore
 
+from ..recording.container.records import RecordingError, files_of, records_of
 from ..recording.ros2.typestore import DefinitionError, types_of
 from .bins import CHANNELS
 from .follower import EncoderSamples, Readings
@@ -19,7 +19,10 @@ PART = 0.5  # [s] of messages that are converted together
 
 
 def read_recording(
-    path: Path, joints: JointNames, scale: Mapping[str, float] | None = None
+    path: Path,
+    joints: JointNames,
+    scale: Mapping[str, float] | None = None,
+    remarks: list[str] | None = None,
 ) -> list[Readings | EncoderSamples]:
     """Read measured messages in the order in which they were recorded.
 
@@ -27,6 +30,7 @@ def read_recording(
         path: an MCAP file, or a folder with one or more.
         joints: names of the joints and of the topics.
         scale: factors on readings by channel, for the check of the unit of speeds.
+        remarks: a line is appended for each damaged part, which is omitted.
 
     Returns:
         Readings and encoder samples in blocks, in the order of their arrival.
@@ -36,14 +40,12 @@ def read_recording(
             that a speed has another unit.
         OSError: the file cannot be read.
     """
-    files = sorted(path.glob("*.mcap")) if path.is_dir() else [path]
-    if not files:
-        raise ValueError(f"{path}: has no .mcap file")
+    lines = [] if remarks is None else remarks
     reader = MessageReader(joints, scale)
     found = [
         block
-        for file in files
-        for part in _in_parts(_arrived(file, joints))
+        for file in files_of(path)
+        for part in _in_parts(_arrived(file, joints, lines))
         for block in reader.read(part)
     ]
     named = (block.columns for block in found if isinstance(block, Readings))
@@ -67,20 +69,32 @@ def _in_parts(arrived: Iterator[Arrived]) -> Iterator[list[Arrived]]:
     yield part
 
 
-def _arrived(file: Path, joints: JointNames) -> Iterator[Arrived]:
+def _arrived(file: Path, joints: JointNames, remarks: list[str]) -> Iterator[Arrived]:
     """Measured messages of a file."""
-    types: dict[int, Typestore] = {}
+    schemas: dict[int, Schema] = {}
+    types: dict[int, tuple[str, str, Typestore]] = {}  # topic and type of a channel
+    for record in records_of(file, remarks):
+        if isinstance(record, Schema):
+            schemas[record.id] = record
+        elif isinstance(record, Channel):
+            schema = schemas[record.schema_id]
+            other = schema.name in JOINTS and not record.topic.endswith(joints.topics)
+            if schema.name in KINDS and not other:
+                found = _types(file, record.topic, schema)
+                types[record.id] = record.topic, schema.name, found
+        elif isinstance(record, Message) and record.channel_id in types:
+            topic, kind, found = types[record.channel_id]
+            try:
+                message = found.deserialize_cdr(record.data, kind)
+            except Exception as reason:  # of many kinds: rosbags runs generated code
+                why = str(reason) or type(reason).__name__
+                text = f"{file}: {topic}: a message does not match its definition: {why}"
+                raise RecordingError(text) from None
+            yield Arrived(topic, kind, 1e-9 * record.log_time, message)
+
+
+def _types(file: Path, topic: str, schema: Schema) -> Typestore:
     try:
-        with file.open("rb") as stream:
-            for schema, channel, message in make_reader(stream).iter_messages():
-                kind = schema.name if schema is not None else ""
-                joint = kind in JOINTS
-                other = joint and not channel.topic.endswith(joints.topics)
-                if schema is None or kind not in KINDS or other:
-                    continue
-                if schema.id not in types:
-                    types[schema.id] = types_of(schema.data, kind)
-                found = types[schema.id].deserialize_cdr(message.data, kind)
-                yield Arrived(channel.topic, kind, 1e-9 * message.log_time, found)
-    except (McapError, DefinitionError) as error:
-        raise ValueError(f"{file}: is not a readable recording: {error}") from None
+        return types_of(schema.data, schema.name)
+    except DefinitionError as error:
+        raise RecordingError(f"{file}: {topic}: its definition {error}") from None

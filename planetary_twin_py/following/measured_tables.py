@@ -2,18 +2,16 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Mapping
 from pathlib import Path
 from typing import NamedTuple
 
 import numpy as np
 
-from ..recording.tables.measurements import TIME, in_si, read_table
+from ..recording.tables.measurements import TIME, Column, read_columns
 from .bins import CHANNELS
 from .follower import EncoderSamples, Readings
 
-_HEADING = re.compile(r"(.*?)\s*(?:\[(.*)\])?", re.DOTALL)
 ARRIVAL = "arrival"
 SAMPLE, COUNTS = "sample", ("input_counts", "output_counts")
 
@@ -43,19 +41,21 @@ def read_readings(path: Path, names: Mapping[str, str]) -> MeasuredTable:
             channel is missing, or a heading of `names` does not exist.
         OSError: the file cannot be read.
     """
-    table = read_table(path)
-    parts = {heading: _parts(heading) for heading in table.column_names}
-    channel = {heading: names_of for names_of, heading in _headings(path, names, parts).items()}
+    found = read_columns(path)
+    channel = {heading: name for name, heading in _headings(path, names, found).items()}
     units = CHANNELS | {ARRIVAL: "s"}
-    columns, ignored, stamps = {}, [], None
-    for heading, (name, unit) in parts.items():
-        name = channel.get(heading, name)
-        if name in TIME:
-            stamps = in_si(TIME[0], table.column(heading), unit, "s")
+    columns: dict[str, np.ndarray] = {}
+    ignored, stamps = [], None
+    for own, column in found.items():
+        name = channel.get(column.heading, own)
+        if name == TIME[0]:
+            stamps = column.in_si(name, "s")
+        elif name in columns:
+            raise ValueError(f"{path}: column {column.heading!r}: {name} is given twice")
         elif name in units:
-            columns[name] = in_si(name, table.column(heading), unit, units[name])
+            columns[name] = column.in_si(name, units[name])
         else:
-            ignored.append(heading)
+            ignored.append(column.heading)
     arrival = columns.pop(ARRIVAL, None)
     if stamps is None:
         raise ValueError(f"{path}: column {TIME[0]!r}: missing")
@@ -64,6 +64,8 @@ def read_readings(path: Path, names: Mapping[str, str]) -> MeasuredTable:
             f"{path}: has none of the columns {', '.join(CHANNELS)}; state other names under "
             "`columns` in the file of --sensors"
         )
+    if not any((np.isfinite(stamps) & np.isfinite(values)).any() for values in columns.values()):
+        raise ValueError(f"{path}: has no row with a time and a reading")
     return MeasuredTable(Readings(stamps, columns, arrival), tuple(ignored))
 
 
@@ -83,16 +85,15 @@ def read_encoders(path: Path, period: float) -> EncoderSamples:
             not multiples of the period.
         OSError: the file cannot be read.
     """
-    table = read_table(path)
+    found = read_columns(path)
     for name in COUNTS:
-        if name not in table.column_names:
+        if name not in found:
             raise ValueError(f"{path}: column {name!r}: missing")
-    counts = np.stack([_whole(path, name, in_si(name, table.column(name), None, ""))
-                       for name in COUNTS], axis=1)  # fmt: skip
-    if SAMPLE in table.column_names:
-        sample = _whole(path, SAMPLE, in_si(SAMPLE, table.column(SAMPLE), None, ""))
-    elif TIME[0] in table.column_names:
-        number = in_si(TIME[0], table.column(TIME[0]), None, "s") / period
+    counts = np.stack([_whole(path, name, found[name].in_si(name, "")) for name in COUNTS], axis=1)
+    if SAMPLE in found:
+        sample = _whole(path, SAMPLE, found[SAMPLE].in_si(SAMPLE, ""))
+    elif TIME[0] in found:
+        number = found[TIME[0]].in_si(TIME[0], "s") / period
         if not np.all(np.abs(number - np.round(number)) < 0.2):
             raise ValueError(
                 f"{path}: time: must be multiples of {period:g} s; is the sample rate right?"
@@ -103,25 +104,18 @@ def read_encoders(path: Path, period: float) -> EncoderSamples:
     return EncoderSamples(sample, counts)
 
 
-def _headings(
-    path: Path, names: Mapping[str, str], parts: Mapping[str, tuple[str, str | None]]
-) -> dict[str, str]:
+def _headings(path: Path, names: Mapping[str, str], found: Mapping[str, Column]) -> dict[str, str]:
     """Headings of the channels that have other names."""
-    found = {}
+    chosen = {}
     for name, wanted in names.items():
         if name not in (*CHANNELS, *TIME, ARRIVAL):
             raise ValueError(f"columns.{name}: must be one of {', '.join((*CHANNELS, ARRIVAL))}")
-        headings = [heading for heading, (own, _) in parts.items() if wanted in (heading, own)]
+        headings = [c.heading for own, c in found.items() if wanted in (c.heading, own)]
         if len(headings) != 1:
-            raise ValueError(f"{path}: column {wanted!r}: no such column; has {', '.join(parts)}")
-        found[name] = headings[0]
-    return found
-
-
-def _parts(heading: str) -> tuple[str, str | None]:
-    parts = _HEADING.fullmatch(heading.strip())
-    assert parts is not None  # the pattern matches every text
-    return parts[1], parts[2]
+            listed = ", ".join(column.heading for column in found.values())
+            raise ValueError(f"{path}: column {wanted!r}: no such column; has {listed}")
+        chosen[TIME[0] if name in TIME else name] = headings[0]
+    return chosen
 
 
 def _whole(path: Path, name: str, values: np.ndarray) -> np.ndarray:

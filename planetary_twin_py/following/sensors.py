@@ -4,12 +4,10 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from pydantic import Field, ValidationError
+from pydantic import Field
 
-from ..scene import SceneError
-from ..scene.defect import explain
-from ..scene.quantity import Section, listed, quantity
-from ..scene.yaml_text import read_yaml
+from ..scene.quantity import Section, quantity
+from ..scene.yaml_file import read_section
 from .train import FollowedTrain
 
 FULL_SCALE = 1.6  # default full scale over the torque of the operating point
@@ -87,15 +85,10 @@ def read_sensors(path: Path) -> Sensors:
         The sensors.
 
     Raises:
-        SceneError: a field is invalid.
+        SceneError: the file is not in YAML, or a field is invalid.
         OSError: the file cannot be read.
     """
-    try:
-        return Sensors.model_validate(read_yaml(path.read_text("utf-8")) or {})
-    except ValidationError as error:
-        raise SceneError(f"{path}: {explain(error, Sensors, ())}") from None
-    except ValueError as error:
-        raise SceneError(listed([f"{path}: {error}"])) from None
+    return read_section(path, Sensors)
 
 
 def torque_noise(sensors: Sensors, train: FollowedTrain) -> tuple[float, float]:

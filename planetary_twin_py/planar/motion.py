@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 from types import ModuleType
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -22,6 +23,9 @@ from ..dynamics.library import library
 from ..integrators.interpolant import Samples, Waves
 from ..scene import Scene
 from ..spatial.motion import TiltingMotion, tilting_motion
+
+if TYPE_CHECKING:
+    from .axes_sums import AxesStatistics
 
 SUMMED = (MESH_FORCE, BOUNDARY, VISCOUS, POWER_LOSS, MESH_POWER)  # of both flanks
 OF_EITHER = (FILM, LAMBDA)  # of the flanks that carry, or of the others if these do not touch
@@ -52,6 +56,8 @@ class AxesMotion:
     integral over the time of the samples, NaN where the mean of all is zero."""
     tilting: TiltingMotion | None = None
     """Axial motion and tilts, thrust and moments on bearings; None where axes do not tilt."""
+    statistics: AxesStatistics | None = None
+    """Means and peaks over a run, independent of its samples; None for a window of a twin."""
 
     @property
     def load_share(self) -> np.ndarray:

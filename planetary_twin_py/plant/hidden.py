@@ -5,13 +5,11 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Any, Literal
 
-from pydantic import Field, ValidationError
+from pydantic import Field
 
-from ..scene import SceneError
-from ..scene.defect import explain
 from ..scene.faults import MOST_FAULTS, Fault
 from ..scene.quantity import Section, quantity
-from ..scene.yaml_text import read_yaml
+from ..scene.yaml_file import read_section
 
 
 class Change(Section):
@@ -104,11 +102,7 @@ def read_hidden(path: Path) -> Hidden:
         The hidden state.
 
     Raises:
-        SceneError: a field is invalid.
+        SceneError: the file is not in YAML, or a field is invalid.
         OSError: the file cannot be read.
     """
-    data = read_yaml(path.read_text("utf-8"), "hidden") or {}
-    try:
-        return Hidden.model_validate(data)
-    except ValidationError as error:
-        raise SceneError(f"{path}: {explain(error, Hidden)}") from None
+    return read_section(path, Hidden)

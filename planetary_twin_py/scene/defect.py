@@ -31,7 +31,12 @@ class _Place(NamedTuple):
     field: FieldInfo | None
 
 
-def explain(error: ValidationError, model: type[Section], further: Iterable[str] = ()) -> str:
+def explain(
+    error: ValidationError,
+    model: type[Section],
+    further: Iterable[str] = (),
+    what: str = "the scene",
+) -> str:
     """Format the errors of a validation: one line, or a heading and a line each.
 
     If a name is mistyped, the correct name is not listed as missing.
@@ -40,6 +45,7 @@ def explain(error: ValidationError, model: type[Section], further: Iterable[str]
         error: raised by pydantic for `model`.
         model: the section that was validated.
         further: lines of errors that were found otherwise.
+        what: was validated, for the heading.
 
     Returns:
         The message.
@@ -52,7 +58,7 @@ def explain(error: ValidationError, model: type[Section], further: Iterable[str]
         if not (defect["type"] == "missing" and place.name in meant)
         for line in _lines(defect, place)
     ]
-    return listed([*lines, *further])
+    return listed([*lines, *further], what)
 
 
 def _locate(model: type[Section], location: Sequence[str | int]) -> _Place:

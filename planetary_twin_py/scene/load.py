@@ -10,7 +10,8 @@ from ..printable import one_line
 from .names import did_you_mean
 from .quantity import SceneError
 from .scene import Scene, validated
-from .yaml_text import LONGEST, read_yaml
+from .yaml_file import read_text
+from .yaml_text import read_yaml
 
 
 def packaged_scenes() -> tuple[str, ...]:
@@ -45,17 +46,10 @@ def load_scene(name_or_path: str | Path) -> Scene:
 def _read(path: Path) -> str:
     """Text of a regular file, up to the longest scene."""
     try:
-        if path.exists() and not path.is_file():
-            raise SceneError(f"scene = {str(path)!r}: must be a file")
-        with path.open("rb") as stream:
-            return stream.read(4 * LONGEST + 1).decode()  # a character has at most 4 bytes
-    except UnicodeDecodeError as error:
-        raise SceneError(
-            f"scene = {str(path)!r}: must be in UTF-8, byte {error.start + 1} is not"
-        ) from None
+        return read_text(path)
+    except SceneError as error:
+        raise SceneError(f"scene = {str(path)!r}: {error}") from None
     except (OSError, ValueError) as error:
-        if isinstance(error, SceneError):
-            raise
         reason = error.strerror if isinstance(error, OSError) else error
         raise SceneError(
             f"scene = {str(path)!r}: neither a readable file ({reason}) nor "

@@ -24,14 +24,14 @@ class SceneError(ValueError):
     """
 
 
-def listed(errors: Sequence[str]) -> str:
-    """Message of one or more errors, a line each; very long lists are truncated."""
+def listed(errors: Sequence[str], what: str = "the scene") -> str:
+    """Message of one or more errors of `what`, a line each; very long lists are truncated."""
     if len(errors) == 1:
         return one_line(errors[0], _LONGEST_LINE)
     lines = [one_line(error, _LONGEST_LINE) for error in errors[:_MOST_LINES]]
     if len(errors) > _MOST_LINES:
         lines.append(f"and {len(errors) - _MOST_LINES} more")
-    return "\n  ".join((f"the scene has {len(errors)} errors:", *lines))
+    return "\n  ".join((f"{what} has {len(errors)} errors:", *lines))
 
 
 class Section(BaseModel):

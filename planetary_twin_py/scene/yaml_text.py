@@ -40,7 +40,7 @@ def read_yaml(text: str, what: str = "scene") -> Any:
         loader = _Loader(text)
         root = loader.get_single_node()
         if repeated := list(_repeated(root, "", set())):
-            raise SceneError(listed(repeated))
+            raise SceneError(listed(repeated, f"the {what}"))
         return None if root is None else loader.construct_document(root)
     except yaml.YAMLError as error:
         raise SceneError(f"{what} is not YAML: {' '.join(str(error).split())}") from None
@@ -89,6 +89,9 @@ def _repeated(node: yaml.Node | None, path: str, seen: set[int]) -> Iterator[str
         for key, value in node.value:
             name, line = str(key.value), key.start_mark.line + 1
             if name in lines:
-                yield f"{path}{name}: given twice, in line {lines[name]} and in line {line}"
+                places = f"in line {lines[name]} and in line {line}"
+                if line == lines[name]:
+                    places = f"in line {line}"
+                yield f"{path}{name}: given twice, {places}"
             lines.setdefault(name, line)
             yield from _repeated(value, f"{path}{name}.", seen)

@@ -22,6 +22,7 @@ from . import orbits as orbit
 from . import phase_portrait, spectra
 from .axes import Scales
 from .chart import bounds
+from .followed import ALONE, EVENTS, PAIRS, PLACE
 from .gears import MILLIMETRES
 from .overlay import DIFFERENCE
 from .plots import PLOTTED_OF_AXES
@@ -49,6 +50,8 @@ def blueprint(
     mode: Mode = FILE,
     compared: str | None = None,
     axes: Scales | None = None,
+    *,
+    followed: bool = False,
 ) -> rrb.Blueprint:
     """Make the layout of a view.
 
@@ -57,6 +60,7 @@ def blueprint(
         mode: variant.
         compared: name of the reference recording, if there are several.
         axes: how axes that move are drawn; None if they are held.
+        followed: whether there is a measured gearbox beside the twin.
 
     Returns:
         The Rerun blueprint.
@@ -70,7 +74,9 @@ def blueprint(
     if gearset is not None:
         left = rrb.Vertical(_gears(gearset, axes), changes, row_shares=[4, 1])
     return rrb.Blueprint(
-        rrb.Horizontal(left, _tabs(gearset, compared, axes), column_shares=[5, 6]),
+        rrb.Horizontal(
+            left, _tabs(gearset, compared, axes, followed=followed), column_shares=[5, 6]
+        ),
         rrb.TimePanel(
             state="collapsed",
             timeline=SIMULATED_TIME,
@@ -121,7 +127,9 @@ def _planet(gearset: Gearset) -> rrb.Spatial3DView:
     )
 
 
-def _tabs(gearset: Gearset | None, compared: str | None, axes: Scales | None) -> rrb.Tabs:
+def _tabs(
+    gearset: Gearset | None, compared: str | None, axes: Scales | None, *, followed: bool
+) -> rrb.Tabs:
     several = compared is not None
     difference = [] if compared is None else [_difference(compared)]
     contact = [] if gearset is None else [_contact(gearset)]
@@ -170,6 +178,7 @@ def _tabs(gearset: Gearset | None, compared: str | None, axes: Scales | None) ->
         _page("Power and speed", [_train(name, several) for name in TRAIN_PLOTS]),
         _page("Operating point", [_set_point(name, several) for name in OPERATING_POINT]),
         *difference,
+        *([_followed()] if followed else []),
         active_tab=0,
     )
 
@@ -177,6 +186,30 @@ def _tabs(gearset: Gearset | None, compared: str | None, axes: Scales | None) ->
 def _contact(gearset: Gearset) -> rrb.Vertical:
     curves = rrb.Horizontal(_zoom("mesh_force"), _zoom("dte"))
     return rrb.Vertical(_planet(gearset), curves, row_shares=[7, 3], name="Tooth contact")
+
+
+def _followed() -> rrb.Vertical:
+    """A measured gearbox beside its twin, what is left between them, and what was found."""
+    beside = [
+        _plot(f"{PLACE}/{name}", f"{pair.quantity.heading}: measured and twin", legend=True)
+        for name, pair in PAIRS.items()
+    ]
+    left = [
+        _plot(f"{PLACE}/{name}_residual", f"{pair.quantity.heading}: measured less twin", False)
+        for name, pair in PAIRS.items()
+    ]
+    alone = [_plot(f"{PLACE}/{name}", title, legend=True) for name, title in ALONE.items()]
+    return rrb.Vertical(
+        rrb.Horizontal(rrb.Vertical(*beside), rrb.Vertical(*left)),
+        rrb.Horizontal(*alone),
+        rrb.TextLogView(
+            origin=EVENTS,
+            name="Changes found",
+            columns=rrb.TextLogColumns(text_log_columns=["Body"]),
+        ),
+        row_shares=[6, 2, 1],
+        name="Measured beside simulated",
+    )
 
 
 def _axes() -> rrb.Vertical:

@@ -19,6 +19,7 @@ from .blueprint import FILE, Mode, blueprint
 from .contacts import log_contacts
 from .detail import detailed_spans, overview
 from .events import log_events
+from .followed import followed_of, log_followed
 from .frames import frames
 from .gears import log_gears, log_motion
 from .layer import Layer
@@ -73,12 +74,15 @@ def save(
     stream.send_recording_name(", ".join(name for name in names if name) or recording.path.stem)
     compared = names[0] if others else None
     drawn = None if scene is None else scales(scene.gearset, recording.axes_state)
-    send_layout(stream, scene, mode, compared, drawn)
+    followed = followed_of(recording)
+    send_layout(stream, scene, mode, compared, drawn, followed=followed is not None)
     layers = [Layer(stream, name, order) for order, name in enumerate(names)]
     in_detail = detailed_spans(recording) if detail is None else [detail]
     remarks = []
     for layer, shown in zip(layers, (recording, *others), strict=True):
         remarks += log_curves(layer, shown, in_detail)
+    if followed is not None:
+        log_followed(layers[0], recording, followed)
     sampled = recording.within(in_detail)
     remarks += _log_first(layers[0], sampled, scene, drawn)
     for layer, other in zip(layers[1:], others, strict=True):
@@ -120,9 +124,12 @@ def send_layout(
     mode: Mode,
     compared: str | None = None,
     axes: Scales | None = None,
+    *,
+    followed: bool = False,
 ) -> None:
-    """Send the layout; see `blueprint` for `mode`, `compared` and `axes`."""
-    layout = blueprint(scene.gearset if scene else None, mode, compared, axes)
+    """Send the layout; see `blueprint` for `mode`, `compared`, `axes` and `followed`."""
+    gearset = scene.gearset if scene else None
+    layout = blueprint(gearset, mode, compared, axes, followed=followed)
     # Active, because the viewer would otherwise prefer a layout stored earlier.
     stream.send_blueprint(layout, make_active=True, make_default=True)
 

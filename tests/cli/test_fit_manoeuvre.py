@@ -11,7 +11,7 @@ DRAG = "losses.sun_drag.coulomb"
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("suffix", [".html", ".md"])
+@pytest.mark.parametrize("suffix", [".html", pytest.param(".md", marks=pytest.mark.exhaustive)])
 def test_a_manoeuvre_is_fitted_and_reported(tmp_path, suffix):
     report, figures = tmp_path / f"report{suffix}", tmp_path / "fit.json"
     done = run(

@@ -11,6 +11,7 @@ from twin_recording import record
 
 SLOWER = 2.0  # than `verify` of a sound recording; both take longer on a busy machine
 MEGABYTES = 300.0
+EXHAUSTIVE = pytest.mark.exhaustive
 
 # A child's own peak: the kernel's figure for it starts with that of the process from which it
 # is forked.
@@ -88,7 +89,17 @@ def test_a_hostile_scene_is_refused_in_one_line(usual, tmp_path, name):
     check_refused(run("explain", scene, folder=tmp_path), usual)
 
 
-@pytest.mark.parametrize("command", [["explain"], ["info"], ["import", "--out", "x.mcap"]])
+@pytest.mark.parametrize(
+    "command",
+    [
+        ["explain"],
+        ["info"],
+        ["import", "--out", "x.mcap"],
+        ["plant", "paper", "--out", "x.csv", "--hidden"],
+        pytest.param(["follow", "paper", "--from", "x.csv", "--sensors"], marks=EXHAUSTIVE),
+        pytest.param(["fleet", "paper", "--from", "x.csv", "--sensors"], marks=EXHAUSTIVE),
+    ],
+)
 def test_a_pipe_is_refused_without_waiting(usual, tmp_path, command):
     os.mkfifo(pipe := tmp_path / "pipe.csv")
     check_refused(run(*command, pipe, folder=tmp_path), usual)

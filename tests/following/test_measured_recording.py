@@ -100,7 +100,7 @@ def test_a_folder_is_read_and_unknown_joints_are_refused(file):
 def test_what_is_no_recording_is_refused(tmp_path):
     text = tmp_path / "rig.mcap"
     text.write_text("time,torque\n")
-    with pytest.raises(ValueError, match="is not a readable recording"):
+    with pytest.raises(ValueError, match="not an MCAP file"):
         read_recording(text, JOINTS)
 
 

@@ -63,7 +63,7 @@ def errors(scene, begin, duration, tolerances):
 @pytest.mark.parametrize(
     "flow, changes",
     [
-        (FLOWS[0], {}),
+        pytest.param(FLOWS[0], {}, marks=pytest.mark.exhaustive),
         (FLOWS[0], {"errors.pin_tangential": [-2e-5, 0.0, 0.0], "supports.sun.bearing": 0.0,
                     "backlash": 2e-7}),
         (FLOWS[2], {"errors.pin_tangential": [-2e-5, 1e-5, 0.0]}),

@@ -81,6 +81,7 @@ def test_a_mirrored_set_moves_in_the_mirror(flow, weight):
     assert runs[1].mean_power_loss == pytest.approx(runs[0].mean_power_loss, rel=1e-4)
 
 
+@pytest.mark.exhaustive
 def test_a_mirrored_set_shows_the_same_samples_half_a_mesh_cycle_later():
     """Teeth are as thick as their spaces, so coast flanks are where drive flanks are then."""
     scene = uneven(*SETS[0])

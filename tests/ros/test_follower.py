@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import json
 import math
 import subprocess
@@ -164,15 +165,27 @@ def test_stamps_of_estimates_grow_and_numbers_have_no_gaps(changing: Played) -> 
     for name in ("estimate", "residuals", "teeth", "event", "baseline"):
         messages = changing.messages[name]
         assert [one.sequence for one in messages] == list(range(1, len(messages) + 1))
-    stamps = [seconds(one.header.stamp) for one in changing.messages["estimate"]]
-    assert stamps == sorted(set(stamps)) and len(stamps) > 50
+    fresh = estimates(changing)
+    stamps = [stamp_of(one) for one in fresh]
+    assert stamps == sorted(set(stamps))
+    said = changing.messages["estimate"]
+    for before, one in itertools.pairwise(said):  # silence changes statuses, not the stamp
+        assert one in fresh or stamp_of(one) == stamp_of(before)
+
+
+def test_an_estimate_follows_every_tenth_of_a_second_however_busy_the_machine_is(
+    changing: Played,
+) -> None:
+    stamps = np.array([stamp_of(one) for one in estimates(changing)])
+    assert np.diff(stamps[:-1]) == pytest.approx(0.1, abs=1e-6)  # the last one ends with the play
+    begin = stamp_of(changing.messages["encoders"][0])
+    assert stamps[0] - begin < 2.0 and stamps[-1] - begin == pytest.approx(15.0, abs=0.11)
 
 
 def test_the_recording_followed_again_gives_the_same_bits(changing: Played) -> None:
     again = following(changing)
     said = {round(one.time * 1e9): one for one in again}
-    live = changing.messages["estimate"]
-    assert len(live) > 50
+    live = estimates(changing)
     names = [name for name in live[0].get_fields_and_field_types() if name.endswith("_status")]
     for name in (name.removesuffix("_status") for name in names):
         whole = name.startswith(("compliance", "play"))  # by hunting periods, not by time
@@ -187,6 +200,12 @@ def test_the_recording_followed_again_gives_the_same_bits(changing: Played) -> N
     judged = [one for one in changing.messages["teeth"] if not one.learning]
     for one in judged:
         assert list(one.every_z) == np.float32(every[one.hunting_periods]).tolist()
+
+
+def estimates(played: Played) -> list[Any]:
+    """Those that were said because of readings, not because of silence."""
+    said = played.messages["estimate"]
+    return [one for one in said if one.input_torque_status != "STALE"]
 
 
 def following(played: Played) -> list[Any]:
@@ -231,6 +250,11 @@ def test_the_command_gives_the_last_word_of_the_node(changing: Played) -> None:
         assert one["sd"] in (getattr(last, f"{name}_sd"), None)
     assert len(figures["events"]) == 2
     assert figures["teeth"][0]["z"] == changing.messages["teeth"][-1].z[0]
+
+
+def stamp_of(message: Any) -> float:
+    """Stamp of a message in seconds."""
+    return seconds(message.header.stamp)
 
 
 def seconds(stamp: Any) -> float:

@@ -26,6 +26,7 @@ from rclpy.qos import DurabilityPolicy, QoSProfile
 from rosbags.rosbag2 import Reader, StoragePlugin, Writer
 from rosbags.typesys import Stores, get_types_from_msg, get_typestore
 from std_msgs.msg import String
+from std_srvs.srv import SetBool
 
 from planetary_twin_py.recording.ros2.bag import BagWriter
 from planetary_twin_py.recording.ros2.metadata import Topic
@@ -112,13 +113,22 @@ def _receive(peer: Peer, bag: Path) -> dict[str, list[tuple[int, bytes]]]:
     return received
 
 
-def _end(process: subprocess.Popen[str], peer: Peer, seconds: float = 30.0) -> tuple[str, str]:
+def _end(process: subprocess.Popen[str], peer: Peer) -> tuple[str, str]:
     """Its output; the peer continues to receive while it ends."""
-    peer.until(lambda: process.poll() is not None, seconds)
+    peer.until(lambda: process.poll() is not None)
     output, errors = process.communicate()
     assert process.returncode == 0, errors
     assert "Traceback" not in errors
     return output, errors
+
+
+def _resume(peer: Peer) -> None:
+    """Resume a replay that started paused.
+
+    It can answer only when it has discovered all subscriptions that the peer made before.
+    """
+    answer = peer.call(SetBool, f"{TWIN}/replay/pause", SetBool.Request(data=False))
+    assert answer.success, answer.message
 
 
 def _refused(process: subprocess.Popen[str], *reasons: str) -> None:
@@ -134,7 +144,8 @@ def test_every_message_is_replayed_in_order_byte_for_byte_and_in_time(
 ) -> None:
     recorded = _recorded(bag / "bag_0.mcap")
     received = _receive(peer, bag)
-    process = play(bag, "--rate-factor", str(rate_factor))
+    process = play(bag, "--rate-factor", str(rate_factor), "--start-paused")
+    _resume(peer)
     output, _ = _end(process, peer)
     late = float(output.partition("at most ")[2].partition(" ms late")[0]) * 1e-3
     peer.until(lambda: all(len(received[name]) == len(recorded[name]) for name in recorded))
@@ -171,7 +182,9 @@ def test_an_excerpt_starts_with_the_messages_latched_before_it(
 ) -> None:
     recorded = _recorded(bag / "bag_0.mcap")
     received = _receive(peer, bag)
-    output, _ = _end(play(bag, "--start", "0.5", "--duration", "0.2"), peer)
+    process = play(bag, "--start", "0.5", "--duration", "0.2", "--start-paused")
+    _resume(peer)
+    output, _ = _end(process, peer)
     assert "replaying 0.20 s" in output
     first = min(time for messages in recorded.values() for time, _ in messages)
     begin, end = first + 500_000_000, first + 700_000_000
@@ -219,7 +232,9 @@ def test_a_truncated_file_is_played_up_to_its_end(
     truncated = tmp_path / "truncated.mcap"
     _truncate(bag / "bag_0.mcap", truncated, f"{TWIN}/gearbox_state")
     states = peer.listen(GearboxState, f"{TWIN}/gearbox_state", 1000)
-    output, _ = _end(play(truncated), peer)
+    process = play(truncated, "--start-paused")
+    _resume(peer)
+    output, _ = _end(process, peer)
     assert "is truncated" in output
     expected = _whole(truncated, f"{TWIN}/gearbox_state")
     assert expected

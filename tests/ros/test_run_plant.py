@@ -93,6 +93,7 @@ def test_a_healthy_gearbox_raises_nothing_in_two_minutes(run: Run, tmp_path: Pat
     assert figures["events"] == [] and figures["teeth"] == []
 
 
+@pytest.mark.exhaustive
 def test_an_interrupt_leaves_a_finished_recording(run: Run, peer: Peer, tmp_path: Path) -> None:
     from planetary_twin_msgs.msg import FollowerEstimate
 

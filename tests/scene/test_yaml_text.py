@@ -24,7 +24,7 @@ def test_every_duplicate_key_is_listed():
     text = "base: paper\nfaults:\n- {kind: crack, kind: wear}\nmesh: {}\nmesh: {}\n"
     assert refusal(text) == (
         "the scene has 2 errors:\n"
-        "  faults.0.kind: given twice, in line 3 and in line 3\n"
+        "  faults.0.kind: given twice, in line 3\n"
         "  mesh: given twice, in line 4 and in line 5"
     )
 

@@ -30,7 +30,13 @@ def absolute_in_space(engine, reference):
     return np.concatenate([plane[:middle], x, plane[middle:-1], v, plane[-1:]]), sides
 
 
-@pytest.mark.parametrize("flow", [FLOWS[0], FLOWS[2]], ids=["held carrier", "turning carrier"])
+@pytest.mark.parametrize(
+    "flow",
+    [
+        pytest.param(FLOWS[0], id="held carrier", marks=pytest.mark.exhaustive),
+        pytest.param(FLOWS[2], id="turning carrier"),
+    ],
+)
 def test_steady_running_converges_to_the_reference(flow):
     scene = spatial(flow, helix=0.2, **ERRORS)
     source = Engine(scene, 1e-6)

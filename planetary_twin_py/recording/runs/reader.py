@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from mcap.records import Attachment
+from mcap.records import Attachment, Channel
 from numpy.typing import NDArray
 
 from ...printable import one_line
@@ -67,6 +67,8 @@ class Recording:
     axes_blocks: AxesBlocks
     scene_yaml: str | None
     remarks: list[str] = field(default_factory=list)
+    topics: frozenset[str] = frozenset()
+    """Names of all topics in the files."""
 
     @cached_property
     def ranges(self) -> Ranges | None:
@@ -149,7 +151,8 @@ def read_recording(path: str | Path, namespace: str | None = None) -> Recording:
     axes_blocks = found.axes_blocks.get(f"{namespace}/{AXES_WAVEFORM}", AxesInFile())
     recording = assemble(rows, blocks, axes_blocks, Path(path), namespace)
     scene = found.scene_yaml or _scene(found.rows.get(f"{namespace}/{ORIGIN}", []), found.remarks)
-    return replace(recording, scene_yaml=scene, remarks=found.remarks)
+    topics = frozenset(found.topics)
+    return replace(recording, scene_yaml=scene, remarks=found.remarks, topics=topics)
 
 
 def _scene(origins: list[NDArray[Any]], remarks: list[str]) -> str | None:
@@ -217,6 +220,7 @@ class _Found:
         self.axes_blocks: dict[str, AxesInFile] = {}
         self.scene_yaml: str | None = None
         self.remarks: list[str] = []
+        self.topics: set[str] = set()
         self._repeats = Repeats()
 
     def read(self, file: Path) -> None:
@@ -227,6 +231,8 @@ class _Found:
         for section in sections_of(file, self.remarks):
             messages: dict[int, list[bytes]] = {}
             for record in section.records:
+                if isinstance(record, Channel):
+                    self.topics.add(record.topic)
                 if self._repeats.repeated(record):
                     continue
                 if isinstance(record, Attachment) and record.name == SCENE_ATTACHMENT:

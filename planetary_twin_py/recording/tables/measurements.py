@@ -24,12 +24,27 @@ LABEL = "operating_point"
 UNREAD = ("stamp", "sequence", "interval", "planets")
 """Columns of an export that an import ignores, because it numbers its own messages."""
 _LONGEST_REASON = 200  # characters
+LARGEST = 2.0**53  # magnitude in SI, up to which counts are exact and sums of squares are finite
 UNEVEN = 0.1  # allowed relative deviation of a step, because loggers round time stamps
 _NAMES = (
     "; a heading must be a field of gearbox_state or operating_point, with a unit in brackets "
     "unless it is SI"
 )
 _HEADING = re.compile(r"(.*?)\s*(?:\[(.*)\])?", re.DOTALL)
+
+
+class Column(NamedTuple):
+    """A column of a table."""
+
+    heading: str
+    unit: str | None
+    """In brackets in the heading; None without."""
+    values: pa.ChunkedArray
+    """(rows,)."""
+
+    def in_si(self, name: str, unit: str) -> Array:
+        """Values in the SI unit `unit`, see `in_si`; `name` is for messages."""
+        return in_si(name, self.values, self.unit, unit)
 
 
 class Measurements(NamedTuple):
@@ -62,39 +77,36 @@ def read_measurements(path: Path, units: Mapping[str, str]) -> Measurements:
         ValueError: a heading, a value or a time stamp is invalid.
         OSError: the file cannot be read.
     """
-    table = read_table(path)
-    found: dict[str, pa.ChunkedArray] = {}
-    given: dict[str, str | None] = {}
-    for heading, column in zip(table.column_names, table.columns, strict=True):
-        name, unit = _named(heading, units)
-        if name in found:
-            raise ValueError(f"{path}: column {heading!r}: {name} is given twice")
-        found[name], given[name] = column, unit
+    found = read_columns(path)
+    for name, column in found.items():
+        if name not in (TIME[0], LABEL, *UNREAD, *units):
+            near = did_you_mean(name, [TIME[0], LABEL, *units])
+            raise ValueError(f"column {column.heading!r}: no such quantity{near or _NAMES}")
     if TIME[0] not in found:
         raise ValueError(f"{path}: column {TIME[0]!r}: missing")
-    labels = found.pop(LABEL).to_pylist() if LABEL in found else None
+    labels = found.pop(LABEL).values.to_pylist() if LABEL in found else None
     columns = {
-        name: in_si(name, column, given[name], units.get(name, "s"))
+        name: column.in_si(name, units.get(name, "s"))
         for name, column in found.items()
         if name not in UNREAD
     }
     step = time_step(columns.pop(TIME[0]))
-    if not columns:
-        raise ValueError(f"{path}: has no column besides the time")
+    if not any(np.isfinite(values).any() for values in columns.values()):
+        raise ValueError(f"{path}: has no value besides the time")
     return Measurements(step, columns, labels)
 
 
-def read_table(path: Path) -> pa.Table:
-    """Read a CSV or Parquet file.
+def read_columns(path: Path) -> dict[str, Column]:
+    """Read a CSV or Parquet file whose headings are names, or names with units: `speed [rpm]`.
 
     Args:
         path: of the file. CSV is separated by commas, semicolons or tabs.
 
     Returns:
-        The table with its headings.
+        The columns by name, in order.
 
     Raises:
-        ValueError: the file is not such a table.
+        ValueError: the file is not such a table, or a name is given twice, perhaps in two units.
         OSError: the file cannot be read.
     """
     if path.suffix not in _READERS:
@@ -103,13 +115,31 @@ def read_table(path: Path) -> pa.Table:
         raise ValueError(f"{path}: must be a file")
     try:
         with path.open("rb") as stream:
-            return _READERS[path.suffix](stream)
+            table = _READERS[path.suffix](stream)
     except UnicodeDecodeError as reason:
         raise ValueError(f"{path}: must be in UTF-8, byte {reason.start + 1} is not") from None
     except (pa.ArrowException, OSError) as reason:
         if isinstance(reason, OSError) and reason.errno is not None:  # of the system, not of Arrow
             raise
         raise ValueError(f"{path}: {one_line(str(reason), _LONGEST_REASON)}") from None
+    found: dict[str, Column] = {}
+    for heading, values in zip(table.column_names, table.columns, strict=True):
+        name, unit = name_and_unit(heading)
+        if name and name in found:
+            raise ValueError(f"{path}: column {heading!r}: {name} is given twice")
+        found[name] = Column(heading, unit, values)
+    return found
+
+
+def name_and_unit(heading: str) -> tuple[str, str | None]:
+    """Name and unit in a heading; the unit is None without brackets.
+
+    Args:
+        heading: such as `speed [rpm]`. Every name of `TIME` is that of the time.
+    """
+    parts = _HEADING.fullmatch(heading.strip())
+    assert parts is not None  # the pattern matches every text
+    return TIME[0] if parts[1] in TIME else parts[1], parts[2]
 
 
 def _read_csv(stream: BinaryIO) -> pa.Table:
@@ -133,19 +163,6 @@ _READERS: dict[str, Callable[[BinaryIO], pa.Table]] = {
 }
 
 
-def _named(heading: str, units: Mapping[str, str]) -> tuple[str, str | None]:
-    """Name and unit in a heading; None without a unit."""
-    parts = _HEADING.fullmatch(heading.strip())
-    assert parts is not None  # the pattern matches every text
-    name, unit = parts[1], parts[2]
-    if name in TIME:
-        return TIME[0], unit
-    if name in units or name in (LABEL, *UNREAD):
-        return name, unit
-    near = did_you_mean(name, [TIME[0], LABEL, *units])
-    raise ValueError(f"column {heading!r}: no such quantity{near or _NAMES}")
-
-
 def in_si(name: str, column: pa.ChunkedArray, given: str | None, unit: str) -> Array:
     """Values of a column.
 
@@ -159,17 +176,22 @@ def in_si(name: str, column: pa.ChunkedArray, given: str | None, unit: str) -> A
         Values (rows,) in `unit`, NaN where the column is empty.
 
     Raises:
-        ValueError: a value is not a number, or `given` does not match `unit`.
+        ValueError: a value is not a number or exceeds `LARGEST`, or `given` does not match `unit`.
     """
     if name == TIME[0] and pa.types.is_timestamp(column.type):
         return _seconds(column)
     values = _numbers(name, column)
-    if given is None:
-        return values
-    try:
-        return column_to_si(values, given, unit)
-    except ValueError as reason:
-        raise ValueError(f"column {name!r}: {reason}") from None
+    if given is not None:
+        try:
+            values = column_to_si(values, given, unit)
+        except ValueError as reason:
+            raise ValueError(f"column {name!r}: {reason}") from None
+    for row in np.flatnonzero(np.isfinite(values) & (np.abs(values) > LARGEST))[:1]:
+        raise ValueError(
+            f"row {row + 1}: {name} = {values[row]:g}: its magnitude must be at most "
+            f"{LARGEST:.0e} {unit or '1'}; is the unit right?"
+        )
+    return values
 
 
 def _seconds(dates: pa.ChunkedArray) -> Array:

@@ -2,15 +2,12 @@
 
 from __future__ import annotations
 
-import re
 from pathlib import Path
 from typing import NamedTuple
 
 import numpy as np
 
-from .measurements import TIME, Array, in_si, read_table, time_step
-
-_HEADING = re.compile(r"(.*?)\s*(?:\[(.*)\])?", re.DOTALL)
+from .measurements import TIME, Array, in_si, name_and_unit, read_columns, time_step
 
 
 class Sensor(NamedTuple):
@@ -41,35 +38,29 @@ def read_sensor(path: Path, column: str | None, sample_rate: float | None) -> Se
             time stamps are not equally spaced.
         OSError: the file cannot be read.
     """
-    table = read_table(path)
-    headings = {name: (unit, n) for n, (name, unit) in enumerate(map(_parts, table.column_names))}
-    stamps = next((name for name in TIME if name in headings), None)
-    name = _chosen(path, column, [name for name in headings if name not in TIME])
-    unit, place = headings[name]
-    samples = in_si(name, table.column(place), None, "")
+    found = read_columns(path)
+    name = _chosen(path, column, [name for name in found if name != TIME[0]])
+    chosen = found[name]
+    samples = in_si(name, chosen.values, None, "")
     for row in np.flatnonzero(~np.isfinite(samples))[:1]:
         raise ValueError(f"{path}: row {row + 1}: {name}: has no value")
     if sample_rate is not None:
         if not sample_rate > 0.0:
             raise ValueError(f"sample_rate = {sample_rate:g} Hz: must be greater than 0")
         begin, step = 0.0, 1.0 / sample_rate
-    elif stamps is not None:
-        time = in_si(stamps, table.column(headings[stamps][1]), headings[stamps][0], "s")
+    elif TIME[0] in found:
+        time = found[TIME[0]].in_si(TIME[0], "s")
         begin, step = float(time[0]) if len(time) else 0.0, time_step(time)
     else:
         raise ValueError(f"{path}: column {TIME[0]!r}: missing; add it or give --sample-rate")
-    return Sensor(name, unit or "-", begin + step * np.arange(len(samples), dtype=float), samples)
-
-
-def _parts(heading: str) -> tuple[str, str | None]:
-    parts = _HEADING.fullmatch(heading.strip())
-    assert parts is not None  # the pattern matches every text
-    return parts[1], parts[2]
+    stamps = begin + step * np.arange(len(samples), dtype=float)
+    return Sensor(name, chosen.unit or "-", stamps, samples)
 
 
 def _chosen(path: Path, column: str | None, names: list[str]) -> str:
-    if column is not None and _parts(column)[0] in names:
-        return _parts(column)[0]
+    own = name_and_unit(column)[0] if column is not None else None
+    if own in names:
+        return own
     if column is None and len(names) == 1:
         return names[0]
     listed = ", ".join(names) or "none besides the time"

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from ...following.bins import CHANNELS
 from ...following.measured_tables import read_readings
 from ...following.train import FollowedTrain
+from ...printable import one_line
 
 Array = NDArray[np.float64]
 
@@ -18,6 +19,7 @@ SUFFIXES = (".csv", ".parquet", ".mat")
 PERIOD = 0.1  # [s] length of a bin
 FEWEST = 20  # smallest number of bins of a fit
 TIME = "time"
+_LONGEST_REASON = 200  # characters
 
 
 class Course(NamedTuple):
@@ -69,15 +71,14 @@ def read_course(path: Path, train: FollowedTrain, period: float = PERIOD) -> Cou
     values = np.stack([columns[name] for name in names])
     good = np.isfinite(values).all(axis=0) & np.isfinite(time)
     first = float(time[good].min()) if good.any() else 0.0
-    place = np.floor((time[good] - first) / period).astype(np.int64)
-    count = np.bincount(place) if good.any() else np.zeros(0, dtype=np.int64)
-    filled = np.flatnonzero(count)
+    filled, place = np.unique(np.floor((time[good] - first) / period), return_inverse=True)
     if len(filled) < FEWEST:
         raise ValueError(
             f"{path}: {len(filled)} bins of {period:g} s with all channels, must be at least "
             f"{FEWEST}"
         )
-    means = np.stack([np.bincount(place, row)[filled] / count[filled] for row in values[:, good]])
+    count = np.bincount(place)
+    means = np.stack([np.bincount(place, row) / count for row in values[:, good]])
     middles = np.asarray(first + (filled + 0.5) * period, dtype=float)
     acceleration = np.gradient(means[2], middles)
     slope = np.asarray(acceleration, dtype=float)
@@ -86,19 +87,25 @@ def read_course(path: Path, train: FollowedTrain, period: float = PERIOD) -> Cou
 
 def _read_mat(path: Path) -> tuple[Array, dict[str, Array]]:
     from scipy.io import loadmat
-    from scipy.io.matlab import MatReadError
 
+    if path.exists() and not path.is_file():
+        raise ValueError(f"{path}: must be a file")
     try:
         found = loadmat(path, squeeze_me=True)
-    except (ValueError, NotImplementedError, MatReadError) as reason:
-        line = str(reason).splitlines()[0] if str(reason) else "unreadable"
+    except OSError:
+        raise
+    except Exception as reason:  # of many kinds, if the file is damaged
+        line = one_line(str(reason) or type(reason).__name__, _LONGEST_REASON)
         raise ValueError(f"{path}: not a MAT file of version 4 to 7.2: {line}") from None
     if TIME not in found:
         raise ValueError(f"{path}: variable {TIME!r}: missing")
     vectors = {}
     for name in (TIME, *CHANNELS):
         if name in found:
-            values = np.asarray(found[name], dtype=float)
+            try:
+                values = np.asarray(found[name], dtype=float)
+            except (TypeError, ValueError):
+                raise ValueError(f"{path}: {name}: must be a vector of numbers") from None
             if values.ndim != 1 or len(values) != np.size(found[TIME]):
                 raise ValueError(f"{path}: {name}: must be a vector as long as {TIME}")
             vectors[name] = values

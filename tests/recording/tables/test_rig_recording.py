@@ -193,7 +193,7 @@ def with_time(*time):
         ),
         (with_column("efficiency", SOUND_DATES), "row 1: efficiency = '2026-11-22"),
         ({"power_loss": [1.0, 2.0]}, "column 'time': missing"),
-        ({"time": [1.0, 2.0]}, "has no column besides the time"),
+        ({"time": [1.0, 2.0]}, "has no value besides the time"),
         ({"time": [1.0], "power_loss": [1.0]}, "1 rows: must be at least 2"),
     ],
 )

@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 import sys
+import time
 import traceback
 
 from diagnostic_msgs.msg import DiagnosticArray
 from planetary_twin_msgs import msg
+from rclpy.duration import Duration
 from rclpy.lifecycle import LifecyclePublisher
 from rclpy.qos import DurabilityPolicy, QoSProfile
 from rclpy.timer import Timer
@@ -34,6 +36,8 @@ from .stamps import STEADY, StrictClock
 
 _REPORT_PERIOD = 1.0  # [s]
 _LATCHED = QoSProfile(depth=100, durability=DurabilityPolicy.TRANSIENT_LOCAL)
+_QUEUED = QoSProfile(depth=1000)  # a computer that has been busy says much at once
+_LAST = 10.0  # [s] longest wait until the last messages have arrived
 _KINDS = {
     "estimate": msg.FollowerEstimate,
     "residuals": msg.FollowerResiduals,
@@ -78,7 +82,7 @@ class Follower(ManagedNode):
         if self._options.twin:
             self._beside = TwinBeside(self, self._options.twin, train)
         for name, kind in _KINDS.items():
-            qos = _LATCHED if name in _KEPT else QoSProfile(depth=100)
+            qos = _LATCHED if name in _KEPT else _QUEUED
             self._outlets[name] = self.create_lifecycle_publisher(kind, f"~/{name}", qos)
         self._outlets["diagnostics"] = self.create_lifecycle_publisher(
             DiagnosticArray, "/diagnostics", 10
@@ -101,6 +105,7 @@ class Follower(ManagedNode):
         self._end()
         self._diagnose()
         self._live = None
+        self._deliver()
 
     def close(self) -> None:
         """Release the subscriptions and the publishers."""
@@ -185,6 +190,13 @@ class Follower(ManagedNode):
             self._timer = None
         if self._live is not None:
             self._live.stop()
+
+    def _deliver(self) -> None:
+        """Wait until subscribers have what was said: a logger may end at once after this node."""
+        deadline = time.monotonic() + _LAST
+        for publisher in self._outlets.values():
+            left = max(deadline - time.monotonic(), 0.0)
+            publisher.wait_for_all_acked(Duration(seconds=left))
 
     def _reset(self, request: Trigger.Request, response: Trigger.Response) -> Trigger.Response:
         live = self._live

@@ -5,12 +5,18 @@ from __future__ import annotations
 import math
 import threading
 import time
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from typing import Protocol
 
+from planetary_twin_py.following.bins import closed_by
 from planetary_twin_py.following.checks import InputError
 from planetary_twin_py.following.follower import Following
-from planetary_twin_py.following.measured_messages import Arrived, MessageReader, stamp_of
+from planetary_twin_py.following.measured_messages import (
+    ENCODERS,
+    Arrived,
+    MessageReader,
+    stamp_of,
+)
 
 from .follower_parameters import FollowerOptions
 
@@ -72,12 +78,35 @@ class JumpWatch:
         return newest - stamp
 
 
+class Portions:
+    """Divides messages where readings may close a bin of `length` [s]: each bin is reported."""
+
+    def __init__(self, length: float) -> None:
+        self._length = length
+        self._closed: dict[str, int] = {}
+
+    def divide(self, arrived: Sequence[Arrived]) -> Iterator[list[Arrived]]:
+        """Yield the messages in their order; only the first of a portion may close bins."""
+        portion: list[Arrived] = []
+        for one in arrived:
+            if one.kind != ENCODERS:
+                closed = closed_by(stamp_of(one.message), self._length)
+                if closed != self._closed.get(one.sender) and portion:
+                    yield portion
+                    portion = []
+                self._closed[one.sender] = closed
+            portion.append(one)
+        if portion:
+            yield portion
+
+
 class LiveFollower:
     """
     Passes the messages of `source` to a follower and its estimates to `audience`.
 
-    The estimates depend on the messages and their order only: not on when the thread runs, and not
-    on how many messages it processes at once.
+    The estimates depend on the messages only: not on when the thread runs, and not on how many
+    messages it processes at once. On a slow computer the same estimates come later. Only silence
+    is measured by the clock.
     """
 
     def __init__(self, options: FollowerOptions, source: Source, audience: Audience) -> None:
@@ -86,7 +115,6 @@ class LiveFollower:
         self.behind = 0.0
         """Time that the last messages waited for this thread [s]."""
         self._advanced = time.monotonic()
-        self._spoken = -math.inf
         self._stop, self._restart = threading.Event(), threading.Event()
         self._thread = threading.Thread(target=self._run, name="follower", daemon=True)
         self._thread.start()
@@ -117,6 +145,9 @@ class LiveFollower:
         self.latest: Following = self._follower.estimate()
         """The last reported estimate."""
         self._reader = MessageReader(self._options.joints, self._options.scale)
+        self._portions = Portions(self._options.period)
+        self._newest = -math.inf  # stamp of the newest estimate, said or not [s]
+        self._due = -math.inf  # stamp of the next one to say [s]
         self._jumps = JumpWatch()
         self._refusal = ""
         self._stale = True  # there is no estimate that could become stale
@@ -159,13 +190,18 @@ class LiveFollower:
                 self._begin()
                 begin = n
         self._feed(arrived[begin:])
-        self._advanced += time.monotonic() - started  # computing time does not count as silence
-        self._say_what_is_new()
+        now = time.monotonic()
+        self._advanced = min(self._advanced + now - started, now)  # computing is no silence
+        if not self._stale and now > self._advanced + self._options.sensor_timeout:
+            self._stale = True
+            self._say(self._follower.estimate(now=math.inf))
 
     def _feed(self, arrived: Sequence[Arrived]) -> None:
         def feed() -> None:
-            for block in self._reader.read(arrived):
-                self._follower.add(block)
+            for portion in self._portions.divide(arrived):
+                for block in self._reader.read(portion):
+                    self._follower.add(block)
+                self._say_what_is_new()
 
         self._checked(feed)
 
@@ -178,17 +214,16 @@ class LiveFollower:
             self._audience.refused(self._refusal)
 
     def _say_what_is_new(self) -> None:
-        follower, now = self._follower, time.monotonic()
-        if follower.time > self.latest.time or math.isnan(self.latest.time) > math.isnan(
-            follower.time
-        ):
-            self._advanced, self._stale = now, False
-            if now >= self._spoken + 1.0 / self._options.publish_rate - 0.5 * _TICK:
-                self._say(follower.estimate())
-        elif not self._stale and now > self._advanced + self._options.sensor_timeout:
-            self._stale = True
-            self._say(follower.estimate(now=math.inf))
+        """Say an estimate whenever stamps have grown by the period of publishing."""
+        now = self._follower.time
+        if not now > self._newest:
+            return
+        self._newest = now
+        self._advanced, self._stale = time.monotonic(), False
+        if now >= self._due:
+            self._due = now + 1.0 / self._options.publish_rate - 0.5 * self._options.period
+            self._say(self._follower.estimate())
 
     def _say(self, said: Following) -> None:
-        self.latest, self._spoken = said, time.monotonic()
+        self.latest = said
         self._audience.said(said)

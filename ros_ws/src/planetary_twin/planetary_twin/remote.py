@@ -125,7 +125,7 @@ class Remote(Client):
     def _remedy(self) -> str:
         """Return the namespaces of other twins, or how to start one."""
         nodes = self.node.get_node_names_and_namespaces()
-        if elsewhere := sorted(space for name, space in nodes if name == NODE):
+        if elsewhere := sorted({space for name, space in nodes if name == NODE}):
             return f"there is one in {', '.join(elsewhere)}: choose with --namespace"
         return "start one with `planetary-twin run`"
 

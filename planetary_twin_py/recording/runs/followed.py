@@ -1,0 +1,101 @@
+"""Reads what a follower has said of a measured gearbox, beside the messages of its twin."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..container.records import files_of, records_of
+from ..ros2.decode import Decoder
+
+Array = NDArray[np.float64]
+
+ESTIMATE, RESIDUALS, EVENT = "follower/estimate", "follower/residuals", "follower/event"
+ESTIMATED = (
+    "input_speed", "input_torque", "input_torque_low", "input_torque_high", "loss_torque",
+    "loss_torque_low", "loss_torque_high", "friction_level", "friction_level_low",
+    "friction_level_high",
+)  # fmt: skip
+BALANCE = "innovation", "innovation_sd"
+
+
+@dataclass(frozen=True)
+class Said:
+    """Messages of one topic as columns."""
+
+    stamp: NDArray[np.int64]
+    """ROS time of the last readings used [ns since the epoch], (n,)."""
+    columns: dict[str, Array]
+    """Fields in SI, (n,) each; NaN where nothing is estimated."""
+
+    def __getitem__(self, name: str) -> Array:
+        """A field."""
+        return self.columns[name]
+
+    def __len__(self) -> int:
+        """Number of messages."""
+        return len(self.stamp)
+
+
+@dataclass(frozen=True)
+class Followed:
+    """What a follower has said."""
+
+    estimate: Said
+    """With the fields in `ESTIMATED`."""
+    residuals: Said
+    """With the fields in `BALANCE`."""
+    events: tuple[tuple[int, str], ...]
+    """ROS time [ns] at which each change was found, and the change in words."""
+
+
+def read_followed(path: Path, namespace: str, topics: frozenset[str]) -> Followed | None:
+    """Read the messages of a follower.
+
+    Args:
+        path: of an .mcap file, or a folder of them.
+        namespace: of the gearbox.
+        topics: names of those in the files.
+
+    Returns:
+        The messages; None if there are none.
+
+    Raises:
+        RecordingError: a message does not match its definition.
+    """
+    wanted = {f"{namespace}/{name}": name for name in (ESTIMATE, RESIDUALS, EVENT)}
+    if f"{namespace}/{ESTIMATE}" not in topics:
+        return None
+    found: dict[str, list[Any]] = {name: [] for name in wanted.values()}
+    for file in files_of(path):
+        decoder = Decoder(file, wanted.__contains__)
+        for record in records_of(file, []):  # remarks: of the twin's messages
+            if (message := decoder.read(record)) is not None:
+                found[wanted[message[0]]].append(message[1])
+    if not found[ESTIMATE]:
+        return None
+    # An event is published again as its size is better known: the last message counts.
+    events = {one.number: one for one in found[EVENT]}
+    return Followed(
+        _columns(found[ESTIMATE], ESTIMATED),
+        _columns(found[RESIDUALS], BALANCE),
+        tuple((_stamp(one), f"{one.what}: {one.evidence}") for one in events.values()),
+    )
+
+
+def _columns(messages: Sequence[Any], names: Sequence[str]) -> Said:
+    """Messages in the order of their stamps."""
+    stamps = np.array([_stamp(one) for one in messages], dtype=np.int64)
+    order = np.argsort(stamps, kind="stable")
+    columns = {name: np.array([getattr(one, name) for one in messages], float) for name in names}
+    return Said(stamps[order], {name: values[order] for name, values in columns.items()})
+
+
+def _stamp(message: Any) -> int:
+    stamp = message.header.stamp
+    return int(stamp.sec) * 1_000_000_000 + int(stamp.nanosec)

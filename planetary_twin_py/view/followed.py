@@ -1,0 +1,123 @@
+"""Curves of a measured gearbox beside those of its twin, with what is left between them."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+import rerun as rr
+from numpy.typing import NDArray
+
+from ..quantities import Quantity
+from ..recording.runs.followed import Followed, Said, read_followed
+from ..recording.runs.reader import Recording, Series
+from . import timeline
+from .layer import Layer
+
+Array = NDArray[np.float64]
+
+PLACE = "followed"
+EVENTS = f"{PLACE}/events"
+_MEASURED, _TWIN, _BOUND = (236, 176, 64), (120, 170, 236), (150, 158, 170)
+_LEFT = (205, 104, 86)
+
+
+class Pair(NamedTuple):
+    """A quantity that is measured and simulated."""
+
+    quantity: Quantity
+    field: str
+    """Of GearboxState."""
+
+
+PAIRS = {
+    "input_torque": Pair(Quantity("Input torque", "N m"), "input_torque"),
+    "input_speed": Pair(Quantity("Input speed", "rad/s"), "input_speed"),
+    "power_loss": Pair(Quantity("Power loss", "W"), "power_loss"),
+}
+"""Plots of a measured gearbox beside its twin, by name."""
+ALONE = {
+    "friction_level": "Friction level: tooth friction over that of the scene, with 95 % interval",
+    "innovation": "Balance of the torques: measured less expected [N m]",
+}
+"""Titles of plots of what has no counterpart in the twin."""
+
+
+def followed_of(recording: Recording) -> Followed | None:
+    """What a follower has said in a recording; None if there was none."""
+    return read_followed(recording.path, recording.namespace, recording.topics)
+
+
+def log_followed(layer: Layer, recording: Recording, followed: Followed) -> None:
+    """Log measured and simulated quantities, residuals, friction level and changes.
+
+    Args:
+        layer: to draw into.
+        recording: of the twin, whose states are interpolated at the stamps of the estimates.
+        followed: what is measured.
+    """
+    said, state = followed.estimate, recording.state
+    index = _index(state, said.stamp)
+    measured = {
+        "input_torque": _with_interval(said, "input_torque"),
+        "input_speed": said["input_speed"][:, None],
+        "power_loss": _with_interval(said, "loss_torque") * np.abs(said["input_speed"])[:, None],
+    }
+    for name, pair in PAIRS.items():
+        factor = pair.quantity.factor
+        values, twin = measured[name], _at(state, pair.field, said.stamp)
+        bounds = ["low", "high"][: values.shape[1] - 1]
+        columns = factor * np.column_stack([values[:, 0], twin, values[:, 1:]])
+        names, colours = ["measured", "twin", *bounds], [_MEASURED, _TWIN, _BOUND, _BOUND]
+        _log(layer, f"{PLACE}/{name}", index, columns, names, colours)
+        left = factor * (values[:, :1] - twin[:, None])
+        _log(layer, f"{PLACE}/{name}_residual", index, left, ["measured less twin"], [_LEFT])
+    level = _with_interval(said, "friction_level")
+    names = ["friction level", "low", "high"]
+    _log(layer, f"{PLACE}/friction_level", index, level, names, [_MEASURED, _BOUND, _BOUND])
+    _log_balance(layer, state, followed.residuals)
+    stamps = np.array([stamp for stamp, _ in followed.events], dtype=np.int64)
+    text = [layer.label(words) for _, words in followed.events]
+    columns_of_text = rr.TextLog.columns(text=text, level=["WARN"] * len(text))
+    layer.send_columns(EVENTS, _index(state, stamps), columns_of_text)
+
+
+def _log_balance(layer: Layer, state: Series, residuals: Said) -> None:
+    sd = 2.0 * residuals["innovation_sd"]
+    columns = np.column_stack([residuals["innovation"], -sd, sd])
+    names = ["measured less expected", "-2 sd", "+2 sd"]
+    colours = [_LEFT, _BOUND, _BOUND]
+    _log(layer, f"{PLACE}/innovation", _index(state, residuals.stamp), columns, names, colours)
+
+
+def _log(
+    layer: Layer,
+    path: str,
+    index: list[rr.TimeColumn],
+    values: Array,
+    names: list[str],
+    colours: list[tuple[int, int, int]],
+) -> None:
+    layer.log(path, layer.lines(names, colours), static=True)
+    layer.send_columns(path, index, rr.Scalars.columns(scalars=values))
+
+
+def _with_interval(said: Said, name: str) -> Array:
+    """A quantity with its 95 % interval, (n, 3)."""
+    return np.column_stack([said[name], said[f"{name}_low"], said[f"{name}_high"]])
+
+
+def _index(state: Series, stamp: NDArray[np.int64]) -> list[rr.TimeColumn]:
+    """Both times of the stamps; simulated time runs on as ROS time beyond the twin's messages."""
+    first, last = int(state.stamp[0]), int(state.stamp[-1])
+    since = 1e-9 * (stamp - first).astype(float)
+    own = 1e-9 * (state.stamp - first).astype(float)
+    beyond = np.minimum(since, 0.0) + np.maximum(since - 1e-9 * (last - first), 0.0)
+    return timeline.columns(np.interp(since, own, state.time) + beyond, stamp)
+
+
+def _at(state: Series, field: str, stamp: NDArray[np.int64]) -> Array:
+    """A field of the twin at some stamps; NaN outside its messages."""
+    first = int(state.stamp[0])
+    since, own = (1e-9 * (one - first).astype(float) for one in (stamp, state.stamp))
+    return np.interp(since, own, state[field], left=np.nan, right=np.nan)

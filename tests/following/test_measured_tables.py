@@ -1,0 +1,77 @@
+"""Tables of readings: what is read twice, too large or not at all is refused."""
+
+from types import SimpleNamespace
+
+import pytest
+
+from planetary_twin_py.fleet.tables import read_fleet
+from planetary_twin_py.following.measured_tables import read_encoders, read_readings
+from planetary_twin_py.following.sensors import read_sensors
+from planetary_twin_py.plant.hidden import read_hidden
+from planetary_twin_py.scene import SceneError
+from planetary_twin_py.studies.fit.course import read_course
+
+HEADING = "gearbox,time,input_torque,output_torque,input_speed"
+SIX = "A,0,60,-140,100,60"
+
+
+@pytest.fixture
+def write(tmp_path):
+    def table(*lines, name="rig.csv"):
+        file = tmp_path / name
+        file.write_text("\n".join(lines) + "\n")
+        return file
+
+    return table
+
+
+@pytest.mark.parametrize("twice", ["input_torque", "input_torque [kN m]"])
+def test_a_channel_is_given_once_in_one_unit(write, twice):
+    table = write(f"{HEADING},{twice}", SIX)
+    with pytest.raises(ValueError, match=r"column 'input_torque.*': input_torque is given twice"):
+        read_readings(table, {})
+    with pytest.raises(ValueError, match="input_torque is given twice"):
+        read_fleet(table, ("A",))
+    named = write("time,input_torque,T1", "0,1,2")
+    with pytest.raises(ValueError, match="column 'T1': input_torque is given twice"):
+        read_readings(named, {"input_torque": "T1"})
+
+
+def test_numbers_of_which_squares_have_no_sum_are_refused_by_row(write):
+    table = write(HEADING, "A,0,60,-140,100", "A,1e300,60,-140,100")
+    line = r"row 2: time = 1e\+300: its magnitude must be at most 9e\+15 s; is the unit right"
+    with pytest.raises(ValueError, match=line):
+        read_readings(table, {})
+    with pytest.raises(ValueError, match="row 1: input_counts = 1e"):
+        read_encoders(write("sample,input_counts,output_counts", "0,1e300,0"), 5e-5)
+
+
+def test_a_table_without_a_reading_is_refused(write):
+    for rows in ((), ("A,0,,,", "A,1,nan,nan,nan"), ("A,,60,-140,100",)):
+        with pytest.raises(ValueError, match="has no row with a time and a reading"):
+            read_readings(write(HEADING, *rows), {})
+
+
+def test_a_course_with_a_gap_of_centuries_takes_the_memory_of_its_rows(write):
+    rows = [f"A,{n * 10**10},60,-140,100" for n in range(20)]
+    course = read_course(write(HEADING, *rows), SimpleNamespace(oil_temperature=343.0))
+    assert list(course.input_torque) == [60.0] * 20
+
+
+def test_a_damaged_mat_file_is_refused(tmp_path):
+    file = tmp_path / "rig.mat"
+    file.write_bytes(b"MATLAB 5.0 MAT-file".ljust(124) + b"\0\1IM" + b"\x0e" * 200)
+    with pytest.raises(ValueError, match="not a MAT file of version 4 to 7"):
+        read_course(file, None)
+
+
+@pytest.mark.parametrize("read", [read_sensors, read_hidden])
+def test_errors_of_sensors_and_of_what_is_hidden_name_the_file(write, read):
+    with pytest.raises(SceneError, match=r"a\.yaml: the file has 2 errors:\n  b: no such field"):
+        read(write("b: 1", "c: 2", name="a.yaml"))
+    with pytest.raises(SceneError, match=r"a\.yaml: b: given twice, in line 1$"):
+        read(write("{b: 1, b: 2}", name="a.yaml"))
+    file = write(name="a.yaml")
+    file.write_bytes(b"\xff")
+    with pytest.raises(SceneError, match=r"a\.yaml: must be in UTF-8, byte 1 is not"):
+        read(file)
