@@ -35,7 +35,7 @@ class Attribution:
 
         Args:
             time: time of the innovation [s].
-            innovation: measured less expected torque balance [N m].
+            innovation: measured minus expected torque balance [N m].
             sd: its standard deviation [N m].
             loss: loss torque of tooth friction [N m].
             sign: sign of the speed.

@@ -40,7 +40,7 @@ class TwinBeside:
         self._next = 0.0
         self._waiting: Future | None = None
 
-    def follow(self, said: Following) -> None:
+    def follow(self, state: Following) -> None:
         """Send changed quantities, without waiting for an answer."""
         now = time.monotonic()
         if now < self._next:
@@ -49,7 +49,7 @@ class TwinBeside:
         if not self._client.service_is_ready():
             self._sent = {}
             return
-        values = _values(said)
+        values = _values(state)
         if all(self._near(name, value) for name, value in values.items()):
             return
         if self._waiting is not None and not self._waiting.done():
@@ -77,10 +77,10 @@ class TwinBeside:
             )
 
 
-def _values(said: Following) -> Mapping[str, float]:
+def _values(state: Following) -> Mapping[str, float]:
     """Return the operating point as far as it is estimated."""
-    torque = said["input_torque"]
-    speed, oil = said.operating
+    torque = state["input_torque"]
+    speed, oil = state.operating
     values = {
         "input_torque": torque.value if torque.status == "ESTIMATED" else math.nan,
         "input_speed": speed,
